@@ -32,11 +32,12 @@ from webviz.data.messages import (
 from webviz.data.messages.stamps import shifted
 from webviz.panels.sending import fields_of, template
 from webviz.sources import Subscription
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.bridge.address import address
 from webviz.sources.bridge.rosbridge_values import to_values
 from webviz.sources.bridge.source import BridgeSource
 from webviz.sources.inbox import Inbox
+from webviz.sources.player import Player
 
 STRING = "std_msgs/msg/String"
 SDK = "foxglove.sdk.v1"
@@ -75,14 +76,14 @@ def read(path: Path) -> None:
 
 def _play(path: Path) -> None:
     """Play a bag, which must open whatever it defines."""
-    source = BagSource(path)
+    source = Player(BagHistory(path))
     try:
         offers = source.offers()
         types = {
             topic: offer.publishers[0].type for topic, offer in offers.items() if offer.publishers
         }
         source.want({topic: Subscription(type_, Topic(topic)) for topic, type_ in types.items()})
-        source.play_step(source.end_ns)
+        source.play_step(source.history.end_ns)
         assert _drained(source.inbox, types) is not None, "the good topic is lost"
     finally:
         source.close()

@@ -41,8 +41,9 @@ from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
 from webviz.shell.frames.reading import read_bag
 from webviz.sources import Subscription
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.qos import profiles_of
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 from webviz_urdf import Resolver, load_robot
 from webviz_urdf.robot import RobotDescriptionError
 from webviz_urdf.textures import TextureError, open_image
@@ -92,7 +93,7 @@ def read(path: Path) -> None:
             folder = path.with_suffix("")
             folder.mkdir(exist_ok=True)
             path.replace(folder / "metadata.yaml")
-            BagSource(folder).close()
+            Player(BagHistory(folder)).close()
         case ".map":
             try:
                 read_map(path)
@@ -123,7 +124,7 @@ def _read_report(path: Path) -> None:
 
 def _play(path: Path) -> None:
     """Play a bag with all of its topics."""
-    source = BagSource(path)
+    source = Player(BagHistory(path))
     try:
         wanted = {
             topic: Subscription(offer.publishers[0].type, Topic(topic))
@@ -132,9 +133,9 @@ def _play(path: Path) -> None:
         }
         source.want(wanted)
         for _ in range(MAX_STEPS):
-            source.play_step(source.end_ns)
+            source.play_step(source.history.end_ns)
             source.inbox.drain()
-            if source.position_ns >= source.end_ns:
+            if source.reached_ns >= source.history.end_ns:
                 break
     finally:
         source.close()
@@ -143,22 +144,22 @@ def _play(path: Path) -> None:
 def _examine(path: Path) -> None:
     """Read a bag as `webviz frames`, `doctor`, `export` and `screenshot` do."""
     for examine in (_frames, _doctor, _shown):
-        with contextlib.closing(BagSource(path)) as source:
+        with contextlib.closing(Player(BagHistory(path))) as source:
             examine(source)
-            if source.position_ns < source.end_ns:
+            if source.reached_ns < source.history.end_ns:
                 raise AssertionError(f"{examine.__name__} ends before the end")
 
 
 def _report(path: Path) -> None:
     """Check what `webviz frames` and `webviz doctor` write of a bag."""
     told: list[str] = []
-    with contextlib.closing(BagSource(path)) as source:
-        tree = read_bag(source, source.end_ns, lambda what, share: None)
+    with contextlib.closing(Player(BagHistory(path))) as source:
+        tree = read_bag(source, source.history.end_ns, lambda what, share: None)
         told += tree.text().split("\n")
         picture = draw_tree(tree.diagnosis, "frames", tree.notes()).svg
         told += [each for each in ElementTree.fromstring(picture).itertext() if each.strip()]
         sentences = [*source.warnings, *tree.diagnosis.problems]
-    with contextlib.closing(BagSource(path)) as source:
+    with contextlib.closing(Player(BagHistory(path))) as source:
         config = read_config(None, source)
         report = examine_bag(source, config, "bag", lambda what, share: None)
     told += to_text(report, is_colored=False).split("\n")
@@ -176,20 +177,20 @@ def _report(path: Path) -> None:
             raise AssertionError(f"a line is forged: {line!a}")
 
 
-def _frames(source: BagSource) -> None:
-    read_bag(source, source.end_ns, lambda what, share: None)
+def _frames(source: Player) -> None:
+    read_bag(source, source.history.end_ns, lambda what, share: None)
 
 
-def _doctor(source: BagSource) -> None:
+def _doctor(source: Player) -> None:
     results = RuleResults("bag", [WatchRule(rule="/marker.rate > 0.1")])
     examine_bag(source, read_config(None, source), "bag", lambda what, share: None, results)
 
 
-def _shown(source: BagSource) -> None:
+def _shown(source: Player) -> None:
     loop = FrameLoop(read_config(None, source), source, NoScene())
     try:
         loop.turn()
-        length_s = (source.end_ns - source.start_ns) / 1e9
+        length_s = (source.history.end_ns - source.history.start_ns) / 1e9
         for at_s in (0.0, length_s / 2, length_s):
             answer = loop.enqueue(Seek(at_s))
             for _ in range(MAX_STEPS):

@@ -65,7 +65,7 @@ def measure(path: Path, count: int, rerun: Path | None = None) -> None:
     told("webviz: open", [timed(lambda: opened.append(BagViewer(path)))])
     with closing(opened[0]) as viewer:
         chance = random.Random(1)
-        duration_s = (viewer.source.end_ns - viewer.source.start_ns) / 1e9
+        duration_s = (viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9
         told("webviz: first seek, with meshes", [timed(lambda: viewer.do(Seek(duration_s / 3)))])
         times = [chance.uniform(0, duration_s) for _ in range(count)]
         readers = {

@@ -33,7 +33,8 @@ from webviz.files.opening import parse
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
 from webviz.shell.testing import header
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 pytest.importorskip("rclpy", reason="needs rclpy")
 
@@ -164,7 +165,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "displays").symlink_to(ROOT / "displays")
     (folder / "tests").mkdir()
     reported = stories.write(folder / "turned", "turned")
-    with contextlib.closing(BagSource(reported)) as source:
+    with contextlib.closing(Player(BagHistory(reported))) as source:
         config = parse(stories.CONFIG, "the config")
         make_report(config, source, Pictured(None), folder / "bug.zip", span=(2.0, "end"), at=5.0)
     return folder

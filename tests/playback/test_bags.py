@@ -20,7 +20,7 @@ from webviz.data.messages import encode
 from webviz.shell.app.bag_config import config_of, fixed_frame_of, robot_frame_of
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import header
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
 
 
 def robot() -> Bag:
@@ -43,13 +43,13 @@ def robot() -> Bag:
     return bag
 
 
-def shown(source: BagSource) -> dict[str, str]:
+def shown(bag: BagHistory) -> dict[str, str]:
     """Names and types of the displays for a bag."""
-    return {each.name: type(each).__name__ for each in config_of(source).displays}  # pyright: ignore[reportAttributeAccessIssue]
+    return {each.name: type(each).__name__ for each in config_of(bag).displays}  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def test_without_a_config_the_topics_of_a_bag_are_shown(tmp_path: Path) -> None:
-    source = BagSource(robot().write(tmp_path / "run"))
+    source = BagHistory(robot().write(tmp_path / "run"))
     assert shown(source) == {
         "Grid": "Grid",
         "TF": "TF",
@@ -86,7 +86,7 @@ def test_without_transforms_the_fixed_frame_is_that_of_the_data(tmp_path: Path) 
     for topic, frame in (("/imu", "imu_link"), ("/odom", "map")):
         bag.add(topic, "nav_msgs/msg/Odometry")
         bag.put(0, topic, {"header": header(frame, START_NS)})
-    source = BagSource(bag.write(tmp_path / "run"))
+    source = BagHistory(bag.write(tmp_path / "run"))
     assert config_of(source).settings.fixed_frame == "map"
     source.close()
 
@@ -100,9 +100,9 @@ def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
     assert shown.end_ns - shown.start_ns == ns(5)
     viewer.source.want(viewer.loop._parts.subscriptions())
     viewer.source.inbox.drain()
-    viewer.source.seek(START_NS)
-    while viewer.source.position_ns < START_NS + ns(3):
-        viewer.source.play(START_NS + ns(3))
+    viewer.source.jump(START_NS)
+    while viewer.source.reached_ns < START_NS + ns(3):
+        viewer.source.play_until(START_NS + ns(3))
     heard = [raw.cdr for raw in viewer.source.inbox.drain()["/words"]]
     assert heard == [encode("std_msgs/msg/String", {"data": text}) for text in "012"]
 

@@ -23,8 +23,9 @@ from webviz.shell.pictures.times import every
 from webviz.shell.testing import header
 from webviz.shell.testing.seeking import BagViewer
 from webviz.sources import Subscription
-from webviz.sources.bag.source import BagSource
-from webviz.sources.bag.steps import EVEN_STEPS, steps_of
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
+from webviz.sources.steps import EVEN_STEPS, steps_of
 
 REPORTS = Path(__file__).parents[3] / "shared/data/reports/T6"
 STEP_NS = 100_000_000
@@ -58,21 +59,23 @@ def jump(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return jumping().write(tmp_path_factory.mktemp("bags") / "jump")
 
 
-def walked(bag: BagSource, step_ns: float = STEP_NS) -> list[int]:
+def walked(bag: Player, step_ns: float = STEP_NS) -> list[int]:
     bag.want({"/marker": Subscription("visualization_msgs/msg/Marker", Topic("/marker"))})
     times: list[int] = []
-    for at_ns in steps_of(bag, bag.start_ns, bag.end_ns, step_ns):
-        while bag.position_ns < at_ns:
-            bag.play(at_ns)
+    for at_ns in steps_of(bag, bag.history.start_ns, bag.history.end_ns, step_ns):
+        while bag.reached_ns < at_ns:
+            bag.play_until(at_ns)
             bag.inbox.drain()
         times.append(at_ns)
     return times
 
 
 def test_steps_are_even_while_there_are_messages(tmp_path: Path) -> None:
-    bag = BagSource(jumping(20, 100, EVEN_STEPS / 10).write(tmp_path / "bag"))
-    length_ns = bag.end_ns - bag.start_ns
-    assert walked(bag) == [bag.start_ns + i * STEP_NS for i in range(length_ns // STEP_NS + 1)]
+    bag = Player(BagHistory(jumping(20, 100, EVEN_STEPS / 10).write(tmp_path / "bag")))
+    length_ns = bag.history.end_ns - bag.history.start_ns
+    assert walked(bag) == [
+        bag.history.start_ns + i * STEP_NS for i in range(length_ns // STEP_NS + 1)
+    ]
     bag.close()
 
 
@@ -80,12 +83,12 @@ def test_steps_are_even_while_there_are_messages(tmp_path: Path) -> None:
 def test_steps_over_silence_are_few_and_end_just_before_the_next_message(
     tmp_path: Path, jump_s: float
 ) -> None:
-    bag = BagSource(jumping(jump_s=jump_s).write(tmp_path / "bag"))
+    bag = Player(BagHistory(jumping(jump_s=jump_s).write(tmp_path / "bag")))
     times = walked(bag)
     bag.close()
     assert len(times) < 450
     assert times == sorted(set(times))
-    assert (times[0], times[-1]) == (bag.start_ns, bag.end_ns)
+    assert (times[0], times[-1]) == (bag.history.start_ns, bag.history.end_ns)
     (before,) = (t for t, after in itertools.pairwise(times) if t < START_NS + 2 * 10**9 <= after)
     assert START_NS + 2 * 10**9 - before <= 1.1 * STEP_NS
 
@@ -93,7 +96,7 @@ def test_steps_over_silence_are_few_and_end_just_before_the_next_message(
 def test_a_rule_sees_both_sides_of_a_jump_and_how_long_it_lasted(jump: Path) -> None:
     with_age = ("/marker.rate > 0.001", "/marker.pose.position.x < 119", "doctor.errors < 100")
     results = RuleResults("bag", [WatchRule(rule=text) for text in with_age])
-    bag = BagSource(jump)
+    bag = Player(BagHistory(jump))
     start_s = time.process_time()
     examine_bag(bag, read_config(None, bag), "bag", lambda what, share: None, results)
     bag.close()
@@ -138,8 +141,8 @@ def test_the_end_of_a_report_with_a_message_of_1970_is_shown() -> None:
     if not REPORTS.is_dir():
         pytest.skip("the bags of reports are not there")
     viewer = BagViewer(REPORTS / "zero_first")
-    viewer.do(Seek((viewer.source.end_ns - viewer.source.start_ns) / 1e9))
-    assert viewer.source.position_ns == viewer.source.end_ns
+    viewer.do(Seek((viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9))
+    assert viewer.source.reached_ns == viewer.source.history.end_ns
     assert "10." in str(viewer.shown())
     viewer.close()
 
@@ -149,13 +152,13 @@ def test_a_seek_beyond_thirty_years_reaches_the_last_message(tmp_path: Path, lat
     bag = jumping(late_s=late_ns / 1e9)  # seconds as floats have steps of 240 ns here
     viewer = BagViewer(bag.write(tmp_path / "bag"), CONFIG)
     for _ in range(2):
-        viewer.do(Seek((viewer.source.end_ns - viewer.source.start_ns) / 1e9))
-        assert viewer.source.position_ns == viewer.source.end_ns
+        viewer.do(Seek((viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9))
+        assert viewer.source.reached_ns == viewer.source.history.end_ns
         assert "119." in str(viewer.shown())
         viewer.do(Seek(0.0))
-        assert viewer.source.position_ns == viewer.source.start_ns
+        assert viewer.source.reached_ns == viewer.source.history.start_ns
     viewer.do(Seek(1e300))
-    assert viewer.source.position_ns == viewer.source.end_ns
+    assert viewer.source.reached_ns == viewer.source.history.end_ns
     viewer.close()
 
 

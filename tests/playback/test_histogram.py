@@ -12,7 +12,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import TimeParts
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
 
 PARTS = 50
 
@@ -89,7 +89,7 @@ def test_a_worker_counts_all_bags(tmp_path: Path, theater: Callable) -> None:
 
 def test_topics_without_messages_are_known(tmp_path: Path) -> None:
     for storage in (StoragePlugin.MCAP, StoragePlugin.SQLITE3):
-        source = BagSource(bag_of(10).write(tmp_path / storage.name, storage))
+        source = BagHistory(bag_of(10).write(tmp_path / storage.name, storage))
         assert [source.has(topic) for topic in ("/words", "/silent")] == [True, False]
         source.close()
 

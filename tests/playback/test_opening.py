@@ -59,7 +59,7 @@ def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
     before = live.shown()
     live.do(SaveMemory(path="saved"))
     with contextlib.closing(BagViewer(Path("saved"), STEADY)) as played:
-        start_s = (played.source.start_ns - START_NS) / 1e9
+        start_s = (played.source.history.start_ns - START_NS) / 1e9
         truth = {}
         for at_s in (0.58, 2.08, 3.78):
             played.play_to(at_s - start_s)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from bags import START_NS, Bag, ns, strings
@@ -25,9 +26,10 @@ from webviz.engine.commands import (
     Undo,
 )
 from webviz.engine.commands.requests import Refused
-from webviz.engine.playback import PlaybackControl
 from webviz.files.config import dump
 from webviz.files.opening import parse
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 CONFIG = """\
 fixed_frame: map
@@ -86,31 +88,24 @@ def test_pause_holds_the_position(theater: Callable, bag: Bag) -> None:
     assert viewer.do(Pause(False)).playback.is_playing
 
 
-def test_a_rate_is_seconds_of_the_recording_per_second(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Tape:
-        start_ns, end_ns, position_ns = 0, ns(100), -1
-        is_live = False
-
-        def rejoin(self) -> bool:
-            return False
-
-        def play(self, until_ns: int) -> None:
-            self.position_ns = until_ns
-
+def test_a_rate_is_seconds_of_the_recording_per_second(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = Player(BagHistory(strings(0, 100).write(tmp_path / "run")))
     now_s = 50.0
     monkeypatch.setattr("time.monotonic", lambda: now_s)
-    control = PlaybackControl(Tape())  # pyright: ignore[reportArgumentType]
-    control.rate = 20.0
-    control.play()
+    player.rate = 20.0
+    player.play()
     now_s += 0.1
-    control.advance()
-    assert control.position_ns == pytest.approx(ns(2), abs=2)
+    player.advance()
+    assert player.position_ns == pytest.approx(START_NS + ns(2), abs=2)
     now_s += 0.1
-    control.advance(is_busy=True)
-    assert control.position_ns == pytest.approx(ns(2), abs=2)
+    player.advance(is_busy=True)
+    assert player.position_ns == pytest.approx(START_NS + ns(2), abs=2)
     now_s += 30.0  # the machine slept: nothing is skipped
-    control.advance()
-    assert control.position_ns == pytest.approx(ns(2 + 0.25 * 20), abs=2)
+    player.advance()
+    assert player.position_ns == pytest.approx(START_NS + ns(2 + 0.25 * 20), abs=2)
+    player.close()
 
 
 def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
@@ -121,8 +116,8 @@ def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
     viewer.do(SetRate(0))
     viewer.do(Play())
     # Asking for the state takes turns, which may pass over the end each time it is reached.
-    viewer.turn_until(lambda: viewer.source.position_ns == START_NS + ns(2.0))
-    viewer.turn_until(lambda: viewer.source.position_ns < START_NS + ns(2.0))
+    viewer.turn_until(lambda: viewer.source.reached_ns == START_NS + ns(2.0))
+    viewer.turn_until(lambda: viewer.source.reached_ns < START_NS + ns(2.0))
     assert viewer.playback.position_s >= 1.0
     assert viewer.playback.is_playing
     assert viewer.do(SelectSpan()).playback.selected is None
@@ -133,7 +128,7 @@ def test_a_loop_over_a_moment_ends(theater: Callable) -> None:
     viewer.do(SetLoop())
     viewer.do(Play())
     viewer.turn_until(lambda: not viewer.playback.is_playing)
-    assert viewer.source.position_ns == viewer.source.end_ns
+    assert viewer.source.reached_ns == viewer.source.history.end_ns
 
 
 @pytest.mark.parametrize("topic", ["/words", "words"])

@@ -42,9 +42,10 @@ from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
 from webviz.sources.bag.log import LOG, ROSOUT
-from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.rewindable import MEMORY_OFF, Rewindable
+from webviz.sources.player import Player
+from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
+from webviz.sources.recording.wall_clock import WallClock
 from webviz.tools.teleop import Teleop
 from webviz_displays.path import Path as PathDisplay
 
@@ -69,7 +70,7 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
     with contextlib.closing(BagViewer(Path("saved"), CONFIG)) as played:
         truth = {}
         for at_s in (0.58, 2.08, 3.78, 5.58):
-            first_s = (played.source.start_ns - START_NS) / 1e9
+            first_s = (played.source.history.start_ns - START_NS) / 1e9
             played.play_to(at_s - first_s)
             played.settle()
             truth[at_s] = played.shown()
@@ -99,7 +100,7 @@ def test_frames_whose_transforms_ended_long_before_are_known(
         assert "Clocks" not in live.loop.state().statuses
     live.do(SaveMemory(path="saved"))
     with contextlib.closing(BagViewer(Path("saved"), config)) as played:
-        length_s = (played.source.end_ns - played.source.start_ns) / 1e9
+        length_s = (played.source.history.end_ns - played.source.history.start_ns) / 1e9
         assert length_s == pytest.approx(min(39.9, seconds), abs=2.0)
         for at_s in (25.0, 1.0):
             played.do(Seek(at_s))
@@ -121,7 +122,7 @@ def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[...
 def test_displays_that_never_catch_up_are_live_after_a_while(
     drive: Callable[..., Drive], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.playback.control.RETURNING_S", 0.05)
+    monkeypatch.setattr("webviz.sources.player.RETURNING_S", 0.05)
     live = drive(recorded(4), LASTING)
     before = live.shown()
     live.seek(1.08)
@@ -301,17 +302,18 @@ def test_a_driven_vehicle_stops_first(make: Benches) -> None:
 def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     source = HandFedSource()
     source.known["/path"] = Offer((PUBLISHER,), type=PATH)
-    rewindable = Rewindable(source)
-    rewindable.memory.seconds, rewindable.memory.max_bytes = 60, 10**6
-    source.inbox.read_along(lambda: rewindable.memory.put)
+    player = Player(MemoryHistory(source))
+    recent = player.memory.recent  # pyright: ignore[reportOptionalMemberAccess]
+    recent.seconds, recent.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: recent.put)
     short = Subscription(PATH, Topic("/path"))
-    rewindable.want({"/path": short})
+    player.want({"/path": short})
     for ago_s in (5, 4, 3):
         source.inbox.put("/path", Raw(b"", 1, time.monotonic() - ago_s))
-    rewindable.want({"/path": replace(short, lookbacks=(Lookback(count=3),))})
-    at_ns = rewindable.end_ns - ns(2)
-    rewindable.seek(at_ns)
-    rewindable.play(at_ns)
+    player.want({"/path": replace(short, lookbacks=(Lookback(count=3),))})
+    at_ns = player.history.end_ns - ns(2)
+    player.jump(at_ns)
+    player.play_until(at_ns)
     assert len(source.inbox.drain()["/path"]) == 3
 
 
@@ -319,19 +321,20 @@ def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
     source = HandFedSource()
     latched = Publisher("/planner", PATH, "reliable", "transient_local")
     source.known["/path"] = Offer((latched,), type=PATH)
-    rewindable = Rewindable(source)
-    rewindable.memory.seconds, rewindable.memory.max_bytes = 60, 10**6
-    source.inbox.read_along(lambda: rewindable.memory.put)
+    player = Player(MemoryHistory(source))
+    recent = player.memory.recent  # pyright: ignore[reportOptionalMemberAccess]
+    recent.seconds, recent.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: recent.put)
     wanted = Subscription(PATH, Topic("/path"), lookbacks=(Lookback(count=1),))
-    rewindable.want({"/path": wanted})
+    player.want({"/path": wanted})
     source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 5))
-    at_ns = rewindable.end_ns - ns(2)
-    rewindable.seek(at_ns)
-    rewindable.play(at_ns)
+    at_ns = player.history.end_ns - ns(2)
+    player.jump(at_ns)
+    player.play_until(at_ns)
     assert len(source.inbox.drain()["/path"]) == 1
-    rewindable.want({"/path": replace(wanted, asked=1)})
+    player.want({"/path": replace(wanted, asked=1)})
     assert source.inbox.drain() == {}
-    rewindable.want({"/path": replace(wanted, asked=2)})
+    player.want({"/path": replace(wanted, asked=2)})
     assert len(source.inbox.drain()["/path"]) == 1
 
 

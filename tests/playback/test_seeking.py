@@ -24,7 +24,8 @@ from webviz.shell.app.bag_config import config_of
 from webviz.shell.testing import BagViewer, check_seeks, header
 from webviz.shell.testing.seeking import plain
 from webviz.sources.bag.file import Recorded
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.history import Playhead
 
 
 @pytest.mark.parametrize(
@@ -41,13 +42,13 @@ def test_a_seek_in_a_long_bag_reads_little(tmp_path: Path, monkeypatch: pytest.M
     check_seeks(path, CONFIG, times=[80.0, 40.0, 89.5, 3.0, 60.0])
     viewer = BagViewer(path, "displays: [{type: TF}, {type: LaserScan}, {type: Map}]")
     read: list[int] = []
-    arrive = BagSource._arrive
+    arrive = Playhead._arrive
 
-    def counting(source: BagSource, recorded: Recorded) -> None:
+    def counting(playhead: Playhead, recorded: Recorded) -> None:
         read.append(recorded.stamp_ns)
-        arrive(source, recorded)
+        arrive(playhead, recorded)
 
-    monkeypatch.setattr(BagSource, "_arrive", counting)
+    monkeypatch.setattr(Playhead, "_arrive", counting)
     viewer.do(Seek(80.0))
     viewer.close()
     assert len(read) < 150  # of 600: transforms of 15 s, the newest scans, and the map
@@ -139,7 +140,9 @@ def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> Non
     for _ in range(10):
         topic = chance.choice(["", "/odom", "/scan"])
         stepped.do(StepMessage(topic, is_forward=chance.random() < 0.4))
-        found[(stepped.source.position_ns - stepped.source.start_ns) / 1e9] = plain(stepped.shown())
+        found[(stepped.source.reached_ns - stepped.source.history.start_ns) / 1e9] = plain(
+            stepped.shown()
+        )
     assert len(found) > 4
     for at_s, shown in sorted(found.items()):
         played.play_to(at_s)
@@ -156,8 +159,8 @@ REAL = ["nav2_turtlebot.mcap", "husky_filtered_bag", "macfirst_floor_take_2", "t
 def test_a_seek_in_a_real_bag_shows_what_playing_shows(name: str) -> None:
     if not (BAGS / name).exists():
         pytest.skip("the recorded bags are not on this machine")
-    with contextlib.closing(BagSource(BAGS / name)) as source:
-        config = config_of(source)
+    with contextlib.closing(BagHistory(BAGS / name)) as bag:
+        config = config_of(bag)
     for display in config.displays:  # their transforms come late
         for path, _, topic in inputs(display):  # pyright: ignore[reportArgumentType]
             setattr(display, path, msgspec.structs.replace(topic, filter_size=100))

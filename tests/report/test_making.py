@@ -18,7 +18,8 @@ from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.seeking import plain
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 HOME = "/home/alice"
 AT_S = 5.0
@@ -46,8 +47,8 @@ def report(made: Path, tmp_path: Path) -> UnpackedReport:
 
 
 @contextlib.contextmanager
-def opened(bag: Path) -> Iterator[BagSource]:
-    with contextlib.closing(BagSource(bag)) as source:
+def opened(bag: Path) -> Iterator[Player]:
+    with contextlib.closing(Player(BagHistory(bag))) as source:
         yield source
 
 
@@ -60,7 +61,9 @@ def test_a_report_shows_what_the_bag_shows(bag: Path, report: UnpackedReport) ->
         after.do(Seek(report.report.at_s))
         first, second = (list(map(plain, each.shown().values())) for each in (before, after))
         assert first == second
-        assert after.source.end_ns - after.source.start_ns == pytest.approx(4e9, abs=1e8)
+        assert after.source.history.end_ns - after.source.history.start_ns == pytest.approx(
+            4e9, abs=1e8
+        )
 
 
 def test_statuses_and_findings_of_the_moment(report: UnpackedReport) -> None:

@@ -17,7 +17,8 @@ from webviz.files.report.content import FindingEntry, StatusEntry
 from webviz.shell.cli import main as cli
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 
 @pytest.fixture
@@ -25,7 +26,7 @@ def reported(tmp_path: Path) -> Callable[[stories.Fault], Path]:
     def make(fault: stories.Fault) -> Path:
         bag = stories.write(tmp_path / fault, fault)
         path = tmp_path / f"{fault}.zip"
-        with contextlib.closing(BagSource(bag)) as source:
+        with contextlib.closing(Player(BagHistory(bag))) as source:
             make_report(parse(stories.CONFIG, "it"), source, Pictured(None), path)
         return path
 

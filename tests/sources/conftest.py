@@ -10,15 +10,16 @@ import pytest
 from webviz.api.declared import Topic
 from webviz.data.messages import decode
 from webviz.sources import Subscription
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 STRING = "std_msgs/msg/String"
 
 
-class Player:
+class PlayedBag:
     """Plays a bag, and notes what arrives."""
 
-    def __init__(self, source: BagSource) -> None:
+    def __init__(self, source: Player) -> None:
         self.source = source
 
     def want(self, *topics: str, type_name: str = STRING, asked: int = 0) -> None:
@@ -28,9 +29,9 @@ class Player:
 
     def play(self, to_s: float) -> None:
         """Play to so many seconds from the start."""
-        until_ns = self.source.start_ns + round(to_s * 1e9)
-        while self.source.position_ns < until_ns:
-            self.source.play(until_ns)
+        until_ns = self.source.history.start_ns + round(to_s * 1e9)
+        while self.source.reached_ns < until_ns:
+            self.source.play_until(until_ns)
 
     def heard(self, topic: str = "/words", type_name: str = STRING) -> Sequence[str]:
         """The strings that arrived since the last call."""
@@ -45,13 +46,13 @@ class Player:
 
 
 @pytest.fixture
-def opened() -> Iterator[Callable[..., Player]]:
+def opened() -> Iterator[Callable[..., PlayedBag]]:
     """Open a bag; it is closed at the end."""
-    sources: list[BagSource] = []
+    sources: list[Player] = []
 
-    def opened(path: Path, *args: object, **options: object) -> Player:
-        sources.append(BagSource(path, *args, **options))  # pyright: ignore[reportArgumentType]
-        return Player(sources[-1])
+    def opened(path: Path, *args: object, **options: object) -> PlayedBag:
+        sources.append(Player(BagHistory(path, *args, **options)))  # pyright: ignore[reportArgumentType]
+        return PlayedBag(sources[-1])
 
     yield opened
     for source in sources:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import functools
+
 import pytest
 from bags import START_NS, TF, Bag, files, ns, stamped, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.messages import decode, register
-from webviz.sources.bag.source import BagSource
-from webviz.sources.replay import MAX_BATCH
+from webviz.sources import Inbox
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.history.playhead import MAX_BATCH
 
 KINDS = [
     (StoragePlugin.SQLITE3, CompressionMode.NONE),
@@ -31,7 +34,7 @@ def test_what_was_recorded_arrives_up_to_the_time_played(tmp_path, opened, stora
     assert bag.source.now_ns() == START_NS + ns(1)
     bag.play(4)
     assert bag.heard() == ["2.5", "4"]
-    assert (bag.source.start_ns, bag.source.end_ns) == (START_NS, START_NS + ns(4))
+    assert (bag.source.history.start_ns, bag.source.history.end_ns) == (START_NS, START_NS + ns(4))
 
 
 @pytest.mark.parametrize(
@@ -58,19 +61,19 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
     bag = opened(strings(*seconds).write(tmp_path / "bag"))
     bag.want("/words")
     source, heard = bag.source, []
-    while source.position_ns < source.end_ns:
-        source.play(source.end_ns)
+    while source.reached_ns < source.history.end_ns:
+        source.play_until(source.history.end_ns)
         heard.append(bag.heard())
     assert max(map(len, heard)) <= MAX_BATCH
     assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
 
 
 def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.sources.replay.MAX_BATCH_BYTES", 15)  # each has 10
+    monkeypatch.setattr("webviz.sources.history.playhead.MAX_BATCH_BYTES", 15)  # each has 10
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     for texts in (["0", "1"], ["2"]):
-        bag.source.play(bag.source.end_ns)
+        bag.source.play_until(bag.source.history.end_ns)
         assert bag.heard() == texts
 
 
@@ -78,8 +81,8 @@ def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, opened):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1.5)
-    bag.source.play(bag.source.start_ns)
-    assert bag.source.position_ns == START_NS + ns(1.5)
+    bag.source.play_until(bag.source.history.start_ns)
+    assert bag.source.reached_ns == START_NS + ns(1.5)
 
 
 def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, opened):
@@ -87,8 +90,8 @@ def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, o
     bag = opened(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
     bag.want("/words")
     steps = []
-    while bag.source.position_ns < bag.source.end_ns:
-        bag.source.play_step(bag.source.end_ns)
+    while bag.source.reached_ns < bag.source.history.end_ns:
+        bag.source.play_step(bag.source.history.end_ns)
         steps.append(len(bag.heard()))
     assert steps == [1, 1, 1, 1, 1]
 
@@ -97,8 +100,8 @@ def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, opened)
     bag = opened(strings(*[0.01 * number for number in range(80)]).write(tmp_path / "bag"))
     bag.want("/words")
     steps = []
-    while bag.source.position_ns < bag.source.end_ns:
-        bag.source.play_step(bag.source.end_ns)
+    while bag.source.reached_ns < bag.source.history.end_ns:
+        bag.source.play_step(bag.source.history.end_ns)
         steps.append(len(bag.heard()))
     assert steps == [10] * 8
 
@@ -141,17 +144,18 @@ def test_what_was_latched_is_repeated_for_who_comes_late(tmp_path, opened):
     assert bag.heard() == ["9"]
 
 
-def test_of_what_was_latched_no_more_is_repeated_than_fits(tmp_path, opened, monkeypatch):
-    monkeypatch.setattr("webviz.sources.bag.source.MAX_BYTES", 20)  # each has 10
+@pytest.mark.parametrize(("max_bytes", "heard"), [(20, ["2", "3"]), (1, ["3"])])
+def test_of_what_was_latched_no_more_is_repeated_than_fits(
+    tmp_path, opened, monkeypatch, max_bytes, heard
+):
+    inbox = functools.partial(Inbox, max_bytes=max_bytes)  # each message has 10
+    monkeypatch.setattr("webviz.sources.player.Inbox", inbox)
     bag = opened(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
     bag.play(3)
     bag.want("/words")
     bag.heard()
     bag.want("/words", asked=1)
-    assert bag.heard() == ["2", "3"]
-    monkeypatch.setattr("webviz.sources.bag.source.MAX_BYTES", 1)
-    bag.want("/words", asked=2)
-    assert bag.heard() == ["3"]
+    assert bag.heard() == heard
 
 
 def test_all_static_transforms_are_repeated_for_nobody_knows_who_published_them(tmp_path, opened):
@@ -245,7 +249,7 @@ def test_a_recorded_clock_is_the_time(tmp_path, opened):
     assert bag.source.now_ns() == ns(12)
     received = [raw.received_ns for raw in bag.source.inbox.drain()["/words"]]
     assert received == [ns(10), ns(10), ns(12)]
-    bag.source.seek(bag.source.start_ns)
+    bag.source.jump(bag.source.history.start_ns)
     assert bag.source.now_ns() == ns(10)
 
 
@@ -267,7 +271,7 @@ def test_transforms_that_come_late_do_not_set_the_time(tmp_path, opened):
     recorded.transform(0, "map", "base")
     recorded.messages = [(600, *message[1:]) for message in recorded.messages]
     bag = opened(recorded.write(tmp_path / "bag"))
-    assert bag.source.now_ns() == bag.source.position_ns
+    assert bag.source.now_ns() == bag.source.reached_ns
     assert bag.source.warnings == []
 
 
@@ -284,10 +288,10 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
 def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, opened):
     bag = opened(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
     bag.want("/words")
-    bag.source.play(bag.source.end_ns)
+    bag.source.play_until(bag.source.history.end_ns)
     assert len(bag.heard()) == MAX_BATCH + 5
-    assert bag.source.position_ns == START_NS
-    bag.source.play(bag.source.end_ns)
+    assert bag.source.reached_ns == START_NS
+    bag.source.play_until(bag.source.history.end_ns)
     assert bag.heard() == ["1"]
 
 
@@ -342,12 +346,16 @@ def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp
 def test_a_subscription_that_is_made_anew_reads_no_beginning_again(tmp_path, opened, monkeypatch):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     read = []
-    beginning = BagSource._beginning
-    monkeypatch.setattr(
-        BagSource,
-        "_beginning",
-        lambda source, topic: read.append(topic) or beginning(source, topic),
-    )
+    messages = BagHistory.messages
+
+    def counting(bag, channels, *span):
+        read.append([each.topic for each in channels])
+        return messages(bag, channels, *span)
+
+    monkeypatch.setattr(BagHistory, "messages", counting)
     bag.want("/words")
+    bag.source.offers()
+    before = len(read)
     bag.want("/words", asked=1)
-    assert read == ["/words"]
+    bag.source.offers()
+    assert read[before:] == []

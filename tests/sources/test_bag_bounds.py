@@ -17,7 +17,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 from webviz.data.recordings import unpacking
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.unpacking import MAX_BYTES
-from webviz.sources.bag.source import BagError
+from webviz.sources.bag.history import BagError
 
 GIB = 1 << 30
 EXTRA_MB = 700
@@ -42,12 +42,13 @@ def read_in_little_memory(path) -> str:
         "from pathlib import Path\n"
         "from webviz.api.declared import Topic\n"
         "from webviz.sources import Subscription\n"
-        "from webviz.sources.bag.source import BagSource\n"
+        "from webviz.sources.bag.history import BagHistory\n"
+        "from webviz.sources.player import Player\n"
         "used = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
         f"resource.setrlimit(resource.RLIMIT_AS, (used + ({EXTRA_MB} << 20),) * 2)\n"
-        "bag = BagSource(Path(sys.argv[1]))\n"
+        "bag = Player(BagHistory(Path(sys.argv[1])))\n"
         "bag.want({'/words': Subscription('std_msgs/msg/String', Topic('/words'))})\n"
-        "while bag.position_ns < bag.end_ns: bag.play(bag.end_ns)\n"
+        "while bag.reached_ns < bag.history.end_ns: bag.play_until(bag.history.end_ns)\n"
         "print(len(bag.inbox.drain().get('/words', ())), *bag.warnings)\n"
     )
     done = subprocess.run(
@@ -70,7 +71,7 @@ def test_a_chunk_that_unfolds_to_more_than_memory(
     file.write_bytes(mcap([plain(0, 1), bomb, plain(7, 9)], with_summary=with_summary))
     bag = opened(file)
     bag.want("/words")
-    bag.source.play(9)
+    bag.source.play_until(9)
     assert bag.heard() == ["0", "1", "7", "9"]
     (warning,) = bag.source.warnings
     assert warning.startswith("bomb.mcap is damaged: 1 chunk is incomplete (it ")
@@ -117,7 +118,7 @@ def test_honest_chunks_open_however_they_are_packed(
     file.write_bytes(mcap([chunk]))
     bag = opened(file)
     bag.want("/words")
-    bag.source.play(99)
+    bag.source.play_until(99)
     assert bag.heard() == [str(number) for number in range(100)]
     assert bag.source.warnings == []
 
@@ -128,7 +129,7 @@ def test_a_large_chunk_opens(tmp_path, opened):
     file.write_bytes(mcap([Chunk(packed(data, "zstd"), len(data), "zstd", (0, 3))]))
     bag = opened(file)
     bag.want("/words")
-    bag.source.play(3)
+    bag.source.play_until(3)
     (large,) = bag.source.inbox.drain()["/words"]  # by its bytes the only one that is kept
     assert len(large.cdr) == 96 << 20
     assert bag.source.warnings == []

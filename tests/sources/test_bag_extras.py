@@ -47,14 +47,15 @@ def test_a_transform_says_where_the_child_is():
     assert tuple(transform.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
 
 
-def test_extras_arrive_as_soon_as_they_are_wanted(tmp_path, opened):
+def test_extras_arrive_at_the_start(tmp_path, opened):
     extra = map_of_file(write_map(tmp_path))
     source = opened(strings(0, 1).write(tmp_path / "bag"), [extra]).source
     (publisher,) = source.offers()["/map"].publishers
     assert (publisher.node, publisher.durability) == ("the map lab.yaml", "transient_local")
     source.want({"/map": Subscription(extra.type, Topic("/map"))})
+    source.play_until(source.history.start_ns)
     (raw,) = source.inbox.drain()["/map"]
-    assert (raw.cdr, raw.received_ns) == (extra.cdr, source.start_ns)
+    assert (raw.cdr, raw.received_ns) == (extra.cdr, source.history.start_ns)
 
 
 @pytest.mark.parametrize(

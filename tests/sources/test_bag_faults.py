@@ -21,7 +21,8 @@ from webviz.data.messages import DecodeError, decode
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import END_MISSING, Losses
 from webviz.data.recordings.sqlite_times import damaged
-from webviz.sources.bag.source import BagError, BagSource
+from webviz.sources.bag.history import BagError, BagHistory
+from webviz.sources.player import Player
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 """First bytes of compressed data."""
@@ -30,7 +31,7 @@ DAMAGED = Path(__file__).parents[3] / "shared/data/bags/damaged"
 
 def refusal(path) -> str:
     with pytest.raises(BagError) as caught:
-        BagSource(path)
+        Player(BagHistory(path))
     text = str(caught.value)
     assert str(path) in text
     assert "\n" not in text
@@ -211,7 +212,7 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
         bag = opened(file)
         topic = "/noise" if kind == "db3" else "/words"
         bag.want(topic)
-        bag.source.play(bag.source.end_ns)
+        bag.source.play_until(bag.source.history.end_ns)
         heard = []
         for raw in bag.source.inbox.drain().get(topic, ()):
             try:
@@ -391,12 +392,12 @@ def test_an_mcap_file_that_grows_while_it_is_played_shows_what_it_had(tmp_path, 
     bag.play(60)
     with file.open("ab") as growing:
         growing.write(data[len(data) // 2 :])
-    end_ns = bag.source.end_ns
-    bag.source.seek(bag.source.start_ns)
+    end_ns = bag.source.history.end_ns
+    bag.source.jump(bag.source.history.start_ns)
     bag.heard("/noise")
-    while bag.source.position_ns < end_ns:
-        bag.source.play(end_ns)
-    assert bag.source.end_ns == end_ns
+    while bag.source.reached_ns < end_ns:
+        bag.source.play_until(end_ns)
+    assert bag.source.history.end_ns == end_ns
     assert 60 < _beginning(recorded, bag.heard("/noise")) < 300
 
 

@@ -12,18 +12,18 @@ from bags import START_NS, TF, Bag, ns, strings
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.sources import Subscription
-from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.past import BagPast
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.history.needed import NeededMessages
+from webviz.sources.player import Player
 
 STRING = "std_msgs/msg/String"
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[BagFiles]:
-    files = BagFiles([path])
-    yield files
-    files.close()
+def opened(path: Path) -> Iterator[BagHistory]:
+    history = BagHistory(path)
+    yield history
+    history.close()
 
 
 def moving(last_s: int) -> Bag:
@@ -40,8 +40,8 @@ def transforms_read(path: Path, at_s: int) -> list[int]:
         "/tf": Subscription(TF, Topic("/tf")),
         "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(),), is_placed=True),
     }
-    with opened(path) as files:
-        past = BagPast(files, files.channels, wanted, START_NS + ns(at_s))
+    with opened(path) as history:
+        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(at_s))
         return [(each.stamp_ns - START_NS) // ns(1) for each in past.messages() if each.type == TF]
 
 
@@ -74,8 +74,8 @@ def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
     path = strings(1, 2, 3, 4).write(tmp_path / "run")
     begins = Lookback(starts_over=lambda message, type_name: message.data.endswith("2"))
     wanted = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(begins,))}
-    with opened(path) as files:
-        past = BagPast(files, files.channels, wanted, START_NS + ns(4))
+    with opened(path) as history:
+        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(4))
         assert [(each.stamp_ns - START_NS) // ns(1) for each in past.messages()] == [2, 3, 4]
 
 
@@ -83,9 +83,11 @@ def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
 def test_a_step_goes_an_eighth_of_the_way_within_bounds(
     tmp_path: Path, left_s: float, step_s: float
 ) -> None:
-    source = BagSource(strings(*[0.1 * tenth for tenth in range(700)]).write(tmp_path / "run"))
+    source = Player(
+        BagHistory(strings(*[0.1 * tenth for tenth in range(700)]).write(tmp_path / "run"))
+    )
     source.want({"/words": Subscription(STRING, Topic("/words"))})
-    source.play(source.start_ns)
-    source.play_step(source.start_ns + ns(left_s))
-    assert source.position_ns == source.start_ns + ns(step_s)
+    source.play_until(source.history.start_ns)
+    source.play_step(source.history.start_ns + ns(left_s))
+    assert source.reached_ns == source.history.start_ns + ns(step_s)
     source.close()

@@ -13,7 +13,8 @@ from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing import header
 from webviz.shell.testing.recording import RecordingScene
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 CONFIG = """\
 fixed_frame: map
@@ -57,15 +58,15 @@ def run(tmp_path) -> Path:
 
 def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
     """Poses and nodes, and the rows of the panel in the end, of a bag that is played."""
-    source, scene = BagSource(run), RecordingScene()
+    source, scene = Player(BagHistory(run)), RecordingScene()
     config = parse(CONFIG, "the config")
-    viewer = FrameLoop(config, source, scene, strict=True, clock=lambda: source.position_ns / 1e9)
+    viewer = FrameLoop(config, source, scene, strict=True, clock=lambda: source.reached_ns / 1e9)
     scene.watched = watched
     viewer.turn()
-    until_ns = source.start_ns + ns(to_s)
-    while source.position_ns < until_ns:
+    until_ns = source.history.start_ns + ns(to_s)
+    while source.reached_ns < until_ns:
         if watched:
-            source.play(min(source.position_ns + ns(0.01), until_ns))
+            source.play_until(min(source.reached_ns + ns(0.01), until_ns))
         else:
             source.play_step(until_ns)
         viewer.turn()

@@ -14,7 +14,8 @@ from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.recording import RecordingScene
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 CONFIG = """\
 fixed_frame: map
@@ -28,14 +29,14 @@ displays:
 
 def texts(path: Path, to_s: float) -> list[str]:
     """All statuses that are not OK, after some seconds of a bag."""
-    source, scene = BagSource(path), RecordingScene()
+    source, scene = Player(BagHistory(path)), RecordingScene()
     loop = FrameLoop(
-        parse(CONFIG, "the config"), source, scene, clock=lambda: source.position_ns / 1e9
+        parse(CONFIG, "the config"), source, scene, clock=lambda: source.reached_ns / 1e9
     )
     scene.watched = True
     loop.turn()
-    until_ns = source.start_ns + ns(to_s)
-    while source.position_ns < until_ns:
+    until_ns = source.history.start_ns + ns(to_s)
+    while source.reached_ns < until_ns:
         source.play_step(until_ns)
         loop.turn()
     loop.turn()

@@ -17,6 +17,7 @@ from webviz.data.messages import TFMessage, decode, encode
 from webviz.data.messages.stamps import shifted
 from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.shown_moment import slice_around
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.files.report import read_report
@@ -25,7 +26,8 @@ from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Align, Ghost
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 CONFIG = """\
 version: 1
@@ -64,11 +66,12 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 @contextlib.contextmanager
 def viewer(runs: tuple[Path, Path], align: Align | float) -> Iterator[BagViewer]:
     today, yesterday = runs
-    source = BagSource(today, ghost=Ghost(yesterday, align, "/speed.data"))
+    history = BagHistory(today, ghost=Ghost(yesterday, align, "/speed.data"))
+    source = Player(history)
     shown = BagViewer(today, Config())
     shown.close()
     shown.source, shown.scene = source, RecordingScene()
-    config = with_ghost(parse(CONFIG, "the config"), source)
+    config = with_ghost(parse(CONFIG, "the config"), history)
     shown.loop = FrameLoop(config, source, shown.scene, strict=True)
     shown.turn()
     with contextlib.closing(shown):
@@ -96,9 +99,9 @@ def test_both_runs_are_shown_at_a_time(
         assert x_of(shown, "base") == pytest.approx(1.0, abs=1e-6)
 
 
-def numbers(source: BagSource, topic: str) -> list[float]:
-    channels = [channel for channel in source._file.channels if channel.topic == topic]
-    found = source._file.messages(channels, source.start_ns)
+def numbers(source: Player, topic: str) -> list[float]:
+    history = source.history
+    found = history.messages(history.channels_of(topic), history.start_ns)
     return [decode(each.type, each.cdr).data for each in found]
 
 
@@ -115,8 +118,8 @@ def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> Non
 
 def test_a_slice_has_both_runs(runs: tuple[Path, Path]) -> None:
     with viewer(runs, "start") as shown:
-        source = shown.source
-        part = source.slice(source.start_ns, source.end_ns, source.end_ns)
+        shown.do(Seek(3.0))
+        part, _ = slice_around(shown.source)
         topics = [channel.topic for channel, _, _ in part.messages()]
     for topic in ("/scan", "/tf"):
         assert topics.count(f"/ghost{topic}") == topics.count(topic) == 61

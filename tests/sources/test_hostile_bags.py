@@ -16,7 +16,8 @@ from webviz.api.declared import Topic
 from webviz.data.messages import decode, encode
 from webviz.data.messages.typestore import is_idl
 from webviz.sources import Subscription
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 Write = Callable[[Path], tuple[Path, Mapping[str, str]]]
 STRING = "std_msgs/msg/String"
@@ -75,7 +76,7 @@ def ros1(path: Path) -> tuple[Path, Mapping[str, str]]:
 @pytest.mark.parametrize("write", [mcap, db3, ros1])
 def test_a_bag_with_hostile_definitions_plays_everything_else(tmp_path: Path, write: Write) -> None:
     path, topics = write(tmp_path / "run.mcap")
-    source = BagSource(path)
+    source = Player(BagHistory(path))
     offers = source.offers()
     for topic, name in topics.items():
         problem = offers[topic].problem
@@ -85,7 +86,7 @@ def test_a_bag_with_hostile_definitions_plays_everything_else(tmp_path: Path, wr
             assert REFUSED[name][1] in problem
         assert len(problem) < 300
     source.want({"/words": Subscription(STRING, Topic("/words"))})
-    source.play_step(source.end_ns)
+    source.play_step(source.history.end_ns)
     (raw,) = source.inbox.drain()["/words"]
     assert decode(STRING, raw.cdr).data == "hello"
     source.close()
@@ -98,9 +99,9 @@ def test_messages_of_few_bytes_that_become_much_are_played(tmp_path: Path, what:
     bag = Bag()
     bag.add("/evil", type_, definition=renamed(READ[what], package))
     bag.put(0.0, "/evil", b"\0\1\0\0" + b"\xff" * 100)
-    source = BagSource(bag.write_file(tmp_path / "run.mcap"))
+    source = Player(BagHistory(bag.write_file(tmp_path / "run.mcap")))
     assert not source.offers()["/evil"].problem
     source.want({"/evil": Subscription(type_, Topic("/evil"))})
-    source.play_step(source.end_ns)
+    source.play_step(source.history.end_ns)
     assert len(list(source.inbox.drain()["/evil"])) == 1
     source.close()

@@ -18,8 +18,9 @@ from webviz.data.recordings import RecordingError, open_recording
 from webviz.data.recordings.ros1 import Ros1Recording
 from webviz.engine.commands import Seek
 from webviz.shell.testing import BagViewer, check_seeks
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import read_log
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 SECOND = 1_000_000_000
 STORE = get_typestore(Stores.ROS1_NOETIC)
@@ -111,7 +112,7 @@ def test_its_messages_are_those_of_ros_2(
     found: dict[str, list[Any]] = {}
     for topic, name in wanted.items():
         bag.want(topic, type_name=name)
-        bag.source.seek(bag.source.end_ns)
+        bag.source.jump(bag.source.history.end_ns)
         bag.play(10)
         arrived = bag.source.inbox.drain().get(topic, ())
         found[topic] = [decode(name, raw.cdr) for raw in arrived]
@@ -130,7 +131,7 @@ def test_a_seek_shows_what_playing_shows(tmp_path: Path) -> None:
 
 
 def test_what_was_latched_is_known_as_such(tmp_path: Path) -> None:
-    source = BagSource(written(tmp_path / "run.bag"))
+    source = Player(BagHistory(written(tmp_path / "run.bag")))
     (publisher,) = source.offers()["/tf_static"].publishers
     assert publisher.durability == "transient_local"
     source.close()

@@ -11,7 +11,8 @@ from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.typesys import Stores, get_typestore
 
 from webviz.shell.testing import BagViewer
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 TIME = Path(__file__).parents[3] / "shared/data/reports/time/syn/topic_names.mcap"
 ODD = ["/front-lidar/words", "/words.raw", "/2d_words", "/a b", "/words/"]
@@ -52,7 +53,7 @@ def test_a_name_that_is_in_the_bag_is_valid_there(tmp_path: Path, name: str) -> 
 def test_a_name_without_a_slash_is_that_of_a_topic_with_one(tmp_path: Path, written: str) -> None:
     path = mcap(tmp_path / "run.mcap", ["words"])
     assert shown(path, written)["Topic"].startswith("OK 1 message")
-    source = BagSource(path)
+    source = Player(BagHistory(path))
     assert list(source.offers()) == ["/words"]
     source.close()
 

@@ -13,7 +13,7 @@ MAX_BYTES = 64 << 20
 MAX_TOTAL = 256 << 20
 """Of the messages of all topics."""
 PAST_LIMIT = 20_000
-"""Messages of the past on a topic that is not open yet."""
+"""Messages of the past on a topic: all latched ones arrive at once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ class Inbox:
             if topic not in self._limits:
                 return
             if not self._is_diverted:
-                self._queue(topic, raw)
+                self._queue(topic, raw, self._limits[topic])
             for read in self.readers:
                 read(topic, raw)
         self.arrived.set()
@@ -116,16 +116,17 @@ class Inbox:
             self._is_diverted = True
 
     def replay(self, topic: str, raw: Raw) -> None:
-        """Queue a message of the past, which readers have received before."""
+        """Queue a message of the past, which readers have received before or never do."""
         with self._lock:
-            self._queue(topic, raw)
+            self._queue(topic, raw, PAST_LIMIT)
+        self.arrived.set()
 
     def rejoin(self, missed: Callable[[], Iterable[tuple[str, Raw]]]) -> None:
         """Queue new messages again, after those that were missed; none comes in between."""
         with self._lock:
             for topic, raw in missed():
                 if topic in self._limits:
-                    self._queue(topic, raw)
+                    self._queue(topic, raw, self._limits[topic])
             self._is_diverted = False
         self.arrived.set()
 
@@ -156,8 +157,7 @@ class Inbox:
         with self._lock:
             return dict(self._received)
 
-    def _queue(self, topic: str, raw: Raw) -> None:
-        limit = self._limits.get(topic, PAST_LIMIT)  # topics are opened by other threads
+    def _queue(self, topic: str, raw: Raw, limit: int) -> None:
         count, total = self._received.get(topic, (0, 0))
         self._received[topic] = count + 1, total + len(raw.cdr)
         queue = self._queues.setdefault(topic, deque())

@@ -16,12 +16,13 @@ from webviz.api.errors import Error
 from webviz.api.lookback import Lookback
 from webviz.data.messages import MessageError, decode
 from webviz.data.recordings import RecordedChannel
+from webviz.data.recordings.latched import TF
 from webviz.data.recordings.mcap_writing import McapFile
-from webviz.sources.bag.file import BagChannel, Recorded
-from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Ghost, ghost_files
+from webviz.sources.bag.file import BagChannel
+from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Ghost
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import LOG, ROSOUT
-from webviz.sources.bag.past import BagPast
+from webviz.sources.history import HistoryChannel, NeededMessages, Recorded
 from webviz.sources.recording import Channels, Entry, ForwardClock, library
 from webviz.sources.source import Subscription
 
@@ -33,7 +34,7 @@ ALWAYS = (CLOCK_TOPIC, ROSOUT, DISTANCE, DIFFERENCE)
 """Topics of each slice; a panel that is closed subscribes to nothing."""
 
 SliceMessage = tuple[RecordedChannel, int, bytes]
-"""Channel, time of recording, and serialised message."""
+"""HistoryChannel, time of recording, and serialised message."""
 
 
 class Slice(Protocol):
@@ -138,48 +139,46 @@ class BagSlice(msgspec.Struct, frozen=True):
     def messages(self) -> Iterator[SliceMessage]:
         """`Slice.messages`; raises BagError."""
         first_ns, last_ns = self.span_ns
-        ghost = self.ghost
-        files = BagFiles(self.paths, ghost_files(self.paths, ghost) if ghost else ())
+        history = BagHistory(self.paths, ghost=self.ghost)
         try:
-            chosen = [channel for channel in files.channels if self._is_chosen(channel)]
-            by_place = {(channel.topic, channel.type): channel for channel in chosen}
-            wanted = {c.topic: self._wish(c, chosen) for c in chosen}
-            latched = [c for c in chosen if wanted[c.topic].lookbacks]
-            for past in BagPast(files, latched, wanted, first_ns).messages():
-                if past.stamp_ns < first_ns:
-                    yield self._message(by_place, past, first_ns)
-            for recorded in files.messages(chosen, first_ns, last_ns):
-                yield self._message(by_place, recorded, recorded.stamp_ns)
+            found = {HistoryChannel(each.topic, each.type): each for each in history.files.channels}
+            chosen = {each: own for each, own in found.items() if self._is_chosen(each)}
+            wanted = {each.topic: self._wish(history, each, own) for each, own in chosen.items()}
+            before = [each for each in chosen if wanted[each.topic].lookbacks]
+            for recorded in NeededMessages(history, before, wanted, first_ns).messages():
+                if recorded.stamp_ns < first_ns:
+                    yield self._message(chosen, recorded, first_ns)
+            for recorded in history.messages(chosen, first_ns, last_ns):
+                yield self._message(chosen, recorded, recorded.stamp_ns)
         finally:
-            files.close()
+            history.close()
 
     def at_ns(self) -> int:
         """`Slice.at_ns`."""
         return self.shown_ns
 
-    def _is_chosen(self, channel: BagChannel) -> bool:
+    def _is_chosen(self, channel: HistoryChannel) -> bool:
         if channel.topic in ALWAYS:
             return True
         subscription = self.wanted.get(channel.topic)
         return subscription is not None and subscription.type == channel.type
 
-    def _wish(self, channel: BagChannel, chosen: Sequence[BagChannel]) -> Subscription:
+    def _wish(self, history: BagHistory, channel: HistoryChannel, own: BagChannel) -> Subscription:
         """Return the subscription of a channel, with the lookback of latched messages."""
         subscription = self.wanted.get(channel.topic)
         if subscription is None:
             subscription = Subscription(channel.type, Topic(channel.topic), lookbacks=())
-        publishers = channel.publishers
-        if channel.topic != ROSOUT and any(p.durability == "transient_local" for p in publishers):
-            depth = sum(each.depth for each in chosen if each.topic == channel.topic)
-            is_tf = channel.type == "tf2_msgs/msg/TFMessage"
-            latched = Lookback() if is_tf else Lookback(count=depth)
+        is_latched = any(each.durability == "transient_local" for each in own.publishers)
+        if channel.topic != ROSOUT and is_latched:
+            depth = history.latched(channel, is_latched)
+            latched = Lookback() if channel.type == TF else Lookback(count=depth)
             subscription = replace(subscription, lookbacks=(*subscription.lookbacks, latched))
         return subscription
 
     def _message(
-        self, channels: Mapping[tuple[str, str], BagChannel], recorded: Recorded, stamp_ns: int
+        self, channels: Mapping[HistoryChannel, BagChannel], recorded: Recorded, stamp_ns: int
     ) -> SliceMessage:
-        channel = channels[recorded.topic, recorded.type].written
+        channel = channels[HistoryChannel(recorded.topic, recorded.type)].written
         name = self.renamed.get(recorded.topic, recorded.topic)
         return msgspec.structs.replace(channel, topic=name), stamp_ns, recorded.cdr
 

@@ -15,7 +15,7 @@ from webviz_displays.moveit.bodies import named
 from webviz_displays.moveit.drawing import HeldObjects, with_alpha
 from webviz_displays.moveit.joints import Poser
 from webviz_displays.moveit.paths import JointPath, path_of
-from webviz_displays.moveit.playing import DEFAULT_SPEED, Player, Speed, speed_of
+from webviz_displays.moveit.playing import DEFAULT_SPEED, PathPlayer, Speed, speed_of
 from webviz_displays.moveit.properties import ATTACHED
 from webviz_displays.moveit.robots import RobotLook, Robots
 from webviz_displays.moveit.scene import KnownScene
@@ -92,7 +92,7 @@ class PathView(msgspec.Struct):
     """
 
     robots: Robots
-    player: Player = msgspec.field(default_factory=Player)
+    player: PathPlayer = msgspec.field(default_factory=PathPlayer)
     held: HeldObjects = msgspec.field(default_factory=HeldObjects)
     _trail: PathTrail = msgspec.field(default_factory=PathTrail)
     _made: tuple[Any, Poser, JointPath] | None = None

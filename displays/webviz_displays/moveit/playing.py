@@ -52,7 +52,7 @@ def speed_of(text: str) -> Speed | None:
     return Speed(value, 0.0) if words[-1] == "x" else Speed(0.0, value)
 
 
-class Player(msgspec.Struct):
+class PathPlayer(msgspec.Struct):
     """Plays the newest path.
 
     Args:

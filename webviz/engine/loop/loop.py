@@ -54,14 +54,13 @@ from webviz.engine.pipeline import Runner, Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
-from webviz.engine.playback import Playable, PlaybackControl
 from webviz.engine.state import State
 from webviz.engine.state.memoizing import reuse_unchanged
 from webviz.engine.state.statuses import failures
 from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
-from webviz.sources.rewindable import Rewindable
-from webviz.sources.switchable import Switchable
+from webviz.sources.player import Player
+from webviz.sources.recording.memory import MemoryHistory
 
 IDLE_S = 1.0
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
@@ -117,14 +116,9 @@ class FrameLoop:
         clock: Callable[[], float] | None = None,
     ) -> None:
         live_ns = source.now_ns
-        if isinstance(source, Playable):
-            switchable, memory, control = None, None, PlaybackControl(source)
-        else:
-            memory = Rewindable(source)
-            source = switchable = Switchable(memory)
-            control = PlaybackControl(memory)
-        self._source = source
-        waiting, clock = clock or time.monotonic, clock or control.clock
+        player = source if isinstance(source, Player) else Player(MemoryHistory(source))
+        self._source = player
+        waiting, clock = clock or time.monotonic, clock or player.clock
         self._show = show
         self._stop = threading.Event()
         self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
@@ -138,16 +132,16 @@ class FrameLoop:
         own = own_names(config, self._guard)
         rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
         gate = Gate(
-            source,
+            player,
             rights,
             lambda: self._settings.settings.publish,
-            lambda: "" if control.is_live else REWOUND,
+            lambda: "" if player.is_live else REWOUND,
         )
-        core = self._core = Core(source, gate, scene, self._guard, clock)
+        core = self._core = Core(player, gate, scene, self._guard, clock)
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, lambda: self._parts.reset(), control)
+        self._time = TimePart(core, lambda: self._parts.reset(), player)
         self._displays = DisplaysPart(core, services)
         self._settings = SettingsPart(core)
         self.controllers = VelocityControllers(gate, live_ns)
@@ -155,21 +149,20 @@ class FrameLoop:
         self._playback = PlaybackPart(
             core,
             self._settings,
-            control,
+            player,
             self._time.start_over,
             self.controllers.halt,
             autoplay,
-            switchable,
         )
-        self._black_box = BlackBoxPart(core, self._settings, memory, control, self._displays.list)
+        self._black_box = BlackBoxPart(core, self._settings, player, self._displays.list)
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings]
         first += [views, LayoutsPart(core, self._settings)]
-        others, history, kept = self._other_parts(config, path, views, memory, autosave, session)
+        others, history, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         last = [
-            ReportsPart(core, self._files, control, self._examined, lambda: self._shown),
-            SharingPart(core, self._files, control, lambda: self._shown, export),
+            ReportsPart(core, self._files, player, self._examined, lambda: self._shown),
+            SharingPart(core, self._files, player, lambda: self._shown, export),
             WhatIfPart(core, self._displays, services),
             *(make(core) for make in parts),
         ]
@@ -206,7 +199,7 @@ class FrameLoop:
         config: Config,
         path: Path | None,
         views: ViewsPart,
-        memory: Rewindable | None,
+        player: Player,
         autosave: Path | None,
         session: Path | None,
     ) -> tuple[list[Part], HistoryPart, SessionPart | None]:
@@ -232,10 +225,10 @@ class FrameLoop:
             DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
-            BridgesPart(core, self._robots, memory and memory.live),
+            BridgesPart(core, self._robots, player.live),
             TopicsPart(core),
             LatencyPart(core, self._tracer, displays.list.active),
-            RecordingPart(core, settings, memory),
+            RecordingPart(core, settings, player),
             self._black_box,
             SelectionPart(core, displays),
             HandlesPart(core, displays),

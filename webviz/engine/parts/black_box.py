@@ -26,7 +26,6 @@ from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.recording import new_folder
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES
@@ -34,9 +33,10 @@ from webviz.files.config import WatchRule
 from webviz.files.config import nearest as nearest_name
 from webviz.sources import Subscriber, Subscription
 from webviz.sources.past_state import BlackBoxState, SavedMoment
+from webviz.sources.player import Player
 from webviz.sources.recording import Entry, Recorder, Remembered
+from webviz.sources.recording.memory import MemoryHistory
 from webviz.sources.recording.recent import OVERHEAD
-from webviz.sources.rewindable import Rewindable
 
 FOLDER = "webviz_black_box"
 """In the working folder."""
@@ -70,8 +70,8 @@ class BlackBoxPart(Part):
     Args:
         core: shared by all parts.
         settings: have the rules.
-        live: has the memory; None for a bag, on which no rule fires.
-        control: of what is shown; rules about displays wait while that is the past.
+        player: has the memory; on a bag, which has none, no rule fires. Rules about displays wait
+            while the past is shown.
         displays: those that are shown.
     """
 
@@ -81,14 +81,13 @@ class BlackBoxPart(Part):
         self,
         core: Core,
         settings: SettingsPart,
-        live: Rewindable | None,
-        control: PlaybackControl,
+        player: Player,
         displays: DisplayList,
     ) -> None:
         super().__init__(core)
         self._settings = settings
-        self._live = live
-        self._control = control
+        self._player = player
+        self._memory = player.memory
         self._displays = displays
         self._heard: dict[str, float] = {}
         """By display, when its first message was noticed, in monotonic seconds."""
@@ -103,8 +102,8 @@ class BlackBoxPart(Part):
         self._listing: Future[tuple[SavedMoment, ...]] | None = None
         self._saved: tuple[SavedMoment, ...] = ()
         self._problem = ""
-        if live is not None:
-            live.inbox.read_along(lambda: self._observer.put)
+        if self._memory is not None:
+            player.inbox.read_along(lambda: self._observer.put)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics of the rules, as the first type of each that can be read."""
@@ -127,8 +126,8 @@ class BlackBoxPart(Part):
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the rules, and what is being saved."""
-        live, settings = self._live, self._settings.settings
-        if live is None:
+        memory, settings = self._memory, self._settings.settings
+        if memory is None:
             return
         if self._watcher.rules != settings.watch:
             self._watcher = RuleWatcher(settings.watch)
@@ -146,13 +145,13 @@ class BlackBoxPart(Part):
         }
         self._observer.observe([*wanted], leveled, paths)
         if self._listing is None:  # else it is not known yet how much may be saved
-            for rule in self._watcher.fired(self._observation(self._control.is_live)):
-                self._save(rule, live)
-        self._go_on(live)
+            for rule in self._watcher.fired(self._observation(self._player.is_live)):
+                self._save(rule, memory)
+        self._go_on(memory)
 
     def state(self) -> Mapping[str, Any]:
         """Return the recordings."""
-        if self._live is None:
+        if self._memory is None:
             return {"black_box": None}
         listing = self._listing
         if listing is not None and listing.done():
@@ -164,7 +163,7 @@ class BlackBoxPart(Part):
         """Reasons why nothing is saved, and rules that are about nothing."""
         if self._problem:
             return {"Black box": Status(Level.WARN, self._problem)}
-        if self._live is None:
+        if self._memory is None:
             return {}
         names = [row.name for row in self._rows]
         for rule in self._watcher.rules:
@@ -174,7 +173,7 @@ class BlackBoxPart(Part):
                 text = f"A rule watches the display `{watched}`, which does not exist."
                 remedy = nearest_name(watched, names)
                 return {"Black box": Status(Level.WARN, f"{text} {remedy}")}
-        if self._watcher.rules and not self._live.memory.is_on:
+        if self._watcher.rules and not self._memory.recent.is_on:
             text = (
                 "Rules have nothing to save, because nothing is remembered. Raise memory.seconds."
             )
@@ -233,9 +232,9 @@ class BlackBoxPart(Part):
             if row.id in settled or (row.type == type_name(DisplayGroup) and settled)
         ]
 
-    def _save(self, rule: WatchRule, live: Rewindable) -> None:
+    def _save(self, rule: WatchRule, memory: MemoryHistory) -> None:
         """Begin to save, unless that goes on already or is too much."""
-        if self._saving is not None or not live.memory.is_on:
+        if self._saving is not None or not memory.recent.is_on:
             return
         now = datetime.now()
         self._problem, max_bytes = self._excess(now), self._room()
@@ -243,7 +242,7 @@ class BlackBoxPart(Part):
             return
         cause = re.sub(r"[^A-Za-z0-9]+", "_", rule.title).strip("_")[:60]
         path = Path(FOLDER).absolute() / f"{now:{MOMENT}}_{cause}"
-        past = _newest(live, max_bytes)
+        past = _newest(memory, max_bytes)
         folder = in_thread(lambda: new_folder(path))
         folder.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
         until_s = time.monotonic() + AFTER_S
@@ -269,7 +268,7 @@ class BlackBoxPart(Part):
         limit = round(self._settings.settings.watch_limits.gigabytes * GIGABYTE)
         return limit - sum(each.size for each in self._saved)
 
-    def _go_on(self, live: Rewindable) -> None:
+    def _go_on(self, memory: MemoryHistory) -> None:
         """Record until the time is up, then complete the files."""
         saving = self._saving
         if saving is None or not saving.folder.done():
@@ -279,9 +278,9 @@ class BlackBoxPart(Part):
         except (Error, OSError) as error:
             self._end(str(error))
             return
-        inbox = live.inbox
+        inbox = self._player.inbox
         if saving.recorder is None:
-            inbox.read_along(lambda: self._recorder(saving, folder, live).put)
+            inbox.read_along(lambda: self._recorder(saving, folder, memory).put)
         elif saving.closed is None and (
             time.monotonic() >= saving.until_s or saving.recorder.problem or saving.recorder.is_full
         ):
@@ -293,11 +292,13 @@ class BlackBoxPart(Part):
             if saving.recorder.is_full:
                 self._problem = f"The last recording was cut short at {FOLDER}'s size, {LIMIT}"
 
-    def _recorder(self, saving: _Saving, folder: RecordingFolder, live: Rewindable) -> Recorder:
+    def _recorder(
+        self, saving: _Saving, folder: RecordingFolder, memory: MemoryHistory
+    ) -> Recorder:
         """Between two messages: what came since the rule fired is in memory."""
         past = list(saving.past)
-        past += live.memory.after(past[-1][1].arrived_s) if past else []
-        saving.recorder = Recorder(folder, live.channels, past, saving.max_bytes)
+        past += memory.recent.after(past[-1][1].arrived_s) if past else []
+        saving.recorder = Recorder(folder, memory.recorded_channels, past, saving.max_bytes)
         return saving.recorder
 
     def _end(self, problem: str) -> None:
@@ -312,14 +313,14 @@ class BlackBoxPart(Part):
         self._listing.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
 
 
-def _newest(live: Rewindable, max_bytes: int) -> Remembered:
+def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:
     """Return the messages before this moment, as far back as they fit."""
-    past = live.memory.last(BEFORE_S)
+    past = memory.recent.last(BEFORE_S)
     size = 0
     for _, raw in reversed(past.messages):
         size += len(raw.cdr) + OVERHEAD
         if size > max_bytes:
-            return live.memory.last(time.monotonic() - raw.arrived_s)
+            return memory.recent.last(time.monotonic() - raw.arrived_s)
     return past
 
 

@@ -27,15 +27,14 @@ from webviz.engine.commands import (
 )
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.black_box import FOLDER
+from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.playback import DisplayEvents, PlaybackControl
-from webviz.engine.playback.control import END_NS
 from webviz.engine.state import Row
 from webviz.files.config import nearest
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.past_state import Event, PlaybackState
-from webviz.sources.switchable import Switchable
+from webviz.sources.player import END_NS, Player
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
 BUCKETS = 500
@@ -52,11 +51,10 @@ class PlaybackPart(Part):
     Args:
         core: shared by all parts.
         settings: has the bookmarks.
-        control: of the source.
+        player: of what is shown.
         start_over: discards the received data of all parts.
         stop: stops all vehicles that are driven; whether any was.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
-        switchable: shows recordings in the place of live topics; None for a bag.
     """
 
     name = "Playback"
@@ -65,19 +63,17 @@ class PlaybackPart(Part):
         self,
         core: Core,
         settings: SettingsPart,
-        control: PlaybackControl,
+        player: Player,
         start_over: Callable[[], None],
         stop: Callable[[], bool],
         autoplay: bool = False,
-        switchable: Switchable | None = None,
     ) -> None:
         super().__init__(core)
-        control.is_ready = autoplay and not control.is_live
+        player.is_ready = autoplay and not player.is_live
         self._settings = settings
-        self._control = control
+        self._player = player
         self._start_over = start_over
         self._stop = stop
-        self._switchable = switchable
         self._first_events = self._display_events = DisplayEvents()
 
     @property
@@ -99,7 +95,7 @@ class PlaybackPart(Part):
     @property
     def is_seeking(self) -> bool:
         """Return whether a position is being approached, so that nothing is to be drawn yet."""
-        return self._control.is_seeking
+        return self._player.is_seeking
 
     def advance(self, is_busy: bool) -> None:
         """Play what is due, before the messages of a turn are taken.
@@ -107,9 +103,9 @@ class PlaybackPart(Part):
         Args:
             is_busy: whether displays have to catch up first.
         """
-        if self._control.is_ready and self.core.is_watched():
-            self._control.play()
-        if self._control.advance(is_busy):
+        if self._player.is_ready and self.core.is_watched():
+            self._player.play()
+        if self._player.advance(is_busy):
             self._start_over()
 
     def take(self, batches: Batches) -> None:
@@ -118,128 +114,113 @@ class PlaybackPart(Part):
             self.core.frames.pass_by()
 
     def state(self) -> Mapping[str, Any]:
-        """Return the state of the control, and what is recorded when."""
-        playback = self._control.playback
-        if playback.absence:
+        """Return the state of the player, and what is recorded when."""
+        player, history = self._player, self._player.history
+        if player.absence:
             return {"playback": None, "recorded": {}, "logged": ()}
-        recorded = playback.histogram(BUCKETS)
-        return {
-            "playback": _state_of(self._control, self._is_opened),
-            "recorded": recorded,
-            "logged": playback.logged(),
-        }
+        recorded = history.histogram(BUCKETS)
+        return {"playback": _state_of(player), "recorded": recorded, "logged": history.logged()}
 
     def warned(self, rows: Sequence[Row]) -> Sequence[Event]:
         """Note which displays began to warn at the position, and return all notes."""
-        control, found = self._control, self._display_events
+        player, found = self._player, self._display_events
         # On the way to a position, and before the first message, displays lack their messages.
-        if not control.is_seeking and control.playback.position_ns >= control.playback.start_ns:
-            found.note(control.position_ns, rows)
+        if not player.is_seeking and player.reached_ns >= player.history.start_ns:
+            found.note(player.position_ns, rows)
         return found.events
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""
-        warnings = self._control.playback.warnings
+        warnings = self._player.warnings
         return {"Bag": Status(Level.WARN, joined(*warnings))} if warnings else {}
 
     def close(self) -> None:
         """Close the recording that is shown in the place of live topics."""
-        if self._switchable is not None and self._switchable.bag is not None:
-            self._switchable.bag.close()
+        if self._player.is_opened:
+            self._player.history.close()
 
     # Commands
 
     def _play(self, command: Play, sender: Sender) -> None:
-        control = self._known()
-        if control.is_live:
+        player = self._known()
+        if player.is_live:
             raise Error(LIVE)
-        control.play()
+        player.play()
 
     def _seek(self, command: Seek, sender: Sender) -> str:
-        control = self._known()
-        control.seek(self._at_ns(command.at_s))
-        return self._stopped(control)
+        player = self._known()
+        player.seek(self._at_ns(command.at_s))
+        return self._stopped(player)
 
     def _return_to_live(self, command: ReturnToLive, sender: Sender) -> None:
-        control = self._known()
-        if self._switchable is not None and self._is_opened:
-            control.switch(self._switchable.leave)
+        if self._known().return_to_live():
             self._display_events = self._first_events
             self._start_over()
-        control.return_to_live()
 
-    @property
-    def _is_opened(self) -> bool:
-        """Return whether a recording is shown in the place of live topics."""
-        return self._switchable is not None and self._switchable.bag is not None
-
-    def _open(self, command: OpenRecording, sender: Sender) -> Job[BagSource]:
-        switchable, path = self._switchable, Path(command.path)
-        if switchable is None:
+    def _open(self, command: OpenRecording, sender: Sender) -> Job[BagHistory]:
+        player, path = self._player, Path(command.path)
+        if player.live is None:
             raise Error(NO_LIVE)
         if sender.browser is not None and path.absolute().parent != Path(FOLDER).absolute():
             raise Error(f"A page can open only recordings in {FOLDER}.")
 
-        def then(bag: BagSource) -> str:
-            self._control.switch(lambda: switchable.show(bag))
+        def then(bag: BagHistory) -> str:
+            player.open(bag)
             self._display_events = DisplayEvents()
             self._start_over()
-            self._control.play()
-            return self._stopped(self._control)
+            player.play()
+            return self._stopped(player)
 
-        return Job(lambda: BagSource(path), then)
+        return Job(lambda: BagHistory(path), then)
 
     def _set_rate(self, command: SetRate, sender: Sender) -> None:
-        control, rate = self._known(), command.rate
+        player, rate = self._known(), command.rate
         if rate and not MIN_RATE <= rate <= MAX_RATE:
             raise Error(
                 f"The rate {rate:g} is out of range. Give {MIN_RATE:g} to {MAX_RATE:g}, or 0 for "
                 "as fast as possible."
             )
-        control.rate = rate or math.inf
+        player.rate = rate or math.inf
 
     def _set_loop(self, command: SetLoop, sender: Sender) -> None:
         self._known().loop = command.loop
 
     def _select(self, command: SelectSpan, sender: Sender) -> None:
-        control = self._known()
-        playback = control.playback
+        player = self._known()
+        history = player.history
         if command.first_s is None and command.last_s is None:
-            control.selected = None
+            player.selected = None
             return
         first, last = command.first_s, command.last_s
-        first_ns = playback.start_ns if first is None else self._at_ns(first)
-        last_ns = playback.end_ns if last is None else min(self._at_ns(last), playback.end_ns)
+        first_ns = history.start_ns if first is None else self._at_ns(first)
+        last_ns = history.end_ns if last is None else min(self._at_ns(last), history.end_ns)
         if first_ns >= last_ns:
             raise Error("The selected span is empty. Choose an end later than its start.")
-        control.selected = first_ns, last_ns
+        player.selected = first_ns, last_ns
 
     def _step(self, command: StepMessage, sender: Sender) -> str:
-        control = self._known()
+        player = self._known()
         topic = command.topic
         try:
             topic = self.core.source.resolve(topic) if topic else ""
         except ValueError as error:
             raise Error(f"{error}.") from error
-        control.pause()
-        at_ns = control.playback.neighbour(topic, command.is_forward)
-        if at_ns is None:
+        if not player.step(topic, command.is_forward):
             where = "next" if command.is_forward else "previous"
             what = f"message on {topic}" if topic else "message of a displayed topic"
             raise Error(f"There is no {where} {what}. Step in the other direction.")
-        control.seek(at_ns)
-        return self._stopped(control)
+        return self._stopped(player)
 
-    def _stopped(self, control: PlaybackControl) -> str:
+    def _stopped(self, player: Player) -> str:
         """Stop vehicles, whose drivers see the past from now on; a sentence if any moved."""
-        return STOPPED if not control.is_live and self._stop() else ""
+        return STOPPED if not player.is_live and self._stop() else ""
 
     def _save_bookmark(self, command: SaveBookmark, sender: Sender) -> None:
-        control, at_s = self._known(), command.at_s
+        player, at_s = self._known(), command.at_s
         if problem := problem_of(command.name):
             raise Error(problem)
-        end_ns = control.playback.end_ns
-        at_ns = control.position_ns if at_s is None else min(self._at_ns(at_s), end_ns)
+        end_ns = player.history.end_ns
+        at_ns = player.position_ns if at_s is None else min(self._at_ns(at_s), end_ns)
         bookmarks = {**self._settings.settings.bookmarks, command.name: at_ns / 1e9}
         self._settings.set("bookmarks", bookmarks)
 
@@ -249,41 +230,41 @@ class PlaybackPart(Part):
             raise Error(f"Unknown bookmark `{command.name}`: {nearest(command.name, bookmarks)}")
         self._settings.set("bookmarks", bookmarks)
 
-    def _known(self) -> PlaybackControl:
-        if absence := self._control.playback.absence:
+    def _known(self) -> Player:
+        if absence := self._player.absence:
             raise Error(absence)
-        return self._control
+        return self._player
 
     def _at_ns(self, seconds: float) -> int:
         """Return a position, not before the first message."""
-        playback = self._known().playback
+        history = self._known().history
         if math.isnan(seconds):
             raise Error("NaN is not a valid time. Give seconds from the start of the recording.")
-        origin_ns, end_ns = playback.origin_ns, playback.end_ns
-        first_s, last_s = ((each - origin_ns) / 1e9 for each in (playback.start_ns, END_NS))
+        origin_ns, end_ns = history.origin_ns, history.end_ns
+        first_s, last_s = ((each - origin_ns) / 1e9 for each in (history.start_ns, END_NS))
         at_ns = origin_ns + round(min(max(seconds, first_s), last_s) * 1e9)
         # Seconds of a recording of years are not accurate to a nanosecond.
         return end_ns if seconds == (end_ns - origin_ns) / 1e9 else at_ns
 
 
-def _state_of(control: PlaybackControl, is_opened: bool) -> PlaybackState:
-    playback = control.playback
-    start_ns, is_bag = playback.origin_ns, bool(playback.names)
+def _state_of(player: Player) -> PlaybackState:
+    history = player.history
+    start_ns = history.origin_ns
     return PlaybackState(
-        names=tuple(playback.names),
+        names=tuple(history.names),
         start_ns=start_ns,
-        end_ns=playback.end_ns,
-        first_s=(playback.start_ns - start_ns) / 1e9,
-        is_live=None if is_bag else control.is_live,
-        is_opened=is_opened,
-        position_s=(control.position_ns - start_ns) / 1e9,
-        rate=control.rate,
-        is_playing=control.is_playing,
-        is_seeking=control.is_seeking,
-        loop=control.loop,
-        selected=_seconds(control.selected, start_ns),
-        gap=_seconds(playback.gap_ns, start_ns),
-        counted=_seconds(playback.counted_ns, start_ns),
+        end_ns=history.end_ns,
+        first_s=(history.start_ns - start_ns) / 1e9,
+        is_live=player.is_live if history.is_growing else None,
+        is_opened=player.is_opened,
+        position_s=(player.position_ns - start_ns) / 1e9,
+        rate=player.rate,
+        is_playing=player.is_playing,
+        is_seeking=player.is_seeking,
+        loop=player.loop,
+        selected=_seconds(player.selected, start_ns),
+        gap=_seconds(history.gap_ns, start_ns),
+        counted=_seconds(history.counted_ns, start_ns),
     )
 
 

@@ -19,8 +19,9 @@ from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.sources.past_state import MemoryState, RecordingState
+from webviz.sources.player import Player
 from webviz.sources.recording import Recorder, library
-from webviz.sources.rewindable import Rewindable
+from webviz.sources.recording.memory import MemoryHistory
 
 MEGABYTE = 1_000_000
 FROM_BAG = "A bag is a recording already. Copy its files."
@@ -32,19 +33,20 @@ class RecordingPart(Part):
     Args:
         core: shared by all parts.
         settings: bound what is remembered.
-        live: has the memory; None for a bag, which is neither remembered nor recorded.
+        player: has the memory; none of a bag, which is neither remembered nor recorded.
     """
 
     name = "Recording"
 
-    def __init__(self, core: Core, settings: SettingsPart, live: Rewindable | None) -> None:
+    def __init__(self, core: Core, settings: SettingsPart, player: Player) -> None:
         super().__init__(core)
         self._settings = settings
-        self._live = live
+        self._player = player
+        self._memory = player.memory
         self._recorder: Recorder | None = None
         self._problem = ""
-        if live is not None:
-            live.inbox.read_along(lambda: live.memory.put)
+        if (memory := self._memory) is not None:
+            player.inbox.read_along(lambda: memory.recent.put)
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
@@ -57,21 +59,21 @@ class RecordingPart(Part):
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the settings, and notice that a recording has ended by itself."""
-        if self._live is not None:
-            bounds, memory = self._settings.settings.memory, self._live.memory
-            memory.seconds = bounds.seconds
-            memory.max_bytes = round(bounds.megabytes * MEGABYTE)
-            self._live.channels.look()
+        if self._memory is not None:
+            bounds, recent = self._settings.settings.memory, self._memory.recent
+            recent.seconds = bounds.seconds
+            recent.max_bytes = round(bounds.megabytes * MEGABYTE)
+            self._memory.recorded_channels.look()
         if self._recorder is not None and self._recorder.problem:
             self._problem = joined(self._recorder.problem, "The recording has ended.")
             self._end(self._recorder)
 
     def state(self) -> Mapping[str, Any]:
         """Return the memory and the recording."""
-        if self._live is None:
+        if self._memory is None:
             return {"memory": None, "recording": None}
-        memory = self._live.memory
-        seconds, size = memory.size()
+        recent = self._memory.recent
+        seconds, size = recent.size()
         recorder = self._recorder
         recording = recorder and RecordingState(
             path=recorder.path,
@@ -80,7 +82,7 @@ class RecordingPart(Part):
             size=recorder.bytes_written,
             dropped=recorder.dropped,
         )
-        remembered = MemoryState(seconds, size, memory.is_full, memory.pinned())
+        remembered = MemoryState(seconds, size, recent.is_full, recent.pinned())
         return {"memory": remembered, "recording": recording}
 
     def statuses(self) -> Mapping[str, Status]:
@@ -95,31 +97,29 @@ class RecordingPart(Part):
 
     def close(self) -> None:
         """Complete the recording."""
-        if self._live is not None:
-            self._live.inbox.readers = ()
+        self._player.inbox.readers = ()
         if self._recorder is not None:
             self._recorder.close()
 
     def _end(self, recorder: Recorder) -> None:
         """Let a recorder read no more."""
         self._recorder = None
-        if self._live is not None:
-            self._live.inbox.forget(recorder.put)
+        self._player.inbox.forget(recorder.put)
 
     # Commands
 
     def _start(self, command: StartRecording, sender: Sender) -> Job[RecordingFolder]:
-        live, path = self._known(), self._new_path(command.path, sender)
+        memory, path = self._known(), self._new_path(command.path, sender)
         if self._recorder is not None:
             raise Error(f"{self._recorder.path.name} is being recorded already. Stop it first.")
 
         def then(folder: RecordingFolder) -> str:
-            now_ns = live.live.now_ns()
-            latched = live.memory.last(0.0).latched
+            now_ns = memory.live.now_ns()
+            latched = memory.recent.last(0.0).latched
             past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
-            self._recorder = recorder = Recorder(folder, live.channels, past)
+            self._recorder = recorder = Recorder(folder, memory.recorded_channels, past)
             self._problem = ""
-            live.inbox.read_along(lambda: recorder.put)
+            self._player.inbox.read_along(lambda: recorder.put)
             return f"Recording to {path.name}."
 
         return Job(lambda: new_folder(path), then)
@@ -138,11 +138,11 @@ class RecordingPart(Part):
         return Job(recorder.close, then)
 
     def _save(self, command: SaveMemory, sender: Sender) -> Job[Recorder]:
-        live, path = self._known(), self._new_path(command.path, sender)
+        memory, path = self._known(), self._new_path(command.path, sender)
         seconds = math.inf if command.seconds is None else command.seconds
         if not seconds > 0:
             raise Error(f"{seconds:g} s is not a valid time span. Give a positive number.")
-        past = live.memory.last(seconds)
+        past = memory.recent.last(seconds)
         if not past.messages:
             raise Error(
                 "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
@@ -150,7 +150,7 @@ class RecordingPart(Part):
             )
 
         def work() -> Recorder:
-            recorder = Recorder(new_folder(path), live.channels, past.whole)
+            recorder = Recorder(new_folder(path), memory.recorded_channels, past.whole)
             recorder.close()
             return recorder
 
@@ -163,10 +163,10 @@ class RecordingPart(Part):
 
         return Job(work, then)
 
-    def _known(self) -> Rewindable:
-        if self._live is None:
+    def _known(self) -> MemoryHistory:
+        if self._memory is None:
             raise Error(FROM_BAG)
-        return self._live
+        return self._memory
 
     def _new_path(self, path: str, sender: Sender) -> Path:
         if path and sender.browser is not None:

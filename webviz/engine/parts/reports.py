@@ -34,7 +34,6 @@ from webviz.engine.commands.requests import Job
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.shown_moment import as_seen, slice_around
-from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files.config import Config
@@ -49,6 +48,7 @@ from webviz.files.report import (
 )
 from webviz.files.report.archive import CONFIG, PICTURES, REPORT, SLICE
 from webviz.sources.past_state import Event
+from webviz.sources.player import Player
 from webviz.sources.slices import Slice, WrittenSlice, write_slice
 
 MAX_BYTES = 500_000_000
@@ -83,7 +83,7 @@ class ReportsPart(Part):
     Args:
         core: shared by all parts.
         files: have the config.
-        control: of what is played.
+        player: of what is shown.
         examined: lets the doctor examine, and returns how many rounds it has completed.
         state: the last state, from any thread.
     """
@@ -94,13 +94,13 @@ class ReportsPart(Part):
         self,
         core: Core,
         files: FilesPart,
-        control: PlaybackControl,
+        player: Player,
         examined: Callable[[], int],
         state: Callable[[], State],
     ) -> None:
         super().__init__(core)
         self._files = files
-        self._control = control
+        self._player = player
         self._examined = examined
         self._state = state
         self._reported: tuple[ReportedPick, ...] = ()
@@ -145,7 +145,7 @@ class ReportsPart(Part):
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> _Moment:
         state, core = self._state(), self.core
         config = as_seen(self._files.config(), state, sender)
-        part, source = slice_around(core, self._control)
+        part, source = slice_around(self._player)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems
         public = {*state.offers, *state.frames, *_namespaces(state.offers)}

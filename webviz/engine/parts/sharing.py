@@ -21,11 +21,11 @@ from webviz.engine.commands import Command, ListMoment, Sender, ShareMoment, Sto
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.shown_moment import as_seen, slice_around
-from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files.config import Config
 from webviz.sources.past_state import SharingState
+from webviz.sources.player import Player
 from webviz.sources.slices import Slice, write_slice
 
 MAX_SLICE = 2_000_000_000
@@ -90,7 +90,7 @@ class SharingPart(Part):
     Args:
         core: shared by all parts.
         files: have the config.
-        control: of what is played.
+        player: of what is shown.
         state: the last state, from any thread.
         export: makes the file; None if it cannot be made.
     """
@@ -101,13 +101,13 @@ class SharingPart(Part):
         self,
         core: Core,
         files: FilesPart,
-        control: PlaybackControl,
+        player: Player,
         state: Callable[[], State],
         export: Exporter | None,
     ) -> None:
         super().__init__(core)
         self._files = files
-        self._control = control
+        self._player = player
         self._state = state
         self._export = export
         self._running: _Running | None = None
@@ -148,7 +148,7 @@ class SharingPart(Part):
             wait([self._running.done], ENDING_S)
 
     def _list(self, command: ListMoment, sender: Sender) -> str:
-        part, source = slice_around(self.core, self._control)
+        part, source = slice_around(self._player)
         state = self._state()
         displays = sum(row.type != "Group" for row in state.rows)
         of = "memory" if source == "live" else "the bag"
@@ -169,7 +169,7 @@ class SharingPart(Part):
             raise Error("A page cannot choose the file to share.")
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
-        part, _ = slice_around(self.core, self._control)
+        part, _ = slice_around(self._player)
         config = as_seen(self._files.config(), self._state(), sender)
         path = Path(command.path).absolute() if command.path else new_path("webviz_run", ".html")
         name = self._files.path.name if self._files.path else ""

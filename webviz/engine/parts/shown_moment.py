@@ -7,38 +7,41 @@ from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.engine.commands import Sender
-from webviz.engine.parts.part import Core
-from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import State
 from webviz.files.config import Config
-from webviz.sources.bag.source import BagSource
-from webviz.sources.rewindable import Rewindable
-from webviz.sources.slices import Slice
-from webviz.sources.switchable import Switchable
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
+from webviz.sources.slices import BagSlice, MemorySlice, Slice
 
 BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
 """Of a bag around the moment that is shown, unless a span is selected."""
 
 
-def slice_around(core: Core, control: PlaybackControl) -> tuple[Slice, str]:
+def slice_around(player: Player) -> tuple[Slice, str]:
     """Return the slice around the moment that is shown, and the name of its source.
+
+    Of a bag it has the subscribed topics, and what displays need of the time before.
 
     Raises:
         Error: nothing has been received yet.
     """
-    source = core.source
-    if isinstance(source, Switchable):
-        source = source.shown
-    if isinstance(source, BagSource):
-        at_ns = min(max(control.position_ns, source.start_ns), source.end_ns)
-        first_ns, last_ns = control.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
-        part = source.slice(min(first_ns, at_ns), max(last_ns, at_ns), at_ns)
-        return part, ", ".join(source.names)
-    if not isinstance(source, Rewindable) or (found := source.slice()) is None:
+    history = player.history
+    if isinstance(history, BagHistory):
+        at_ns = min(player.position_ns, history.end_ns)
+        first_ns, last_ns = player.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
+        first_ns, last_ns = min(first_ns, at_ns), max(last_ns, at_ns)
+        span_ns = max(first_ns, history.start_ns), min(last_ns, history.end_ns)
+        renamed = {ours: theirs for theirs, ours in history.remappings.items()}
+        wanted = dict(player.subscriptions)
+        part = BagSlice(history.paths, wanted, renamed, span_ns, at_ns, history.ghost)
+        return part, ", ".join(history.names)
+    memory = player.memory
+    if memory is None or not (entries := memory.entries()):
         raise Error(
             "No messages are kept in memory. Show a topic, or raise memory.seconds in the config."
         )
-    return found, "live"
+    shown_s = None if player.is_live else memory.clock.arrived_s(player.reached_ns)
+    return MemorySlice(memory.recorded_channels, entries, shown_s), "live"
 
 
 def as_seen(config: Config, state: State, sender: Sender) -> Config:

@@ -12,8 +12,8 @@ from webviz.engine.commands import Command, Pause, Reset, Sender
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
-from webviz.engine.playback import PlaybackControl
 from webviz.engine.state import PanelTimes
+from webviz.sources.player import Player
 
 
 class TimePart(Part):
@@ -22,14 +22,14 @@ class TimePart(Part):
     Args:
         core: shared by all parts.
         reset: discards the received data of all parts.
-        control: of the past, which is paused instead of the inbox unless topics are live.
+        player: plays the past, which is paused instead of the inbox unless topics are live.
     """
 
     name = "Time"
 
-    def __init__(self, core: Core, reset: Callable[[], None], control: PlaybackControl) -> None:
+    def __init__(self, core: Core, reset: Callable[[], None], player: Player) -> None:
         super().__init__(core)
-        self._control = control
+        self._player = player
         self._reset_all = reset
         self._paused_ns: int | None = None
         self._time_rate = ClockRateMeter()
@@ -61,8 +61,8 @@ class TimePart(Part):
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
         messages = self.core.source.clock_messages()
-        control = self._control
-        is_paused = self.is_paused if control.is_live else not control.is_playing
+        player = self._player
+        is_paused = self.is_paused if player.is_live else not player.is_playing
         clock = PanelTimes(
             ros_ns,
             ros_ns - self._began_ns,
@@ -102,10 +102,10 @@ class TimePart(Part):
         self._reset_all()
 
     def _pause(self, command: Pause, sender: Sender) -> None:
-        control = self._control
-        if control.is_live:
+        player = self._player
+        if player.is_live:
             self._paused_ns = self.core.frames.now_ns if command.paused else None
         elif command.paused:
-            control.pause()
+            player.pause()
         else:
-            control.play()
+            player.play()

@@ -25,9 +25,9 @@ class HistoryBudget:
     """Limits the bytes of the messages that all displays hold."""
 
     def __init__(self) -> None:
-        self._histories: weakref.WeakSet[History] = weakref.WeakSet()
+        self._histories: weakref.WeakSet[SampleHistory] = weakref.WeakSet()
 
-    def add(self, history: History) -> None:
+    def add(self, history: SampleHistory) -> None:
         """Count the samples of a history as long as it exists."""
         self._histories.add(history)
 
@@ -58,7 +58,7 @@ class Held(msgspec.Struct):
     has_pose: bool = True
 
 
-class History:
+class SampleHistory:
     """Holds samples of one input in order of arrival, as many as the display requests.
 
     Args:
@@ -182,7 +182,7 @@ class History:
         return min(keep.count or self._max_samples, self._max_samples)
 
 
-Histories = dict[str, History]
+Histories = dict[str, SampleHistory]
 """The histories of a display by input."""
 
 

@@ -21,7 +21,7 @@ from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
-from webviz.engine.pipeline.history import Held, Histories, History, held_samples
+from webviz.engine.pipeline.history import Held, Histories, SampleHistory, held_samples
 from webviz.engine.pipeline.picking import Found, Shot
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene_diff import SceneDiff, SceneWriter, groups_of
@@ -77,7 +77,7 @@ class Renderer:
         """By input and slot; None for what is outdated."""
         self._version = 0
         self._draw_job: _DrawJob | None = None
-        self._seen: list[tuple[History, int]] | None = None
+        self._seen: list[tuple[SampleHistory, int]] | None = None
         self._depended: object = None
         self._is_unfinished = False
 
@@ -250,7 +250,7 @@ class Renderer:
         return self._depended != before
 
     def _draw_samples(
-        self, name: str, display: Display, guard: Guard, history: History, frames: Frames
+        self, name: str, display: Display, guard: Guard, history: SampleHistory, frames: Frames
     ) -> None:
         """Draw the new samples of one input, the large ones one after another in a worker."""
         drawn = self._drawn.setdefault(name, {})

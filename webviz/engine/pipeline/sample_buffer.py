@@ -15,7 +15,7 @@ from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode, message_class
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
-from webviz.engine.pipeline.history import Histories, History, held_samples
+from webviz.engine.pipeline.history import Histories, SampleHistory, held_samples
 from webviz.engine.pipeline.input_subscription import Arrival
 from webviz.engine.pipeline.inputs import Inputs, Set
 from webviz.engine.pipeline.services import Services
@@ -160,7 +160,7 @@ class SampleBuffer:
         names = list(self.inputs.input_subscriptions)
         if overrides(self._display, "fold"):
             names = names[:1]  # all inputs are folded into one sample
-        return {name: History(self._services.histories, len(names)) for name in names}
+        return {name: SampleHistory(self._services.histories, len(names)) for name in names}
 
     def _new_folding(self) -> Folding:
         return Folding(self._services.workers, self._judge)
@@ -209,7 +209,7 @@ class SampleBuffer:
         elif verdict is True:
             self._add(history, received, keep)
 
-    def _add(self, history: History, received: Received, keep: Keep) -> None:
+    def _add(self, history: SampleHistory, received: Received, keep: Keep) -> None:
         """Hold a sample."""
         history.add(received.sample, received.size, keep)
         if self._services.tracer.wants(self._id):

@@ -12,7 +12,7 @@ from webviz.files.config.model import MemorySettings
 from webviz.page.content.forms import sendable
 from webviz.page.content.store import PageStore
 from webviz.sources.past_state import MemoryState
-from webviz.sources.rewindable import MEMORY_OFF
+from webviz.sources.recording.memory import MEMORY_OFF
 
 SHOWN = 4
 """Topics that are named."""

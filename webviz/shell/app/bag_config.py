@@ -13,11 +13,11 @@ from webviz.api.offer import Offer
 from webviz.api.ports import TRANSPORTS
 from webviz.api.registry import display_types
 from webviz.api.views import Orbit
+from webviz.data.recordings.latched import TF
 from webviz.engine.commands.by_topic import Pick, picks
 from webviz.files.config import STANDARD, Config, Item
 from webviz.sources.bag.ghost import BASES, ROOT
-from webviz.sources.bag.source import BagSource
-from webviz.sources.bag.time import TF
+from webviz.sources.bag.history import BagHistory
 
 PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory", "NavSatFix")
 """Of several displays that fit a topic."""
@@ -32,14 +32,14 @@ FRAMES = ("map", "odom", "world")
 """Fixed frames by preference; without them, the root of the largest tree."""
 
 
-def config_of(bag: BagSource) -> Config:
+def config_of(bag: BagHistory) -> Config:
     """Return the displays that fit the topics of a bag, in a frame that it has.
 
     The view follows the robot, which may be far from where the fixed frame is.
     """
     offers = {
         topic: offer
-        for topic, offer in bag.offers().items()
+        for topic, offer in bag.offers({}).items()
         if bag.has(topic) and not (bag.ghost and topic.startswith(f"{ROOT}/"))
     }
     config, shown = displays_of(offers)

@@ -17,7 +17,7 @@ from webviz.data.messages.message_paths import MessagePath
 from webviz.files.config import Branch, Config, Item
 from webviz.shell.app.bag_config import root_of
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
 
 TINT = (90, 150, 255)
 OPACITY = 0.4
@@ -26,7 +26,7 @@ COVERING = {"Map", "Costmap", "OccupancyGrid", "OccupancyMap", "GridMap"}
 """Displays that would lie over those of the first run; their copies are switched off."""
 
 
-def with_ghost(config: Config, bag: BagSource) -> Config:
+def with_ghost(config: Config, bag: BagHistory) -> Config:
     """Return a config that shows the second run of a bag, too.
 
     Args:
@@ -49,12 +49,13 @@ def with_ghost(config: Config, bag: BagSource) -> Config:
     return config
 
 
-def _unit(bag: BagSource) -> str:
+def _unit(bag: BagHistory) -> str:
     """Return the unit of the number whose difference is plotted, "" if it is unknown."""
     if bag.ghost is None or not bag.ghost.difference:
         return ""
     path = MessagePath(bag.ghost.difference)
-    publishers = bag.offers()[path.topic].publishers if path.topic in bag.offers() else ()
+    offer = bag.offers({}).get(path.topic)
+    publishers = offer.publishers if offer else ()
     return path.unit(publishers[0].type) if publishers else ""
 
 

@@ -22,6 +22,7 @@ def read_config(path: Path | None, source: Source | None = None) -> Config:
     if path is not None:
         return opening.load(path)
     from webviz.shell.app.bag_config import config_of  # here, as it takes a tenth of a second
-    from webviz.sources.bag.source import BagSource
+    from webviz.shell.bag_player import bag_of
 
-    return config_of(source) if isinstance(source, BagSource) else config_file.standard()
+    bag = bag_of(source)
+    return config_of(bag) if bag else config_file.standard()

@@ -109,9 +109,9 @@ class Running(PictureControls):
                 path = path or (Path(file) if file else None)
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
             shown = shown or read(path, source)
-            from webviz.sources.bag.source import BagSource
+            from webviz.sources.player import Player
 
-            if not isinstance(source, BagSource):
+            if not isinstance(source, Player):
                 source = with_robots(source, shown.settings.robots)
                 closing.add("The connections of robots", source.close)
             if publish:

@@ -14,7 +14,7 @@ from webviz.engine.pipeline import plugins
 from webviz.server.access.journal_file import JournalFile
 from webviz.server.access.tls import doubts, server_context
 from webviz.shell.app.closing import Closing
-from webviz.shell.bag_source import bag_source
+from webviz.shell.bag_player import bag_player
 
 if TYPE_CHECKING:
     from webviz.sources import Source
@@ -43,7 +43,7 @@ def given_source(
     if bag is not None:
         if source is not None:
             raise Error("Give either `bag` or `source`.")
-        source = bag_source(_paths(bag), ros_args=ros_args)
+        source = bag_player(_paths(bag), ros_args=ros_args)
     if source is not None:
         closing.add("The source of messages", source.close)
     return source

@@ -25,7 +25,7 @@ from webviz.engine.commands import (
 from webviz.engine.state import State
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.rewindable import MEMORY_OFF
+from webviz.sources.recording.memory import MEMORY_OFF
 
 
 class TimeControls(ABC):

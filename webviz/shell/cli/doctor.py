@@ -111,7 +111,7 @@ def _examine(
     from webviz.api.errors import Error
     from webviz.engine.doctor.environment import look_around
     from webviz.shell.app.reading import read_config
-    from webviz.shell.bag_source import bag_source
+    from webviz.shell.bag_player import bag_player
     from webviz.shell.doctor.examination import examine_bag, examine_live, examine_machine
     from webviz.shell.live_source import is_alone
 
@@ -122,7 +122,7 @@ def _examine(
         return tell(examine_machine(look_around(), ends))
     path = options.display_config
     if options.bag is not None:
-        with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
+        with contextlib.closing(bag_player(options.bag, ros_args=ros)) as bag:
             config = read_config(path, bag)
             return tell(examine_bag(bag, config, str(options.bag), progress))
     config = read_config(path) if path else None

@@ -85,7 +85,7 @@ def frames(
 def _read(
     options: FramesOptions, connect: ConnectOptions, ros: Sequence[str]
 ) -> "tuple[TreeRead, str]":
-    from webviz.shell.bag_source import bag_source
+    from webviz.shell.bag_player import bag_player
     from webviz.shell.frames.reading import read_bag, read_live
     from webviz.shell.pictures.times import position_ns, seconds_from_start
 
@@ -93,9 +93,9 @@ def _read(
         title = f"Frames of {connect.connect or 'the ROS graph'}"
         with contextlib.closing(connect.source(ros)) as source:
             return read_live(source, options.seconds, progress), title
-    with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
-        at_ns = position_ns(options.at, bag, str(options.bag))
-        title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag):.1f} s"
+    with contextlib.closing(bag_player(options.bag, ros_args=ros)) as bag:
+        at_ns = position_ns(options.at, bag.history, str(options.bag))
+        title = f"Frames of {options.bag.name} at {seconds_from_start(at_ns, bag.history):.1f} s"
         tree = read_bag(bag, at_ns, progress)
         for warning in bag.warnings:
             warn(f"webviz: {options.bag}: {warning}")

@@ -11,7 +11,7 @@ from webviz.data.words import number_in
 
 if TYPE_CHECKING:
     from webviz.sources.bag.ghost import Align
-    from webviz.sources.bag.source import BagSource
+    from webviz.sources.player import Player
 
 GHOST = Parameter(group=Group("A second bag beside it", sort_key=3))
 
@@ -57,16 +57,16 @@ class GhostOptions:
         if self.ghost is not None and not has_bag:
             raise ValueError("--ghost needs --bag.")
 
-    def beside(self, bags: Path | Sequence[Path], ros_args: Sequence[str] = ()) -> "BagSource":
+    def beside(self, bags: Path | Sequence[Path], ros_args: Sequence[str] = ()) -> "Player":
         """Return bags with the second one beside them, if one is given.
 
         Raises:
             Error: a bag cannot be read.
         """
-        from webviz.shell.bag_source import bag_source
+        from webviz.shell.bag_player import bag_player
         from webviz.sources.bag.ghost import Ghost
 
         if self.ghost is None:
-            return bag_source(bags, ros_args=ros_args)
+            return bag_player(bags, ros_args=ros_args)
         ghost = Ghost(self.ghost, align_of(self.ghost_align), self.ghost_difference)
-        return bag_source(bags, ros_args=ros_args, ghost=ghost)
+        return bag_player(bags, ros_args=ros_args, ghost=ghost)

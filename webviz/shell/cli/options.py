@@ -82,14 +82,13 @@ class ConfigOptions:
             Error: see `read`.
         """
         from webviz.shell.app.ghost_config import with_ghost
-        from webviz.sources.bag.source import BagSource
+        from webviz.shell.bag_player import bag_of
 
         config = self.read(self.display_config, source)
         if self.fixed_frame:
             config.set_fixed_frame(self.fixed_frame)
-        return (
-            with_ghost(config, source) if isinstance(source, BagSource) and source.ghost else config
-        )
+        bag = bag_of(source)
+        return with_ghost(config, bag) if bag and bag.ghost else config
 
     def allow_meshes(self) -> None:
         """Add the mesh roots to the environment variable.

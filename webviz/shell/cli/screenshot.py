@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from webviz.files.config import Config
     from webviz.shell.pictures.capture import Order, Picture
     from webviz.sources import Source
-    from webviz.sources.bag.source import BagSource
+    from webviz.sources.player import Player
 
 MAX_TOPICS = 40
 """Topics of a bag to list at most."""
@@ -63,7 +63,7 @@ def screenshot(
 def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str]) -> int:
     from webviz.shell.pictures.capture import SIZE, Order, opened
     from webviz.sources.bag.extras import map_of_file, static_transform
-    from webviz.sources.bag.source import BagSource
+    from webviz.sources.player import Player
 
     output: Path = options.output
     is_animation = options.is_animation
@@ -77,7 +77,7 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
     with opened(options.bag, extras, ros, lambda args: connect.source(args, config)) as source:
         config = config or _config(options, source)
         at: Sequence[At] = ("end",)
-        if isinstance(source, BagSource):
+        if isinstance(source, Player):
             at = _times(options, source)
         order = Order(
             config,
@@ -93,7 +93,7 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
             is_image=bool(options.image),
         )
         status = _write(options, order)
-        if isinstance(source, BagSource):
+        if isinstance(source, Player):
             for warning in [*source.warnings, *([_topics(source)] if status else [])]:
                 warn(f"webviz: {options.bag}: {warning}")
         return status
@@ -106,11 +106,15 @@ def _config(options: ScreenshotOptions, source: Source | None = None) -> Config:
     return image_alone(options.image) if options.image else options.config_of(source)
 
 
-def _times(options: ScreenshotOptions, source: BagSource) -> Sequence[At]:
+def _times(options: ScreenshotOptions, source: Player) -> Sequence[At]:
     if options.every is None:
         return options.at or ("end",)
     times = every(
-        options.first or "start", options.last or "end", options.every, source, str(options.bag)
+        options.first or "start",
+        options.last or "end",
+        options.every,
+        source.history,
+        str(options.bag),
     )
     return [*times, *options.at]
 
@@ -204,7 +208,7 @@ def _table(statuses: dict[str, Status]) -> Iterator[str]:
             yield f"{'':5}  {'':{width}}  {text}"
 
 
-def _topics(bag: BagSource) -> str:
+def _topics(bag: Player) -> str:
     """Return the topics of a bag that displays can show, as a sentence."""
     topics = sorted(topic for topic, offer in bag.offers().items() if not offer.problem)
     more = f" and {len(topics) - MAX_TOPICS} more" if len(topics) > MAX_TOPICS else ""
@@ -218,10 +222,10 @@ def _caption(picture: Picture) -> str:
 
 def _clock(order: Order) -> Callable[[Picture], str]:
     """Return the line of a picture's time: seconds of a bag, and the local date and time."""
-    from webviz.sources.bag.source import BagSource
+    from webviz.sources.player import Player
 
     source = order.source
-    start_ns = source.start_ns if isinstance(source, BagSource) else 0
+    start_ns = source.history.start_ns if isinstance(source, Player) else 0
 
     def text(picture: Picture) -> str:
         at_s = picture.at_s

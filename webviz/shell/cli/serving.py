@@ -18,6 +18,7 @@ from webviz.files.sessions import Sessions, name_of
 from webviz.server.access.starting import link
 from webviz.shell.app.ghost_config import with_ghost
 from webviz.shell.app.viewer import Viewer
+from webviz.shell.bag_player import bag_of
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end
 from webviz.shell.cli.links import show_links
 from webviz.shell.cli.options import ConnectOptions
@@ -62,7 +63,8 @@ def serve(
     @functools.cache
     def read(path: Path | None, source: Source | None) -> Config:
         config = options.read(path or template, beside or source)
-        return with_ghost(config, beside) if beside else config
+        ghost = bag_of(beside)
+        return with_ghost(config, ghost) if ghost else config
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file

@@ -134,7 +134,7 @@ def check_rules(
 def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]") -> "RuleResults":
     from webviz.engine.pipeline import plugins
     from webviz.shell.app.reading import read_config
-    from webviz.shell.bag_source import bag_source
+    from webviz.shell.bag_player import bag_player
     from webviz.shell.cli.doctor import progress
     from webviz.shell.doctor.examination import DISCOVERY_S, examine_bag, examine_live
 
@@ -143,7 +143,7 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
     path = options.display_config
     _rules(options, None)  # mistakes in them come before the bag is read
     if options.bag is not None:
-        with contextlib.closing(bag_source(options.bag, ros_args=ros)) as bag:
+        with contextlib.closing(bag_player(options.bag, ros_args=ros)) as bag:
             config = read_config(path, bag)
             results = _rules(options, config)
             examine_bag(bag, config, str(options.bag), progress, results)

@@ -28,9 +28,9 @@ from webviz.shell.doctor.report import DoctorReport, report_of
 from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
 from webviz.sources import Offer, Source
-from webviz.sources.bag.source import BagSource
-from webviz.sources.bag.steps import steps_of
 from webviz.sources.names import is_own
+from webviz.sources.player import Player
+from webviz.sources.steps import steps_of
 
 DISCOVERY_S = 4.3
 """Time for the graph, which is read every two seconds: the first reading may be half of it."""
@@ -126,17 +126,17 @@ class Examination:
             self._source.inbox.arrived.wait(REST_S)
             self._source.inbox.arrived.clear()
 
-    def play(self, bag: BagSource, name: str) -> DoctorReport:
+    def play(self, bag: Player, name: str) -> DoctorReport:
         """Examine a bag from its beginning to its end."""
         self._loop.doctor.slice_s = math.inf
-        length_ns = bag.end_ns - bag.start_ns
+        length_ns = bag.history.end_ns - bag.history.start_ns
         state = self._turn()
-        for at_ns in steps_of(bag, bag.start_ns, bag.end_ns, STEP_NS):
-            while bag.position_ns < at_ns:
+        for at_ns in steps_of(bag, bag.history.start_ns, bag.history.end_ns, STEP_NS):
+            while bag.reached_ns < at_ns:
                 if not self._loop.is_busy():  # displays catch up first
-                    bag.play(at_ns)
+                    bag.play_until(at_ns)
                 state = self._turn()
-            self._progress("playing", (at_ns - bag.start_ns) / max(1, length_ns))
+            self._progress("playing", (at_ns - bag.history.start_ns) / max(1, length_ns))
         for _ in range(ROUNDS):  # a bag may be shorter than the time between two
             self._loop.doctor.hasten()
             state = self._turn()
@@ -204,7 +204,7 @@ def examine_live(
 
 
 def examine_bag(
-    bag: BagSource,
+    bag: Player,
     config: Config,
     name: str,
     progress: Progress,

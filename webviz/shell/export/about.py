@@ -36,13 +36,13 @@ def about(
         index: of the chunks.
         notes: sentences on what was left out.
     """
-    source, channel = order.source, recorder.channel
+    history, channel = order.source.history, recorder.channel
     settings, frames = recorder.viewer.loop.settings, recorder.followed
-    first_s = (span.first_ns - source.start_ns) / 1e9
-    last_s = (span.last_ns - source.start_ns) / 1e9
+    first_s = (span.first_ns - history.start_ns) / 1e9
+    last_s = (span.last_ns - history.start_ns) / 1e9
     greeting = [channel.kept.get(kind) for kind in (Shell, Tools)]
     return {
-        "names": source.names,
+        "names": history.names,
         "start": span.first_ns / 1e9,
         "duration": last_s - first_s,
         "at": order.begin_s(span),

@@ -8,7 +8,7 @@ from webviz.api.errors import Error
 from webviz.files.config import Config
 from webviz.shell.export.recorder import ExportSpan
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 RATE_HZ = 10.0
 MAX_BYTES = 50_000_000
@@ -30,7 +30,7 @@ class ExportOrder(msgspec.Struct, frozen=True):
     """
 
     config: Config
-    source: BagSource
+    source: Player
     bag: str
     name: str = ""
     first: At = "start"
@@ -46,10 +46,12 @@ class ExportOrder(msgspec.Struct, frozen=True):
             Error: it is outside of the bag, or empty.
         """
         first_ns, last_ns = (
-            position_ns(at, self.source, self.bag) for at in (self.first, self.last)
+            position_ns(at, self.source.history, self.bag) for at in (self.first, self.last)
         )
         if first_ns > last_ns:
-            first_s, last_s = (seconds_from_start(at, self.source) for at in (first_ns, last_ns))
+            first_s, last_s = (
+                seconds_from_start(at, self.source.history) for at in (first_ns, last_ns)
+            )
             raise Error(f"--from {first_s:g} s is later than --to {last_s:g} s. Swap them.")
         return ExportSpan(first_ns, last_ns, self.rate_hz)
 
@@ -61,8 +63,8 @@ class ExportOrder(msgspec.Struct, frozen=True):
         """
         if self.at is None:
             return 0.0
-        at_ns = position_ns(self.at, self.source, self.bag)
+        at_ns = position_ns(self.at, self.source.history, self.bag)
         if not span.first_ns <= at_ns <= span.last_ns:
-            at_s = seconds_from_start(at_ns, self.source)
+            at_s = seconds_from_start(at_ns, self.source.history)
             raise Error(f"--at {at_s:g} s must be between --from and --to.")
         return (at_ns - span.first_ns) / 1e9

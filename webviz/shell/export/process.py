@@ -150,14 +150,14 @@ def _work(order: ExportRequest, out: IO[bytes]) -> None:
 def _make(order: ExportRequest, tell: Callable[[float], object]) -> str:
     from webviz.engine.pipeline import plugins
     from webviz.files.opening import parse
-    from webviz.shell.bag_source import bag_source
+    from webviz.shell.bag_player import bag_player
     from webviz.shell.export.export import export
     from webviz.shell.export.order import ExportOrder
 
     for file in order.plugins:
         plugins.load(Path(file))
     text = Path(order.config).read_text(encoding="utf-8")
-    with contextlib.closing(bag_source(Path(order.bag))) as source:
+    with contextlib.closing(bag_player(Path(order.bag))) as source:
         run = ExportOrder(parse(text, "config.yaml"), source, order.bag, order.name, at=order.at_s)
         made = export(run, Path(order.path), tell)
     return " ".join([f"{made.seconds:.1f} s, {made.bytes / 1e6:.1f} MB.", *made.notes])

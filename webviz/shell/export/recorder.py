@@ -26,8 +26,8 @@ from webviz.shell.export.panes import PaneTape
 from webviz.shell.export.stores import VALUES, RecordingChannel
 from webviz.shell.export.tape import TapeFrame
 from webviz.shell.pictures.offline_viewer import OfflineViewer
-from webviz.sources.bag.source import BagSource
-from webviz.sources.bag.steps import steps_of
+from webviz.sources.player import Player
+from webviz.sources.steps import steps_of
 
 SLOW_S = 1.0
 """Between two records of the stores that change all the time."""
@@ -89,7 +89,7 @@ class RunRecorder:
         source: the bag.
     """
 
-    def __init__(self, config: Config, source: BagSource) -> None:
+    def __init__(self, config: Config, source: Player) -> None:
         self._source = source
         self._values = SelectableValues()
         self._columns = ColumnTape()

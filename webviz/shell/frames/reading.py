@@ -11,7 +11,7 @@ from webviz.data.names import readable
 from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose, tree_text
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.sources import Source
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 REST_S = 0.1
 
@@ -58,7 +58,7 @@ def read_live(source: Source, seconds: float, progress: Progress) -> TreeRead:
     return reader.read()
 
 
-def read_bag(bag: BagSource, at_ns: int, progress: Progress) -> TreeRead:
+def read_bag(bag: Player, at_ns: int, progress: Progress) -> TreeRead:
     """Read the transforms of a bag from its beginning to a time of recording.
 
     All of them, since a frame that has stopped long ago belongs to the tree.
@@ -67,11 +67,11 @@ def read_bag(bag: BagSource, at_ns: int, progress: Progress) -> TreeRead:
         BagError: the file can no longer be read.
     """
     reader = _Reader(bag)
-    span = max(1, at_ns - bag.start_ns)
-    while bag.position_ns < at_ns:
+    span = max(1, at_ns - bag.history.start_ns)
+    while bag.reached_ns < at_ns:
         bag.play_step(at_ns)
         reader.take()
-        progress("reading", (bag.position_ns - bag.start_ns) / span)
+        progress("reading", (bag.reached_ns - bag.history.start_ns) / span)
     return reader.read()
 
 

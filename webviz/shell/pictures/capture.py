@@ -21,7 +21,7 @@ from webviz.data.words import joined
 from webviz.engine.pipeline import plugins
 from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
-from webviz.shell.bag_source import bag_source
+from webviz.shell.bag_player import bag_player
 from webviz.shell.pictures.browser import Pixels, check_size, launched
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
@@ -29,7 +29,7 @@ from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.shell.ros_source import ros_source
 from webviz.sources import Source
 from webviz.sources.bag.extras import Extra
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 SIZE = (1280, 720)
 TIMEOUT_S = 20.0
@@ -103,9 +103,9 @@ class Order(msgspec.Struct, frozen=True):
         Raises:
             Error: a time is outside of the bag.
         """
-        if not isinstance(self.source, BagSource):
+        if not isinstance(self.source, Player):
             return [None]
-        return sorted({position_ns(at, self.source, self.name) for at in self.at})
+        return sorted({position_ns(at, self.source.history, self.name) for at in self.at})
 
     def looks(self) -> list[tuple[str, View]]:
         """Return views with their names.
@@ -224,9 +224,9 @@ def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generato
         for position in positions:
             deadline = time.monotonic() + order.timeout
             at_s = None
-            if isinstance(order.source, BagSource) and position is not None:
+            if isinstance(order.source, Player) and position is not None:
                 viewer.seek(order.source, position, deadline)
-                at_s = seconds_from_start(position, order.source)
+                at_s = seconds_from_start(position, order.source.history)
             shown = viewer.wait(awaited, deadline)
             for name, view in looks:
                 renderer.look(viewer.focused(view, order.focus) if order.focus else view)
@@ -264,7 +264,7 @@ def opened(
         Error: the bag cannot be read, or ROS is missing.
     """
     if bag is not None:
-        source: Source = bag_source(Path(bag), extras, ros_args)
+        source: Source = bag_player(Path(bag), extras, ros_args)
     elif extras:
         raise Error("Maps and transforms can only be added to a bag. Give a bag.")
     else:

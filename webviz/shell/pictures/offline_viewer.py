@@ -21,7 +21,7 @@ from webviz.page.content.visibility import enabled, hidden_in
 from webviz.scene import ViserScene
 from webviz.shell.pictures.times import seconds_from_start
 from webviz.sources import Source
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 LOOK_S = 0.05
 
@@ -92,7 +92,7 @@ class OfflineViewer:
             self._viewer.turn()
         answer.result()
 
-    def seek(self, source: BagSource, at_ns: int, deadline: float) -> None:
+    def seek(self, source: Player, at_ns: int, deadline: float) -> None:
         """Show a bag at a time of recording.
 
         Args:
@@ -103,11 +103,11 @@ class OfflineViewer:
         Raises:
             Error: the deadline passed before.
         """
-        answer = self._viewer.enqueue(Seek(seconds_from_start(at_ns, source)))
+        answer = self._viewer.enqueue(Seek(seconds_from_start(at_ns, source.history)))
         while not answer.done():
             if time.monotonic() > deadline:
                 reached, wanted = (
-                    seconds_from_start(each, source) for each in (source.position_ns, at_ns)
+                    seconds_from_start(each, source.history) for each in (source.reached_ns, at_ns)
                 )
                 raise Error(
                     f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
@@ -136,7 +136,7 @@ class OfflineViewer:
             self._viewer.turn()
             state = self._viewer.state()
             shown = Readiness(self._statuses(state), state.statuses, tuple(names))
-            is_bag = isinstance(self._source, BagSource)
+            is_bag = isinstance(self._source, Player)
             is_loading = any(LOADING in row.statuses for row in state.rows)
             is_loading |= is_bag and self._viewer.is_busy()  # such as with compressed depths
             is_final = shown.is_ok or is_bag

@@ -27,7 +27,7 @@ from webviz.shell.doctor.scene import NoScene
 from webviz.shell.pictures.times import At, TimeError, position_ns, seconds_from_start
 from webviz.shell.report.scenes import Pictured
 from webviz.sources import Source
-from webviz.sources.bag.source import BagSource
+from webviz.sources.player import Player
 
 REST_S = 0.05
 COMPARED_S = 1.5
@@ -72,7 +72,7 @@ def make_report(
     Raises:
         Error: a time is outside of the bag, or the report cannot be written.
     """
-    times = _times(source, span, at, name) if isinstance(source, BagSource) else None
+    times = _times(source, span, at, name) if isinstance(source, Player) else None
     maker = _Maker(FrameLoop(config, source, pictured.scene), source, progress)
     with contextlib.closing(maker):
         if times is not None:
@@ -85,7 +85,7 @@ def make_report(
         return maker.do(SaveReport(picture, (), with_names, str(path.absolute())))
 
 
-def play_through(config: Config, bag: BagSource, at_s: float) -> State:
+def play_through(config: Config, bag: Player, at_s: float) -> State:
     """Play a bag from its start to its end without a browser, and show a moment of it.
 
     Args:
@@ -93,7 +93,7 @@ def play_through(config: Config, bag: BagSource, at_s: float) -> State:
         bag: the bag.
         at_s: in seconds from the start; of a shorter bag its end.
     """
-    end_s = seconds_from_start(bag.end_ns, bag)
+    end_s = seconds_from_start(bag.history.end_ns, bag.history)
     loop = FrameLoop(config, bag, NoScene())
     with contextlib.closing(_Maker(loop, bag, lambda what, share: None)) as maker:
         maker.play(0.0, end_s, min(at_s, end_s))
@@ -101,12 +101,14 @@ def play_through(config: Config, bag: BagSource, at_s: float) -> State:
 
 
 def _times(
-    bag: BagSource, span: tuple[At, At], at: At | None, name: str
+    bag: Player, span: tuple[At, At], at: At | None, name: str
 ) -> tuple[float, float, float]:
     """First, last and shown time of a bag, in seconds from its start."""
-    first_ns, last_ns = (position_ns(each, bag, name) for each in span)
-    at_ns = last_ns if at is None else position_ns(at, bag, name)
-    first, last, shown = (seconds_from_start(each, bag) for each in (first_ns, last_ns, at_ns))
+    first_ns, last_ns = (position_ns(each, bag.history, name) for each in span)
+    at_ns = last_ns if at is None else position_ns(at, bag.history, name)
+    first, last, shown = (
+        seconds_from_start(each, bag.history) for each in (first_ns, last_ns, at_ns)
+    )
     if not first < last:
         raise TimeError(f"--from {first:g} s must be before --to {last:g} s.")
     if not first <= shown <= last:

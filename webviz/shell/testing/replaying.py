@@ -11,7 +11,8 @@ from webviz.api.status import Level, Status
 from webviz.files.opening import load as load_config
 from webviz.shell.report.making import play_through
 from webviz.shell.testing.comparing import TOLERANCE, load, share_of_difference
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 __tracebackhide__ = True  # failures are shown where the test calls
 
@@ -54,7 +55,7 @@ def replay(bag: Path, config: Path, at_s: float) -> Replayed:
     Raises:
         webviz.Error: a file cannot be read.
     """
-    with contextlib.closing(BagSource(bag)) as source:
+    with contextlib.closing(Player(BagHistory(bag))) as source:
         state = play_through(load_config(config), source, at_s)
     rows = [row for row in state.rows if row.type != "Group"]
     return Replayed(
@@ -73,7 +74,7 @@ def looks_like(bag: Path, config: Path, at_s: float, picture: Path) -> bool:
 
     wanted = load(picture)
     height, width = wanted.shape[:2]
-    with contextlib.closing(BagSource(bag)) as source:
-        end_s = (source.end_ns - source.start_ns) / 1e9
+    with contextlib.closing(Player(BagHistory(bag))) as source:
+        end_s = (source.history.end_ns - source.history.start_ns) / 1e9
     shown = capture(config, bag=bag, at=min(at_s, end_s), size=(width, height)).pixels
     return share_of_difference(shown, wanted) <= TOLERANCE

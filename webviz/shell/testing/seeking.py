@@ -21,7 +21,8 @@ from webviz.files import opening
 from webviz.files.config import Config
 from webviz.shell.app.reading import read_config
 from webviz.shell.testing.recording import RecordingScene
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 MAX_TURNS = 100_000
 _DURATION = re.compile(r"\b\d+(\.\d+)? (ms|s|min|h)\b")
@@ -38,7 +39,7 @@ class BagViewer:
     """
 
     def __init__(self, bag: Path | Sequence[Path], config: str | Config | None = None) -> None:
-        self.source = BagSource(bag)
+        self.source = Player(BagHistory(bag))
         self.scene = RecordingScene()
         if config is None:
             config = read_config(None, self.source)
@@ -65,8 +66,8 @@ class BagViewer:
 
     def play_to(self, at_s: float) -> None:
         """Play from the position to a time, in seconds from the start, as fast as possible."""
-        at_ns = self.source.start_ns + round(at_s * 1e9)
-        while self.source.position_ns < at_ns:
+        at_ns = self.source.history.start_ns + round(at_s * 1e9)
+        while self.source.reached_ns < at_ns:
             self.source.play_step(at_ns)
             self.turn()
             self.settle()
@@ -133,7 +134,7 @@ def check_seeks(
         AssertionError: a display differs; names it and the time.
     """
     with _opened(bag, config) as sought, _opened(bag, config) as played:
-        duration_s = (sought.source.end_ns - sought.source.start_ns) / 1e9
+        duration_s = (sought.source.history.end_ns - sought.source.history.start_ns) / 1e9
         chance = random.Random(seed)
         wanted = times or [round(chance.uniform(0, duration_s), 3) for _ in range(count)]
         truth: dict[float, tuple[dict[str, Any], Mapping[str, str]]] = {}
@@ -200,7 +201,8 @@ def _opened(bag: Path | Sequence[Path], config: str | Config | None) -> Iterator
 def _statuses(viewer: BagViewer) -> Mapping[str, str]:
     """Return the level and text of each status, without durations."""
     state = viewer.loop.state()
-    found = dict(state.statuses)
+    # Of a file, more becomes known the more of it was read.
+    found = {key: status for key, status in state.statuses.items() if key != "Bag"}
     # How well displays agree is looked at once a second.
     others = {runner.id: runner.external_statuses.keys() for runner in viewer.loop.runners()}
     for row in state.rows:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import msgspec
+import numpy as np
+import numpy.typing as npt
 
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
 from webviz.data.map_file import MapFileError, read_map
 from webviz.data.messages import encode
-from webviz.sources.bag.time import TF
+from webviz.data.recordings import RecordedChannel
+from webviz.data.recordings.latched import TF
+from webviz.sources.bag.computed import ComputedFile
+from webviz.sources.bag.file import BagChannel
 
 MAP_TYPE = "nav_msgs/msg/OccupancyGrid"
 MAP_FRAME = "map"
@@ -38,6 +43,20 @@ class Extra(msgspec.Struct, frozen=True):
     type: str
     cdr: bytes
     publisher: Publisher
+
+
+def extras_file(extras: Sequence[Extra], start_ns: int) -> ComputedFile:
+    """Return messages as a file of a bag, all at the time of recording of its start."""
+    found: dict[BagChannel, tuple[npt.NDArray[np.int64], Callable[[int], bytes]]] = {}
+    topics = dict.fromkeys((extra.topic, extra.type) for extra in extras)
+    for topic, type_name in topics:
+        own = [extra for extra in extras if (extra.topic, extra.type) == (topic, type_name)]
+        recorded = RecordedChannel(topic, type_name, "cdr", "", "")
+        publishers = tuple(extra.publisher for extra in own)
+        channel = BagChannel(topic, type_name, publishers, len(own), recorded)
+        times = np.full(len(own), start_ns, np.int64)
+        found[channel] = times, [extra.cdr for extra in own].__getitem__
+    return ComputedFile(found)
 
 
 def map_of_file(path: Path) -> Extra:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import NamedTuple
 
 import msgspec
 from msgspec.structs import replace
@@ -18,6 +17,7 @@ from webviz.data.names import problem_of as name_problem
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.recording import Counts, RecordedMessage, TimeParts
 from webviz.sources.bag.qos import profiles_of
+from webviz.sources.history import Recorded
 from webviz.sources.names import MAX_NAME
 
 KEEP_LAST = 1
@@ -26,15 +26,6 @@ KEEP_LAST = 1
 
 class BagError(Error):
     """A bag cannot be read; one sentence with a remedy."""
-
-
-class Recorded(NamedTuple):
-    """One message of a bag."""
-
-    topic: str
-    type: str
-    cdr: bytes
-    stamp_ns: int
 
 
 class BagChannel(msgspec.Struct, frozen=True):
@@ -83,6 +74,7 @@ class BagFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.name = path.name
         if not path.exists():
             raise BagError(f"Bag {path} not found. Give an MCAP or db3 file, or a rosbag2 folder.")
         try:
@@ -114,13 +106,13 @@ class BagFile:
         misfits = [f"{topic}: {reason}; it is left out." for topic, reason in self._misfits.items()]
         if losses.is_unfinished:
             unfinished = (
-                f"{self.path.name} has no end: it is still being recorded or was cut off. What "
+                f"{self.name} has no end: it is still being recorded or was cut off. What "
                 "it contained when it was opened is shown. Once its recorder has ended, `webviz "
                 "recover` completes a copy."
             )
             return [*losses.notes, *misfits, unfinished]
         lost = str(losses)
-        damage = f"{self.path.name} is damaged: {lost}; everything else is shown."
+        damage = f"{self.name} is damaged: {lost}; everything else is shown."
         return [*losses.notes, *misfits, *([damage] if lost else [])]
 
     def messages(
@@ -213,7 +205,7 @@ class BagFile:
             if reason:
                 self.skipped[topic] = reason
             else:
-                channels.append(_channel(topic, recorded, f"the bag {self.path.name}"))
+                channels.append(_channel(topic, recorded, f"the bag {self.name}"))
         self.channels = tuple(channels)
 
 

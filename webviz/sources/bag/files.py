@@ -12,7 +12,9 @@ from typing import Protocol
 from webviz.data.messages.typestore import are_same
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.words import counted
-from webviz.sources.bag.file import BagChannel, BagFile, Recorded
+from webviz.sources.bag.extras import Extra, extras_file
+from webviz.sources.bag.file import BagChannel, BagFile
+from webviz.sources.history import Recorded
 
 DAY_NS = 86_400_000_000_000
 
@@ -20,14 +22,15 @@ DAY_NS = 86_400_000_000_000
 class MergedFile(Protocol):
     """One of several files that are played together; see `BagFile`."""
 
-    path: Path
+    name: str
+    """For people, "" for messages that are in no file."""
     start_ns: int
     end_ns: int
     channels: tuple[BagChannel, ...]
     skipped: dict[str, str]
 
     @property
-    def warnings(self) -> list[str]:
+    def warnings(self) -> Sequence[str]:
         """Sentences on damage."""
         ...
 
@@ -64,12 +67,18 @@ class BagFiles:
     Args:
         paths: of files or folders, at least one; each is read once.
         others: further ones, which are open; closed with these.
+        extras: messages that they lack, latched from their start on.
 
     Raises:
         BagError: one cannot be read.
     """
 
-    def __init__(self, paths: Sequence[Path], others: Sequence[MergedFile] = ()) -> None:
+    def __init__(
+        self,
+        paths: Sequence[Path],
+        others: Sequence[MergedFile] = (),
+        extras: Sequence[Extra] = (),
+    ) -> None:
         with contextlib.ExitStack() as stack:
             self._files: list[MergedFile] = []
             for path in {path.resolve(): path for path in paths}.values():
@@ -80,9 +89,11 @@ class BagFiles:
                 stack.callback(other.close)
             self._stack = stack.pop_all()
         files = self._files
-        self.names = tuple(file.path.name for file in files)
+        self.names = tuple(file.name for file in files if file.name)
         self.start_ns = min(file.start_ns for file in files)
         self.end_ns = max(file.end_ns for file in files)
+        if extras:
+            files.insert(0, extras_file(extras, self.start_ns))
         self.topics = {channel.topic for file in files for channel in file.channels}
         self.topics.update(topic for file in files for topic in file.skipped)
         self._redefined: dict[str, str] = {}
@@ -166,7 +177,7 @@ class BagFiles:
         """
         first: dict[str, tuple[str, str]] = {}
         for file in self._files:
-            name = file.path.name
+            name = file.name
             for channel in file.channels:
                 text = channel.recorded.definition
                 known, where = first.setdefault(channel.type, (text, name)) if text else (text, "")
@@ -178,12 +189,12 @@ class BagFiles:
 
     def _gap_between(self) -> str:
         """Return a sentence on bags that lie far apart, "" without any."""
-        files = sorted(self._files, key=lambda file: file.start_ns)
+        files = sorted(filter(_name, self._files), key=lambda file: file.start_ns)
         for before, after in itertools.pairwise(files):
             days = (after.start_ns - before.end_ns) / DAY_NS
             if days > 1:
                 return (
-                    f"{after.path.name} begins {days:.0f} days after {before.path.name} ends, with "
+                    f"{after.name} begins {days:.0f} days after {before.name} ends, with "
                     "nothing in between: play them one by one, or select a span of the timeline."
                 )
         return ""
@@ -191,9 +202,9 @@ class BagFiles:
     def _conflicting_types(self) -> str:
         """Return a sentence on topics whose type differs between bags, "" without any."""
         types: dict[str, dict[str, str]] = {}
-        for file in self._files:
+        for file in filter(_name, self._files):
             for channel in file.channels:
-                types.setdefault(channel.topic, {}).setdefault(channel.type, file.path.name)
+                types.setdefault(channel.topic, {}).setdefault(channel.type, file.name)
         found = {topic: names for topic, names in types.items() if len(set(names.values())) > 1}
         if not found:
             return ""
@@ -203,6 +214,10 @@ class BagFiles:
         verb = "does" if others == 1 else "do"
         more = f", and so {verb} {counted(others, 'more topic')}" if others else ""
         return f"{topic} differs between the bags, {where}{more}: a display reads one type only."
+
+
+def _name(file: MergedFile) -> str:
+    return file.name
 
 
 def _stamp(recorded: Recorded) -> int:

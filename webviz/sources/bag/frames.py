@@ -6,9 +6,10 @@ import itertools
 from collections.abc import Collection, Iterator, Sequence
 
 from webviz.data.messages import MessageError, TFMessage, decode, peek_header
-from webviz.sources.bag.file import BagChannel, Recorded
+from webviz.data.recordings.latched import TF
+from webviz.sources.bag.file import BagChannel
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.time import TF
+from webviz.sources.history import Recorded
 
 MAX_READ = 1000
 """Messages of each kind."""

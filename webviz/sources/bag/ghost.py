@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import heapq
 import math
 import struct
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -20,11 +19,14 @@ from webviz.data.messages import MessageError, decode, definition
 from webviz.data.messages.paths import FieldPath
 from webviz.data.messages.stamps import shifted
 from webviz.data.recordings import RecordedChannel
+from webviz.data.recordings.latched import TF
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.transforms.geometry import IDENTITY, PoseTuple, compose
-from webviz.sources.bag.file import BagChannel, BagFile, Recorded
+from webviz.sources.bag.computed import ComputedFile
+from webviz.sources.bag.file import BagChannel, BagFile
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.time import TF, BagTime
+from webviz.sources.bag.time import BagTime
+from webviz.sources.history import Recorded
 
 NAMESPACE = "ghost"
 ROOT = f"/{NAMESPACE}"
@@ -108,75 +110,7 @@ class GhostFile(BagFile):
         return recorded._replace(cdr=cdr, stamp_ns=recorded.stamp_ns + self._offset_ns)
 
 
-class NumbersFile:
-    """Computed numbers as a bag.
-
-    Args:
-        found: times of recording in ns and numbers, by topic; not empty.
-    """
-
-    def __init__(self, found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> None:
-        self._found = found
-        self.path = Path(NAMESPACE)
-        self.start_ns = min(int(times[0]) for times, _ in found.values())
-        self.end_ns = max(int(times[-1]) for times, _ in found.values())
-        self.skipped: dict[str, str] = {}
-        self.channels = tuple(map(_number_channel, found))
-
-    def messages(
-        self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
-    ) -> Iterator[Recorded]:
-        """See `BagFile.messages`."""
-        until_ns = self.end_ns if end_ns is None else end_ns
-        found = [self._of_topic(channel.topic, start_ns, until_ns) for channel in channels]
-        return heapq.merge(*found, key=_stamp)
-
-    def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
-        """See `BagFile.newest`."""
-        found = [
-            self._of_topic(channel.topic, self.start_ns, end_ns, step=-1) for channel in channels
-        ]
-        return heapq.merge(*found, key=_stamp, reverse=True)
-
-    def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
-        """See `BagFile.newest_stamps`."""
-        return map(_stamp, self.newest(channels, end_ns))
-
-    @property
-    def warnings(self) -> list[str]:
-        """None."""
-        return []
-
-    def is_used(self, channel: BagChannel) -> bool:
-        """Return True."""
-        return True
-
-    def histogram(self, parts: TimeParts) -> dict[str, Counts]:
-        """See `BagFile.histogram`."""
-        return {
-            topic: np.bincount(parts.part_of(times.astype(np.uint64)), minlength=parts.count)
-            for topic, (times, _) in self._found.items()
-        }
-
-    def close(self) -> None:
-        """Do nothing."""
-
-    def _of_topic(
-        self, topic: str, start_ns: int, end_ns: int, step: int = 1
-    ) -> Iterator[Recorded]:
-        """Yield the numbers of a topic in a span of time, both ends included."""
-        times, values = self._found[topic]
-        first, last = np.searchsorted(times, start_ns), np.searchsorted(times, end_ns, "right")
-        for number in range(first, last)[::step]:
-            cdr = b"\0\1\0\0" + struct.pack("<d", values[number])
-            yield Recorded(topic, FLOAT, cdr, int(times[number]))
-
-
-def _stamp(recorded: Recorded) -> int:
-    return recorded.stamp_ns
-
-
-def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | NumbersFile]:
+def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | ComputedFile]:
     """Return the second run as files to merge with a bag, and numbers that compare both.
 
     Args:
@@ -203,7 +137,7 @@ def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | Numbers
     finally:
         own.close()
         other.close()
-    numbers = [NumbersFile(found)] if found else []
+    numbers = [_numbers_file(found)] if found else []
     return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
 
 
@@ -378,6 +312,20 @@ def _add(
     known = np.isfinite(values)
     if known.any():
         found[topic] = times[known], values[known]
+
+
+def _numbers_file(found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> ComputedFile:
+    """Return times of recording and numbers by topic as a file of a bag."""
+
+    def serialized(values: Floats) -> Callable[[int], bytes]:
+        return lambda number: b"\0\1\0\0" + struct.pack("<d", values[number])
+
+    return ComputedFile(
+        {
+            _number_channel(topic): (times, serialized(values))
+            for topic, (times, values) in found.items()
+        }
+    )
 
 
 def _number_channel(topic: str) -> BagChannel:

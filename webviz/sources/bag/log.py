@@ -56,12 +56,12 @@ class LogReader:
 
     Args:
         paths: of the bags.
-        done: called in the worker when `read` changes.
+        wake: called in the worker when `read` changes.
     """
 
-    def __init__(self, paths: Sequence[Path], done: Callable[[], None]) -> None:
+    def __init__(self, paths: Sequence[Path], wake: Callable[[], object]) -> None:
         self._paths = paths
-        self._done = done
+        self._wake = wake
         self._reading: Future[BagLog] | None = None
 
     def start(self, files: BagFiles) -> None:
@@ -72,7 +72,7 @@ class LogReader:
         """
         if self._reading is None and files.is_used(ROSOUT) and _channels(files):
             self._reading = in_thread(lambda: read_log(self._paths))
-            self._reading.add_done_callback(lambda _: self._done())
+            self._reading.add_done_callback(lambda _: self._wake())
 
     @property
     def read(self) -> BagLog:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterator
 
 from webviz.data.messages import Clock, MessageError, TFMessage, decode
-from webviz.sources.bag.file import BagChannel, Recorded
+from webviz.data.recordings.latched import TF
 from webviz.sources.bag.files import BagFiles
+from webviz.sources.history import CLOCK, Recorded
 
-CLOCK = "rosgraph_msgs/msg/Clock"
-TF = "tf2_msgs/msg/TFMessage"
 FOREIGN_NS = 3600 * 1_000_000_000
 """Transforms that are further from the time of recording are in simulated time."""
 MAX_TRIED = 100
@@ -30,25 +30,28 @@ class BagTime:
         self._file = file
         self.warning = ""
         """A warning, "" for none."""
-        self.clocks: list[BagChannel] = [
-            c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)
-        ]
-        """The channels of /clock."""
+        self._clocks = [c for c in file.channels if (c.topic, c.type) == ("/clock", CLOCK)]
         self._clock_ns: int | None = None
         self._offset_ns = 0
-        self._first = next(file.messages(self.clocks, file.start_ns), None)
+        self._first = next(file.messages(self._clocks, file.start_ns), None)
         if self._first is not None:
-            self.update(self._first)
+            self.take(self._first)
         else:
             self._follow_transforms(file)
 
     def seek(self, at_ns: int) -> None:
         """Go to a time of recording: its last /clock counts, or else the first one of the bag."""
         if self._first is not None:
-            self.update(next(self._file.newest(self.clocks, at_ns), self._first))
+            self.take(next(self._file.newest(self._clocks, at_ns), self._first))
 
-    def update(self, recorded: Recorded) -> None:
-        """Process a message of /clock, in the order of the bag."""
+    def copy(self) -> BagTime:
+        """Return the same for another reader."""
+        return copy.copy(self)
+
+    def take(self, recorded: Recorded) -> None:
+        """Process a message in the order of the bag; those of /clock set the time."""
+        if recorded.type != CLOCK or recorded.topic != "/clock":
+            return
         try:
             message: Clock = decode(CLOCK, recorded.cdr)
         except MessageError:

@@ -6,9 +6,7 @@ import itertools
 from collections.abc import Collection
 from dataclasses import replace
 
-from webviz.sources.bag.file import BagChannel, Recorded
-from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.time import CLOCK, TF
+from webviz.sources.history.history import FOLLOWED, History, HistoryChannel, Recorded
 from webviz.sources.inbox import Earlier
 
 LAST = 100
@@ -19,34 +17,32 @@ class EarlierMessages:
     """Knows the last messages of topics until a position, until their next one is delivered.
 
     Args:
-        file: the bags.
+        history: all messages.
     """
 
-    def __init__(self, file: BagFiles) -> None:
-        self._file = file
-        self._first_ns: dict[str, int] = {}
+    def __init__(self, history: History) -> None:
+        self._history = history
         self._known: dict[str, Earlier] = {}
 
-    def note_first(self, first: Recorded) -> None:
-        """Note the first message of a topic."""
-        self._first_ns[first.topic] = first.stamp_ns
-
-    def look(self, channels: Collection[BagChannel], at_ns: int, *, is_new: bool) -> None:
+    def look(self, channels: Collection[HistoryChannel], at_ns: int, *, is_new: bool) -> None:
         """Look up the last messages of channels until a time of recording.
 
         Args:
-            channels: those of transforms and of the clock are ignored.
+            channels: one of a topic; those of transforms and of the clock are ignored.
             at_ns: the time.
             is_new: whether this replaces what is known of topics.
         """
-        for topic in {each.topic for each in channels if each.type not in (TF, CLOCK)}:
-            if topic in self._known and not is_new:
+        if self._history.is_growing:
+            return
+        for channel in channels:
+            if channel.type in FOLLOWED or (channel.topic in self._known and not is_new):
                 continue
-            own = [channel for channel in channels if channel.topic == topic]
-            stamps = list(itertools.islice(self._file.newest_stamps(own, at_ns), LAST))
+            found = self._history.newest_stamps([channel], at_ns)
+            stamps = list(itertools.islice(found, LAST))
             if stamps:
-                first_ns = self._first_ns.get(topic, stamps[-1])
-                self._known[topic] = Earlier(stamps, first_ns)
+                first_ns = self._history.first_ns(channel)
+                first_ns = stamps[-1] if first_ns is None else first_ns
+                self._known[channel.topic] = Earlier(stamps, first_ns)
 
     def clear(self) -> None:
         """Forget what no message was delivered for."""

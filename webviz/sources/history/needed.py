@@ -1,16 +1,17 @@
-"""Past messages without which a time of a recording cannot be shown."""
+"""Past messages without which a time of a history cannot be shown."""
 
 from __future__ import annotations
 
 import heapq
 import itertools
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any
 
 from webviz.api.lookback import Lookback
 from webviz.data.messages import MessageError, decode, peek_header
-from webviz.sources.bag.time import CLOCK, TF
-from webviz.sources.bag.transform_runs import GAP_NS, Runs, links_in
+from webviz.data.recordings.latched import TF
+from webviz.sources.history.history import CLOCK, FOLLOWED, History, HistoryChannel, Recorded
+from webviz.sources.history.runs import GAP_NS, Runs, links_in
 from webviz.sources.source import Subscription
 
 RECENT_NS = 15_000_000_000
@@ -25,99 +26,31 @@ MAX_OLD = 100
 """Older messages of a topic with transforms of their own; of more, all transforms since."""
 
 
-class PastChannel(Protocol):
-    """Messages of one type on one topic."""
-
-    @property
-    def topic(self) -> str:
-        """Full name."""
-        ...
-
-    @property
-    def type(self) -> str:
-        """Three-part name."""
-        ...
-
-
-class PastMessage(Protocol):
-    """One message of the past."""
-
-    @property
-    def topic(self) -> str:
-        """Full name."""
-        ...
-
-    @property
-    def cdr(self) -> bytes:
-        """The serialised message."""
-        ...
-
-    @property
-    def stamp_ns(self) -> int:
-        """Time of recording."""
-        ...
-
-
-C = TypeVar("C", bound=PastChannel)
-M = TypeVar("M", bound=PastMessage, covariant=True)
-C_contra = TypeVar("C_contra", bound=PastChannel, contravariant=True)
-
-
-class PastMessages(Protocol[C_contra, M]):
-    """Recorded messages by time: bags, or what is remembered of live topics."""
-
-    @property
-    def start_ns(self) -> int:
-        """Time of the first message."""
-        ...
-
-    @property
-    def end_ns(self) -> int:
-        """Time of the last message."""
-        ...
-
-    def messages(
-        self, channels: Collection[C_contra], start_ns: int, end_ns: int | None = None
-    ) -> Iterator[M]:
-        """Return the messages of some channels by time, both ends included."""
-        ...
-
-    def newest(self, channels: Collection[C_contra], end_ns: int) -> Iterator[M]:
-        """Return the messages of some channels until a time, the newest first."""
-        ...
-
-    def newest_stamps(self, channels: Collection[C_contra], end_ns: int) -> Iterator[int]:
-        """Return the times of `newest`, without reading the messages."""
-        ...
-
-
-class BagPast(Generic[C, M]):
+class NeededMessages:
     """Finds the messages that the state at a time depends on.
 
     Messages that wait for transforms are drawn once these come. So the newest ones that are drawn
     may lie far back: where the transforms of a frame above theirs have ended.
 
     Args:
-        file: all messages.
+        history: all messages.
         channels: those to read.
         wanted: subscriptions with their lookbacks, by topic.
         at_ns: the time of recording.
-        runs: when frames have transforms.
     """
 
     def __init__(
         self,
-        file: PastMessages[C, M],
-        channels: Collection[C],
+        history: History,
+        channels: Collection[HistoryChannel],
         wanted: Mapping[str, Subscription],
         at_ns: int,
-        runs: Runs | None = None,
     ) -> None:
-        self._file = file
+        self._history = history
         self._wanted = wanted
         self._at_ns = at_ns
-        self._runs = Runs() if runs is None else runs
-        self._channels: dict[str, list[C]] = {}
+        self._runs: Runs = history.runs()
+        self._channels: dict[str, list[HistoryChannel]] = {}
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
         self._starts: dict[str, int] = {}
@@ -128,17 +61,17 @@ class BagPast(Generic[C, M]):
         self._ends: dict[str, Sequence[int]] = {}
         """By frame, when those above it had their last transforms."""
 
-    def messages(self) -> Iterator[M]:
+    def messages(self) -> Iterator[Recorded]:
         """Return the messages by time of recording, those at the time included."""
-        recent_ns = max(self._at_ns - RECENT_NS, self._file.start_ns)
-        follow: list[C] = []
-        together: list[C] = []
-        alone: list[Iterator[M]] = []
+        recent_ns = max(self._at_ns - RECENT_NS, self._history.start_ns)
+        follow: list[HistoryChannel] = []
+        together: list[HistoryChannel] = []
+        alone: list[Iterator[Recorded]] = []
         ended_ns = self._runs.ended_ns(self._at_ns - RECENT_NS)
         placed = [(stamp_ns - AROUND_NS, stamp_ns + AROUND_NS) for stamp_ns in ended_ns]
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
-            if channels[0].type in (TF, CLOCK) and not self._is_whole(topic):
+            if channels[0].type in FOLLOWED and not self._is_whole(topic):
                 follow += channels
                 continue
             start_ns = self._start_ns(topic)
@@ -165,31 +98,35 @@ class BagPast(Generic[C, M]):
         subscription = self._wanted.get(topic)
         return subscription is not None and Lookback() in subscription.lookbacks
 
-    def _young(self, channels: Sequence[C], recent_ns: int) -> Iterator[M]:
+    def _young(self, channels: Sequence[HistoryChannel], recent_ns: int) -> Iterator[Recorded]:
         """Yield the messages of several topics, each from its start on."""
-        for recorded in self._file.messages(channels, recent_ns, self._at_ns):
+        for recorded in self._history.messages(channels, recent_ns, self._at_ns):
             if self._is_needed(recorded):
                 yield recorded
 
-    def _read(self, channels: Sequence[C], start_ns: int, end_ns: int) -> Iterator[M]:
+    def _read(
+        self, channels: Sequence[HistoryChannel], start_ns: int, end_ns: int
+    ) -> Iterator[Recorded]:
         """Return the messages of a topic that are needed."""
-        return filter(self._is_needed, self._file.messages(channels, start_ns, end_ns))
+        return filter(self._is_needed, self._history.messages(channels, start_ns, end_ns))
 
-    def _is_needed(self, recorded: PastMessage) -> bool:
+    def _is_needed(self, recorded: Recorded) -> bool:
         topic, stamp_ns = recorded.topic, recorded.stamp_ns
         return stamp_ns >= self._whole_from[topic] or stamp_ns in self._chosen[topic]
 
-    def _within(self, channels: Sequence[C], spans: Sequence[tuple[int, int]]) -> Iterator[M]:
+    def _within(
+        self, channels: Sequence[HistoryChannel], spans: Sequence[tuple[int, int]]
+    ) -> Iterator[Recorded]:
         """Yield the messages of channels within some spans of time, each once."""
-        until_ns = self._file.start_ns - 1
+        until_ns = self._history.start_ns - 1
         for start_ns, end_ns in sorted(spans) if channels else ():
             if end_ns > until_ns:
                 start_ns = max(start_ns, until_ns + 1)
                 until_ns = min(end_ns, self._at_ns)
-                yield from self._file.messages(channels, start_ns, until_ns)
+                yield from self._history.messages(channels, start_ns, until_ns)
 
     def _spans(
-        self, channels: Sequence[C], start_ns: int, recent_ns: int
+        self, channels: Sequence[HistoryChannel], start_ns: int, recent_ns: int
     ) -> Sequence[tuple[int, int]]:
         """When the transforms and the clock are needed for the older messages of a topic."""
         older = self._read(channels, start_ns, recent_ns)
@@ -201,7 +138,7 @@ class BagPast(Generic[C, M]):
     def _start_ns(self, topic: str) -> int:
         """From when on a topic is needed."""
         if topic not in self._starts:
-            self._starts[topic] = self._file.start_ns  # if inputs refer to each other
+            self._starts[topic] = self._history.start_ns  # if inputs refer to each other
             subscription, channels = self._wanted[topic], self._channels[topic]
             plain = [each for each in subscription.lookbacks if each.chooses is None]
             starts = [self._start_of(channels, lookback, subscription) for lookback in plain]
@@ -211,14 +148,14 @@ class BagPast(Generic[C, M]):
                 for lookback in subscription.lookbacks
                 for stamp_ns in self._chosen_by(channels, lookback, subscription, self._at_ns)
             }
-            if subscription.is_placed and self._whole_from[topic] > self._file.start_ns:
+            if subscription.is_placed and self._whole_from[topic] > self._history.start_ns:
                 for end_ns in self._ends_above(channels):
                     chosen.update(self._placed_until(channels, subscription, end_ns))
             self._starts[topic] = min([self._whole_from[topic], *chosen])
         return self._starts[topic]
 
     def _start_of(
-        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription
+        self, channels: Sequence[HistoryChannel], lookback: Lookback, subscription: Subscription
     ) -> int:
         limit_ns = self._limit_ns(lookback)
         if not (lookback.count or lookback.starts_over):
@@ -227,7 +164,11 @@ class BagPast(Generic[C, M]):
         return min((recorded.stamp_ns for recorded in newest), default=self._at_ns + 1)
 
     def _chosen_by(
-        self, channels: Sequence[C], lookback: Lookback, subscription: Subscription, until_ns: int
+        self,
+        channels: Sequence[HistoryChannel],
+        lookback: Lookback,
+        subscription: Subscription,
+        until_ns: int,
     ) -> Iterator[int]:
         """Yield the stamps of the messages until a time that a lookback chooses."""
         if lookback.chooses is None:
@@ -239,7 +180,7 @@ class BagPast(Generic[C, M]):
             yield stamps[number]
 
     def _placed_until(
-        self, channels: Sequence[C], subscription: Subscription, end_ns: int
+        self, channels: Sequence[HistoryChannel], subscription: Subscription, end_ns: int
     ) -> Iterator[int]:
         """Yield the stamps of the messages that were drawn when transforms ended.
 
@@ -249,16 +190,16 @@ class BagPast(Generic[C, M]):
         for lookback in subscription.lookbacks:
             limit_ns = self._limit_ns(lookback)
             before = 0
-            for stamp_ns in self._file.newest_stamps(channels, until_ns):
+            for stamp_ns in self._history.newest_stamps(channels, until_ns):
                 before += stamp_ns <= end_ns
                 if stamp_ns < limit_ns or before > lookback.count:
                     break
                 yield stamp_ns
             yield from self._chosen_by(channels, lookback, subscription, end_ns)
 
-    def _ends_above(self, channels: Sequence[C]) -> Sequence[int]:
+    def _ends_above(self, channels: Sequence[HistoryChannel]) -> Sequence[int]:
         """Return when frames above that of the newest message had their last transforms."""
-        newest = next(self._file.newest(channels, self._at_ns), None)
+        newest = next(self._history.newest(channels, self._at_ns), None)
         try:
             header = None if newest is None else peek_header(channels[0].type, newest.cdr)
         except MessageError:
@@ -280,7 +221,7 @@ class BagPast(Generic[C, M]):
     def _last(self, children: set[str]) -> Iterator[int]:
         """Yield when some frames had their last transforms, less than `GAP_NS` ago."""
         moving = [c for own in self._channels.values() for c in own if c.type == TF]
-        for recorded in self._file.newest(moving, self._at_ns) if children else ():
+        for recorded in self._history.newest(moving, self._at_ns) if children else ():
             if recorded.stamp_ns < self._at_ns - GAP_NS:
                 return
             found = children.intersection(child for _, child in links_in(recorded.cdr))
@@ -292,7 +233,7 @@ class BagPast(Generic[C, M]):
 
     def _limit_ns(self, lookback: Lookback) -> int:
         """From when on messages may count."""
-        limit_ns = self._file.start_ns
+        limit_ns = self._history.start_ns
         if lookback.seconds:
             limit_ns = max(limit_ns, self._at_ns - round(min(lookback.seconds, 1e9) * 1e9))
         if lookback.since:
@@ -303,14 +244,14 @@ class BagPast(Generic[C, M]):
 
     def _newest(
         self,
-        channels: Collection[C],
+        channels: Collection[HistoryChannel],
         lookback: Lookback,
         subscription: Subscription,
         limit_ns: int,
         until_ns: int,
-    ) -> Iterator[M]:
+    ) -> Iterator[Recorded]:
         """Yield the messages until a time that a lookback leaves, the newest first."""
-        for number, recorded in enumerate(self._file.newest(channels, until_ns), 1):
+        for number, recorded in enumerate(self._history.newest(channels, until_ns), 1):
             if recorded.stamp_ns < limit_ns:
                 return
             yield recorded
@@ -318,7 +259,7 @@ class BagPast(Generic[C, M]):
                 return
 
 
-def _decoded(newest: Iterator[PastMessage], type_name: str, stamps: list[int]) -> Iterator[Any]:
+def _decoded(newest: Iterator[Recorded], type_name: str, stamps: list[int]) -> Iterator[Any]:
     """Messages, of which those that cannot be decoded are skipped; the others' stamps are noted."""
     for recorded in newest:
         try:
@@ -329,7 +270,7 @@ def _decoded(newest: Iterator[PastMessage], type_name: str, stamps: list[int]) -
         yield message
 
 
-def _starts_over(lookback: Lookback, recorded: PastMessage, subscription: Subscription) -> bool:
+def _starts_over(lookback: Lookback, recorded: Recorded, subscription: Subscription) -> bool:
     if lookback.starts_over is None:
         return False
     try:

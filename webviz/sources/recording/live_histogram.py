@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from webviz.sources.memory_past import WallClock
-from webviz.sources.recording import RecentMessages
+from webviz.sources.recording.recent import RecentMessages
+from webviz.sources.recording.wall_clock import WallClock
 
 NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 MAX_HELD_PARTS = 1000

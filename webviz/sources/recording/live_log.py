@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from webviz.sources.bag.log import LEVEL_AT, LOG, MAX_EVENTS, ROSOUT, WARN, event_of
 from webviz.sources.inbox import Raw
-from webviz.sources.memory_past import WallClock
 from webviz.sources.past_state import Event
+from webviz.sources.recording.wall_clock import WallClock
 
 
 class LiveLog:

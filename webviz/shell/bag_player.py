@@ -1,4 +1,4 @@
-"""Bags as a source, with the arguments that ROS would get."""
+"""Players of bags, with the arguments that ROS would get."""
 
 from __future__ import annotations
 
@@ -6,18 +6,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from webviz.shell.remappings import remappings
+from webviz.sources import Source
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.ghost import Ghost
-from webviz.sources.bag.source import BagSource
+from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 
 
-def bag_source(
+def bag_player(
     paths: Path | Sequence[Path],
     extras: Sequence[Extra] = (),
     ros_args: Sequence[str] = (),
     ghost: Ghost | None = None,
-) -> BagSource:
-    """One or several bags, merged by time.
+) -> Player:
+    """Return a player of one or several bags, merged by time.
 
     Args:
         paths: MCAP files, db3 files or rosbag2 folders.
@@ -28,4 +30,10 @@ def bag_source(
     Raises:
         Error: a bag cannot be read, or an argument is unsupported.
     """
-    return BagSource(paths, extras, remappings(ros_args, "a bag"), ghost)
+    return Player(BagHistory(paths, extras, remappings(ros_args, "a bag"), ghost))
+
+
+def bag_of(source: Source | None) -> BagHistory | None:
+    """Return the bag that a source plays, None for live topics."""
+    history = source.history if isinstance(source, Player) else None
+    return history if isinstance(history, BagHistory) else None
