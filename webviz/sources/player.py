@@ -24,7 +24,7 @@ MAX_STEP_S = 0.25
 RETURNING_S = 3.0
 """After which topics are live although displays have not caught up: they may never, if more comes
 than they can take. Of what was missed, queues drop what they would of live topics."""
-READ_ONLY = "A bag is read-only. Connect to a live ROS graph to publish."
+READ_ONLY = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
 
 
 class Player:
@@ -45,8 +45,6 @@ class Player:
         self.live = live = self.memory.live if self.memory else None
         self.inbox = live.inbox if live else Inbox()
         """The messages to show."""
-        self.graph: Graph = live.graph if live else ReadOnly(READ_ONLY)
-        """For output, which the gate refuses while the past is shown."""
         self.rate = 1.0
         """Seconds of the recording per second; infinity is as fast as possible."""
         self.loop = False
@@ -62,9 +60,8 @@ class Player:
         """True while the position moves on by itself."""
         self._target_ns: int | None = None
         self._has_to_jump = False
-        self._is_returning = False
-        self._returns_s = 0.0
-        """When topics are live at the latest, if it is returning."""
+        self._is_returning, self._returns_s = False, 0.0
+        """Whether topics become live again, and when at the latest."""
         self._stepped_s = 0.0
         self._offset_ns = 0
         self.subscriptions: dict[str, Subscription] = {}
@@ -267,6 +264,11 @@ class Player:
     # The interface of webviz.sources.Source
 
     @property
+    def graph(self) -> Graph:
+        """For output, which the gate refuses while the past is shown."""
+        return self.live.graph if self.live else READ_ONLY
+
+    @property
     def bridges(self) -> Sequence[Bridge]:
         """Those of live topics; a recording needs none."""
         return self.live.bridges if self.live else ()
@@ -332,7 +334,6 @@ class Player:
             self.history.close()
         self.history = history
         history.wake = self.inbox.arrived.set
-        self._playhead = None
         self._is_returning = self._has_to_jump = False
         self._end_replay()
 
@@ -359,9 +360,8 @@ class Player:
 
     def _approach(self, target_ns: int, is_overdue: bool) -> None:
         self.play_step(target_ns)
-        if self._is_returning and self._rejoin(is_overdue):
-            self._end_replay()
-        elif self.reached_ns >= target_ns:
+        is_live = self._is_returning and self._rejoin(is_overdue)
+        if not is_live and self.reached_ns >= target_ns:
             end_ns = self.history.end_ns
             is_late = self._is_returning and self.reached_ns < end_ns
             self._target_ns = end_ns if is_late else None
@@ -369,8 +369,8 @@ class Player:
     def _play_on(self, passed_s: float) -> None:
         first_ns, last_ns = self.span_ns
         if self._rejoin():
-            self._end_replay()
-        elif self.reached_ns >= last_ns:
+            return
+        if self.reached_ns >= last_ns:
             if self.loop and first_ns < last_ns:
                 self.seek(first_ns)
             else:
@@ -389,12 +389,12 @@ class Player:
         return self._playhead is None
 
     def _become_live(self) -> None:
-        playhead, memory, self._playhead = self._playhead, self.memory, None
-        if memory is not None:
-            reached_ns = playhead and playhead.position_ns
+        reached_ns = self._playhead and self._playhead.position_ns
+        self._end_replay()
+        if (memory := self.memory) is not None:
             self.inbox.rejoin(lambda: () if reached_ns is None else memory.since(reached_ns))
             memory.release()
 
     def _end_replay(self) -> None:
-        self._target_ns = self.selected = None
+        self._playhead = self._target_ns = self.selected = None
         self.is_playing = False
