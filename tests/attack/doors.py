@@ -58,7 +58,7 @@ DOORS: Mapping[str, Door] = {
     "images and videos": Door(("media", "weights"), ("webviz/data/images/*",)),
     "bags": Door(
         ("files", "bombs", "disks", "clocks"),
-        ("webviz/data/recordings/*", "webviz/sources/bag/*"),
+        ("webviz/data/recordings/*", "webviz/sources/player.py", "webviz/sources/bag/*"),
     ),
     "bug reports": Door(("reports",), ("webviz/files/report/*", "webviz/shell/report/*")),
     "bridges": Door(("bridges",), ("webviz/sources/bridge/*", "webviz/sources/fleet/*")),

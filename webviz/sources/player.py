@@ -61,7 +61,7 @@ class Player:
         self._target_ns: int | None = None
         self._has_to_jump = False
         self._is_returning, self._returns_s = False, 0.0
-        """Whether topics become live again, and when at the latest."""
+        """True while topics become live again, and when they are at the latest."""
         self._stepped_s = 0.0
         self._offset_ns = 0
         self.subscriptions: dict[str, Subscription] = {}
@@ -186,7 +186,7 @@ class Player:
             self.seek(END_NS)
         return was_opened
 
-    def open(self, history: History) -> None:
+    def show(self, history: History) -> None:
         """Show a recording in the place of live topics, at its start.
 
         The caller discards all received data. Live topics stay subscribed to, and are remembered.

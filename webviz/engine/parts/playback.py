@@ -165,7 +165,7 @@ class PlaybackPart(Part):
             raise Error(f"A page can open only recordings in {FOLDER}.")
 
         def then(bag: BagHistory) -> str:
-            player.open(bag)
+            player.show(bag)
             self._display_events = DisplayEvents()
             self._start_over()
             player.play()
