@@ -8,6 +8,7 @@ import threading
 import urllib.request
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from processes import no_thread_left
@@ -17,7 +18,7 @@ import webviz
 from webviz.api import registry
 from webviz.api.views import Orbit, TopDownOrtho
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
+from webviz.engine.commands import Load, Refresh
 from webviz.shell.testing.messages import stamped_transform
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer
@@ -131,6 +132,22 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
     assert closed.wait(60)
     until(lambda: is_gone(viewer.url))
     goes_on.set()
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [(3, "`3`"), (None, "nothing"), (b"odom", "`b'odom'`"), (["a"], "`['a']`")]
+)
+def test_what_must_be_text_is_refused_in_one_sentence(
+    viewer: webviz.Viewer, refused: Refused, value: Any, shown: str
+) -> None:
+    def set_frame() -> None:
+        viewer.fixed_frame = value
+
+    before = viewer.fixed_frame
+    assert refused(set_frame) == f"SetFixedFrame.frame: expected text, got {shown}."
+    assert refused(lambda: viewer.remove_view(value)).startswith("RemoveView.name: expected text")
+    assert refused(lambda: viewer.do(Load(value, "x"))).startswith("Load.text: expected text")
+    assert viewer.fixed_frame == before
 
 
 def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:

@@ -33,6 +33,7 @@ from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
 from webviz.engine.commands import Seek
 from webviz.shell.cli import main as cli
 from webviz.shell.cli.options import MESH_ROOT
+from webviz.shell.export.file import RunFile
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,
@@ -408,8 +409,16 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
     assert thinned <= 3_000_000
     assert "Clouds keep at least one of" in said
     assert "Values of selected points are missing between 0.0 and" in said
-    assert cli([*arguments, "-o", str(clouds / "none.html"), "--max-size", "1kB"]) == 0
+    page = RunFile(io.BytesIO()).client_bytes
+    more, less = f"{page // 1000 + 1}kB", f"{page // 1000}kB"
+    assert cli([*arguments, "-o", str(clouds / "few.html"), "--max-size", more]) == 0
     assert "Choose a shorter span, or fewer displays." in capfd.readouterr().err
+    assert cli([*arguments, "-o", str(clouds / "none.html"), "--max-size", less]) == 2
+    assert capfd.readouterr().err == (
+        f"webviz: --max-size is less than the {page / 1e6:.1f} MB of the page itself. "
+        "Choose a larger one.\n"
+    )
+    assert not (clouds / "none.html").exists()
 
 
 def test_a_click_shows_the_values_of_a_point_of_a_large_cloud(

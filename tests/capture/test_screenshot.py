@@ -178,7 +178,7 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
 def test_help_lists_every_exit_status(capsys):
     assert cli(["screenshot", "--help"]) == 0
     text = capsys.readouterr().out
-    for status in ("0  ", "1  ", "2  ", "3  ", "130"):
+    for status in ("0  ", "1  ", "2  ", "3  ", "4  ", "130"):
         assert f"\n  {status}" in text
 
 
@@ -188,7 +188,6 @@ def test_help_lists_every_exit_status(capsys):
         (["--bag", "nowhere.mcap"], "Bag nowhere.mcap not found"),
         (["--bag", "RUN", "--at", "20"], "20 s is outside of RUN. Give 0 to 6 s"),
         (["--bag", "RUN", "-o", "nowhere/a.png"], "Cannot write nowhere/a.png"),
-        (["--bag", "RUN", "-o", "a.bmp"], "no supported image extension"),
         (["--bag", "RUN", "--wait-for", "Scam"], "did you mean `Scan`?"),
         (["--bag", "RUN", "--mesh-root", "nowhere"], "--mesh-root nowhere is not a folder"),
     ],
@@ -215,6 +214,14 @@ def test_a_mistake_is_one_sentence_and_status_1(
         (["-o", "a.png", "--timeout", "-1"], "Must be > 0."),
         (["-o", "a.png", "--image", "/a", "-d", "x.yaml"], "--display-config has no effect with"),
         (["-o", "a.png", "--bag", "x", "--transform", *"abcde"], "`c` is not a number"),
+        (["-o", "a.bmp"], "no supported image extension"),
+        (["-o", "a.jpg", "--transparent"], ".jpg does not support transparency"),
+        (["-o", "a.png", "--size", "9x9"], "16 to 8192 pixels per side"),
+        (["-o", "a.png", "--bag", "x", "--contact-sheet", "--size", "9x9"], "16 to 8192 pixels"),
+        (
+            ["-o", "a.webp", "--bag", "x", "--every", "1", "--view", "a", "--view", "b"],
+            "An animation shows one view",
+        ),
     ],
 )
 def test_wrong_arguments_are_status_2(capsys, arguments, sentence):
@@ -293,6 +300,7 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
 def test_a_video_is_a_webp_where_there_is_no_ffmpeg(run, tmp_path, screenshot, monkeypatch):
     monkeypatch.setattr("webviz.shell.pictures.videos.shutil.which", lambda name: None)
     result = screenshot("--bag", str(run), "--every", "2", "--clock", "-o", "a.mp4", *SMALL)
+    assert result.status == 4, "a.mp4 is missing"
     assert result.errors.startswith("webviz: a.webp instead of a video, since ffmpeg is not inst")
     assert result.output.startswith("webviz: wrote a.webp, 4 pictures")
     with PIL.Image.open(tmp_path / "a.webp") as image:

@@ -102,7 +102,7 @@ def test_a_finding_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
     assert "Repair:\n\n" in said
     assert main(["doctor", "--explain", "all"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == len(known_checks())
-    assert main(["doctor", "--explain", "TF999"]) == 1
+    assert main(["doctor", "--explain", "TF999"]) == 2
     assert "Unknown finding TF999" in capsys.readouterr().err
 
 

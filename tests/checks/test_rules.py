@@ -135,6 +135,8 @@ def test_a_rule_of_the_config_is_tested(
     config.write_text("displays: [{type: LaserScan}]\nfixed_frame: odom\n")
     assert main(["test", "--bag", str(run), "-d", str(config)]) == 1
     assert "No rules to check." in capsys.readouterr().err
+    assert main(["test", "--bag", str(run)]) == 2
+    assert "No rules to check." in capsys.readouterr().err
     rule = "watch: [{rule: LaserScan.delay < 1}]\n"
     config.write_text(rule + config.read_text())
     assert main(["test", "--bag", str(run), "-d", str(config)]) == 0

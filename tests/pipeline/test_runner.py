@@ -22,6 +22,7 @@ from webviz import (
     Selective,
     Topic,
 )
+from webviz.api.status import LOADING
 from webviz.engine.commands import Reset, SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
@@ -103,6 +104,14 @@ class Slow(Display):
             ctx.points("slow", [[result, 0, 0]], (1, 1, 1), 0.1)
 
 
+class Silent(Slow):
+    """Draws what a slow computation gives, and says nothing meanwhile."""
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        if (result := ctx.background(("silent", self.value), _compute, self.value)) is not None:
+            ctx.points("slow", [[result, 0, 0]], (1, 1, 1), 0.1)
+
+
 GATE = threading.Event()
 
 
@@ -134,6 +143,30 @@ def test_a_message_waits_for_its_transform(b: Any) -> None:
     b.transform("map", "base", T + SECOND, 4.0)
     b.turn()
     assert at(b) == [3.0]
+
+
+def test_a_message_that_waits_is_a_state_and_not_an_empty_one(b: Any) -> None:
+    b.transform("map", "base", T - SECOND)
+    b.pose("/pose", "base", T, 1.0)
+    b.turn()
+    assert "Display" not in b.statuses()
+    waiting = "Waiting for the transforms at the time of the data."
+    assert b.statuses()["Transform"] == ("WARN", waiting)
+    b.transform("map", "base", T + SECOND)
+    b.turn()
+    assert b.statuses()["Transform"] == ("OK", "Transform OK")
+
+
+def test_slow_work_without_a_status_is_a_state_and_not_nothing_to_draw(bench: Benches) -> None:
+    GATE.clear()
+    b = bench(Silent(name="Silent"))
+    b.turn()
+    assert b.statuses() == {LOADING: ("WARN", "Loading.")}
+    GATE.set()
+    deadline = time.monotonic() + 60
+    while not at(b) and time.monotonic() < deadline:
+        b.turn()
+    assert b.statuses() == {}
 
 
 def test_a_newer_message_that_waits_does_not_displace_one_that_is_ready(b: Any) -> None:

@@ -6,23 +6,28 @@ import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 
+import playwright.sync_api as playwright
 import pytest
 import stories
+from bags import START_NS, TF, Bag, Topic, ns, stamped
 
 from webviz.api.errors import Error
 from webviz.engine.commands import Seek
 from webviz.files.opening import load, parse
 from webviz.files.report import UnpackedReport, read_report
 from webviz.shell.cli import main as cli
+from webviz.shell.doctor.examination import examine_bag
+from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
-from webviz.shell.testing import BagViewer
+from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.seeking import plain
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
 
 HOME = "/home/alice"
 AT_S = 5.0
+COVARIANCE = [0.01 * (i % 7 == 0) for i in range(36)]
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +106,38 @@ def test_the_list_writes_nothing(
     assert lines[0].startswith("slice.mcap: 6.0 s of ")
     assert lines[-1].startswith("Names of hosts, users and home folders are left out")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("ahead_s", [0.0, 1e6], ids=["of its time", "simulated"])
+def test_a_slice_has_no_finding_that_the_bag_lacks(tmp_path: Path, ahead_s: float) -> None:
+    """It begins with the transforms of the seconds before, of which some frames have the last."""
+    bag = Bag()
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    for step in range(400):
+        at_s = step / 20
+        stamp_ns = START_NS + ns(at_s - ahead_s)
+        for child in ("base", *(["arm"] if at_s < 7 else [])):
+            bag.topics.setdefault("/tf", Topic(TF))
+            bag.put(at_s + 0.001, "/tf", {"transforms": [stamped("odom", child, stamp_ns, at_s)]})
+        twist = {"pose": {"covariance": COVARIANCE}, "twist": {"covariance": COVARIANCE}}
+        odometry = {"header": header("odom", stamp_ns), "child_frame_id": "base", **twist}
+        bag.put(at_s + 0.002, "/odom", odometry)
+    path = bag.write_file(tmp_path / "run.mcap")
+    text = "{fixed_frame: odom, displays: [{type: Odometry, topic: /odom}, {type: TF}]}"
+    config, zipped = parse(text, "the config"), tmp_path / "bug.zip"
+    with opened(path) as source:
+        make_report(config, source, Pictured(None), zipped, span=(10.0, 18.0), name="run")
+    found: list[set[str]] = []
+    for each in (path, read_report(zipped, tmp_path).bag):
+        with opened(each) as source:
+            report = examine_bag(source, config, each.name, lambda what, share: None)
+            found.append({finding.id for finding in report.findings})
+    assert not found[1] - found[0]
+
+
+def test_the_browser_of_the_picture_is_nobodys(browser: playwright.Browser) -> None:
+    with contextlib.closing(HeadlessRenderer(browser, 200, 150)) as renderer:
+        assert not renderer.scene.browsers.seen()
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ def test_strings_of_strangers_do_not_become_code(tmp_path: Path) -> None:
     content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
     write_report(path, content)
     for check in ("finding", "status"):
-        test = tmp_path / f"test_{check}.py"
+        test = tmp_path / "new" / check / f"test_{check}.py"  # folders are made
         assert cli(["test", str(path), "-o", str(test), "--check", check]) == 0
         tree = ast.parse(test.read_text())
         calls = {ast.unparse(n.func) for n in ast.walk(tree) if isinstance(n, ast.Call)}
@@ -108,3 +108,22 @@ def test_nothing_is_overwritten(tmp_path: Path, capfd: pytest.CaptureFixture[str
     (tmp_path / "test_bug.mcap").touch()
     assert cli(["test", "bug.zip", "-o", str(tmp_path / "test_bug.py")]) == 1
     assert "test_bug.mcap exists already" in capfd.readouterr().err
+
+
+def test_a_folder_that_cannot_be_made_is_one_sentence(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+    report = BugReport(
+        source="live",
+        made=1.0,
+        at_ns=1,
+        first_ns=1,
+        last_ns=2,
+        findings=(FindingEntry("TF001", "error", "", "", ""),),
+    )
+    path = tmp_path / "bug.zip"
+    content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
+    write_report(path, content)
+    assert cli(["test", str(path), "-o", str(tmp_path / "file" / "test_bug.py")]) == 1
+    assert f"Cannot write {tmp_path / 'file' / 'test_bug.py'}: " in capfd.readouterr().err

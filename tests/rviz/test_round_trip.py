@@ -163,6 +163,9 @@ def test_an_exported_config_is_imported_as_it_was() -> None:
         ("octomap_rviz_plugin/OccupancyGrid", "octomap_rviz_plugins/OccupancyGrid"),
         ("octomap_rviz_plugin/ColorOccupancyGrid", "octomap_rviz_plugins/ColorOccupancyGrid"),
         ("octomap_rviz_plugin/OccupancyMap", "octomap_rviz_plugins/OccupancyMap"),
+        ("rtabmap_ros/Info", "rtabmap_rviz_plugins/Info"),
+        ("rtabmap_ros/MapCloud", "rtabmap_rviz_plugins/MapCloud"),
+        ("rtabmap_ros/MapGraph", "rtabmap_rviz_plugins/MapGraph"),
     ],
 )
 def test_ros_1_classes_are_written_as_those_of_ros_2(old: str, new: str) -> None:

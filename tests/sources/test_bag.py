@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 
 import pytest
 from bags import START_NS, TF, Bag, files, ns, stamped, strings
@@ -37,13 +38,38 @@ def test_what_was_recorded_arrives_up_to_the_time_played(tmp_path, opened, stora
     assert (bag.source.history.start_ns, bag.source.history.end_ns) == (START_NS, START_NS + ns(4))
 
 
+@pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.MESSAGE])
 @pytest.mark.parametrize(
     ("storage", "ending"), [(StoragePlugin.MCAP, ".mcap"), (StoragePlugin.SQLITE3, ".db3")]
 )
-def test_a_file_of_a_bag_is_a_bag(tmp_path, opened, storage, ending):
-    (file,) = files(strings(0, 1).write(tmp_path / "bag", storage), ending)
+def test_a_file_of_a_bag_is_a_bag(tmp_path, opened, storage, ending, compression):
+    (file,) = files(strings(0, 1).write(tmp_path / "bag", storage, compression), ending)
     bag = opened(file)
     assert bag.words_until(1) == ["0", "1"]
+    assert bag.source.warnings == []
+
+
+def test_compressed_messages_are_unpacked_without_metadata(tmp_path, opened):
+    folder = strings(0, 1).write(tmp_path / "bag", compression=CompressionMode.MESSAGE)
+    (folder / "metadata.yaml").unlink()
+    assert opened(folder).words_until(1) == ["0", "1"]
+
+
+def test_a_damaged_compressed_message_is_skipped(tmp_path, opened):
+    (file,) = files(
+        strings(0, 1, 2).write(tmp_path / "bag", compression=CompressionMode.MESSAGE), ".mcap"
+    )
+    data = file.read_bytes()
+    places = [found.start() for found in re.finditer(re.escape(b"\x28\xb5\x2f\xfd"), data)]
+    assert len(places) == 3
+    at = places[1] + 5
+    file.write_bytes(data[:at] + b"\xff" * 4 + data[at + 4 :])
+    bag = opened(file)
+    assert bag.words_until(2) == ["0", "2"]
+    assert bag.source.warnings == [
+        f"{file.name} is damaged: 1 chunk is incomplete (a message in it: its zstd data is "
+        "damaged); everything else is shown."
+    ]
 
 
 def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):

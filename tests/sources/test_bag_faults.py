@@ -259,7 +259,7 @@ def _texts(recorded: Bag) -> list[str]:
         (b"", "is empty (0 bytes)"),
         (b"This is not what it seems to be, however long it may go on.\n" * 9, "is a text, not"),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:12\n", "run `git lfs pull`"),
-        (b"#ROSBAG V2.0\n", "rosbag reindex"),
+        (b"#ROSBAG V2.0\n", "no message in it is whole"),
         (bytes(range(256)) * 9, "is not a bag"),
         (zstandard.compress(b"hello"), "is a text, not a bag"),
         (zstandard.compress(zstandard.compress(b"hello")), "is compressed twice"),

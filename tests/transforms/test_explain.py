@@ -8,7 +8,7 @@ import pytest
 
 from webviz.data.transforms import Explanation, Kind, TransformBuffer, explain
 from webviz.data.transforms.geometry import REACH_M, is_within_reach
-from webviz.data.transforms.reasons import in_words, listed
+from webviz.data.transforms.reasons import distinct, in_words, listed
 
 S = 1_000_000_000
 Put = Callable[..., bool]
@@ -314,3 +314,10 @@ def test_the_largest_tree_is_that_of_now(buffer: TransformBuffer, put: Put) -> N
     for child in ("b", "c"):
         put("small", child, 3.0)
     assert buffer.largest_tree() == ("small", 5)
+
+
+def test_a_loop_is_one_reason_for_all_its_frames(buffer: TransformBuffer, put: Put) -> None:
+    for parent, child in (("a", "b"), ("b", "c"), ("c", "a"), ("a", "tail"), ("map", "odom")):
+        put(parent, child)
+    found = distinct(["a", "b", "c", "tail"], lambda frame: why(buffer, frame, 0.0), 5)
+    assert [reason.kind for reason in found.values()] == [Kind.LOOP]

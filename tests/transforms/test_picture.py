@@ -140,9 +140,9 @@ def test_a_bag_is_drawn_at_a_time(tmp_path: Path, capsys: pytest.CaptureFixture[
 
 
 def test_mistakes_are_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["frames", "-o", str(tmp_path / "frames.pdf")]) == 1
+    assert main(["frames", "-o", str(tmp_path / "frames.pdf")]) == 2
     assert "Use .svg or .png." in capsys.readouterr().err
-    assert main(["frames", "--at", "3"]) == 1
+    assert main(["frames", "--at", "3"]) == 2
     assert "Add --bag." in capsys.readouterr().err
 
 

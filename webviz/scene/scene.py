@@ -26,6 +26,7 @@ from webviz.api.nodes import (
     Pose,
     Rgb,
 )
+from webviz.engine.pipeline.browsers import Browsers
 from webviz.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.scene.adapter.background import set_background
 from webviz.scene.axes import AxesDrawn
@@ -77,7 +78,7 @@ class ViserScene:
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
         self._capacities = PointCapacities(self.link)
-        self.browsers = ViserBrowsers(self.link, self.cameras, self._capacities.reports)
+        self.browsers: Browsers = ViserBrowsers(self.link, self.cameras, self._capacities.reports)
         self.attended_until_s = 0.0
         """Monotonic time until which a program looks, without a browser."""
 

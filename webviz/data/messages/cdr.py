@@ -123,6 +123,31 @@ class Reader:
         self.pos = end
         return str(self.data[start : end - 1], "utf-8", "replace")
 
+    def wstring(self) -> str:
+        """Read a wstring; what is not UTF-16 becomes U+FFFD.
+
+        Its length is that of its UTF-16 units, without a NUL. rmw_fastrtps writes each in 4 bytes,
+        rmw_cyclonedds in 2, and nothing says which: only if all upper halves are zero, it is 4. A
+        single character in 2 bytes is the same with the padding behind it.
+        """
+        count = self.count()
+        start = self.pos
+        if 2 * count > self.size - start:
+            text = f"a wide string of {count} characters"
+            raise CdrError(f"{text} is longer than the rest of the message")
+        halves = np.frombuffer(self.data, f"{self.order}u2", (self.size - start) // 2, start)
+        halves = halves[: 2 * count]
+        upper, lower = (1, 0) if self.order == "<" else (0, 1)
+        is_wide = len(halves) == 2 * count and not halves[upper::2].any()
+        units = halves[lower::2] if is_wide else halves[:count]
+        size = len(units) * (4 if is_wide else 2)
+        if size > LONG_STRING:
+            self._text += size
+            if self._text > MAX_TEXT:
+                raise TooLargeError(f"its strings have more than {MAX_TEXT >> 20} MB")
+        self.pos = start + size
+        return str(units.astype("<u2").tobytes(), "utf-16-le", "replace")
+
     def array(self, dtype: np.dtype, count: int) -> np.ndarray:
         """Read `count` primitives as a read-only array, a view if the byte order is native.
 

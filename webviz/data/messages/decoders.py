@@ -136,6 +136,8 @@ def _reader_of_one(field: MessageField, order: str) -> Read:
         return decoder(full_name(field.base), order)
     if field.base == "string":
         return Reader.string
+    if field.base == "wstring":
+        return Reader.wstring
 
     def refuse(reader: Reader) -> Any:
         raise CdrError(f"fields of type {field.base}, such as {field.name}, are not supported")

@@ -118,6 +118,8 @@ def _writer_of_one(field: MessageField) -> Write:
         return encoder(field.base)
     if field.base == "string":
         return _string(field.longest)
+    if field.base == "wstring":
+        return _wstring(field.longest)
     return _number(field.base)
 
 
@@ -150,6 +152,24 @@ def _string(longest: int) -> Write:
             raise _expected(f"text of at most {longest} bytes", value)
         _align(out, 4)
         out += _COUNT(len(data) + 1) + data + b"\0"
+
+    return write
+
+
+def _wstring(longest: int) -> Write:
+    """Return a wstring as rmw_fastrtps writes it; see `Reader.wstring`."""
+
+    def write(out: bytearray, value: Any) -> None:
+        if not isinstance(value, str):
+            raise _expected("text", value)
+        try:
+            units = np.frombuffer(value.encode("utf-16-le"), "<u2")
+        except UnicodeEncodeError:
+            raise _expected("text that UTF-16 can encode", value) from None
+        if longest and len(units) > longest:
+            raise _expected(f"text of at most {longest} characters", value)
+        _align(out, 4)
+        out += _COUNT(len(units)) + units.astype("<u4").tobytes()
 
     return write
 

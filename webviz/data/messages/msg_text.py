@@ -30,7 +30,7 @@ MAX_NAME = 255
 MAX_SIZE = (1 << 32) - 1
 """Of an array, and the bound of a sequence or a string."""
 PRIMITIVES = frozenset(
-    {"bool", "byte", "char", "string", "float32", "float64"}
+    {"bool", "byte", "char", "string", "wstring", "float32", "float64"}
     | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 )
 _NAMES = {
@@ -114,7 +114,7 @@ def _described(
     owner: str, type_: str, longest: str | None, at_most: str | None, size: str | None, line: int
 ) -> Description:
     """Return the description of a field."""
-    if longest is not None and type_ != "string":
+    if longest is not None and type_ not in ("string", "wstring"):
         raise TextError(f"line {line} bounds what is not a string")
     one: One
     if type_ in PRIMITIVES:
@@ -145,7 +145,7 @@ def _sized(digits: str, least: int, line: int) -> int:
 
 def _value(type_: str, text: str, line: int) -> Value:
     """Return the value of a constant; what is no number of its type stays a text."""
-    if type_ == "string":
+    if type_ in ("string", "wstring"):
         quoted = _QUOTED.fullmatch(text)
         return (quoted[1] or quoted[2] or "") if quoted else text.rstrip(" \t")
     plain = text.partition("#")[0].rstrip(" \t")

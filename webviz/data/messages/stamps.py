@@ -110,5 +110,7 @@ def _field(reader: Reader, field: MessageField, places: list[int], depth: int) -
             reader.pos += length
             if reader.pos > reader.size:
                 raise MessageError("it is cut off")
+        elif field.base == "wstring":
+            reader.wstring()
         else:
             raise MessageError(f"{field.base} is unsupported")

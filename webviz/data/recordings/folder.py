@@ -22,7 +22,6 @@ from webviz.data.recordings.recording import (
     RecordingError,
     TimeParts,
 )
-from webviz.data.recordings.unpacking import MAX_BYTES, unpack
 
 ENDINGS = (".mcap", ".db3", ".zstd", ".zst")
 """Of files that are read if metadata.yaml misnames all."""
@@ -42,9 +41,9 @@ class FolderRecording:
     def __init__(self, path: Path) -> None:
         self._losses = Losses("message", "skipped")
         if (path / METADATA).is_file():
-            names, self._compression = read_metadata(path)
+            names = read_metadata(path)
         else:
-            names, self._compression = [file.name for file in _files_in(path)], ""
+            names = [file.name for file in _files_in(path)]
             self._losses.notes.append(
                 f"{path.name} has no {METADATA}: it is still being recorded, or its recorder was "
                 f"interrupted. Reading {', '.join(names)}."
@@ -84,7 +83,7 @@ class FolderRecording:
         for run in self._runs:
             if run[0].start_ns <= end_ns and any(start_ns <= file.end_ns for file in run):
                 found = [file.part.messages(channels, start_ns, end_ns) for file in run]
-                yield from self._unpacked(heapq.merge(*found, key=_stamp))
+                yield from heapq.merge(*found, key=_stamp)
 
     def newest(
         self, channels: Collection[RecordedChannel], end_ns: int
@@ -93,7 +92,7 @@ class FolderRecording:
         for run in reversed(self._runs):
             if run[0].start_ns <= end_ns:
                 found = [file.part.newest(channels, end_ns) for file in run]
-                yield from self._unpacked(heapq.merge(*found, key=_stamp, reverse=True))
+                yield from heapq.merge(*found, key=_stamp, reverse=True)
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`."""
@@ -101,18 +100,6 @@ class FolderRecording:
             if run[0].start_ns <= end_ns:
                 found = [file.part.newest_stamps(channels, end_ns) for file in run]
                 yield from heapq.merge(*found, reverse=True)
-
-    def _unpacked(self, entries: Iterator[RecordedMessage]) -> Iterator[RecordedMessage]:
-        """Unpack messages that are compressed one by one."""
-        for entry in entries:
-            if not self._compression:
-                yield entry
-                continue
-            data, fault = unpack(entry.data, self._compression, MAX_BYTES)
-            if fault:
-                self._losses.skipped[entry.channel, entry.stamp_ns] = fault
-            else:
-                yield entry._replace(data=data)
 
     @property
     def used(self) -> frozenset[RecordedChannel]:

@@ -32,7 +32,7 @@ from webviz.data.recordings.recording import (
     TimeParts,
 )
 from webviz.data.recordings.set_back import LEAST_NS, SetBack, set_back_in
-from webviz.data.recordings.unpacking import MAX_BYTES
+from webviz.data.recordings.unpacking import MAX_BYTES, unpack_message
 
 MAX_INDEX = 64 << 20
 """Bytes of the index of messages that a histogram reads, 16 for each message. Real recorders close
@@ -236,9 +236,13 @@ class McapRecording:
         rows = np.flatnonzero(inside)
         rows = rows[np.argsort(stamps[rows], kind="stable")][::sign]
         for row in rows.tolist():
-            message = content.data[content.starts[row] : content.ends[row]]
             channel = self._numbers[int(content.numbers[row])]
-            yield RecordedMessage(channel, int(stamps[row]), message)
+            packed = content.data[content.starts[row] : content.ends[row]]
+            message, fault = unpack_message(packed, channel.encoding)
+            if fault:
+                self.losses.skipped[chunk.offset] = f"a message in it: {fault}"
+            else:
+                yield RecordedMessage(channel, int(stamps[row]), message)
 
     def _content(self, chunk: McapChunk, is_wanted: npt.NDArray[np.bool_]) -> ChunkContent:
         """Return the messages of a chunk.

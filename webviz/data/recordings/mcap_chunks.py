@@ -14,9 +14,9 @@ import numpy.typing as npt
 from webviz.data.recordings.mcap_records import (
     MESSAGE_INDEX,
     PREFIX,
-    BrokenRecord,
     RecordFields,
 )
+from webviz.data.recordings.recording import BrokenRecord
 from webviz.data.recordings.unpacking import COMPRESSIONS, MAX_BYTES, unpack
 
 CHUNK_FIELDS = struct.Struct("<QQQII")

@@ -44,7 +44,6 @@ from webviz.data.recordings.mcap_records import (
     PREFIX,
     SCHEMA,
     STATISTICS,
-    BrokenRecord,
     McapChannel,
     McapSchema,
     RecordFields,
@@ -54,6 +53,7 @@ from webviz.data.recordings.mcap_records import (
 )
 from webviz.data.recordings.recording import (
     END_MISSING,
+    BrokenRecord,
     Losses,
     RecordedChannel,
     RecordingError,

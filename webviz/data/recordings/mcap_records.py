@@ -6,7 +6,7 @@ import struct
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from webviz.data.recordings.recording import DEFINITION_ENCODINGS
+from webviz.data.recordings.recording import DEFINITION_ENCODINGS, BrokenRecord
 
 MAGIC = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = range(1, 7)
@@ -21,10 +21,6 @@ END_SIZE = PREFIX.size + 20 + len(MAGIC)
 """Of footer and magic."""
 FOREVER_NS = 2**63 - 1
 """The last stamp that is read: int64 is the type of ROS's times."""
-
-
-class BrokenRecord(Exception):
-    """A record contradicts itself or is cut off."""
 
 
 class RecordFields:

@@ -18,11 +18,11 @@ LIMITS = YamlLimits(values=200_000, characters=2 << 20, depth=16)
 """A file of a recording takes 13 values, a topic 50 for each publisher, in ten seconds at most."""
 
 
-def read_metadata(folder: Path) -> tuple[list[str], str]:
-    """Return the names of the files, and the compression of each message, "" for none.
+def read_metadata(folder: Path) -> list[str]:
+    """Return the names of the files.
 
     Raises:
-        RecordingError: the metadata are broken.
+        RecordingError: the metadata are broken, or messages have an unknown compression.
         OSError: they cannot be read.
     """
     path = folder / METADATA
@@ -40,7 +40,7 @@ def read_metadata(folder: Path) -> tuple[list[str], str]:
     if compression not in COMPRESSIONS:
         name = repr(shortened(compression, 40))
         raise RecordingError(f"{folder} has messages in {name}, which is unsupported.")
-    return list(dict.fromkeys(names)), compression
+    return list(dict.fromkeys(names))
 
 
 def recorded_counts(file: Path) -> Mapping[str, int]:

@@ -20,10 +20,9 @@ from webviz.data.recordings.recording import (
     TimeParts,
 )
 from webviz.data.recordings.ros1 import Ros1Recording
-from webviz.data.recordings.unpacking import unpack_file
+from webviz.data.recordings.unpacking import MARKS, unpack_file
 
 SQLITE = b"SQLite format 3\0"
-COMPRESSED = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
 ROS_1 = b"#ROSBAG V"
 _LOOKED_AT = 512
 
@@ -67,7 +66,7 @@ def _kind(path: Path) -> str:
         return "sqlite"
     if head.startswith(ROS_1):
         return "ros1"
-    for mark, compression in COMPRESSED.items():
+    for mark, compression in MARKS.items():
         if head.startswith(mark):
             return compression
     raise RecordingError(_other(path, head))

@@ -17,6 +17,10 @@ class RecordingError(Exception):
     """A recording cannot be opened; one sentence with a remedy."""
 
 
+class BrokenRecord(Exception):
+    """A record of a file is damaged, or cut off."""
+
+
 class RecordedChannel(msgspec.Struct, frozen=True):
     """Messages of one type on one topic.
 

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import bisect
-import bz2
-import errno
 import heapq
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from rosbags.rosbag1 import Reader
-from rosbags.rosbag1.reader import Compression, decompressors
 
+from webviz.data.messages import register
 from webviz.data.messages.errors import MessageError
 from webviz.data.messages.ros1 import Ros1Type
 from webviz.data.recordings.recording import (
@@ -21,10 +17,9 @@ from webviz.data.recordings.recording import (
     Losses,
     RecordedChannel,
     RecordedMessage,
-    RecordingError,
     TimeParts,
 )
-from webviz.data.recordings.unpacking import MAX_BYTES, unpack
+from webviz.data.recordings.ros1_index import Places, Ros1Connection, Ros1Index
 
 LATCHED = "- {reliability: reliable, durability: transient_local, depth: 1}"
 VOLATILE = "- {reliability: reliable, durability: volatile}"
@@ -47,34 +42,30 @@ class Ros1Recording:
         path: of the file.
 
     Raises:
-        RecordingError: it is damaged, or lacks its index.
+        RecordingError: it is of another format, or encrypted.
+        OSError: it cannot be read.
     """
 
     def __init__(self, path: Path) -> None:
         self.losses = Losses("message", "skipped")
-        self._reader = Reader(path)
+        self._file = path.open("rb")
         try:
-            self._reader.open()
-        except Exception as error:  # rosbags raises whatever damage leads to
-            if isinstance(error, OSError) and error.errno != errno.EINVAL:  # of a place in no file
-                raise
-            reason = str(error).rstrip(".")
-            raise RecordingError(
-                f"{path} cannot be read ({reason}): run `rosbag reindex {path}`."
-            ) from error
+            self._index = Ros1Index(self._file, path, self.losses)
+        except BaseException:
+            self._file.close()
+            raise
         self._chunks: dict[int, bytes] = {}
         self._converted: dict[_Place, RecordedMessage] = {}
         """The last small ones by their places, the newest at the end."""
         self._converted_bytes = 0
         self._types: dict[RecordedChannel, Ros1Type] = {}
-        self._places: dict[RecordedChannel, list[_Place]] = {}
-        for connection in self._reader.connections:
-            self._note(connection)
+        self._places: dict[RecordedChannel, Places] = {}
+        """By time."""
+        for number, connection in self._index.connections.items():
+            self._note(connection, self._index.places(number))
         self.channels = tuple(self._places)
-        stamps = [
-            place[0] for places in self._places.values() for place in places[:1] + places[-1:]
-        ]
-        self.span_ns = (min(stamps), max(stamps)) if stamps else None
+        spans = [places["stamp_ns"][[0, -1]] for places in self._places.values() if len(places)]
+        self.span_ns = (int(np.min(spans)), int(np.max(spans))) if spans else None
 
     def messages(
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
@@ -102,35 +93,39 @@ class Ros1Recording:
     @property
     def used(self) -> frozenset[RecordedChannel]:
         """`Recording.used`."""
-        return frozenset(channel for channel, places in self._places.items() if places)
+        return frozenset(channel for channel, places in self._places.items() if len(places))
 
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`."""
         found: dict[RecordedChannel, Counts] = {}
         for channel, places in self._places.items():
-            numbers = parts.part_of(np.array([place[0] for place in places], np.uint64))
+            numbers = parts.part_of(places["stamp_ns"])
             found[channel] = np.bincount(numbers, minlength=parts.count).astype(np.int64)
         return found
 
     def close(self) -> None:
         """Close the file."""
-        self._reader.close()
+        self._file.close()
 
-    def _note(self, connection: Any) -> None:
+    def _note(self, connection: Ros1Connection, places: Places) -> None:
         """Note a publisher of a topic; its messages are those of its channel."""
-        topic = f"/{connection.topic.strip('/')}"
-        profile = LATCHED if connection.ext.latching else VOLATILE
+        topic = "/" + "/".join(filter(None, connection.topic.split("/")))
+        name = connection.type
+        name = name if "/msg/" in name else name.replace("/", "/msg/", 1)
+        profile = LATCHED if connection.is_latched else VOLATILE
         try:
-            type_ = Ros1Type(connection.msgtype, connection.msgdef.data)
-            channel = RecordedChannel(topic, type_.name, "cdr", type_.definition(), profile)
+            type_ = Ros1Type(name, connection.definition)
+            definition = type_.definition()
+            if definition:
+                register(type_.name, definition)
+            channel = RecordedChannel(topic, type_.name, "cdr", definition, profile)
         except MessageError:
-            channel = RecordedChannel(topic, connection.msgtype, "ros1", "", profile)
+            channel = RecordedChannel(topic, name, "ros1", "", profile)
         else:
             self._types[channel] = type_
-        places = [
-            (each.time, each.chunk_pos, each.offset) for each in self._reader.indexes[connection.id]
-        ]
-        self._places[channel] = sorted([*self._places.get(channel, []), *places])
+        if channel in self._places:
+            places = np.concatenate([self._places[channel], places])
+        self._places[channel] = places[np.argsort(places["stamp_ns"], kind="stable")]
 
     def _wanted(self, channels: Collection[RecordedChannel]) -> Sequence[RecordedChannel]:
         return [channel for channel in self._types if channel in channels]
@@ -140,10 +135,10 @@ class Ros1Recording:
     ) -> Iterator[tuple[RecordedChannel, _Place]]:
         """Yield the places of the messages of a channel within a span, by time or against it."""
         places = self._places[channel]
-        first = bisect.bisect_left(places, start_ns, key=_time)
-        last = bisect.bisect_right(places, end_ns, key=_time)
+        first = bisect.bisect_left(places["stamp_ns"], start_ns)
+        last = bisect.bisect_right(places["stamp_ns"], end_ns)
         for index in range(first, last)[::step]:
-            yield channel, places[index]
+            yield channel, places[index].item()
 
     def _entry(self, channel: RecordedChannel, place: _Place) -> RecordedMessage | None:
         """Return a message in the form of ROS 2, None if it is damaged."""
@@ -175,31 +170,11 @@ class Ros1Recording:
         """Return the unpacked chunk at an offset of the file, or what can be unpacked of it."""
         if position in self._chunks:
             return self._chunks[position]
-        chunk, file = self._reader.chunks[position], self._reader.bio
-        assert file is not None
-        file.seek(chunk.datapos)
-        packed = file.read(min(chunk.datasize, MAX_BYTES))
-        if chunk.decompressor is decompressors[Compression.BZ2.value]:
-            data = _unpacked_bz2(packed)
-        elif chunk.decompressor is decompressors[Compression.LZ4.value]:
-            data, _ = unpack(packed, "lz4", MAX_BYTES)
-        else:
-            data = packed
+        data = self._index.unpacked(position)
         while len(self._chunks) >= MAX_CHUNKS:
             del self._chunks[next(iter(self._chunks))]
         self._chunks[position] = data
         return data
-
-
-def _unpacked_bz2(data: bytes) -> bytes:
-    try:
-        return bz2.BZ2Decompressor().decompress(data, MAX_BYTES)
-    except (OSError, EOFError):
-        return b""
-
-
-def _time(place: _Place) -> int:
-    return place[0]
 
 
 def _stamp(item: tuple[RecordedChannel, _Place]) -> int:

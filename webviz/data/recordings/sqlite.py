@@ -29,6 +29,7 @@ from webviz.data.recordings.recording import (
 )
 from webviz.data.recordings.sqlite_files import is_cut, journals, unread
 from webviz.data.recordings.sqlite_times import TopicTimes, connected, damaged
+from webviz.data.recordings.unpacking import unpack_message
 
 MAX_TOPICS = 65_536
 PATIENCE_S = 0.1
@@ -373,12 +374,10 @@ class SqliteRecording:
             except sqlite3.Error:
                 row = None
                 lost.append(number)
-            if row is None:
-                misses += 1
-                continue
-            misses = 0
-            self._skip(lost)
-            yield _Row(*row)
+            misses = misses + 1 if row is None else 0
+            if row is not None:
+                self._skip(lost)
+                yield _Row(*row)
         if number == last:
             self._skip(lost)
         elif END_MISSING not in self.losses.others:
@@ -392,7 +391,10 @@ class SqliteRecording:
         _, number, stamp_ns, data = row
         if not (isinstance(stamp_ns, int) and isinstance(data, bytes) and number in wanted):
             return None
+        message, fault = unpack_message(data, wanted[number].encoding)
         if self._is_cut and len(data) > IN_ONE_PAGE and data.endswith(bytes(8)):
-            self.losses.skipped[number, stamp_ns] = "it may be cut off"
+            fault = "it may be cut off"
+        if fault:
+            self.losses.skipped[number, stamp_ns] = fault
             return None
-        return RecordedMessage(wanted[number], stamp_ns, data)
+        return RecordedMessage(wanted[number], stamp_ns, message)

@@ -19,6 +19,8 @@ MAX_FILE = 8 << 30
 KEPT_FREE = 1 << 30
 """Bytes that stay free on the disk it is unpacked to."""
 COMPRESSIONS = ("", "zstd", "lz4")
+MARKS = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
+"""First bytes of compressed data."""
 FAULTS = (zstandard.ZstdError, RuntimeError, EOFError, OSError, ValueError)
 """Of damaged data: lz4 raises RuntimeError."""
 _BLOCK = 1 << 17
@@ -52,6 +54,22 @@ def unpack(data: bytes, compression: str, limit: int) -> tuple[bytes, str]:
     except FAULTS:
         fault = f"its {compression} data is damaged"
     return found.getvalue(), fault
+
+
+def unpack_message(data: bytes, encoding: str) -> tuple[bytes, str]:
+    """Unpack a message that rosbag2 has compressed by itself, which no other file needs to say.
+
+    Messages in CDR begin with a zero, which no compressed data does.
+
+    Args:
+        data: as recorded.
+        encoding: of its channel.
+
+    Returns:
+        The message, and why it is incomplete, "" if it is not.
+    """
+    compression = MARKS.get(data[:4], "") if encoding == "cdr" else ""
+    return unpack(data, compression, MAX_BYTES) if compression else (data, "")
 
 
 def _unpacked_at_once(data: bytes, compression: str, limit: int) -> bytes | None:

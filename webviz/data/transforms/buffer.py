@@ -54,7 +54,7 @@ class TransformBuffer:
         none_recorded: whether the source is a bag without transforms, so that none will come.
         conflicts: the signs of two publishers of a frame.
         refusals: the transforms that were not stored.
-        version: changes whenever something is stored or cleared.
+        version: changes whenever something is stored, pruned or cleared.
         structure_version: changes when a frame, a parent, a static pose or the kind of a frame
             changes: results that depend only on the tree's shape can be cached until then.
     """
@@ -150,6 +150,7 @@ class TransformBuffer:
             self.structure_version += 1
         before, newest_ns = cache.newest if is_static else cache.parent, cache.newest_stamp
         sample = ((x, y, z, qx, qy, qz, qw), parent)
+        self.version += 1  # a refused sample prunes, too
         if not cache.insert(stamp_ns, sample):
             fault = too_old(stamp_ns, cache.newest_stamp)
             self.refusals.reject((parent, child), stamp_ns, received_ns, fault)
@@ -163,7 +164,6 @@ class TransformBuffer:
             cache.delay_ns = received_ns - stamp_ns
             if before != cache.newest if is_static else cache.newest_stamp != newest_ns:
                 cache.seen_ns = received_ns
-        self.version += 1
         return True
 
     def set_moving(

@@ -182,11 +182,13 @@ def _loop(tree: FrameTree, fixed_frame: str, frame: str) -> Explanation:
     for start in (frame, fixed_frame):
         chain = ancestors(tree, start)
         if chain[-1] in chain[:-1]:
-            loop = listed(chain[chain.index(chain[-1]) :], " → ")
+            frames = chain[chain.index(chain[-1]) :]
+            loop = listed(frames, " → ")
             return Explanation(
                 Kind.LOOP,
                 f"The frames form a loop, each the child of the next: {loop}. Two publishers "
                 "disagree about the parents: stop one of them.",
+                cause=min(frames),
             )
     return Explanation(Kind.LOOP, "The frames formed a loop at that time.")
 

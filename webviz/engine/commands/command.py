@@ -4,7 +4,10 @@ from dataclasses import dataclass, field
 
 import msgspec
 
+from webviz.data.words import shortened
+
 MAX_PRIORITY = 3
+MAX_QUOTED = 80
 
 
 class Command(msgspec.Struct, frozen=True):
@@ -14,6 +17,20 @@ class Command(msgspec.Struct, frozen=True):
     def label(self) -> str:
         """The label of the step that undoes it; "" derives it from what has changed."""
         return ""
+
+
+def wrong_text(command: Command) -> str:
+    """Return which field of a command is not the text that it must be, as a sentence; "" if none.
+
+    Pages' commands are checked when they come; Python may give anything. Numbers and other values
+    are checked by the parts that use them.
+    """
+    for each in msgspec.structs.fields(type(command)):
+        value = getattr(command, each.name)
+        if each.type is str and not isinstance(value, str):
+            got = "nothing" if value is None else f"`{shortened(str(value), MAX_QUOTED)}`"
+            return f"{type(command).__name__}.{each.name}: expected text, got {got}."
+    return ""
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,9 @@ class TransformListener:
         self._clock = clock
         self._layouts = Layouts()
         self._faults: dict[str, Status] = {}
+        self._is_recorded = False
+        self._began_ns = 0
+        """When the first message of a bag was recorded, as far as they are known."""
         self._back_since: float | None = None
         self._back_messages = 0
         self._offers: Mapping[str, Offer] | None = None
@@ -96,6 +99,7 @@ class TransformListener:
             self._publishers = {topic: _nodes(offers, topic) for topic in self._topics}
             begins = [offers[topic].begins for topic in self._topics if topic in offers]
             is_recorded = any(offer.is_recorded for offer in offers.values())
+            self._is_recorded = is_recorded
             none = "the bag has none" if is_recorded else ""
             self._buffer.recorded = next((b for b in begins if b and b != none), none)
             self._buffer.none_recorded = is_recorded and self._buffer.recorded == none
@@ -135,7 +139,8 @@ class TransformListener:
             self._faults.pop(topic, None)
             names = self._names_of(topic, batch, robot)
             self._notice_time(names[0][1], batch.stamps_ns[0])
-            self._buffer.set_moving(names, batch.stamps_ns, batch.poses, topic, raw.received_ns)
+            received_ns = self._received_ns(raw)
+            self._buffer.set_moving(names, batch.stamps_ns, batch.poses, topic, received_ns)
             return
         try:
             message: TFMessage = decode(TYPE, raw.cdr)
@@ -146,6 +151,7 @@ class TransformListener:
         if message.transforms and not is_static:
             self._layouts.learn(raw.cdr, message)
             self._notice_time(named(message.transforms[0].child), message.transforms[0].stamp_ns)
+        received_ns = raw.received_ns if is_static else self._received_ns(raw)
         for t in message.transforms:
             self._buffer.set_transform(
                 named(t.parent),
@@ -155,8 +161,18 @@ class TransformListener:
                 t.rotation,
                 is_static,
                 topic,
-                raw.received_ns,
+                received_ns,
             )
+
+    def _received_ns(self, raw: Raw) -> int:
+        """Return when a moving transform was received, 0 if unknown.
+
+        At the beginning of a slice of a bag, those of the seconds before are repeated.
+        """
+        if not self._is_recorded:
+            return raw.received_ns
+        self._began_ns = min(self._began_ns or raw.received_ns, raw.received_ns)
+        return 0 if raw.received_ns == self._began_ns else raw.received_ns
 
     def _names_of(self, topic: str, batch: TransformBatch, robot: NamespacedRobot | None) -> Names:
         """Return the frames of a batch by their names in the viewer, cached for equal messages."""

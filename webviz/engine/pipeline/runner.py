@@ -17,7 +17,7 @@ from webviz.api.observation import InputSeen
 from webviz.api.picking import Cells, Columns, Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.sample import Sample
-from webviz.api.status import Level, OtherFixedFrame, Status, worst
+from webviz.api.status import LOADING, Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
@@ -33,6 +33,8 @@ NOTHING_TO_DRAW = Status(
     Level.WARN,
     "Nothing to draw: the data is empty or the properties hide it. Check both.",
 )
+WORKING = Status(Level.WARN, "Loading.")
+WAITING = Status(Level.WARN, "Waiting for the transforms at the time of the data.")
 NO_BROWSER = Status(Level.OK, "Nothing is drawn until a browser connects.")
 
 
@@ -265,7 +267,14 @@ class Runner:
         result |= self.external_statuses
         is_missing = self._renderer.is_empty() and not type(self.display).reports_only
         if worst(result.values()) is Level.OK and is_missing:
-            result["Display"] = NOTHING_TO_DRAW if is_watched else NO_BROWSER
+            if not is_watched:
+                result["Display"] = NO_BROWSER
+            elif self.is_busy():
+                result[LOADING] = WORKING
+            elif self._sample_buffer.inputs.is_waiting():
+                result["Transform"] = WAITING
+            else:
+                result["Display"] = NOTHING_TO_DRAW
         return result
 
     # Internal
@@ -315,7 +324,7 @@ class Runner:
         size = self._sample_buffer.busy_with or self._renderer.busy_with
         if size:
             level = Level.WARN if self._renderer.is_empty() else Level.OK
-            result["Loading"] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
+            result[LOADING] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received
         return result | self._renderer.statuses()

@@ -12,6 +12,9 @@ ROS_1 = {
     "octomap_rviz_plugin/OccupancyGrid": "octomap_rviz_plugins/OccupancyGrid",
     "octomap_rviz_plugin/ColorOccupancyGrid": "octomap_rviz_plugins/ColorOccupancyGrid",
     "octomap_rviz_plugin/OccupancyMap": "octomap_rviz_plugins/OccupancyMap",
+    "rtabmap_ros/Info": "rtabmap_rviz_plugins/Info",
+    "rtabmap_ros/MapCloud": "rtabmap_rviz_plugins/MapCloud",
+    "rtabmap_ros/MapGraph": "rtabmap_rviz_plugins/MapGraph",
 }
 """Classes of ROS 1 whose names in ROS 2 differ by more than RViz's package."""
 

@@ -26,7 +26,7 @@ def learn(type_name: str) -> None:
             ignored.
 
     Raises:
-        DefinitionError: the type contains something that webviz cannot decode, such as a wstring.
+        DefinitionError: the type contains what webviz cannot decode, such as a long double.
     """
     package, kind, name = type_name.split("/")
     for part in _PARTS.get(kind, ()):

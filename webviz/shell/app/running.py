@@ -16,7 +16,15 @@ from typing import TYPE_CHECKING, Any
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.api.views import View
-from webviz.engine.commands import PROGRAM, Command, Refresh, Sender, ShowView, StartWithView
+from webviz.engine.commands import (
+    PROGRAM,
+    Command,
+    Refresh,
+    Sender,
+    ShowView,
+    StartWithView,
+    wrong_text,
+)
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions
@@ -271,6 +279,8 @@ class Running(PictureControls):
         Raises:
             Error: the command failed, or the viewer is closed.
         """
+        if fault := wrong_text(command):
+            raise Error(fault)
         if not self._ended.done():
             answer = self._loop.enqueue(command, sender)
             either: list[Future[Any]] = [answer, self._ended]

@@ -20,7 +20,7 @@ from cyclopts import (
     ValidationError,
 )
 
-from webviz.api.errors import Error
+from webviz.api.errors import Error, UsageError
 from webviz.shell.cli import viewing
 from webviz.shell.cli.options import ROS_ARGS_HELP
 from webviz.shell.cli.terminal import LogFormatter, warn
@@ -94,7 +94,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return WRONG_USAGE
     except Error as error:
         warn(f"webviz: {error}")
-        return FAILED
+        return WRONG_USAGE if isinstance(error, UsageError) else FAILED
 
 
 def version() -> str:

@@ -148,7 +148,7 @@ def _explain(id: str) -> int:
     """Print the documentation of a check, or a list of all."""
     from webviz.api.check import CheckText
     from webviz.api.check_registry import known_checks
-    from webviz.api.errors import Error
+    from webviz.api.errors import UsageError
     from webviz.files.config import nearest
 
     texts = {check.id: CheckText(check) for check in known_checks()}
@@ -157,7 +157,7 @@ def _explain(id: str) -> int:
             say(f"{text.id:9} {text.title}")
         return 0
     if (text := texts.get(id.upper())) is None:
-        raise Error(f"Unknown finding {id}: {nearest(id.upper(), texts)}")
+        raise UsageError(f"Unknown finding {id}: {nearest(id.upper(), texts)}")
     say(f"{text.id}: {text.title}", "")
     for title, parts in (("", text.what), ("Why", text.why), ("Repair", text.repair)):
         for part in (*([f"{title}:"] if title else []), *parts):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter, validators
 
-from webviz.api.errors import Error
+from webviz.api.errors import UsageError
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import (
     ROS_ARGS_HELP,
@@ -67,9 +67,9 @@ def frames(
     """Print or draw the frames with their rates, ages, publishers and faults."""
     output = options.output
     if output is not None and output.suffix.lower() not in SUFFIXES:
-        raise Error(f"{output} has no supported extension. Use {' or '.join(SUFFIXES)}.")
+        raise UsageError(f"{output} has no supported extension. Use {' or '.join(SUFFIXES)}.")
     if options.bag is None and options.at != "end":
-        raise Error("--at is a time of a bag. Add --bag.")
+        raise UsageError("--at is a time of a bag. Add --bag.")
 
     def work(stop: Stop) -> int:
         tree, title = _read(options, connect, ros)

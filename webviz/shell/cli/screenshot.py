@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import PIL.Image
 from cyclopts import App
 
+from webviz.api.errors import UsageError
 from webviz.api.status import Level, Status
 from webviz.engine.pipeline import plugins
 from webviz.shell.cli.ending import INTERRUPTED, end_children, end_in_time, on_signal, say_end
@@ -21,7 +22,6 @@ from webviz.shell.cli.options import ROS_ARGS_HELP, ConnectOptions, RosArgs
 from webviz.shell.cli.screenshot_options import EXAMPLES, FPS, ScreenshotOptions, check
 from webviz.shell.cli.terminal import say, warn
 from webviz.shell.pictures import files as picture_files
-from webviz.shell.pictures.files import OutputError
 from webviz.shell.pictures.times import At, every
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ MAX_TOPICS = 40
 """Topics of a bag to list at most."""
 SHEET_SIZE = (480, 270)
 """Default size of the pictures of a contact sheet."""
-NOT_OK = 3
+NOT_OK, NOT_A_VIDEO = 3, 4
 
 
 app = App("screenshot", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
@@ -61,6 +61,7 @@ def screenshot(
 
 
 def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str]) -> int:
+    from webviz.shell.pictures.browser import check_size
     from webviz.shell.pictures.capture import SIZE, Order, opened
     from webviz.sources.bag.extras import map_of_file, static_transform
     from webviz.sources.player import Player
@@ -68,6 +69,10 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
     output: Path = options.output
     is_animation = options.is_animation
     picture_files.check(output, is_animation=is_animation, transparent=options.transparent)
+    if is_animation and len(options.view) > 1:
+        raise UsageError("An animation shows one view. Give one --view or another extension.")
+    if options.size:
+        check_size(options.size)
     options.allow_meshes()
     for path in options.plugin:
         plugins.load(path)
@@ -94,7 +99,7 @@ def _make(options: ScreenshotOptions, connect: ConnectOptions, ros: Sequence[str
         )
         status = _write(options, order)
         if isinstance(source, Player):
-            for warning in [*source.warnings, *([_topics(source)] if status else [])]:
+            for warning in [*source.warnings, *([_topics(source)] if status == NOT_OK else [])]:
                 warn(f"webviz: {options.bag}: {warning}")
         return status
 
@@ -132,8 +137,6 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
         image = PIL.Image.fromarray(picture.pixels)
         return image if clock is None else picture_files.with_clock(image, clock(picture))
 
-    if options.is_animation and views > 1:
-        raise OutputError("An animation shows one view. Give one --view or another extension.")
     columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
     if options.contact_sheet:
         picture_files.sheet_size(order.size, times * views, columns)
@@ -157,7 +160,8 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     names = f"{written[0]}" if len(written) == 1 else f"{written[0]} to {written[-1]}"
     number = "1 picture" if report.count == 1 else f"{report.count} pictures"
     say(f"webviz: wrote {names}, {number} of {width} x {height} pixels.")
-    return report.print(options.timeout)
+    status = report.print(options.timeout)
+    return status if written[0].suffix == path.suffix else status or NOT_A_VIDEO
 
 
 class _Report:

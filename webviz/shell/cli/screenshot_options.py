@@ -28,6 +28,7 @@ Exit status:
   1    error, no picture written
   2    invalid arguments
   3    pictures written, but a display is not OK; its status is printed
+  4    a .webp file was written, since no video can be made; the reason is printed
   130  interrupted
 
 """

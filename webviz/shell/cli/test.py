@@ -158,7 +158,7 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
 
 def _rules(options: RuleOptions, config: "Config | None") -> "RuleResults":
     """Return the rules of the config and of the command line, without results yet."""
-    from webviz.api.errors import Error
+    from webviz.api.errors import Error, UsageError
     from webviz.files.config import WatchRule
     from webviz.shell.doctor.rule_results import RuleResults
 
@@ -167,5 +167,6 @@ def _rules(options: RuleOptions, config: "Config | None") -> "RuleResults":
         str(options.bag or "live"), [*(config.settings.watch if config else ()), *own]
     )
     if (config or not options.display_config) and not results.all:
-        raise Error("No rules to check. Give --rule, or a config with rules in `watch:`.")
+        kind = Error if options.display_config else UsageError
+        raise kind("No rules to check. Give --rule, or a config with rules in `watch:`.")
     return results

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 
+from webviz.api.errors import UsageError
 from webviz.shell.export.about import about
 from webviz.shell.export.file import RunFile
 from webviz.shell.export.limit import SizeLimit
@@ -44,12 +45,17 @@ def export(
         tell: called with the share that is done.
 
     Raises:
-        Error: the file cannot be written, or the bag cannot be read.
+        Error: the file cannot be written, the bag cannot be read, or the limit is too small.
     """
     span = order.span()
     order.begin_s(span)  # an error before the work
     with writing(path) as file:
         made = RunFile(file)
+        if order.max_bytes < made.client_bytes:
+            raise UsageError(
+                f"--max-size is less than the {made.client_bytes / 1e6:.1f} MB of the page itself. "
+                "Choose a larger one."
+            )
         limit = SizeLimit(order.max_bytes, (span.last_ns - span.first_ns) / 1e9)
         tape = Tape(made.write_chunk, limit, made.bytes)
         with contextlib.closing(RunRecorder(order.config, order.source)) as recorder:

@@ -18,7 +18,7 @@ import numpy as np
 import PIL.Image
 from numpy.typing import NDArray
 
-from webviz.api.errors import Error
+from webviz.api.errors import Error, UsageError
 from webviz.api.nodes import Pane
 from webviz.server.images.frames import camera_of, warp_of
 from webviz.shell.cli.terminal import say
@@ -86,10 +86,10 @@ class BrowserDied(Error):
 
 
 def check_size(size: tuple[int, int]) -> None:
-    """Raise `Error` if a picture would be too small or too large."""
+    """Raise `UsageError` if a picture would be too small or too large."""
     if not all(SMALLEST <= edge <= LARGEST for edge in size):
         width, height = size
-        raise Error(
+        raise UsageError(
             f"A picture must have {SMALLEST} to {LARGEST} pixels per side, not {width} x {height}."
         )
 

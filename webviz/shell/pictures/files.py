@@ -12,7 +12,7 @@ from typing import IO, TYPE_CHECKING
 
 import PIL.Image
 
-from webviz.api.errors import Error
+from webviz.api.errors import Error, UsageError
 from webviz.shell.cli.ending import unfinished
 
 if TYPE_CHECKING:
@@ -39,17 +39,18 @@ def check(path: Path, *, is_animation: bool, transparent: bool) -> None:
     """Check the name of a file, and whether it can be written, before any work is done.
 
     Raises:
-        OutputError: it cannot be used.
+        UsageError: its name does not fit.
+        OutputError: it cannot be written.
     """
     suffix = path.suffix.lower()
     if suffix not in (*STILLS, *VIDEOS):
-        raise OutputError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
+        raise UsageError(f"{path} has no supported image extension. Use {', '.join(STILLS)}.")
     if suffix in VIDEOS and not is_animation:
-        raise OutputError(f"A {suffix} file needs several times, such as --every 0.1.")
+        raise UsageError(f"A {suffix} file needs several times, such as --every 0.1.")
     if is_animation and suffix not in (*ANIMATIONS, *VIDEOS):
-        raise OutputError(f"{suffix} does not support animation. Use {' or '.join(ANIMATIONS)}.")
+        raise UsageError(f"{suffix} does not support animation. Use {' or '.join(ANIMATIONS)}.")
     if transparent and suffix not in WITH_ALPHA:
-        raise OutputError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
+        raise UsageError(f"{suffix} does not support transparency. Use {' or '.join(WITH_ALPHA)}.")
     if not path.exists():
         with writing(path):
             pass

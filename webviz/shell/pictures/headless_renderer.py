@@ -13,6 +13,7 @@ from webviz.api import pictures
 from webviz.api.decoded import opened
 from webviz.api.nodes import Rgb
 from webviz.api.views import View
+from webviz.engine.pipeline.browsers import NoBrowsers
 from webviz.scene import ViserScene, open_server
 from webviz.scene.schemes import BACKGROUND
 from webviz.shell.pictures.browser import Page, Pixels
@@ -59,6 +60,7 @@ class HeadlessRenderer:
             self.server = open_server(port=0)
             stack.callback(self.server.stop)
             self.scene = RenderedScene(self.server)
+            self.scene.browsers = NoBrowsers()  # it is nobody's, and needs no graphics card
             self.scene.set_background(background)
             self.page = Page(browser, f"http://127.0.0.1:{self.server.get_port()}", width, height)
             stack.callback(self.page.close)

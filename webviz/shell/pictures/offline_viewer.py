@@ -24,6 +24,9 @@ from webviz.sources import Source
 from webviz.sources.player import Player
 
 LOOK_S = 0.05
+LOADING_S = 60.0
+"""For displays that load when the time is over: files and threads end by themselves, and what a
+busy machine takes for meshes says nothing about the data."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +125,7 @@ class OfflineViewer:
     def wait(self, names: Collection[str], deadline: float) -> Readiness:
         """Draw until nothing is loading and the named displays are OK, or the deadline passes.
 
-        In a bag time stands still, so this waits for loading only.
+        In a bag time stands still, so this waits for loading only, for some time longer if needed.
 
         Args:
             names: of displays.
@@ -140,7 +143,8 @@ class OfflineViewer:
             is_loading = any(LOADING in row.statuses for row in state.rows)
             is_loading |= is_bag and self._viewer.is_busy()  # such as with compressed depths
             is_final = shown.is_ok or is_bag
-            if (is_final and not is_loading) or time.monotonic() > deadline:
+            late_s = time.monotonic() - deadline
+            if (is_final and not is_loading) or late_s > (LOADING_S if is_loading else 0.0):
                 return shown
             self._source.inbox.arrived.wait(LOOK_S)
 

@@ -65,6 +65,7 @@ def write_test(report: Path, path: Path, check: Check | None) -> str:
         tests = list(_tests(unpacked.report, chosen, path.stem))[:MAX_TESTS]
         if not tests:
             raise Error(f"{report} has no {chosen} to test. Choose another part with --check.")
+        _make_folder(path)
         if chosen == "picture":
             _draw(unpacked, path.with_suffix(".png"))
         _copy(unpacked.bag, path.with_suffix(".mcap"))
@@ -130,6 +131,14 @@ def _draw(unpacked: UnpackedReport, path: Path) -> None:
 
     shown = capture(unpacked.config, bag=unpacked.bag, at=max(0.0, unpacked.report.at_s), size=SIZE)
     picture_files.save(PIL.Image.fromarray(shown.pixels), path)
+
+
+def _make_folder(path: Path) -> None:
+    """Make the folder of a file."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Error(f"Cannot write {path}: {error.strerror}.") from error
 
 
 def _copy(source: Path, target: Path) -> None:

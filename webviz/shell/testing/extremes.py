@@ -30,7 +30,7 @@ LAST = "\x7f"
 
 def extremes(field: MessageField) -> list[Any]:
     """Values for a field that is not a message itself."""
-    if field.base == "string":
+    if field.base in ("string", "wstring"):
         texts = ["", "/", LAST, "x" * 70_000, "no such frame", "\N{SNOWMAN}\n\t%s{}<b>"]
         return texts if field.size is None else [[], *([text] for text in texts), texts]
     dtype = DTYPES[field.base]

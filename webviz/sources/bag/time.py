@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import itertools
 from collections.abc import Iterator
 
 from webviz.data.messages import Clock, MessageError, TFMessage, decode
@@ -19,8 +20,8 @@ class BagTime:
     """Converts times of recording to ROS time, both in nanoseconds.
 
     A recorded /clock decides, as with use_sim_time; without one, the stamps of the first
-    transforms do if all of them are more than an hour off. A slice may begin with the last
-    transforms of frames that ended long before.
+    transforms do if all of them are more than an hour off. A slice begins with transforms of the
+    time before, which say nothing.
 
     Args:
         file: the bags.
@@ -64,7 +65,8 @@ class BagTime:
 
     def _follow_transforms(self, file: BagFiles) -> None:
         found: list[tuple[int, int]] = []
-        for recorded in _first(file, "/tf", TF):
+        starts = file.start_ns + 1, file.start_ns
+        for recorded in itertools.chain.from_iterable(_first(file, start) for start in starts):
             try:
                 message: TFMessage = decode(TF, recorded.cdr)
             except MessageError:
@@ -78,18 +80,16 @@ class BagTime:
         if not found:
             return
         least_ns = min(abs(offset_ns) for offset_ns, _ in found)
-        self._offset_ns, first_ns = next(
-            (offset_ns, stamp_ns)
-            for offset_ns, stamp_ns in found
-            if abs(offset_ns) - least_ns <= FOREIGN_NS
-        )
+        near = [each for each in found if abs(each[0]) - least_ns <= FOREIGN_NS]
+        self._offset_ns = near[0][0]
+        first_ns = min(stamp_ns for _, stamp_ns in near)
         self.warning = (
             f"The transforms begin at {first_ns / 1e9:.1f} s, which is not the time of "
             "recording, and there is no /clock: time follows the transforms."
         )
 
 
-def _first(file: BagFiles, topic: str, type_name: str) -> Iterator[Recorded]:
-    channels = [c for c in file.channels if (c.topic, c.type) == (topic, type_name)]
-    for recorded, _ in zip(file.messages(channels, file.start_ns), range(MAX_TRIED), strict=False):
-        yield recorded
+def _first(file: BagFiles, start_ns: int) -> Iterator[Recorded]:
+    """Return the first transforms from a time of recording on."""
+    channels = [c for c in file.channels if (c.topic, c.type) == ("/tf", TF)]
+    return itertools.islice(file.messages(channels, start_ns), MAX_TRIED)

@@ -64,6 +64,8 @@ def _one(field: MessageField, reader: Reader) -> Any:
         return reader.array(dtype, 1).item()
     if field.base == "string":
         return reader.string()
+    if field.base == "wstring":
+        return reader.wstring()
     raise DecodeError(f"Fields of type {field.base}, such as {field.name}, are not supported.")
 
 
