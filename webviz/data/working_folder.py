@@ -1,0 +1,78 @@
+"""Folders for unfinished work; what a killed program left of them goes with the next one."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import shutil
+import stat
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from webviz.data.locks import lock
+
+LOCK = ".webviz_lock"
+"""File of each of these folders; its program holds the lock until it ends, however it ends."""
+ATTEMPTS = 10
+"""To make a folder, of which each may fail as another program takes it for abandoned."""
+
+
+@contextlib.contextmanager
+def working_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
+    """Provide a new folder that is removed afterwards.
+
+    Those that killed programs of the same user left beside it are removed, too.
+
+    Args:
+        prefix: beginning of its name.
+        parent: for it; None for the system's temporary folder.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    with contextlib.ExitStack() as stack:
+        for _ in range(ATTEMPTS):
+            folder = Path(stack.enter_context(_temporary(prefix, parent)))
+            held = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
+            stack.callback(os.close, held)
+            try:
+                lock(held)
+            except BlockingIOError:  # it is being removed
+                continue
+            except OSError:  # a file system without locks: nobody removes it
+                break
+            if (folder / LOCK).exists():
+                break
+        _remove_abandoned(prefix, folder)
+        yield folder
+
+
+def _temporary(prefix: str, parent: Path | None) -> contextlib.AbstractContextManager[str]:
+    return tempfile.TemporaryDirectory(prefix=prefix, dir=parent, ignore_cleanup_errors=True)
+
+
+def _remove_abandoned(prefix: str, beside: Path) -> None:
+    """Remove the folders of the same user whose programs have ended."""
+    known = re.compile(re.escape(prefix) + "[a-z0-9_]{8}")
+    owner = beside.stat().st_uid
+    with contextlib.suppress(OSError), os.scandir(beside.parent) as entries:
+        for entry in entries:
+            about = entry.stat(follow_symlinks=False)
+            if (
+                known.fullmatch(entry.name)
+                and stat.S_ISDIR(about.st_mode)
+                and about.st_uid == owner
+            ):
+                with contextlib.suppress(OSError):
+                    _remove_if_abandoned(Path(entry.path))
+
+
+def _remove_if_abandoned(folder: Path) -> None:
+    held = os.open(folder / LOCK, os.O_RDWR)
+    try:
+        if lock(held):
+            shutil.rmtree(folder, ignore_errors=True)
+    finally:
+        os.close(held)
