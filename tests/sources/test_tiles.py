@@ -110,6 +110,7 @@ def test_what_is_no_picture_is_refused(content: bytes, reason: str) -> None:
         ("ftp://maps/{z}/{x}/{y}", "ftp:// are not supported"),
         ("https://maps.example/tiles", "needs {z}, {x} and {y}"),
         ("a\0b", "not valid"),
+        ("/a\r\n\x1b[2Jb", r"^/a   \[2Jb does not exist"),
         ("x" * 5000, "cannot be read"),
     ],
 )
@@ -378,3 +379,14 @@ def test_attributions_are_texts_of_one_line() -> None:
     assert plain("<a href='x'>A &amp;\n B</a>" + " c" * 1000) == ("A & B" + " c" * 1000)[:300]
     assert plain("x" * 30_000) == ""
     assert plain(3) == ""
+
+
+def test_a_database_that_takes_a_while_is_read(tmp_path: Path) -> None:
+    path = mbtiles(tmp_path / "map.mbtiles")
+    with contextlib.closing(sqlite3.connect(path)) as db:  # without an index, all rows are read
+        db.execute("UPDATE tiles SET zoom_level = 3")
+        rows = ((3, number, 0, b"x") for number in range(10_000))
+        db.executemany("INSERT INTO tiles VALUES (?, ?, ?, ?)", rows)
+        db.execute("INSERT INTO tiles VALUES (2, 1, 3, ?)", (picture(),))
+        db.commit()
+    assert open_tiles(str(path), TIMEOUT_S).read(2, 1, 0) == picture()

@@ -34,7 +34,8 @@ def working_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
     """
     with contextlib.ExitStack() as stack:
         for _ in range(ATTEMPTS):
-            folder = Path(stack.enter_context(_temporary(prefix, parent)))
+            folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
+            stack.callback(_remove, folder)
             held = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
             stack.callback(os.close, held)
             try:
@@ -47,10 +48,6 @@ def working_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
                 break
         _remove_abandoned(prefix, folder)
         yield folder
-
-
-def _temporary(prefix: str, parent: Path | None) -> contextlib.AbstractContextManager[str]:
-    return tempfile.TemporaryDirectory(prefix=prefix, dir=parent, ignore_cleanup_errors=True)
 
 
 def _remove_abandoned(prefix: str, beside: Path) -> None:
@@ -73,6 +70,17 @@ def _remove_if_abandoned(folder: Path) -> None:
     held = os.open(folder / LOCK, os.O_RDWR)
     try:
         if lock(held):
-            shutil.rmtree(folder, ignore_errors=True)
+            _remove(folder)
     finally:
         os.close(held)
+
+
+def _remove(folder: Path) -> None:
+    """Remove a folder, its lock at last: what a program leaves that is killed meanwhile has one."""
+    with contextlib.suppress(OSError):
+        for each in folder.iterdir():
+            if each.is_dir() and not each.is_symlink():
+                shutil.rmtree(each, ignore_errors=True)
+            elif each.name != LOCK:
+                each.unlink(missing_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)
