@@ -313,3 +313,27 @@ def test_a_memory_counts_messages_and_knows_its_size() -> None:
     part_s, counts = memory.counts()
     assert part_s == 1000.0 / recent.MAX_PARTS
     assert counts["/a"].total() == 2
+
+
+def test_a_topic_whose_publishers_ended_keeps_its_type() -> None:
+    offers = {"/a": Offer((Publisher("/a", STRING, "best_effort", "volatile"),))}
+    channels = Channels(lambda: offers)
+    channels.look()
+    offers = {"/a": Offer(())}  # subscribed to, by somebody else
+    channels.look()
+    found = channels.find("/a")
+    assert found is not None
+    assert found.type == STRING
+    assert "best_effort" in found.profiles
+    assert Channels(lambda: offers).find("/a") is None
+
+
+def test_a_recording_ends_before_its_files_are_too_large(tmp_path: Path) -> None:
+    offers = {"/a": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
+    folder = RecordingFolder(tmp_path / "run", "test")
+    writer = recorder.Recorder(folder, Channels(lambda: offers), max_bytes=10_000)
+    for second in range(20):
+        writer.put("/a", raw(second, size=1000))
+    writer.close()
+    assert writer.is_full
+    assert 6 <= writer.messages <= 9, "what each takes besides its bytes counts, too"
