@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import re
 import shutil
@@ -33,21 +34,27 @@ def working_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
         OSError: it cannot be made.
     """
     with contextlib.ExitStack() as stack:
-        for _ in range(ATTEMPTS):
-            folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
-            stack.callback(_remove, folder)
-            held = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
-            stack.callback(os.close, held)
-            try:
-                lock(held)
-            except BlockingIOError:  # it is being removed
-                continue
-            except OSError:  # a file system without locks: nobody removes it
-                break
-            if (folder / LOCK).exists():
-                break
+        folder = _locked(prefix, parent, stack)
         _remove_abandoned(prefix, folder)
         yield folder
+
+
+def _locked(prefix: str, parent: Path | None, stack: contextlib.ExitStack) -> Path:
+    """Make a folder and hold its lock; another program may take it for abandoned before."""
+    for _ in range(ATTEMPTS):
+        folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
+        stack.callback(_remove, folder)
+        held = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
+        stack.callback(os.close, held)
+        try:
+            lock(held)
+        except BlockingIOError:  # it is being removed
+            continue
+        except OSError:  # a file system without locks: nobody removes it
+            return folder
+        if (folder / LOCK).exists():
+            return folder
+    raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
 
 
 def _remove_abandoned(prefix: str, beside: Path) -> None:
