@@ -66,7 +66,7 @@ FILES: Mapping[str, Callable[[Random], Case]] = {
     "terminals": terminals.draw,
     "spreadsheets": spreadsheets.draw,
 }
-"""What makes the cases of an attack by files: all that such an attack is, besides its reader."""
+"""Makers of the cases of each attack by files: all that it is, besides its reader."""
 READERS = {
     "exported": "exported",
     "definitions": "definition_reader",
