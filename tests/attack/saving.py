@@ -9,7 +9,7 @@ from random import Random
 from tests.attack.attack import Attack, Case, Outcome, Violation, piped
 
 WAYS = ("kill config", "kill picture", "kill folder", "full config", "full picture")
-"""What happens to the program, and what it saves; a folder is for unfinished work."""
+"""Ends of the program, and what it saves meanwhile; a folder is for unfinished work."""
 SUFFIXES = {"config": "yaml", "picture": "png", "folder": "left"}
 
 
