@@ -8,6 +8,7 @@ import http.server
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 from types import ModuleType
 
@@ -15,7 +16,11 @@ import playwright.sync_api as playwright
 import pytest
 
 import webviz
-from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders
+from webviz.server.access import token_file
+from webviz.server.access.access import Access
+from webviz.server.access.roles import Role
+from webviz.server.access.tokens import make
+from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders, html
 from webviz.shell.testing.source import HandFedSource
 
 SIZE: playwright.ViewportSize = {"width": 400, "height": 300}
@@ -59,6 +64,21 @@ def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
         assert "<iframe" not in closed._repr_html_()
         assert closed.url in closed._repr_html_()
     assert "?watch=" in shown._repr_html_(), "what is saved with a notebook lets nobody act"
+
+
+@pytest.mark.parametrize("role", [Role.OPERATOR, Role.OWNER])
+def test_a_saved_notebook_lets_nobody_act_even_if_no_watcher_is_invited(
+    role: Role, tmp_path: Path
+) -> None:
+    token = make("me", role, datetime.now(UTC), days=1.0)
+    token_file.modify(tmp_path / "tokens.json", lambda _: [token])
+    access = Access(True, tmp_path / "tokens.json")
+    shown = html("http://127.0.0.1:8080/", access, True)
+    assert 'src="http://localhost:8080/"' in shown
+    watcher = make("you", Role.WATCHER, datetime.now(UTC), days=1.0)
+    token_file.modify(tmp_path / "tokens.json", lambda tokens: [*tokens, watcher])
+    access.refresh()
+    assert "?watch=" in html("http://127.0.0.1:8080/", access, True)
 
 
 def test_a_viewer_in_a_notebook_may_be_embedded_by_it(

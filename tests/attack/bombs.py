@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 from random import Random
 
 import lz4.frame
@@ -11,7 +10,6 @@ import zstandard
 from mcap_files import Chunk, mcap, packed, plain, words
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 
 CLAIMS = (0, 1, 300, 4 << 20, 256 << 20, (256 << 20) + 1, 2**32, 2**63, 2**64 - 1)
 SIZES = (0, 22, 300, 2**32, 2**63, 2**64 - 1)
@@ -34,29 +32,18 @@ def _bomb(random: Random) -> Chunk:
     return Chunk(data, random.choice(CLAIMS), compression, span_ns)
 
 
-class Bombs(Files):
-    """Plays bags with chunk bombs in a process of its own.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "bombs"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        first = random.randrange(100)
-        chunks: list[Chunk | bytes] = [plain(first, first + 1), plain(207, 209)]
-        for _ in range(random.choice((1, 1, 1, 3))):
-            chunks.insert(random.randrange(3), _bomb(random))
-        if random.random() < 0.3:
-            honest = plain(*range(random.randrange(1, 50)), compression="zstd")
-            chunks.append(Chunk(honest.data, random.choice(SIZES), "zstd", honest.span_ns))
-        data = mcap(chunks, with_summary=random.random() < 0.5)
-        if random.random() < 0.2:
-            data = mutated(random, data)
-        if random.random() < 0.2:
-            return Case("bomb.mcap.zst", zstandard.compress(data))
-        return Case("bomb.mcap", data)
+def draw(random: Random) -> Case:
+    """Plays bags with chunk bombs in a process of its own."""
+    first = random.randrange(100)
+    chunks: list[Chunk | bytes] = [plain(first, first + 1), plain(207, 209)]
+    for _ in range(random.choice((1, 1, 1, 3))):
+        chunks.insert(random.randrange(3), _bomb(random))
+    if random.random() < 0.3:
+        honest = plain(*range(random.randrange(1, 50)), compression="zstd")
+        chunks.append(Chunk(honest.data, random.choice(SIZES), "zstd", honest.span_ns))
+    data = mcap(chunks, with_summary=random.random() < 0.5)
+    if random.random() < 0.2:
+        data = mutated(random, data)
+    if random.random() < 0.2:
+        return Case("bomb.mcap.zst", zstandard.compress(data))
+    return Case("bomb.mcap", data)

@@ -16,7 +16,6 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
 from tests.attack.attack import Case, changed_part, mutated
-from tests.attack.files import Files
 from webviz.api.declared import Topic
 from webviz.data.messages import definition, encode
 from webviz.sources import Subscription
@@ -91,30 +90,19 @@ def _rosbridge(random: Random) -> str | bytes:
     return json.dumps(changed_part(random, answer) if random.random() < 0.4 else answer)
 
 
-class Bridges(Files):
-    """Reads from bridges that lie in a process of its own.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "bridges"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        name, make = random.choice((("a.foxglove", _foxglove), ("a.rosbridge", _rosbridge)))
-        frames: list[list[Any]] = []
-        for _ in range(random.randrange(1, 12)):
-            frame = make(random)
-            if random.random() < 0.2:
-                changed = mutated(random, frame if isinstance(frame, bytes) else frame.encode())
-                frame = changed if isinstance(frame, bytes) else changed.decode(errors="replace")
-            is_binary = isinstance(frame, bytes)
-            text = base64.b64encode(frame).decode() if isinstance(frame, bytes) else frame
-            frames.append([is_binary, text])
-        return Case(name, json.dumps(frames).encode())
+def draw(random: Random) -> Case:
+    """Reads from bridges that lie in a process of its own."""
+    name, make = random.choice((("a.foxglove", _foxglove), ("a.rosbridge", _rosbridge)))
+    frames: list[list[Any]] = []
+    for _ in range(random.randrange(1, 12)):
+        frame = make(random)
+        if random.random() < 0.2:
+            changed = mutated(random, frame if isinstance(frame, bytes) else frame.encode())
+            frame = changed if isinstance(frame, bytes) else changed.decode(errors="replace")
+        is_binary = isinstance(frame, bytes)
+        text = base64.b64encode(frame).decode() if isinstance(frame, bytes) else frame
+        frames.append([is_binary, text])
+    return Case(name, json.dumps(frames).encode())
 
 
 def read_bridge(path: Path) -> None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import struct
-from pathlib import Path
 from random import Random
 
 from mcap_files import MAGIC, record, text
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from webviz.data.messages import definition, encode
 from webviz.shell.testing.messages import stamped_transform
 
@@ -20,38 +18,27 @@ STARTS_NS = (0, 1, 1_000, 10**9, 17 * 10**17, 2**62, 2**63 - 10**9, 2**63 - 1, 2
 STEPS_NS = (0, 1, 10**6, 10**8, 10**9, 3600 * 10**9, 10**14, 10**17, 10**18)
 
 
-class Clocks(Files):
-    """Examines, reads and plays such bags as the commands do.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "clocks"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        content = bytearray(MAGIC + record(1, text("ros2") + text("by hand")))
-        for number, (topic, type_name) in enumerate(TYPES.items(), 1):
-            schema = text(type_name) + text("ros2msg") + text(definition(type_name))
-            content += record(3, struct.pack("<H", number) + schema)
-            channel = text(topic) + text("cdr") + text(b"")
-            content += record(4, struct.pack("<HH", number, number) + channel)
-        at_ns = random.choice(STARTS_NS)
-        step_ns = 10**8
-        for index in range(random.randint(1, 60)):
-            content += _message(random, at_ns, index)
-            if random.random() < 0.1:  # a jump
-                step_ns = random.choice(STEPS_NS) * random.choice((1, 1, -1))
-            elif random.random() < 0.3:
-                step_ns = 10**8
-            at_ns = min(max(at_ns + step_ns, 0), 2**64 - 1)
-        content += record(15, bytes(4))
-        content += record(2, bytes(20)) + MAGIC
-        data = bytes(content)
-        return Case("clock.examined", mutated(random, data) if random.random() < 0.2 else data)
+def draw(random: Random) -> Case:
+    """Examines, reads and plays such bags as the commands do."""
+    content = bytearray(MAGIC + record(1, text("ros2") + text("by hand")))
+    for number, (topic, type_name) in enumerate(TYPES.items(), 1):
+        schema = text(type_name) + text("ros2msg") + text(definition(type_name))
+        content += record(3, struct.pack("<H", number) + schema)
+        channel = text(topic) + text("cdr") + text(b"")
+        content += record(4, struct.pack("<HH", number, number) + channel)
+    at_ns = random.choice(STARTS_NS)
+    step_ns = 10**8
+    for index in range(random.randint(1, 60)):
+        content += _message(random, at_ns, index)
+        if random.random() < 0.1:  # a jump
+            step_ns = random.choice(STEPS_NS) * random.choice((1, 1, -1))
+        elif random.random() < 0.3:
+            step_ns = 10**8
+        at_ns = min(max(at_ns + step_ns, 0), 2**64 - 1)
+    content += record(15, bytes(4))
+    content += record(2, bytes(20)) + MAGIC
+    data = bytes(content)
+    return Case("clock.examined", mutated(random, data) if random.random() < 0.2 else data)
 
 
 def _message(random: Random, at_ns: int, index: int) -> bytes:

@@ -14,7 +14,6 @@ from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.rosbag2 import StoragePlugin, Writer
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from webviz.data.messages.typestore import is_idl
 
 STRING = "std_msgs/msg/String"
@@ -29,35 +28,24 @@ EXPRESSIONS = ("1", "2", "99999999999", "B", "Evil_Constants::A", "(1)", "-1", "
 OPERATORS = ("<<", ">>", "*", "+", "-", "/", "%", "|", "^", "&")
 
 
-class Definitions(Files):
+def draw(random: Random) -> Case:
     """Has definitions read in a process of its own, and their messages used as displays do.
 
     The names of the files say by which door they come in.
-
-    Args:
-        folder: for the files.
     """
-
-    kind = "definitions"
-    reader = "definition_reader"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        maker = random.choice((_known, _known, _plain, _plain, _typed))
-        text = maker(random)
-        if random.random() < 0.3:
-            text = mutated(random, text.encode()).decode(errors="replace")
-        # A type is read once, so each case has one of its own.
-        package = f"evil{random.getrandbits(48)}_msgs"
-        type_, text = renamed(NAME, package), renamed(text, package)
-        message = b"\0\1\0\0" + b"".join(
-            random.choice((b"\0", b"\1\0\0\0", b"\xff" * 4, b"\x80\x84\x1e\0", bytes(5000)))
-            for _ in range(random.randrange(20))
-        )
-        door = random.choice([door for door in DOORS if door != "bag" or not is_idl(text)])
-        return Case(f"evil.{door}", _written(door, type_, text, message))
+    maker = random.choice((_known, _known, _plain, _plain, _typed))
+    text = maker(random)
+    if random.random() < 0.3:
+        text = mutated(random, text.encode()).decode(errors="replace")
+    # A type is read once, so each case has one of its own.
+    package = f"evil{random.getrandbits(48)}_msgs"
+    type_, text = renamed(NAME, package), renamed(text, package)
+    message = b"\0\1\0\0" + b"".join(
+        random.choice((b"\0", b"\1\0\0\0", b"\xff" * 4, b"\x80\x84\x1e\0", bytes(5000)))
+        for _ in range(random.randrange(20))
+    )
+    door = random.choice([door for door in DOORS if door != "bag" or not is_idl(text)])
+    return Case(f"evil.{door}", _written(door, type_, text, message))
 
 
 def _known(random: Random) -> str:

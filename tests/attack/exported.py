@@ -19,7 +19,6 @@ import playwright.sync_api as playwright
 from bags import START_NS, Bag
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from webviz.shell.pictures.browser import FLAGS, executable_of
 
 MARKUP = (
@@ -59,22 +58,10 @@ MARKER = {
 }
 
 
-class Exported(Files):
-    """Opens attacked files in a browser.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "exported"
-    reader = "exported"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        how = random.choice(("texts", "bytes", "cut"))
-        return Case("a.json", json.dumps([how, random.getrandbits(32)]).encode())
+def draw(random: Random) -> Case:
+    """Opens attacked files in a browser."""
+    how = random.choice(("texts", "bytes", "cut"))
+    return Case("a.json", json.dumps([how, random.getrandbits(32)]).encode())
 
 
 def _exported(folder: Path) -> bytes:

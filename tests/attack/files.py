@@ -8,7 +8,7 @@ import re
 import subprocess
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -57,6 +57,7 @@ Visualization Manager:
 """
 
 
+@functools.cache
 def corpus() -> dict[str, bytes]:
     """A good file of each kind, by name."""
     found = {"robot.urdf": URDF.encode(), "a.yaml": YAML.encode(), "a.rviz": RVIZ.encode()}
@@ -140,32 +141,29 @@ def reader_of(module: str) -> Reader:
     return Reader(module)
 
 
-class Files(Attack):
-    """Reads changed files in a process of its own, as the viewer reads them.
+class FileAttack(Attack):
+    """Reads files in a process of its own, as the viewer reads them.
 
     Args:
+        kind: of the attack.
+        draw: makes the case of a source; the name of its file says how it is read.
         folder: for the files.
-        good: files to change, by name; `corpus` without any.
+        reader: module of the process that reads them.
     """
 
-    kind = "files"
-    reader = "reader"
-    """Module of the process that reads them."""
-
-    def __init__(self, folder: Path, good: Mapping[str, bytes] | None = None) -> None:
+    def __init__(
+        self, kind: str, draw: Callable[[Random], Case], folder: Path, reader: str = "reader"
+    ) -> None:
+        self.kind = kind
+        self._draw = draw
         self._folder = folder
-        self._good = corpus() if good is None else good
-        self._reader = reader_of(self.reader)
+        self._reader = reader_of(reader)
 
     def start(self) -> None:
         self._reader.start()
 
     def draw(self, random: Random) -> Case:
-        name = random.choice(sorted(self._good))
-        data = self._good[name]
-        if name.endswith((".urdf", ".yaml", ".rviz", ".dae", ".obj")) and random.random() < 0.5:
-            return Case(name, _with_odd_words(random, data.decode()))
-        return Case(name, mutated(random, data))
+        return self._draw(random)
 
     def strike(self, case: Case) -> Outcome:
         path = self._folder / case.name
@@ -177,6 +175,16 @@ class Files(Attack):
 
     def close(self) -> None:
         self._reader.close()
+
+
+def draw(random: Random) -> Case:
+    """Change one of the good files."""
+    good = corpus()
+    name = random.choice(sorted(good))
+    data = good[name]
+    if name.endswith((".urdf", ".yaml", ".rviz", ".dae", ".obj")) and random.random() < 0.5:
+        return Case(name, _with_odd_words(random, data.decode()))
+    return Case(name, mutated(random, data))
 
 
 ODD = (

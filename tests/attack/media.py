@@ -16,7 +16,6 @@ import numpy as np
 from PIL import Image
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from webviz import Sample
 from webviz.api.nodes import Pose
 from webviz.api.pictures import Encoded
@@ -73,40 +72,29 @@ def _bomb(random: Random) -> bytes:
     )
 
 
-class Media(Files):
-    """Decodes attacked images in a process of its own, as displays do.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "media"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        match random.choice(("image", "image", "depth", "raw", "video")):
-            case "image":
-                data = random.choice((_bomb(random), *map(_picture, ("PNG", "JPEG", "WEBP"))))
-                return _case("a.image", random, random.choice(FORMATS), data)
-            case "depth":
-                columns, rows = random.choice(EXTREMES), random.choice(EXTREMES)
-                rvl = struct.pack("<II", columns, rows) + random.randbytes(random.randrange(200))
-                data = random.choice((rvl, _picture("PNG", is_deep=True), _bomb(random)))
-                numbers = random.choice((0.0, 1.0, 1e38, float("nan"), float("-inf")))
-                head = HEADER.pack(0, numbers, random.random())
-                return _case("a.depth", random, random.choice(DEPTHS), head + data)
-            case "raw":
-                fields = {name: random.choice(EXTREMES) for name in ("width", "height", "step")}
-                fields["is_bigendian"] = random.randrange(2)
-                about = {"encoding": random.choice((*sorted(ENCODINGS), "", "rgb9")), **fields}
-                data = random.randbytes(random.choice((0, 1, 300, 6000)))
-                return Case("a.raw", json.dumps(about).encode() + b"\n" + data)
-            case _:
-                start = random.choice((b"\x00\x00\x01\x65", b"\x00\x00\x01\x26", b"\x82", b"\x0a"))
-                data = start * random.choice((1, 1, 20_000)) + random.randbytes(50)
-                return _case("a.video", random, random.choice(CODECS), data)
+def draw(random: Random) -> Case:
+    """Decodes attacked images in a process of its own, as displays do."""
+    match random.choice(("image", "image", "depth", "raw", "video")):
+        case "image":
+            data = random.choice((_bomb(random), *map(_picture, ("PNG", "JPEG", "WEBP"))))
+            return _case("a.image", random, random.choice(FORMATS), data)
+        case "depth":
+            columns, rows = random.choice(EXTREMES), random.choice(EXTREMES)
+            rvl = struct.pack("<II", columns, rows) + random.randbytes(random.randrange(200))
+            data = random.choice((rvl, _picture("PNG", is_deep=True), _bomb(random)))
+            numbers = random.choice((0.0, 1.0, 1e38, float("nan"), float("-inf")))
+            head = HEADER.pack(0, numbers, random.random())
+            return _case("a.depth", random, random.choice(DEPTHS), head + data)
+        case "raw":
+            fields = {name: random.choice(EXTREMES) for name in ("width", "height", "step")}
+            fields["is_bigendian"] = random.randrange(2)
+            about = {"encoding": random.choice((*sorted(ENCODINGS), "", "rgb9")), **fields}
+            data = random.randbytes(random.choice((0, 1, 300, 6000)))
+            return Case("a.raw", json.dumps(about).encode() + b"\n" + data)
+        case _:
+            start = random.choice((b"\x00\x00\x01\x65", b"\x00\x00\x01\x26", b"\x82", b"\x0a"))
+            data = start * random.choice((1, 1, 20_000)) + random.randbytes(50)
+            return _case("a.video", random, random.choice(CODECS), data)
 
 
 def _case(name: str, random: Random, format_: str, data: bytes) -> Case:

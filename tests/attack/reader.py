@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 
 from tests.attack.bridges import read_bridge
 from tests.attack.media import read_media
+from tests.attack.tile_addresses import read_address
 from tests.attack.tiles import read_tiles
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
@@ -81,6 +82,8 @@ def read(path: Path) -> None:
             read_media(path)
         case ".mbtiles" | ".pmtiles" | ".http":
             read_tiles(path)
+        case ".address":
+            read_address(path)
         case ".foxglove" | ".rosbridge":
             read_bridge(path)
         case ".png":

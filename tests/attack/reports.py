@@ -17,7 +17,6 @@ from bags import strings
 from rosbags.rosbag2 import StoragePlugin
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from tests.attack.media import png_of
 from webviz.files.report import BugReport
 
@@ -56,37 +55,26 @@ def _facts(random: Random) -> bytes:
     return mutated(random, text)
 
 
-class Reports(Files):
-    """Unpacks and plays attacked bug reports in a process of its own.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "reports"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        members = {
-            "report.json": _facts(random) if random.random() < 0.7 else msgspec.json.encode(REPORT),
-            "config.yaml": random.choice((*CONFIGS, *6 * CONFIGS[:1])),
-            "slice.mcap": mutated(random, _slice()) if random.random() < 0.5 else _slice(),
-        }
+def draw(random: Random) -> Case:
+    """Unpacks and plays attacked bug reports in a process of its own."""
+    members = {
+        "report.json": _facts(random) if random.random() < 0.7 else msgspec.json.encode(REPORT),
+        "config.yaml": random.choice((*CONFIGS, *6 * CONFIGS[:1])),
+        "slice.mcap": mutated(random, _slice()) if random.random() < 0.5 else _slice(),
+    }
+    if random.random() < 0.3:
+        members["picture.png"] = png_of(
+            random.choice((8, 65_535)), 8, 8, 2, random.choice((0, 8 << 20))
+        )
+    if random.random() < 0.2:
+        members.pop(random.choice(sorted(members)))
+    file = io.BytesIO()
+    with warnings.catch_warnings(), zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        warnings.simplefilter("ignore")  # of names that are there twice
+        for name, content in members.items():
+            # A date of its own, so that a seed gives the same file again.
+            archive.writestr(zipfile.ZipInfo(name), content)
         if random.random() < 0.3:
-            members["picture.png"] = png_of(
-                random.choice((8, 65_535)), 8, 8, 2, random.choice((0, 8 << 20))
-            )
-        if random.random() < 0.2:
-            members.pop(random.choice(sorted(members)))
-        file = io.BytesIO()
-        with warnings.catch_warnings(), zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-            warnings.simplefilter("ignore")  # of names that are there twice
-            for name, content in members.items():
-                # A date of its own, so that a seed gives the same file again.
-                archive.writestr(zipfile.ZipInfo(name), content)
-            if random.random() < 0.3:
-                archive.writestr(zipfile.ZipInfo(random.choice(NAMES)), b"x")
-        data = file.getvalue()
-        return Case("a.zip", mutated(random, data) if random.random() < 0.3 else data)
+            archive.writestr(zipfile.ZipInfo(random.choice(NAMES)), b"x")
+    data = file.getvalue()
+    return Case("a.zip", mutated(random, data) if random.random() < 0.3 else data)

@@ -5,36 +5,42 @@ from __future__ import annotations
 import gzip
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
+from random import Random
 
+from tests.attack import (
+    bombs,
+    bridges,
+    clocks,
+    definitions,
+    exported,
+    files,
+    media,
+    reports,
+    spreadsheets,
+    terminals,
+    tile_addresses,
+    tiles,
+    yaml_texts,
+)
 from tests.attack.agents import Agents
 from tests.attack.attack import Attack, Case, Violation, random_of
-from tests.attack.bombs import Bombs
-from tests.attack.bridges import Bridges
-from tests.attack.clocks import Clocks
 from tests.attack.crowds import Crowds
 from tests.attack.dds import Dds
-from tests.attack.definitions import Definitions
 from tests.attack.disks import Disks
-from tests.attack.exported import Exported
-from tests.attack.files import Files
+from tests.attack.files import FileAttack
 from tests.attack.graphs import Graphs
 from tests.attack.http_requests import Requests
-from tests.attack.media import Media
 from tests.attack.queues import Queues
 from tests.attack.report import Breach, Report
-from tests.attack.reports import Reports
 from tests.attack.saving import Saving
 from tests.attack.simulator import Simulator
 from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
-from tests.attack.terminals import Terminals
-from tests.attack.tiles import Tiles
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
-from tests.attack.yaml_texts import YamlTexts
 from webviz.server.access.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
@@ -45,12 +51,32 @@ TURN_S = 2.0
 """Duration of one kind of attack before the next begins."""
 MAX_BREACHES = 20
 ROLES = (None, *Role)
-LOCAL = (
-    *(Files, Saving, Bombs, Disks, Media, Tiles, Reports, Bridges, Agents, Exported),
-    *(Definitions, YamlTexts, Clocks, Terminals),
-)
-"""Attacks on no viewer, but on what it reads and how it saves; each has a folder."""
+FILES: Mapping[str, Callable[[Random], Case]] = {
+    "files": files.draw,
+    "bombs": bombs.draw,
+    "media": media.draw,
+    "tiles": tiles.draw,
+    "tile addresses": tile_addresses.draw,
+    "reports": reports.draw,
+    "bridges": bridges.draw,
+    "exported": exported.draw,
+    "definitions": definitions.draw,
+    "yaml texts": yaml_texts.draw,
+    "clocks": clocks.draw,
+    "terminals": terminals.draw,
+    "spreadsheets": spreadsheets.draw,
+}
+"""Makers of the cases of each attack by files: all that it is, besides its reader."""
+READERS = {
+    "exported": "exported",
+    "definitions": "definition_reader",
+    "spreadsheets": "spreadsheets",
+}
+"""Modules that read the files of an attack, if it is not `reader`."""
+LOCAL = (Saving, Disks, Agents)
+"""Other attacks on no viewer, but on how it saves and what it starts; each has a folder."""
 KINDS = (
+    *FILES,
     *(class_.kind for class_ in LOCAL),
     *(class_.kind for class_ in (Dds, Requests, Uploads, Simulator)),
     *(class_.kind for class_ in (Graphs, Crowds, Queues, Weights)),
@@ -100,10 +126,12 @@ def _started(attacks: Iterator[Attack], only: Sequence[str], stack: ExitStack) -
 
 def local_attacks(folder: Path) -> Iterator[Attack]:
     """Those that attack no viewer, but what it reads and how it saves."""
+    for kind in (*FILES, *(class_.kind for class_ in LOCAL)):
+        (folder / kind).mkdir()
+    for kind, draw in FILES.items():
+        yield FileAttack(kind, draw, folder / kind, READERS.get(kind, "reader"))
     for class_ in LOCAL:
-        own = folder / class_.kind
-        own.mkdir()
-        yield class_(own)
+        yield class_(folder / class_.kind)
 
 
 def remote_attacks(target: Target, domain: int) -> Iterator[Attack]:

@@ -16,6 +16,7 @@ from pathlib import Path
 import PIL.Image
 
 from webviz.api.errors import Error
+from webviz.data.working_folder import working_folder
 from webviz.files import config as config_file
 from webviz.shell.pictures import files as picture_files
 
@@ -100,11 +101,32 @@ def outcome(how: str, delay_s: float, path: Path, number: int) -> str:
     return "a full disk leaves a part of a file" if left else "refused"
 
 
+def left_behind(delay_s: float, place: Path) -> str:
+    """Kill a child that makes working folders, and look at what the next one leaves of them."""
+    place.mkdir(exist_ok=True)
+    if not (pid := os.fork()):
+        while True:
+            with working_folder("left_", place) as folder:
+                for number in range(20):
+                    (folder / f"{number}").write_bytes(bytes(10_000))
+    time.sleep(delay_s)
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+    with working_folder("left_", place):
+        pass
+    # One that was killed before its folder had a lock leaves the empty folder.
+    left = [str(path.relative_to(place)) for path in place.rglob("*") if path.is_file()]
+    return f"a killed program leaves {left} for ever" if left else "survived"
+
+
 def main() -> None:
     """Answer lines until there are no more."""
     for number, line in enumerate(sys.stdin):
-        how, _, delay, path = line.rstrip("\n").split(" ", 3)
-        print(outcome(how, float(delay), Path(path), number * 100_000), flush=True)
+        how, what, delay, path = line.rstrip("\n").split(" ", 3)
+        if what == "folder":
+            print(left_behind(float(delay), Path(path).parent), flush=True)
+        else:
+            print(outcome(how, float(delay), Path(path), number * 100_000), flush=True)
 
 
 if __name__ == "__main__":

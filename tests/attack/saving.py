@@ -8,6 +8,10 @@ from random import Random
 
 from tests.attack.attack import Attack, Case, Outcome, Violation, piped
 
+WAYS = ("kill config", "kill picture", "kill folder", "full config", "full picture")
+"""Ends of the program, and what it saves meanwhile; a folder is for unfinished work."""
+SUFFIXES = {"config": "yaml", "picture": "png", "folder": "left"}
+
 
 class Saving(Attack):
     """Lets a process fork children that save, and ends or limits them at random moments.
@@ -26,7 +30,7 @@ class Saving(Attack):
         self._saver = piped("saver")
 
     def draw(self, random: Random) -> Case:
-        how = random.choice(("kill config", "kill picture", "full config", "full picture"))
+        how = random.choice(WAYS)
         return Case(how, str(random.uniform(0.0, 0.03)).encode())
 
     def strike(self, case: Case) -> Outcome:
@@ -34,7 +38,7 @@ class Saving(Attack):
         assert saver.stdin is not None
         assert saver.stdout is not None
         # A file is kept from case to case: it is always a version that was saved once.
-        suffix = "png" if case.name.endswith("picture") else "yaml"
+        suffix = SUFFIXES[case.name.partition(" ")[2]]
         path = self._folder / suffix / f"saved.{suffix}"
         path.parent.mkdir(exist_ok=True)
         saver.stdin.write(f"{case.name} {case.data.decode()} {path}\n")

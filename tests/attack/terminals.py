@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import struct
-from pathlib import Path
 from random import Random
 
 from mcap_files import MAGIC, record, text
 
 from tests.attack.attack import Case
-from tests.attack.files import Files
 from webviz.data.messages import definition, encode
 from webviz.shell.testing.messages import stamped_transform
 
@@ -22,37 +20,26 @@ PARTS = (
 )
 
 
-class Terminals(Files):
-    """Reports on such bags as `webviz frames` and `webviz doctor` do.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "terminals"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        names = [_name(random) for _ in range(random.randint(2, 8))]
-        content = bytearray(MAGIC + record(1, text("ros2") + text("by hand")))
-        topics = {"/tf": TF, random.choice(("/rosout", f"/{_name(random)}")): LOG}
-        for number, (topic, type_name) in enumerate(topics.items(), 1):
-            schema = text(type_name) + text("ros2msg") + text(definition(type_name))
-            content += record(3, struct.pack("<H", number) + schema)
-            channel = text(topic) + text("cdr") + text(b"")
-            content += record(4, struct.pack("<HH", number, number) + channel)
-        for index in range(20):
-            stamp_ns = 10**18 + index * 10**8
-            parent, child = random.choice(names), random.choice(names)
-            transform = stamped_transform(parent, child, stamp_ns)
-            content += _record(1, stamp_ns, encode(TF, {"transforms": [transform]}))
-            log = {"level": 40, "name": random.choice(names), "msg": random.choice(names)}
-            content += _record(2, stamp_ns, encode(LOG, log))
-        return Case(
-            "names.reported", bytes(content + record(15, bytes(4)) + record(2, bytes(20))) + MAGIC
-        )
+def draw(random: Random) -> Case:
+    """Reports on such bags as `webviz frames` and `webviz doctor` do."""
+    names = [_name(random) for _ in range(random.randint(2, 8))]
+    content = bytearray(MAGIC + record(1, text("ros2") + text("by hand")))
+    topics = {"/tf": TF, random.choice(("/rosout", f"/{_name(random)}")): LOG}
+    for number, (topic, type_name) in enumerate(topics.items(), 1):
+        schema = text(type_name) + text("ros2msg") + text(definition(type_name))
+        content += record(3, struct.pack("<H", number) + schema)
+        channel = text(topic) + text("cdr") + text(b"")
+        content += record(4, struct.pack("<HH", number, number) + channel)
+    for index in range(20):
+        stamp_ns = 10**18 + index * 10**8
+        parent, child = random.choice(names), random.choice(names)
+        transform = stamped_transform(parent, child, stamp_ns)
+        content += _record(1, stamp_ns, encode(TF, {"transforms": [transform]}))
+        log = {"level": 40, "name": random.choice(names), "msg": random.choice(names)}
+        content += _record(2, stamp_ns, encode(LOG, log))
+    return Case(
+        "names.reported", bytes(content + record(15, bytes(4)) + record(2, bytes(20))) + MAGIC
+    )
 
 
 def _name(random: Random) -> str:

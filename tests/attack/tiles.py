@@ -17,7 +17,6 @@ from pmtiles.tile import Compression, TileType, zxy_to_tileid
 from pmtiles.writer import Writer
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import Files
 from tests.attack.media import png_of
 from webviz.data.tiles import decoded, open_tiles
 from webviz.data.tiles.server import VARIABLE, TileServer
@@ -98,28 +97,17 @@ def _answer(random: Random) -> bytes:
             return random.randbytes(random.randrange(40))
 
 
-class Tiles(Files):
-    """Reads attacked tiles in a process of its own, as AerialMap does.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "tiles"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        match random.choice(("mbtiles", "pmtiles", "http", "http")):
-            case "mbtiles":
-                data = _mbtiles(random.choice(("", "", *COMPUTED)))
-                return Case("a.mbtiles", mutated(random, data))
-            case "pmtiles":
-                return Case("a.pmtiles", mutated(random, _pmtiles()))
-            case _:
-                answer = _answer(random)
-                return Case("a.http", mutated(random, answer) if random.random() < 0.3 else answer)
+def draw(random: Random) -> Case:
+    """Reads attacked tiles in a process of its own, as AerialMap does."""
+    match random.choice(("mbtiles", "pmtiles", "http", "http")):
+        case "mbtiles":
+            data = _mbtiles(random.choice(("", "", *COMPUTED)))
+            return Case("a.mbtiles", mutated(random, data))
+        case "pmtiles":
+            return Case("a.pmtiles", mutated(random, _pmtiles()))
+        case _:
+            answer = _answer(random)
+            return Case("a.http", mutated(random, answer) if random.random() < 0.3 else answer)
 
 
 def read_tiles(path: Path) -> None:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from random import Random
 
 from tests.attack.attack import Case, mutated
-from tests.attack.files import RVIZ, YAML, Files
+from tests.attack.files import RVIZ, YAML
 
 TEXTS = {
     "a.qos": """\
@@ -63,33 +62,22 @@ SCALARS = (
 ROOTS = ("", "%YAML 1.1\n---\n", "---\n", "%TAG ! tag:x,2000:\n---\n")
 
 
-class YamlTexts(Files):
-    """Reads texts that unfold without end, nest without end, or have odd values.
-
-    Args:
-        folder: for the files.
-    """
-
-    kind = "yaml texts"
-
-    def __init__(self, folder: Path) -> None:
-        super().__init__(folder, {})
-
-    def draw(self, random: Random) -> Case:
-        name = random.choice(sorted(TEXTS))
-        lines = TEXTS[name].splitlines()
-        head, value = _hostile(random)
-        keys = [i for i, line in enumerate(lines) if ": " in line and "{" not in line]
-        index = random.choice(keys)
-        lines[index] = f"{lines[index].partition(': ')[0]}: {value}"
-        if random.random() < 0.2:
-            lines = [f"- {value}"]
-        # The anchors come first, at a key that no reader knows.
-        if head and name == "a.qos":
-            head = [f"- {line}" for line in head]
-        text = "\n".join([*head, *lines])
-        data = (random.choice(ROOTS) if random.random() < 0.2 else "").encode() + text.encode()
-        return Case(name, mutated(random, data) if random.random() < 0.2 else data)
+def draw(random: Random) -> Case:
+    """Reads texts that unfold without end, nest without end, or have odd values."""
+    name = random.choice(sorted(TEXTS))
+    lines = TEXTS[name].splitlines()
+    head, value = _hostile(random)
+    keys = [i for i, line in enumerate(lines) if ": " in line and "{" not in line]
+    index = random.choice(keys)
+    lines[index] = f"{lines[index].partition(': ')[0]}: {value}"
+    if random.random() < 0.2:
+        lines = [f"- {value}"]
+    # The anchors come first, at a key that no reader knows.
+    if head and name == "a.qos":
+        head = [f"- {line}" for line in head]
+    text = "\n".join([*head, *lines])
+    data = (random.choice(ROOTS) if random.random() < 0.2 else "").encode() + text.encode()
+    return Case(name, mutated(random, data) if random.random() < 0.2 else data)
 
 
 def _hostile(random: Random) -> tuple[list[str], str]:

@@ -19,6 +19,7 @@ from webviz.api.rule import parse_rule
 from webviz.data.messages import encode
 from webviz.files.config import WatchRule
 from webviz.shell.cli import main
+from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.testing.harness import Harness
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -108,6 +109,17 @@ def test_rules_over_a_bag_are_test_cases(
     messages = [each.get("message", "") for each in ElementTree.parse(junit).iter("failure")]
     assert len(messages) == 2
     assert messages[0].endswith("expected > 5.")
+
+
+def test_names_that_xml_cannot_contain_are_readable_in_junit() -> None:
+    results = RuleResults(
+        "a\x1b[2J\uffff.mcap", [WatchRule(rule="Scan\x08\ufffe\ud800.walls > 0.8")]
+    )
+    suite = ElementTree.fromstring(results.to_junit())
+    (case,) = suite.iter("testcase")
+    assert case.attrib == {"classname": "a [2J .mcap", "name": "Scan   .walls > 0.8"}
+    (failure,) = suite.iter("failure")
+    assert failure.attrib["message"].startswith("Scan   .walls never had a value.")
 
 
 def test_a_rule_is_about_each_number_that_a_message_path_names(

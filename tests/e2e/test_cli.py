@@ -203,3 +203,15 @@ def test_a_pipe_that_is_closed_ends_a_command_quietly(tmp_path: Path) -> None:
     command.stdout.close()
     _, said = command.communicate()
     assert (command.returncode, said) == (1, b"")
+
+
+@pytest.mark.parametrize(
+    ("closed", "said"), [(">&-", ""), ("2>&-", "complete"), ("<&- >&- 2>&-", "")]
+)
+def test_streams_that_are_closed_lead_nowhere(tmp_path: Path, closed: str, said: str) -> None:
+    (tmp_path / "a.rviz").write_text("Visualization Manager: {Displays: []}")
+    line = f'exec "{sys.executable}" -m webviz convert --check a.rviz {closed}'
+    result = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert said in result.stdout
+    assert "Error" not in result.stderr

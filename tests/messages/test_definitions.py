@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -21,10 +22,13 @@ from webviz.data.messages import (
     type_exists,
     type_hash,
 )
+from webviz.data.messages.decoders import decoder
 from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.typestore import are_same
+from webviz.sources.bridge.definitions import Definitions
 
 CDR = b"\x00\x01\x00\x00"
+WHEEL = "=" * 80 + "\nMSG: prepared_msgs/Wheel\n{} turns\n"
 
 
 def test_what_displays_need_is_known_without_ros():
@@ -145,3 +149,21 @@ def test_definitions_are_the_same_if_they_mean_the_same() -> None:
     assert are_same(name, plain, "# of two\nint32  a\nfloat64 b # in m\n")
     for text, other in ((plain, "int32 a\nfloat32 b\n"), ("int32 = (", "int32 = (")):
         assert not are_same(name, text, other)
+
+
+def test_what_follows_from_a_definition_stays_until_it_is_replaced() -> None:
+    register("prepared_msgs/msg/Wheel", "int32 turns")
+    built = decoder("prepared_msgs/msg/Wheel", "<")
+    register("prepared_msgs/msg/Axle", "prepared_msgs/Wheel[2] wheels\n" + WHEEL.format("int32"))
+    assert decoder("prepared_msgs/msg/Wheel", "<") is built
+    register("prepared_msgs/msg/Axle", "prepared_msgs/Wheel[2] wheels\n" + WHEEL.format("int16"))
+    assert decode("prepared_msgs/msg/Wheel", b"\0\1\0\0\1\0").turns == 1
+
+
+def test_a_bridge_builds_the_decoder_of_what_is_wanted() -> None:
+    """In its thread: it takes a second, in which the frame loop would draw nothing."""
+    text = "".join(f"int32 a{number}\n" for number in range(19_999))
+    assert Definitions().learn("prepared_msgs/msg/Wide", text) == ""
+    start_s = time.process_time()
+    decode("prepared_msgs/msg/Wide", b"\0\1\0\0" + bytes(4 * 19_999))
+    assert time.process_time() - start_s < 0.1

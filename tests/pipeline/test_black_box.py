@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import shutil
 import time
 from collections.abc import Callable, Iterator
 from datetime import datetime
@@ -288,6 +290,21 @@ def test_a_recording_stays_below_the_limit(make: Benches) -> None:
     assert kept[-1].header.frame_id.startswith("9 "), "those before the fault go first"
     assert 4 <= len(kept) <= 6
     assert bench.do(Refresh()).statuses["Black box"].text.startswith("The last recording was cut")
+
+
+def test_a_disk_that_is_nearly_full_is_not_filled(
+    make: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(black_box, "RESERVE", shutil.disk_usage(Path.cwd()).free + 10**9)
+    bench = make(WatchRule(display="Plan", status="error"))
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
+    assert re.fullmatch(
+        r"A rule fired, but its disk has \d+\.\d GB left\. Make room, so that it can go on\.",
+        statuses["Black box"].text,
+    )
+    assert not Path("webviz_black_box").exists()
 
 
 def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Benches) -> None:

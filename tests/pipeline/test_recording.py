@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from bench import Bench, benches
 
 from webviz.data.messages import decode, encode
-from webviz.data.recordings import open_recording
+from webviz.data.recordings import RecordedChannel, open_recording
+from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.commands import SaveMemory, Sender, StartRecording, StopRecording
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw
-from webviz.sources.recording import RecentMessages, recent
+from webviz.sources.recording import RecentMessages, recent, recorder
 from webviz.sources.recording.channels import Channels
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
@@ -236,3 +240,100 @@ def test_a_topic_whose_publishers_disagree_on_the_type_has_no_channel() -> None:
     assert found is not None
     assert found.type == "nav_msgs/msg/Path"
     assert channels.find("/two") is None
+
+
+def test_messages_wait_for_the_type_of_their_topic(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    offers = {"/known": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
+
+    class Late(Channels):
+        """Knows a topic when it is asked for the third time."""
+
+        def find(self, topic: str) -> RecordedChannel | None:
+            asked.append(topic)
+            return super().find("/known") if len(asked) > 2 and topic != "/never" else None
+
+    monkeypatch.setattr(recorder, "UNKNOWN_S", 0.3)
+    folder = RecordingFolder(tmp_path / "run", "test")
+    writer = recorder.Recorder(folder, Late(lambda: offers))
+    writer.put("/late", replace(raw(0), arrived_s=time.monotonic()))
+    writer.put("/never", replace(raw(1), arrived_s=time.monotonic()))
+    writer.close()
+    assert (writer.messages, writer.dropped) == (1, 1)
+    assert len(asked) > 4
+
+
+def test_what_waits_for_the_disk_is_bounded_and_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recorder, "MAX_BYTES", 3000)
+    disk = threading.Lock()
+
+    class Slow(Channels):
+        """Answers once the disk does."""
+
+        def find(self, topic: str) -> RecordedChannel | None:
+            with disk:
+                return super().find(topic)
+
+    offers = {"/a": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
+    with disk:
+        folder = RecordingFolder(tmp_path / "run", "test")
+        writer = recorder.Recorder(folder, Slow(lambda: offers), past=[("/a", raw(0))])
+        while writer._waiting:
+            time.sleep(0.01)
+        for second in range(1, 6):
+            writer.put("/a", raw(second, size=1000))
+        assert writer.dropped == 2
+        writer.put("/a", raw(6, size=5000))  # larger than all that may wait
+        assert writer.dropped == 5
+    writer.close()
+    assert [stamp_ns // 10**9 for _, stamp_ns in contents(tmp_path / "run")] == [0, 6]
+
+
+def test_a_memory_counts_messages_and_knows_its_size() -> None:
+    now_s = time.monotonic()
+    memory = RecentMessages(lambda topic: int(topic == "/map"), seconds=10.0, max_bytes=10**6)
+    assert memory.is_on
+    assert not RecentMessages(lambda topic: 0, seconds=0.0, max_bytes=10**6).is_on
+    assert not RecentMessages(lambda topic: 0, seconds=10.0).is_on
+    assert memory.size() == (0.0, 0)
+    memory.put("/map", raw(now_s - 20.0, size=500))
+    for age_s in (4.0, 2.0):
+        memory.put("/a", raw(now_s - age_s, size=100))
+    seconds, size = memory.size()
+    assert 4.0 <= seconds < 8.0
+    assert size == 500 + 2 * (100 + recent.OVERHEAD)
+    part_s, counts = memory.counts()
+    assert (part_s, counts.keys()) == (1.0, {"/a"})
+    assert counts["/a"].total() == 2
+    memory.seconds = 1000.0
+    part_s, counts = memory.counts()
+    assert part_s == 1000.0 / recent.MAX_PARTS
+    assert counts["/a"].total() == 2
+
+
+def test_a_topic_whose_publishers_ended_keeps_its_type() -> None:
+    offers = {"/a": Offer((Publisher("/a", STRING, "best_effort", "volatile"),))}
+    channels = Channels(lambda: offers)
+    channels.look()
+    offers = {"/a": Offer(())}  # subscribed to, by somebody else
+    channels.look()
+    found = channels.find("/a")
+    assert found is not None
+    assert found.type == STRING
+    assert "best_effort" in found.profiles
+    assert Channels(lambda: offers).find("/a") is None
+
+
+def test_a_recording_ends_before_its_files_are_too_large(tmp_path: Path) -> None:
+    offers = {"/a": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
+    folder = RecordingFolder(tmp_path / "run", "test")
+    writer = recorder.Recorder(folder, Channels(lambda: offers), max_bytes=10_000)
+    for second in range(20):
+        writer.put("/a", raw(second, size=1000))
+    writer.close()
+    assert writer.is_full
+    assert 6 <= writer.messages <= 9, "what each takes besides its bytes counts, too"

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from bags import START_NS, Bag, ns, strings
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
@@ -99,3 +100,19 @@ def test_a_span_shorter_than_its_parts_is_counted(tmp_path: Path) -> None:
     found, truth = counted(bag.write(tmp_path / "run"))
     assert found == truth
     assert TimeParts(START_NS, START_NS + ns(1e-9), PARTS).length_ns == 1
+
+
+@pytest.mark.parametrize(
+    ("span_ns", "expected"),
+    [
+        ((2**63 - 2, 2**63 + 5), [0, 0, 0, 1, 3, 3]),
+        ((0, 2**64 - 1), [0, 0, 1, 2, 2, 3]),
+        ((-4, 3), [2, 3, 3, 3, 3, 3]),
+        ((-9, -2), [3, 3, 3, 3, 3, 3]),
+    ],
+)
+def test_parts_of_any_time_that_a_file_may_have(
+    span_ns: tuple[int, int], expected: list[int]
+) -> None:
+    stamps = np.array([0, 2, 2**63 - 3, 2**63, 2**63 + 5, 2**64 - 1], np.uint64)
+    assert TimeParts(*span_ns, 4).part_of(stamps).tolist() == expected

@@ -70,6 +70,12 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
         ("\n\nimport nowhere_at_all\n", ":3 does not load: ModuleNotFoundError: No module named"),
         ("def f():\n    raise ValueError\nf()\n", ":2 does not load: ValueError."),
         ("import sys\nsys.exit('bye')\n", ":2 does not load: SystemExit: bye."),
+        ("raise KeyboardInterrupt\n", ":1 does not load: KeyboardInterrupt."),
+        ("class E(BaseException): pass\nraise E('x')\n", ":2 does not load: E: x."),
+        ("class E(Exception):\n    __str__ = 3\nraise E\n", ":3 does not load: E."),
+        ("raise ValueError('a\\n\\x1b[2Jb')\n", ":1 does not load: ValueError: a ?[2Jb."),
+        (f"x = {'-' * 100_000}1\n", " is not valid Python: it is nested too deeply."),
+        (f"x = {'1+' * 100_000}1\n", " is not valid Python: it is nested too deeply."),
         (
             "x = 1\n",
             " has no plug-in. Define a subclass of Display, Tool, Panel or Check ",

@@ -47,6 +47,13 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a.mcap", "bug.zip", "out"]
 
 
+def test_a_report_that_leaves_out_parts_has_none() -> None:
+    least = {"source": "live", "made": 1.0, "at_ns": 3_500_000_000, "first_ns": 10**9}
+    report = msgspec.convert(least | {"last_ns": 5 * 10**9, "version": REPORT.version}, BugReport)
+    assert report.at_s == 2.5
+    assert not any((report.has_names, report.statuses, report.findings, report.moments))
+
+
 def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
     others = {"../evil": b"x", "/tmp/evil": b"x", "config.yaml/../../evil": b"x", "big": b"x" * 9}
     path = zipped(tmp_path / "bug.zip", {**others, **WHOLE})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import http.server
 import io
 import os
@@ -22,6 +23,7 @@ from webviz.data.tiles import TileError, decoded, open_tiles
 from webviz.data.tiles import mbtiles as mbtiles_file
 from webviz.data.tiles.pmtiles_file import PMTiles
 from webviz.data.tiles.server import VARIABLE, TileCache, TileServer, is_allowed
+from webviz.data.tiles.source import MAX_BYTES, plain
 
 TIMEOUT_S = 1.0
 
@@ -108,6 +110,7 @@ def test_what_is_no_picture_is_refused(content: bytes, reason: str) -> None:
         ("ftp://maps/{z}/{x}/{y}", "ftp:// are not supported"),
         ("https://maps.example/tiles", "needs {z}, {x} and {y}"),
         ("a\0b", "not valid"),
+        ("/a\r\n\x1b[2Jb", r"^/a   \[2Jb does not exist"),
         ("x" * 5000, "cannot be read"),
     ],
 )
@@ -176,6 +179,13 @@ class Answers(http.server.BaseHTTPRequestHandler):
                 self.wfile.write(b"x")
                 self.wfile.flush()
                 time.sleep(0.05)
+        elif self.path.startswith("/sized/"):
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(bytes(int(self.path.split("/")[2])))
+        elif self.path.startswith("/status/"):
+            self.send_response(int(self.path.split("/")[2]))
+            self.end_headers()
         elif self.path.startswith("/endless/"):
             self.send_response(200)
             self.end_headers()
@@ -280,3 +290,103 @@ def test_the_oldest_tiles_go_when_the_cache_is_full(tmp_path: Path) -> None:
         os.utime(path, (at, at))
     cache.prune()
     assert [cache.read(1, number, 0) is not None for number in range(4)] == [0, 0, 1, 1]
+
+
+def test_a_tile_of_the_largest_size_is_read_and_a_larger_one_is_not(
+    server: tuple[str, list[str]], tmp_path: Path
+) -> None:
+    (tmp_path / "2/1").mkdir(parents=True)
+    file = tmp_path / "2/1/0.png"
+    for size, is_read in ((MAX_BYTES, True), (MAX_BYTES + 1, False)):
+        file.write_bytes(bytes(size))
+        path = tmp_path / f"{size}.mbtiles"
+        db = sqlite3.connect(mbtiles(path))
+        db.execute("UPDATE tiles SET tile_data = zeroblob(?)", (size,))
+        db.commit()
+        db.close()
+        assert (open_tiles(str(path), TIMEOUT_S).read(2, 1, 0) is not None) == is_read
+        with contextlib.nullcontext() if is_read else pytest.raises(TileError, match="4 MB"):
+            assert open_tiles(str(tmp_path), TIMEOUT_S).read(2, 1, 0) == bytes(size)
+        tiles = TileServer(f"{server[0]}/sized/{size}/{{z}}/{{x}}/{{y}}", 30.0, tmp_path / "kept")
+        with contextlib.nullcontext() if is_read else pytest.raises(TileError, match="4194304"):
+            assert tiles.read(2, 1, 0) == bytes(size)
+
+
+@pytest.mark.parametrize("status", [204, 404, 410])
+def test_a_server_without_a_tile_is_asked_again(
+    server: tuple[str, list[str]], tmp_path: Path, status: int
+) -> None:
+    tiles = TileServer(f"{server[0]}/status/{status}/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
+    assert [tiles.read(2, 1, 0), tiles.read(2, 1, 0)] == [None, None]
+    assert len(server[1]) == 2
+
+
+@pytest.mark.parametrize(
+    ("host", "credit"),
+    [
+        ("tile.openstreetmap.org", "© OpenStreetMap contributors"),
+        ("openstreetmap.org", "© OpenStreetMap contributors"),
+        ("notopenstreetmap.org", "notopenstreetmap.org"),
+    ],
+)
+def test_the_maker_of_a_map_is_credited(
+    host: str, credit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(VARIABLE, f"https://{host}/")
+    tiles = TileServer(f"https://{host}/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
+    assert tiles.attribution == credit
+
+
+def test_old_tiles_are_fetched_anew(server: tuple[str, list[str]], tmp_path: Path) -> None:
+    tiles = TileServer(f"{server[0]}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
+    for age_days, asked in ((0, 1), (29, 1), (31, 2)):
+        for path in filter(Path.is_file, tmp_path.rglob("*")):
+            at = time.time() - age_days * 86_400
+            os.utime(path, (at, at))
+        assert tiles.read(2, 1, 0) == picture()
+        assert len(server[1]) == asked
+
+
+def test_the_cache_of_a_session_stays_within_its_limit(tmp_path: Path) -> None:
+    cache = TileCache(tmp_path, "https://maps.example", limit=10_000)
+    for number in range(1000):
+        cache.write(1, number, 0, bytes(100))
+    assert sum(path.stat().st_size for path in tmp_path.rglob("0")) < 40_000
+
+
+def test_a_pmtiles_file_that_is_cut_off_says_where(tmp_path: Path) -> None:
+    path = pmtiles(tmp_path / "map.pmtiles")
+    tiles = PMTiles(path)
+    size = path.stat().st_size - 1
+    os.truncate(path, size)
+    with pytest.raises(TileError, match=rf"map\.pmtiles is cut off after {size} bytes\."):
+        tiles.read(2, 1, 0)
+
+
+def test_a_directory_of_pmtiles_unpacks_to_one_megabyte_at_most(tmp_path: Path) -> None:
+    tiles = PMTiles(pmtiles(tmp_path / "map.pmtiles"))
+    for size, is_read in ((1 << 20, True), ((1 << 20) + 1, False)):
+        packed = gzip.compress(bytes(size))
+        with (
+            contextlib.nullcontext()
+            if is_read
+            else pytest.raises(TileError, match="more than 1048576 bytes")
+        ):
+            assert tiles._unpacked(packed) == bytes(size)
+
+
+def test_attributions_are_texts_of_one_line() -> None:
+    assert plain("<a href='x'>A &amp;\n B</a>" + " c" * 1000) == ("A & B" + " c" * 1000)[:300]
+    assert plain("x" * 30_000) == ""
+    assert plain(3) == ""
+
+
+def test_a_database_that_takes_a_while_is_read(tmp_path: Path) -> None:
+    path = mbtiles(tmp_path / "map.mbtiles")
+    with contextlib.closing(sqlite3.connect(path)) as db:  # without an index, all rows are read
+        db.execute("UPDATE tiles SET zoom_level = 3")
+        rows = ((3, number, 0, b"x") for number in range(10_000))
+        db.executemany("INSERT INTO tiles VALUES (?, ?, ?, ?)", rows)
+        db.execute("INSERT INTO tiles VALUES (2, 1, 3, ?)", (picture(),))
+        db.commit()
+    assert open_tiles(str(path), TIMEOUT_S).read(2, 1, 0) == picture()

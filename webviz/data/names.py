@@ -13,9 +13,10 @@ MAX_FILE_BYTES = 251
 """Of a file name, as Linux allows 255 and the previous version ends with `.bak`."""
 
 _UNREADABLE = re.compile(
-    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+    "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
 )
-"""Control characters, line ends, marks that turn the direction of text, halves of pairs."""
+"""Control characters, line ends, marks that turn the direction of text, halves of pairs, and what
+XML cannot contain."""
 
 
 def readable(name: str, mark: str = " ") -> str:

@@ -24,6 +24,7 @@ from webviz.data.messages import definition, encode, type_exists
 from webviz.sources.bridge import definitions as bridge_definitions
 from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, source
 
+NUMBER = "std_msgs/msg/Float64"
 Liar = Callable[..., Reader]
 
 
@@ -82,6 +83,26 @@ def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Liar) -> None:
     assert reader.decoded("/words", STRING).data == "still here"
     ignored = f"{len(MALFORMED)} frames of the bridge ignored."
     reader.until(lambda: any(remark.startswith(ignored) for remark in reader.bridge.remarks))
+
+
+def test_only_the_channel_of_the_wanted_type_is_read(liar: Liar) -> None:
+    asked: list[int] = []
+
+    def script(connection: ServerConnection) -> None:
+        others = "nav_msgs/msg/Path", "tf2_msgs/msg/TFMessage"  # one before it, one behind
+        channels = [channel(number, "/words", type_) for number, type_ in enumerate(others, 1)]
+        connection.send(advertise(*channels, channel(3, "/words", NUMBER)))
+        text = json.loads(connection.recv())
+        while text["op"] != "subscribe":
+            text = json.loads(connection.recv())
+        asked.extend(each["channelId"] for each in text["subscriptions"])
+        head = struct.pack("<BIQ", 1, text["subscriptions"][0]["id"], 5)
+        connection.send(head + encode(NUMBER, {"data": 2.5}))
+
+    reader = liar(script)
+    reader.want(words=NUMBER)
+    assert reader.decoded("/words", NUMBER).data == 2.5
+    assert asked == [3]
 
 
 def test_a_hundred_thousand_channels_are_cut_and_said(liar: Liar) -> None:

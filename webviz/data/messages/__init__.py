@@ -9,7 +9,7 @@ the bytes of such messages, or of nested mappings.
 """
 
 from webviz.data.messages.classes import message_class
-from webviz.data.messages.decode import decode, peek_header, register
+from webviz.data.messages.decode import decode, peek_header, prepare, register
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import (
     DecodeError,
@@ -109,6 +109,7 @@ __all__ = [
     "encode",
     "message_class",
     "peek_header",
+    "prepare",
     "register",
     "to_tree",
     "type_exists",

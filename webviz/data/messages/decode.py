@@ -66,6 +66,16 @@ def register(type_name: str, text: str) -> None:
     typestore.add(type_name, text, fixed=WRITTEN)
 
 
+def prepare(type_name: str) -> None:
+    """Build what `decode` needs, which takes a second for a message of many types.
+
+    Raises:
+        MessageError: as `decode`, for any message of this type.
+    """
+    decoder(type_name, "<")
+    _has_header(type_name)
+
+
 @typestore.per_definitions
 def _has_header(type_name: str) -> bool:
     fields = typestore.fields(type_name)

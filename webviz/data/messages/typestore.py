@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Callable, Container
-from functools import _lru_cache_wrapper, cache
+from functools import _lru_cache_wrapper, cache, lru_cache
 from typing import Any, NamedTuple, TypeVar
 
 from rosbags.interfaces import Nodetype
@@ -27,6 +27,8 @@ Reading them takes up to two seconds."""
 MAX_TYPES = 1000
 """Of a definition, those that its messages consist of; those of ROS have 80. Making the class of
 each takes 0.2 ms."""
+MAX_NAMES = 10_000
+"""Of types that are remembered as valid; a large robot has a thousand."""
 PLACEHOLDER: tuple[str, Description] = (
     "structure_needs_at_least_one_member",
     (Nodetype.BASE, ("uint8", 0)),
@@ -91,7 +93,7 @@ def _known(name: str) -> Any:
     return known.get(name)
 
 
-@cache
+@lru_cache(MAX_NAMES)
 def full_name(type_name: str) -> str:
     """Return the three-part name of a type: "std_msgs/String" becomes "std_msgs/msg/String".
 
@@ -201,8 +203,7 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
         extent(name, lambda key: (learnt.get(key) or _known(key) or (None, None))[1], reached)
         if len(reached) > MAX_TYPES:
             raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
-        _store().fielddefs.update(learnt)
-        _forget()
+        _learn(learnt)
 
 
 def types_in(name: str, text: str) -> Types:
@@ -252,8 +253,7 @@ def declare(type_name: str, described: list[Any]) -> None:
             it gets `PLACEHOLDER`.
     """
     with _lock:
-        _store().fielddefs[type_name] = ([], described or [PLACEHOLDER])
-        _forget()
+        _learn({type_name: ([], described or [PLACEHOLDER])})
 
 
 def weight(type_name: str) -> int:
@@ -293,11 +293,15 @@ def _extent(name: str) -> Extent:
     return extent(name, lambda key: (_known(key) or (None, None))[1], _extents)
 
 
-def _forget() -> None:
-    """Forget what follows from definitions."""
-    _extents.clear()
-    for cached in _cached:
-        cached.cache_clear()
+def _learn(types: Types) -> None:
+    """Take types, and forget what follows from those that they replace."""
+    known = _store().fielddefs
+    is_replaced = any(_known(name) not in (None, found) for name, found in types.items())
+    known.update(types)
+    if is_replaced:
+        _extents.clear()
+        for cached in _cached:
+            cached.cache_clear()
 
 
 def _fields_of(definition: Any) -> list[MessageField]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import tempfile
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
@@ -21,6 +20,7 @@ from webviz.data.recordings.recording import (
 )
 from webviz.data.recordings.ros1 import Ros1Recording
 from webviz.data.recordings.unpacking import MARKS, unpack_file
+from webviz.data.working_folder import working_folder
 
 SQLITE = b"SQLite format 3\0"
 ROS_1 = b"#ROSBAG V"
@@ -99,7 +99,7 @@ class _Unpacked:
 
     def __init__(self, path: Path, compression: str) -> None:
         with contextlib.ExitStack() as stack:
-            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="webviz-bag-")))
+            folder = stack.enter_context(working_folder("webviz-bag-"))
             file, fault = unpack_file(path, compression, folder)
             try:
                 inner = CONTAINERS[_kind(file)](file)

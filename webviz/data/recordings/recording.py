@@ -75,8 +75,10 @@ class TimeParts(msgspec.Struct, frozen=True):
 
         Those outside belong to the outermost.
         """
-        inside = np.clip(stamps_ns.astype(np.int64), self.start_ns, self.end_ns) - self.start_ns
-        return inside // self.length_ns
+        first_ns = max(0, self.start_ns)  # a span that was moved may begin before all times
+        clipped = np.clip(stamps_ns, np.uint64(first_ns), np.uint64(max(first_ns, self.end_ns)))
+        inside = clipped - np.uint64(self.start_ns % (1 << 64))
+        return np.minimum(inside // np.uint64(self.length_ns), self.count - 1).astype(np.int64)
 
 
 Counts = npt.NDArray[np.int64]

@@ -89,7 +89,7 @@ class TileServer:
                         raise TimeoutError("timed out")
         except urllib.error.HTTPError as error:
             error.close()
-            if error.code in (204, 404, 410):
+            if error.code in (404, 410):
                 return None
             raise TileError(f"{self._host} answers with HTTP status {error.code}.") from None
         except (OSError, HTTPException, ValueError) as error:

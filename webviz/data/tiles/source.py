@@ -11,6 +11,7 @@ from PIL import Image
 
 from webviz.data.images.compressed import decoding, inspect_compressed, open_compressed
 from webviz.data.images.errors import ImageError
+from webviz.data.names import readable
 
 MAX_BYTES = 4 << 20
 """Of a tile as it is stored."""
@@ -28,7 +29,14 @@ _TAG = re.compile(r"<[^<>]*>")
 
 
 class TileError(ValueError):
-    """Tiles cannot be had; the text is one sentence that says why."""
+    """Tiles cannot be had.
+
+    Args:
+        text: one sentence that says why, made readable: it may quote paths of configs and servers.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__(readable(text))
 
 
 class TileSource(Protocol):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+import shutil
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
@@ -50,6 +51,8 @@ PARTS = "metadata.yaml", "*.mcap"
 MOMENT = "%Y-%m-%d_%H-%M-%S"
 GIGABYTE = 10**9
 LIMIT = "which is the limit. Delete recordings, or raise watch_limits.gigabytes."
+RESERVE = GIGABYTE // 2
+"""Bytes of the disk that recordings leave free: robots with a full disk fail in other ways, too."""
 
 
 class _Saving(msgspec.Struct):
@@ -59,6 +62,7 @@ class _Saving(msgspec.Struct):
     until_s: float
     past: Sequence[Entry]
     max_bytes: int
+    bound: str
     folder: Future[RecordingFolder]
     recorder: Recorder | None = None
     closed: Future[None] | None = None
@@ -99,8 +103,10 @@ class BlackBoxPart(Part):
         self._rows: Sequence[Row] = ()
         self._verdicts: Sequence[Verdict] = ()
         self._saving: _Saving | None = None
-        self._listing: Future[tuple[SavedMoment, ...]] | None = None
+        self._listing: Future[tuple[tuple[SavedMoment, ...], int]] | None = None
         self._saved: tuple[SavedMoment, ...] = ()
+        self._free = 0
+        """Bytes of the disk."""
         self._problem = ""
         if self._memory is not None:
             player.inbox.read_along(lambda: self._observer.put)
@@ -156,7 +162,7 @@ class BlackBoxPart(Part):
         listing = self._listing
         if listing is not None and listing.done():
             self._listing = None
-            self._saved = () if listing.exception() else listing.result()
+            self._saved, self._free = ((), 0) if listing.exception() else listing.result()
         return {"black_box": BlackBoxState(self._saved, self._saving.title if self._saving else "")}
 
     def statuses(self) -> Mapping[str, Status]:
@@ -237,7 +243,7 @@ class BlackBoxPart(Part):
         if self._saving is not None or not memory.recent.is_on:
             return
         now = datetime.now()
-        self._problem, max_bytes = self._excess(now), self._room()
+        self._problem, (max_bytes, bound) = self._excess(now), self._room()
         if self._problem:
             return
         cause = re.sub(r"[^A-Za-z0-9]+", "_", rule.title).strip("_")[:60]
@@ -246,7 +252,7 @@ class BlackBoxPart(Part):
         folder = in_thread(lambda: new_folder(path))
         folder.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
         until_s = time.monotonic() + AFTER_S
-        self._saving = _Saving(rule.title, until_s, past.whole, max_bytes, folder)
+        self._saving = _Saving(rule.title, until_s, past.whole, max_bytes, bound, folder)
 
     def _excess(self, now: datetime) -> str:
         """Return the reason why no more may be saved; "" if more may."""
@@ -258,15 +264,18 @@ class BlackBoxPart(Part):
                 f"A rule fired, but {count} recordings were made today, which is the limit. Raise "
                 "watch_limits.per_day."
             )
-        if self._room() <= 0:
-            size = sum(each.size for each in self._saved)
-            return f"A rule fired, but {FOLDER} has {size / GIGABYTE:.1f} GB, {LIMIT}"
-        return ""
+        room, bound = self._room()
+        return f"A rule fired, but {bound}" if room <= 0 else ""
 
-    def _room(self) -> int:
-        """Return the bytes that may still be saved."""
+    def _room(self) -> tuple[int, str]:
+        """Return the bytes that may still be saved, and what bounds them."""
         limit = round(self._settings.settings.watch_limits.gigabytes * GIGABYTE)
-        return limit - sum(each.size for each in self._saved)
+        size, free = sum(each.size for each in self._saved), self._free
+        left = f"its disk has {free / GIGABYTE:.1f} GB left. Make room, so that it can go on."
+        return min(
+            (limit - size, f"{FOLDER} has {size / GIGABYTE:.1f} GB, {LIMIT}"),
+            (free - RESERVE, left),
+        )
 
     def _go_on(self, memory: MemoryHistory) -> None:
         """Record until the time is up, then complete the files."""
@@ -290,7 +299,7 @@ class BlackBoxPart(Part):
         elif saving.closed is not None and saving.closed.done():
             self._end(saving.recorder.problem)
             if saving.recorder.is_full:
-                self._problem = f"The last recording was cut short at {FOLDER}'s size, {LIMIT}"
+                self._problem = f"The last recording was cut short: {saving.bound}"
 
     def _recorder(
         self, saving: _Saving, folder: RecordingFolder, memory: MemoryHistory
@@ -309,7 +318,7 @@ class BlackBoxPart(Part):
         self._list()
 
     def _list(self) -> None:
-        self._listing = in_thread(_saved)
+        self._listing = in_thread(_listed)
         self._listing.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
 
 
@@ -324,11 +333,12 @@ def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:
     return past
 
 
-def _saved() -> tuple[SavedMoment, ...]:
-    """Return the recordings in the folder, the newest first."""
+def _listed() -> tuple[tuple[SavedMoment, ...], int]:
+    """Return the recordings in the folder, the newest first, and the free bytes of its disk."""
     files = itertools.chain(*(Path(FOLDER).absolute().glob(f"*/{name}") for name in PARTS))
     paths = {file.parent for file in files}
-    return tuple(
+    saved = tuple(
         SavedMoment(path, sum(each.stat().st_size for each in path.iterdir()))
         for path in sorted(paths, reverse=True)
     )
+    return saved, shutil.disk_usage(Path.cwd()).free

@@ -8,7 +8,6 @@ import importlib.metadata
 import io
 import os
 import platform
-import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -22,6 +21,7 @@ from webviz.api.offer import Offer
 from webviz.data.names import new_path
 from webviz.data.transforms import diagnose, tree_text
 from webviz.data.words import counted
+from webviz.data.working_folder import working_folder
 from webviz.engine.commands import (
     Command,
     ListReport,
@@ -192,8 +192,8 @@ def _write(path: Path, moment: _Moment, later: State, picture: tuple[str, bytes]
     names = moment.names
     keep = moment.with_names
     try:
-        with tempfile.TemporaryDirectory(prefix=".webviz_report_", dir=path.parent) as folder:
-            file = Path(folder) / SLICE
+        with working_folder(".webviz_report_", path.parent) as folder:
+            file = folder / SLICE
             change = (lambda data: data) if keep else names.message
             written = write_slice(moment.part, file, MAX_BYTES, change)
             report = _report(moment, written, later)

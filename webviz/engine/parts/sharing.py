@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, wait
@@ -17,6 +16,7 @@ from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
 from webviz.data.names import new_path
 from webviz.data.words import counted
+from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Command, ListMoment, Sender, ShareMoment, StopSharing
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Handler, Part
@@ -205,8 +205,8 @@ def _made(
     """Write the messages and the config to a temporary folder, and make the file of them."""
     path, name = target
     try:
-        with tempfile.TemporaryDirectory(prefix=".webviz_share_", dir=path.parent) as folder:
-            bag, shown = Path(folder) / f"{path.stem}.mcap", Path(folder) / "config.yaml"
+        with working_folder(".webviz_share_", path.parent) as folder:
+            bag, shown = folder / f"{path.stem}.mcap", folder / "config.yaml"
 
             def unchanged(data: bytes) -> bytes:
                 if stopped.is_set():
@@ -216,7 +216,7 @@ def _made(
             written = write_slice(part, bag, MAX_SLICE, unchanged)
             shown.write_text(config_file.dump(config), encoding="utf-8")
             at_s = (written.at_ns - written.first_ns) / 1e9
-            made = Path(folder) / path.name
+            made = folder / path.name
             size = export(SharedMoment(bag, shown, made, name, at_s), tell, stopped)
             made.replace(path)
             return f"Saved {path.name}: {size}"

@@ -26,6 +26,7 @@ from webviz.api.errors import Error
 from webviz.api.modules import module_texts
 from webviz.api.properties import value_at
 from webviz.api.status import Level, Status
+from webviz.data.words import plain
 from webviz.engine.commands import Command, ReloadPlugin
 
 if TYPE_CHECKING:
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("webviz")
 
+MAX_REASON = 300
+"""Characters that are quoted of an error."""
 POLL_S = 1.0
 """Interval between checks of files for changes."""
 STATUS = "Plugin"
@@ -155,6 +158,8 @@ def _compiled(path: Path) -> Any:
         raise PluginError(f"{place} is not valid Python: {error.msg}.") from error
     except ValueError as error:  # such as null bytes
         raise PluginError(f"{path} is not valid Python: {error}.") from error
+    except (RecursionError, MemoryError) as error:
+        raise PluginError(f"{path} is not valid Python: it is nested too deeply.") from error
 
 
 def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]:
@@ -166,15 +171,22 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
                 inputs_of(cls)
             module_texts(cls)
             make(cls, msgspec.to_builtins(cls()))  # defaults fit their own types and bounds
-    except (Exception, SystemExit) as error:  # plug-ins may raise anything
+    except BaseException as error:  # plug-ins may raise anything
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)
-        text = f"{type(error).__name__}: {error}".rstrip(": ").rstrip(".")
+        text = f"{type(error).__name__}: {_said(error)}".rstrip(": ").rstrip(".")
         raise PluginError(f"{place} does not load: {text}.") from error
     if not types and not checks:
         bases = "Display, Tool, Panel or Check"
         raise PluginError(f"{path} has no plug-in. Define a subclass of {bases} in it.")
     _register(path, types, checks)
     return types
+
+
+def _said(error: BaseException) -> str:
+    try:
+        return plain(str(error), MAX_REASON)
+    except Exception:  # of the plug-in's own class
+        return ""
 
 
 def _register(

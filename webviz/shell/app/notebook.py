@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from webviz.api.errors import Error
 from webviz.server.access.access import Access
+from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import role_of
 
@@ -47,8 +48,9 @@ def html(page: str, access: Access, is_embeddable: bool) -> str:
     """
     url = page.replace("//127.0.0.1:", "//localhost:")  # the site of notebooks: with cookies
     if access.asks:
-        # Notebooks are saved with what cells show: this link must not let anybody act.
-        tokens = sorted(access.tokens, key=role_of)
+        # Notebooks are saved with what cells show: this link must not let anybody act. Without a
+        # watcher's token, the page asks for one.
+        tokens = [token for token in access.tokens if role_of(token) is Role.WATCHER]
         url = link(url, tokens[0]) if tokens else url
     from html import escape  # here, as its entities take 0.5 MB
 

@@ -37,18 +37,17 @@ def open_report(
     """
 
     def work(stop: Stop) -> int:
-        import tempfile
         from dataclasses import replace
-        from pathlib import Path
 
         from webviz.data.words import counted
+        from webviz.data.working_folder import working_folder
         from webviz.files.report import read_report
         from webviz.shell.cli.serving import serve
         from webviz.shell.cli.viewing_options import BagOptions
         from webviz.shell.report.opening import show
 
-        with tempfile.TemporaryDirectory(prefix="webviz_report_") as folder:
-            unpacked = read_report(report, Path(folder))
+        with working_folder("webviz_report_") as folder:
+            unpacked = read_report(report, folder)
             quiet = replace(
                 options, template=unpacked.config, no_publish=True, autosave=False, no_restore=True
             )

@@ -16,15 +16,25 @@ from webviz.data.names import escaped, readable
 
 OUTPUT, ERRORS = 1, 2
 """File descriptors."""
+STREAMS = ("stdin", "stdout", "stderr")
+"""By file descriptor."""
 
 
 def claim_output() -> None:
     """Reserve standard output for Python; what libraries in C++ print there becomes an error text.
 
-    Fast DDS writes its complaints to the file descriptor, in the middle of JSON.
+    Fast DDS writes its complaints to the file descriptor, in the middle of JSON. A standard stream
+    that is closed, as by `>&-`, leads nowhere from now on, and no file takes its place.
     """
+    for number, name in enumerate(STREAMS):
+        if getattr(sys, name) is None:
+            nowhere = os.open(os.devnull, os.O_RDWR)
+            if nowhere != number:
+                os.dup2(nowhere, number)
+                os.close(nowhere)
+            setattr(sys, name, open(number, "r" if number == 0 else "w"))  # noqa: SIM115 - until the program ends
     stdout = sys.stdout
-    with contextlib.suppress(OSError, AttributeError):  # None or closed: there is nothing to keep
+    with contextlib.suppress(OSError, AttributeError):  # replaced: there is nothing to keep
         if stdout.fileno() != OUTPUT:
             return
         stdout.flush()

@@ -104,9 +104,9 @@ class RuleResults:
         root = ElementTree.Element("testsuites", counts)
         suite = ElementTree.SubElement(root, "testsuite", {"name": "webviz test", **counts})
         for each in self.all.values():
-            attributes = {"classname": self.name, "name": each.rule.text}
+            attributes = {"classname": readable(self.name), "name": readable(each.rule.text)}
             case = ElementTree.SubElement(suite, "testcase", attributes)
             if each.problem:
-                ElementTree.SubElement(case, "failure", {"message": each.problem})
+                ElementTree.SubElement(case, "failure", {"message": readable(each.problem)})
         ElementTree.indent(root)
         return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
 from webviz.api.errors import Error
 from webviz.data.words import counted
+from webviz.data.working_folder import working_folder
 from webviz.files.config.atomic import write_text
 from webviz.files.report import BugReport, UnpackedReport, read_report
 from webviz.shell.pictures import files as picture_files
@@ -59,8 +59,8 @@ def write_test(report: Path, path: Path, check: Check | None) -> str:
     for each in files:
         if each.exists():
             raise Error(f"{each} exists already. Choose another name with -o.")
-    with tempfile.TemporaryDirectory(prefix="webviz_report_") as folder:
-        unpacked = read_report(report, Path(folder))
+    with working_folder("webviz_report_") as folder:
+        unpacked = read_report(report, folder)
         chosen = check or _most_telling(unpacked.report)
         tests = list(_tests(unpacked.report, chosen, path.stem))[:MAX_TESTS]
         if not tests:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 
-from webviz.data.messages import MessageError, interfaces, register, type_exists
+from webviz.data.messages import MessageError, interfaces, prepare, register, type_exists
 
 MAX_SERVICE_TEXT = 8 << 20
 """Characters of the definitions of services that are read, a second for each million; those of
@@ -67,6 +67,7 @@ class Definitions:
             )
         try:
             register(type, text)
+            prepare(type)
         except MessageError as error:
             return str(error).rstrip(".")
         return ""
