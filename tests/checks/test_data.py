@@ -269,6 +269,16 @@ def test_odometry_against_the_transform_of_its_node(
     assert [*examining.examined(stage, CauseLevel.DATA, 0.5, publish)] == ids
 
 
+def test_angles_in_degrees_come_before_the_map(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    measured = building.scan(HERE)
+    degrees = {"angle_min": -180.0, "angle_max": 179.0, "angle_increment": 1.0}
+    look(stage, HERE, measured | degrees)
+    assert [*examined(stage)] == ["DATA016 /scan"]
+    look(stage, HERE, measured)
+    assert examined(stage) == {}
+
+
 @pytest.mark.parametrize("is_of_laser", [False, True])
 def test_a_shift_that_turns_with_the_robot_is_of_its_laser(
     webviz_harness: Make, is_of_laser: bool

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import CauseLevel, Finding, Severity
 from webviz.api.observation import Observation
 
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -43,4 +43,5 @@ class Degrees(Check):
                     evidence={"span_rad": round(span, 2), "increment": float(scan.angle_increment)},
                     command=f"ros2 topic echo --once --field angle_increment {each.topic}",
                     explains=(*display.symptom("Map"), *display.symptom("Display")),
+                    causes=CauseLevel.DATA,  # a scan like that fits no map
                 )

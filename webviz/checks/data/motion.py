@@ -16,6 +16,8 @@ LEAST_M, MIN_RAD = 0.05, 0.05
 MAX_RAD = 2.0
 """Turn between two rounds whose direction is not ambiguous."""
 LONGEST_S = 5.0
+STEADY = 0.2
+"""Relative difference of two speeds that are nearly equal."""
 
 
 class Moved(NamedTuple):
@@ -26,12 +28,14 @@ class Moved(NamedTuple):
         axis: field of the twist, such as "linear.x".
         by_pose: according to two poses.
         by_twist: according to the twist at both, of which the signs are equal.
+        is_steady: whether both speeds are nearly equal, so that `by_twist` is not far from the way.
     """
 
     topic: str
     axis: str
     by_pose: float
     by_twist: float
+    is_steady: bool
 
 
 class Motions:
@@ -61,7 +65,8 @@ def _moved(topic: str, before: _Motion, now: _Motion) -> Iterator[Moved]:
         ("angular.z", turned, (before.turn, now.turn), MIN_RAD, MAX_RAD),
     ):
         if speeds[0] * speeds[1] > 0.0 and least <= abs(moved) <= most:
-            yield Moved(topic, axis, moved, sum(speeds) / 2 * seconds)
+            is_steady = abs(speeds[0] - speeds[1]) <= STEADY * max(map(abs, speeds))
+            yield Moved(topic, axis, moved, sum(speeds) / 2 * seconds, is_steady)
 
 
 class Streaks:

@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
-from webviz.checks.data.motion import Motions, Streaks
+from webviz.checks.data.motion import Motions
 
-ROUNDS = 3
-"""In a row in which the speeds differ."""
+ROUNDS = 4
+"""Of steady motion in which the speeds have the same ratio."""
+ALIKE = 0.2
+"""Relative difference between ratios that are the same."""
 APART = 2.5
 """Ratio of two speeds that slipping wheels do not explain."""
 UNITS = {
@@ -42,17 +44,23 @@ class OdometryScale(Check):
     id = "DATA020"
 
     def __init__(self) -> None:
-        self._motions, self._wrong = Motions(), Streaks()
-        self._ratios: dict[tuple[str, str], float] = {}
+        self._motions = Motions()
+        self._ratios: dict[tuple[str, str], list[float]] = {}
+        """Of the twist to the pose in the last rounds of steady motion, by topic and axis."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each topic and axis whose speeds have differed for some rounds."""
+        """Yield a finding for each topic and axis whose speeds have one ratio for some rounds."""
         for moved in self._motions.since(seen):
-            ratio = moved.by_twist / moved.by_pose
-            self._wrong.note(moved, ratio > APART or 0.0 < ratio < 1.0 / APART)
-            self._ratios[moved.topic, moved.axis] = ratio
-        for topic, axis in self._wrong.lasting(ROUNDS):
-            ratio = self._ratios[topic, axis]
+            if moved.is_steady:
+                ratios = self._ratios.setdefault((moved.topic, moved.axis), [])
+                ratios.append(moved.by_twist / moved.by_pose)
+                del ratios[:-ROUNDS]
+        for (topic, axis), ratios in self._ratios.items():
+            ratio = sorted(ratios)[len(ratios) // 2]
+            if len(ratios) < ROUNDS or 1.0 / APART < ratio < APART or ratio <= 0.0:
+                continue
+            if any(abs(each / ratio - 1.0) > ALIKE for each in ratios):
+                continue  # not a matter of units
             unit = next((u for u, by in UNITS[axis] if abs(ratio / by - 1.0) < NEAR), "")
             yield self.found(
                 f"twist.twist.{axis} on {topic} is {ratio:.2g} times as fast as its pose moves"
