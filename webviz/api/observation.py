@@ -266,6 +266,10 @@ class Observation:
             if display.fit is not None and not display.fit.fit.is_good:
                 yield display, display.fit
 
+    def off_map(self) -> tuple[Symptom, ...]:
+        """Return the statuses of laser scans that do not fit the map."""
+        return tuple(s for display, _ in self.misfits() for s in display.symptom("Map"))
+
     @functools.cached_property
     def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
         owners = [(display.id, display.statuses) for display in self.displays]

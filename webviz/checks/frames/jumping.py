@@ -64,7 +64,7 @@ class JumpingTransform(Check):
                 subject=frame,
                 evidence={"parent": parent, "jumps": len(jumps), "longest_m": round(max(jumps), 2)},
                 command=f"ros2 run tf2_ros tf2_echo {parent} {frame}",
-                explains=tuple(s for display, _ in seen.misfits() for s in display.symptom("Map")),
+                explains=seen.off_map(),
             )
 
 
