@@ -58,7 +58,7 @@ TESTS := test$(if $(ROS),$(comma)ros$(comma)ros-test)
 # pip would do so in one process, and with what is not used, too. What is not Python 3 stays.
 COMPILE := $(VENV)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 
-.PHONY: install test quick quick-1 quick-2 slow check bench soak attack mutants browser docs site release
+.PHONY: install test quick quick-1 quick-2 slow check bench soak attack mutants doctor-trial browser docs site release
 
 install: $(VENV)/ready
 
@@ -107,6 +107,11 @@ attack: $(VENV)/ready-to-test
 # ARGS="webviz/engine/driving --sample 0": all small faults of a room, instead of 60 by chance.
 mutants: $(VENV)/ready-to-mutants
 	@nice $(VENV)/bin/python -m tests.mutants $(ARGS)
+
+# ARGS="TF007 'no robot' --jobs 1" for some of the faults; "--minutes 60 --bags a.mcap b.mcap" for an
+# hour of the demo and for bags, in which nothing may be found.
+doctor-trial: $(VENV)/ready-to-test
+	@PYTHONPATH=.:tests/support $(VENV)/bin/python -m tests.doctor_trial $(ARGS)
 
 # All that is generated from declarations; RVIZ="a.rviz b.rviz" counts what is carried over of them.
 docs: $(VENV)/ready

@@ -189,6 +189,15 @@ def test_a_live_examination_ends_in_time(tmp_path: Path) -> None:
     assert "All is well" not in said
 
 
+@pytest.mark.usefixtures("webviz_domain")
+def test_a_short_look_claims_no_empty_graph() -> None:
+    command = [sys.executable, "-m", "webviz", "doctor", "--seconds", "3.5", "--json"]
+    done = subprocess.run(command, capture_output=True, timeout=120.0, check=False)
+    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    assert "GRAPH001" not in {each.id for each in report.findings}
+    assert report.unfinished
+
+
 def test_a_viewer_is_examined_on_request_and_a_recording_notes_the_moment(run_bag: Path) -> None:
     with webviz.Viewer(bag=run_bag, port=0, fixed_frame="odomm") as viewer:
         viewer.seek(4.0)

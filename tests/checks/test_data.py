@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from typing import Any
@@ -15,6 +16,7 @@ from examining import HERE, SCAN, display, look
 import webviz
 from webviz import Finding, Severity, Symptom, Topic
 from webviz.api.finding import CauseLevel
+from webviz.api.offer import Offer, Publisher
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
@@ -130,7 +132,6 @@ def test_a_laser_that_sees_a_post_of_its_robot(webviz_harness: Make) -> None:
         ({"encoding": "bgra8", "step": 512}, Severity.ERROR),
         ({"encoding": "nv21", "width": 192, "height": 4}, None),
         ({}, None),
-        ({"encoding": "whatever"}, None),
     ],
 )
 def test_images_that_are_not_what_they_say(
@@ -203,6 +204,10 @@ def test_displays_that_hide_what_they_show(webviz_harness: Make) -> None:
         (-0.5, 0.4, ["DATA013 /odom"]),
         (0.5, -0.4, ["DATA013 /odom"]),
         (0.0, 0.0, []),
+        (0.7, 0.4, []),  # the wheels slip
+        (3.6 * 0.5, 0.4, ["DATA020 /odom"]),
+        (0.5, math.degrees(0.4), ["DATA020 /odom"]),
+        (0.5, math.radians(0.4), ["DATA020 /odom"]),
     ],
 )
 def test_odometry_against_its_own_twist(
@@ -228,4 +233,125 @@ def test_odometry_against_its_own_twist(
 
     for _ in range(3):
         examining.examined(stage, CauseLevel.DATA, 0.5, publish)
+    found = examining.examined(stage, CauseLevel.DATA, 0.5, publish)
+    assert [*found] == ids
+    if ids == ["DATA020 /odom"]:
+        unit = "km/h" if speed > 1.0 else "degrees per second" if turn > 1.0 else ""
+        said = found["DATA020 /odom"].cause
+        assert said.endswith(
+            f", as if it were in {unit}." if unit else " times as fast as its pose moves."
+        )
+
+
+@pytest.mark.parametrize(
+    ("apart_m", "node", "ids"),
+    [(0.0, "/wheels", []), (0.4, "/wheels", ["DATA021 /odom"]), (0.4, "/filter", [])],
+)
+def test_odometry_against_the_transform_of_its_node(
+    webviz_harness: Make, apart_m: float, node: str, ids: list[str]
+) -> None:
+    stage = webviz_harness(Odometry(), fixed_frame="odom")
+    for topic, sender, type_name in (
+        ("/tf", node, "tf2_msgs/msg/TFMessage"),
+        ("/odom", "/wheels", "nav_msgs/msg/Odometry"),
+    ):
+        publisher = Publisher(sender, type_name, "reliable", "volatile")
+        stage.source.known[topic] = Offer((publisher,), ("reliable", "volatile"))
+
+    def publish() -> None:
+        now = stage.source.now
+        stage.transform("odom", "base_link", (1.0, 0.0, 0.0), stamp_ns=now)
+        place = {"position": {"x": 1.0 + apart_m}, "orientation": {"w": 1.0}}
+        values = {"header": header("odom", now), "child_frame_id": "base_link"}
+        pose = {"pose": {"pose": place, "covariance": [0.1] * 36}}
+        stage.publish("/odom", "nav_msgs/msg/Odometry", values | pose)
+
     assert [*examining.examined(stage, CauseLevel.DATA, 0.5, publish)] == ids
+
+
+def test_angles_in_degrees_come_before_the_map(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    measured = building.scan(HERE)
+    degrees = {"angle_min": -180.0, "angle_max": 179.0, "angle_increment": 1.0}
+    look(stage, HERE, measured | degrees)
+    assert [*examined(stage)] == ["DATA016 /scan"]
+    look(stage, HERE, measured)
+    assert examined(stage) == {}
+
+
+@pytest.mark.parametrize("is_of_laser", [False, True])
+def test_a_shift_that_turns_with_the_robot_is_of_its_laser(
+    webviz_harness: Make, is_of_laser: bool
+) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    said: list[str] = []
+    for yaw in (0.0, 0.3, 0.6, 0.9):
+        way = complex(0.6, 0.3) * (cmath.rect(1.0, yaw) if is_of_laser else 1.0)
+        seen = Pose2D(HERE.x + way.real, HERE.y + way.imag, yaw)
+        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(seen))
+        said = [each.remedy for each in examined(stage).values()]
+    assert len(said) == 1
+    assert (said[0] == "Correct the transform of 'laser'.") == is_of_laser
+    assert said[0].startswith("Give the pose") != is_of_laser
+
+
+def test_a_map_without_a_known_cell(webviz_harness: Make) -> None:
+    stage = webviz_harness(Map(), fixed_frame="map")
+    stage.transform("map", "odom")
+    grid = building.grid()
+    unknown = np.full_like(grid["data"], -1)
+    one = unknown.copy()
+    one[0] = 0
+    for cells, ids in ((unknown, ["DATA018 /map"]), (one, [])):
+        values = grid | {"header": header("map", stage.source.now), "data": cells}
+        stage.publish("/map", "nav_msgs/msg/OccupancyGrid", values)
+        assert [*examined(stage)] == ids
+
+
+def test_data_that_a_display_cannot_draw(webviz_harness: Make) -> None:
+    stage = webviz_harness(Map(name="Rooms"), fixed_frame="map")
+    stage.transform("map", "odom")
+    grid = building.grid()
+    for resolution, ids in ((0.0, ["DATA019 Rooms, Map"]), (0.05, [])):
+        values = grid | {"header": header("map", stage.source.now)}
+        values["info"] = grid["info"] | {"resolution": resolution}
+        stage.publish("/map", "nav_msgs/msg/OccupancyGrid", values)
+        found = examined(stage)
+        assert [*found] == ids
+        if ids:
+            assert found[ids[0]].cause.startswith(
+                "Rooms cannot draw /map: The map's resolution is 0 m"
+            )
+
+
+def test_an_encoding_that_nobody_knows(webviz_harness: Make) -> None:
+    stage = webviz_harness(Image(name="Camera", topic=Topic("/image")), fixed_frame="map")
+    values = {"width": 1, "height": 1, "encoding": "whatever", "step": 3, "data": bytes(3)}
+    stage.publish("/image", "sensor_msgs/msg/Image", values, frame="camera")
+    assert [*examined(stage)] == ["DATA019 Camera, Image"]
+
+
+WHEEL = """<robot name="r"><link name="map"/><link name="wheel"/>
+<joint name="axle" type="continuous"><parent link="map"/><child link="wheel"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("positions", [[], [1.0, 2.0], [math.nan]])
+def test_joint_states_that_are_invalid(webviz_harness: Make, positions: list[float]) -> None:
+    stage = webviz_harness(RobotModel(), fixed_frame="map")
+    state = "sensor_msgs/msg/JointState"
+    stage.source.known["/joint_states"] = Offer(
+        (Publisher("/wheels", state, "reliable", "volatile"),), ("reliable", "volatile")
+    )
+    stage.publish("/robot_description", "std_msgs/msg/String", {"data": WHEEL})
+    stage.transform("map", "other")
+
+    def publish(values: list[float]) -> None:
+        said = {"header": header("", stage.source.now), "name": ["axle"], "position": values}
+        stage.publish("/joint_states", state, said)
+
+    for values, is_found in ((positions, True), ([1.0], False)):
+        for _ in range(3):
+            examining.examined(stage, CauseLevel.DATA, publish=lambda v=values: publish(v))
+        found = [each.id for each in stage.viewer.snapshot().findings]
+        assert ("DATA017" in found) == is_found, found
+        assert not is_found or not {"TF013", "TF017"} & {*found}, "they follow"

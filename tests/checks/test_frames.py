@@ -308,6 +308,49 @@ def test_a_link_that_has_stopped(robot: Harness) -> None:
     assert (finding.id, finding.evidence["link"]) == ("TF018", "odom")
 
 
+@pytest.mark.parametrize("count", [1, 4])
+def test_a_link_that_is_rare_has_not_stopped(robot: Harness, count: int) -> None:
+    mount(robot)
+    robot.source.now += 30 * SECOND
+
+    def turn(seconds: int) -> None:
+        for _ in range(seconds * 10):
+            robot.source.now += SECOND // 10
+            robot.clock += 0.1
+            robot.transform("odom", "base_link", stamp_ns=robot.source.now)
+            scan(robot)
+            robot.turn()
+
+    for _ in range(count):
+        drive(robot)
+        turn(3)
+    found = examined(robot, 0.1)
+    assert not [each.cause for each in found.values() if "no longer" in each.cause]
+    if count > 1:
+        assert [*found] == ["TF019 odom"]
+
+
+@pytest.mark.parametrize(
+    ("child", "every", "ids"),
+    [
+        ("odom", 5, ["TF026 odom"]),
+        ("odom", 40, []),  # localisation has corrected itself
+        ("base_link", 15, ["TF026 base_link"]),
+        ("base_link", 0, []),
+    ],
+)
+def test_transforms_that_jump(webviz_harness: Make, child: str, every: int, ids: list[str]) -> None:
+    stage = viewer(webviz_harness)
+    for number in range(60):
+        stage.source.now += SECOND // 10
+        x = 0.05 * number
+        for parent, name in (("map", "odom"), ("odom", "base_link")):
+            jump = 1.5 * (number // every % 2) if name == child and every else 0.0
+            stage.transform(parent, name, (x + jump, 0.0, 0.0), stamp_ns=stage.source.now)
+        stage.turn()
+    assert [*examined(stage, 0.1)] == ids
+
+
 def test_refused_transforms(robot: Harness) -> None:
     mount(robot)
     for _ in range(3):

@@ -106,6 +106,46 @@ def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Viewers) -> None:
     wait_for(viewer, "GRAPH011 /scan")
 
 
+def test_a_robot_in_another_namespace_is_one_finding(robot: Node, webviz_viewer: Viewers) -> None:
+    for topic in ("/robot1/scan", "/robot1/rear"):
+        robot.create_publisher(LaserScan, topic, BEST_EFFORT)
+    viewer = webviz_viewer(scan("/scan"), scan("/rear"))
+    both = wait_for(viewer, "GRAPH003 /scan")["GRAPH003 /scan"]
+    assert both.cause == "No node publishes /scan, /rear, but they are published in /robot1."
+    assert both.command == "webviz --ros-args -r __ns:=/robot1"
+    assert len(both.explains) == 2
+
+
+def test_topics_of_a_node_that_ended_are_one_finding(
+    robot: Node, webviz_domain: int, webviz_viewer: Viewers
+) -> None:
+    viewer = webviz_viewer(scan("/front"), scan("/rear"), fixed_frame="map")
+    message = LaserScan(ranges=[1.0], range_max=2.0)
+    message.header.frame_id = "map"
+    with node_of(webviz_domain, "lidars") as lidars:
+        publishers = [lidars.create_publisher(LaserScan, each, 1) for each in ("/front", "/rear")]
+
+        def is_well() -> bool:
+            for each in publishers:
+                each.publish(message)
+            return not live_findings(viewer, CauseLevel.GRAPH)
+
+        viewer.wait_for(lambda: all(each.get_subscription_count() for each in publishers))
+        viewer.wait_for(is_well)
+
+        def are_named() -> bool:
+            offers = viewer.source.offers()
+            return all(p.node for each in ("/front", "/rear") for p in offers[each].publishers)
+
+        viewer.wait_for(are_named)  # DDS tells the names of nodes somewhat later
+        rounds = viewer.viewer.doctor.rounds
+        viewer.wait_for(lambda: viewer.viewer.doctor.rounds > rounds + 1)
+    found = wait_for(viewer, "GRAPH011 /front")["GRAPH011 /front"]
+    assert found.cause == (
+        "/lidars has left the graph, so /front, /rear no longer have a publisher."
+    )
+
+
 def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewers) -> None:
     robot.create_publisher(PoseStamped, "/goal_pose", 1)
     viewer = webviz_viewer(Pose(topic=webviz.Topic("/goal_pose")))

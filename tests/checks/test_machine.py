@@ -270,6 +270,7 @@ LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
             f"{LO}; {NODE} {QUIET}; {LOADED}",
         ),
         ("SHM002", f"{SHM} size=64m", f"{SHM} size=1g"),
+        ("SHM006", f"{SHM} size=1g,ro", f"{SHM} size=1g"),
         (
             "SHM003",
             f"{SHM} size=100m; head -c 99m /dev/zero > /dev/shm/full",

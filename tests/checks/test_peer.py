@@ -160,6 +160,14 @@ def test_a_path_that_drops_large_packets(tmp_path: Path) -> None:
 
 
 @needs_namespaces
+def test_an_interface_of_the_robot_that_takes_smaller_packets(tmp_path: Path) -> None:
+    found = compared(tmp_path, "there ip link set eth0 mtu 1300")["NET022"]
+    (finding,) = [each for each in found if each.subject == "viewer to robot"]
+    assert finding.evidence["arrives"] == 1300
+    assert finding.evidence["allowed"] == 1500
+
+
+@needs_namespaces
 def test_a_firewall_that_drops_what_the_robot_sends(tmp_path: Path) -> None:
     found = compared(tmp_path, "there ip rule add ipproto udp prohibit pref 1")
     (finding,) = found["NET020"]

@@ -9,7 +9,7 @@ import examining
 import pytest
 from builtin_interfaces.msg import Time
 from examining import SCAN, three_ranges
-from nodes import node_of
+from nodes import SpunNode, node_of
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan as LaserScanMessage
@@ -153,6 +153,30 @@ def test_two_clocks_come_before_what_they_cause(
         viewer.wait_for(
             lambda: [*causes(viewer)] == ["TIME003"], lambda: f"It found {causes(viewer)}."
         )
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_nodes_that_wait_for_a_clock(
+    webviz_domain: int, webviz_viewer: Callable[..., LiveViewer], follows: bool
+) -> None:
+    lidar = SpunNode(webviz_domain, "lidar")
+    lidar.node.set_parameters([Parameter("use_sim_time", value=follows)])
+    lidar.node.create_publisher(LaserScanMessage, "/scan", 1)
+    viewer = webviz_viewer(LaserScan(topic=Topic("/scan")), fixed_frame="map")
+    try:
+        waits = "/lidar has use_sim_time, but nothing publishes /clock."
+        first = {"TIME014": waits} if follows else {}
+        lidar.until(
+            lambda: (
+                {i: c for i, c in causes(viewer).items() if i.startswith("TIME")} == first
+                and ("GRAPH008" in causes(viewer)) != follows
+            ),
+            "the answer of the lidar",
+        )
+        if follows:
+            assert [*causes(viewer)] == ["TIME014"]
+    finally:
+        lidar.close()
 
 
 def test_a_node_on_wall_time(stage: Harness) -> None:

@@ -40,6 +40,7 @@ class SharedMemory:
         foreign: names of segments of Fast DDS that belong to other users.
         stale_locks: names of locks of Fast DDS whose segment is gone.
         apart: ROS programs of this network with other shared memory, by their command lines.
+        is_writable: whether this program may create files there.
     """
 
     size: int
@@ -47,6 +48,7 @@ class SharedMemory:
     foreign: Sequence[str] = ()
     stale_locks: Sequence[str] = ()
     apart: Sequence[str] = ()
+    is_writable: bool = True
 
 
 @dataclass(frozen=True)

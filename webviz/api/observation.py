@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -25,6 +26,8 @@ from webviz.data.transforms.conflicts import Conflict, ConflictKind
 from webviz.data.transforms.reasons import Explanation, Kind, in_words
 
 NO_OFFER = Offer(())
+DISCOVERED_S = 4.0
+"""Time after which DDS has found nodes that can be found; it announces them every 3 s."""
 OF_TIME = tuple(
     kind
     for kind in Kind
@@ -148,6 +151,9 @@ class Observation:
         is_simulated: whether ROS time comes from /clock or a bag.
         clock_hz: messages per second on /clock.
         clock: newest time on /clock, None while nothing depends on it.
+        joint_states: newest message of each topic of joint states, while transforms are missing.
+        sim_time: whether nodes have use_sim_time, by name: those that publish topics or transforms
+            that do not arrive, as far as they have answered.
         is_paused: whether a person has paused time.
         is_recorded: whether messages come from a bag.
         environment: of this machine, None with a bag or bridge, or until it is known.
@@ -159,6 +165,7 @@ class Observation:
         browsers: that are connected.
         cameras: of the browsers whose camera is known, in the fixed frame, by id.
         load: share of a processor that the frame loop takes while browsers are connected.
+        listened_s: time for which the graph was looked at, in seconds.
     """
 
     now_ns: int
@@ -171,6 +178,8 @@ class Observation:
     is_simulated: bool = False
     clock_hz: float = 0.0
     clock: ClockSeen | None = None
+    joint_states: Mapping[str, Any] = field(default_factory=dict)
+    sim_time: Mapping[str, bool] = field(default_factory=dict)
     is_paused: bool = False
     is_recorded: bool = False
     environment: Environment | None = None
@@ -182,6 +191,7 @@ class Observation:
     browsers: Sequence[BrowserSeen] = ()
     cameras: Mapping[int, Camera] = field(default_factory=dict)
     load: float = 0.0
+    listened_s: float = math.inf
 
     def inputs(self) -> Iterator[tuple[DisplaySeen, InputSeen]]:
         """All inputs that have a topic, each with its display."""
@@ -197,9 +207,22 @@ class Observation:
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
     def is_alone(self) -> bool:
-        """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`."""
+        """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`.
+
+        Not before the others had time to be found.
+        """
+        if self.listened_s < DISCOVERED_S:
+            return False
         shown = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
         return len(shown) == 1 and not self.is_recorded
+
+    def stalled_nodes(self) -> Iterator[str]:
+        """Yield the nodes of `stalled` topics and, if transforms are missing, those of /tf."""
+        for _, _, offer in self.starved():
+            yield from (publisher.node for publisher in offer.publishers if publisher.node)
+        if any(self.lost(*OF_TIME)):
+            for topic in ("/tf", "/tf_static"):
+                yield from (p.node for p in self.offers.get(topic, NO_OFFER).publishers if p.node)
 
     def undiscovered(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have no publisher, those of transforms included."""
@@ -242,6 +265,10 @@ class Observation:
         for display in self.displays:
             if display.fit is not None and not display.fit.fit.is_good:
                 yield display, display.fit
+
+    def off_map(self) -> tuple[Symptom, ...]:
+        """Return the statuses of laser scans that do not fit the map."""
+        return tuple(s for display, _ in self.misfits() for s in display.symptom("Map"))
 
     @functools.cached_property
     def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:

@@ -59,6 +59,12 @@ class End:
             found.setdefault(node.variables.get(name, "") or default, who)
         return found or {self.variables.get(name, "") or default: "the environment"}
 
+    def shares_network(self, other: End) -> bool:
+        """Return whether an interface of each is in the same subnet."""
+        ours = [ipaddress.ip_network(each) for each in self.networks]
+        theirs = [ipaddress.ip_network(each) for each in other.networks]
+        return any(a.overlaps(b) for a in ours for b in theirs)
+
     def interface(self, address: str) -> NetworkInterface | None:
         """Return the interface that has an address, None if none has."""
         return next((each for each in self.interfaces if address in each.addresses), None)
@@ -111,6 +117,4 @@ class TwoEnds:
     @property
     def shares_network(self) -> bool:
         """Return whether an interface of each is in the same subnet."""
-        ours = [ipaddress.ip_network(each) for each in self.here.networks]
-        theirs = [ipaddress.ip_network(each) for each in self.there.networks]
-        return any(a.overlaps(b) for a in ours for b in theirs)
+        return self.here.shares_network(self.there)

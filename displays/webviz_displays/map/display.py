@@ -20,13 +20,16 @@ from webviz import (
     Hit,
     Image,
     Input,
+    Level,
     Lookback,
+    Measurement,
     OtherFixedFrame,
     Pose,
     Prop,
     Remedy,
     Sample,
     SelfPlacing,
+    Status,
     Topic,
     compose,
 )
@@ -42,6 +45,8 @@ from webviz_displays.shared.opaque import opaque
 OPAQUE = 0.9998
 """An alpha from here on counts as 1, as in RViz."""
 
+UNKNOWN = -1
+"""Value of a cell of which nothing is known."""
 BEHIND = 100_000
 """Layers that `draw_behind` lowers a map by: more than any config has displays."""
 
@@ -258,6 +263,10 @@ class MapDisplay(Display, SelfPlacing):
             ctx.warn(
                 "Map", f"{size}, invisible: alpha is 0. Increase it to show the map.", opaque()
             )
+        elif not any((tile != UNKNOWN).any() for tile in grid.tiles.values()):
+            text = f"{size}, all of which are unknown. Check the publisher of the map."
+            nothing = Measurement("known cells", 0)
+            ctx.statuses["Map"] = Status(Level.WARN, text, values=(nothing,))
         else:
             ctx.ok("Map", f"{size} in frame '{grid.frame}'.")
         if folded.update_fault:

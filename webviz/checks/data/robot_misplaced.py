@@ -1,39 +1,103 @@
-"""Robots at the wrong place in the map."""
+"""Robots, or their lasers, at the wrong place in the map."""
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from webviz.api.check import Check
+from webviz.api.consistency import MapFit
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.data.rotations import to_rpy
+from webviz.data.transforms import TransformException
+
+TURNED_RAD = math.radians(30.0)
+"""Turn of the robot after which a shift of the laser has turned along, and one of the robot not."""
+STEADY_M = 0.15
+"""By which a shift that stays may vary."""
+KEPT = 30
+"""Shifts that are compared, one a round."""
+
+
+class _Shift(NamedTuple):
+    """Metres along the axes of the map, x + iy, and the yaw of the laser there in rad."""
+
+    shift: complex
+    yaw: float
 
 
 class RobotMisplaced(Check):
     """Robot is misplaced.
 
-    A laser scan does not fit the map, and would fit if the robot were elsewhere.
+    A laser scan does not fit the map, and would fit if the robot, or its laser, were elsewhere.
 
     Why:
-        Localisation has a wrong idea of where the robot is, so that it plans through walls.
+        Localisation has a wrong idea of where the robot is, so that it plans through walls. If the
+        shift turns with the robot, the laser is mounted elsewhere than its transform says.
 
     Repair:
-        Give AMCL the pose of the robot with the tool 2D Pose Estimate.
+        Give AMCL the pose of the robot with the tool 2D Pose Estimate; or correct where the laser
+        is mounted in the robot description.
     """
 
     id = "DATA003"
 
+    def __init__(self) -> None:
+        self._shifts: dict[str, list[_Shift]] = {}
+        """By frame of the laser, as long as its scan does not fit."""
+
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
+        before, self._shifts = self._shifts, {}
         for display, found in seen.misfits():
             if found.fit.shift is None:
                 continue
+            shifts = self._shifts[found.frame] = before.get(found.frame, [])[-KEPT:]
+            if (yaw := _yaw(seen, found)) is not None:
+                shifts.append(_Shift(complex(*found.fit.shift), yaw))
+            off = _of_laser(shifts)
+            if off is not None:
+                cause = (
+                    f"The scan of '{found.frame}' is off by ({off.real:.2f}, {off.imag:.2f}) m in "
+                    "its own frame wherever it looks: the laser is misplaced on the robot."
+                )
+            elif found.is_placed:
+                cause = f"The scan of '{found.frame}' is not at the walls: it is misplaced."
+            else:
+                cause = f"The scan of '{found.frame}' is not at the walls: the robot is misplaced."
             yield self.found(
-                f"The scan of '{found.frame}' is not at the walls: the robot is misplaced.",
+                cause,
                 f"Correct the transform of '{found.frame}'."
-                if found.is_placed
-                else "Give the pose of the robot with the tool 2D Pose Estimate.",
+                if found.is_placed or off is not None
+                else "Give the pose of the robot with the tool 2D Pose Estimate. If the scan is "
+                "off in another direction after a turn, correct the transform of its laser.",
                 subject=display.display.name,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},
                 explains=display.symptom("Map"),
             )
+
+
+def _yaw(seen: Observation, found: MapFit) -> float | None:
+    """Return the yaw of a laser in the map."""
+    try:
+        pose = seen.buffer.lookup(found.map_frame, found.frame, 0)
+    except TransformException:
+        return None
+    x, y, z, w = pose.rotation
+    return to_rpy((w, x, y, z))[2]
+
+
+def _of_laser(shifts: list[_Shift]) -> complex | None:
+    """Return the shift in the frame of the laser if it stays there, and turns in the map."""
+    turns = [math.remainder(each.yaw - shifts[0].yaw, math.tau) for each in shifts]
+    if not turns or max(turns) - min(turns) < TURNED_RAD:
+        return None
+    own = [each.shift * cmath.rect(1.0, -each.yaw) for each in shifts]
+    middle = sum(own) / len(own)
+    of_map = sum(each.shift for each in shifts) / len(shifts)
+    apart = max(abs(each - middle) for each in own)
+    apart_in_map = max(abs(each.shift - of_map) for each in shifts)
+    return middle if apart < STEADY_M and apart < apart_in_map / 2 else None

@@ -38,5 +38,5 @@ class ConflictCheck(Check):
                     "nodes": seen.nodes_of(self.topic),
                 },
                 command=f"ros2 topic info {self.topic} --verbose",
-                explains=seen.symptom("Transforms"),
+                explains=(*seen.symptom("Transforms"), *seen.off_map()),
             )

@@ -36,6 +36,9 @@ class NoTransforms(Check):
         offers = [offer for offer in offers if offer.publishers]
         if offers and not seen.is_recorded and all(offer.requested is None for offer in offers):
             return  # they have just been found
+        elsewhere = next(
+            (t for t in seen.offers if t.endswith("/tf") and t != "/tf" and seen.nodes_of(t)), ""
+        )
         nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
         has_data = seen.is_recorded or any(seen.inputs())
         is_harmless = has_data and not any(each.display for each in explains)
@@ -44,12 +47,18 @@ class NoTransforms(Check):
             if nodes
             else "The bag has no transforms."
             if seen.is_recorded
+            else f"No node publishes /tf, but {seen.nodes_of(elsewhere)} publishes {elsewhere}."
+            if elsewhere
             else "No node publishes transforms.",
-            "Record /tf and /tf_static as well, or add a transform with --transform."
+            "Record /tf and /tf_static as well, or use the frame of the data as the fixed frame."
             if seen.is_recorded
+            else "Let webviz listen there, or let the robot publish /tf without its namespace."
+            if elsewhere
             else "Start robot_state_publisher, the odometry and localisation.",
             severity=Severity.NOTE if is_harmless else Severity.ERROR,
             evidence={"publishers": nodes, "fixed_frame": seen.fixed_frame},
-            command="ros2 topic info /tf --verbose",
+            command=f"webviz --ros-args -r /tf:={elsewhere} -r /tf_static:={elsewhere}_static"
+            if elsewhere
+            else "ros2 topic info /tf --verbose",
             explains=explains,
         )

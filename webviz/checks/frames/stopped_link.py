@@ -31,10 +31,17 @@ class StoppedLink(Check):
         for symptom, reason in seen.lost(Kind.AHEAD, Kind.NO_DATA):
             if reason.is_catching_up or is_refused(seen, reason.link):
                 continue
+            frame = reason.link or reason.frame
+            cache = seen.buffer.tree.caches.get(frame)
+            is_single = cache is not None and not cache.is_static and len(cache) == 1
             yield self.found(
-                f'The transform of "{reason.link or reason.frame}" is no longer published.',
-                "Start its publisher again.",
-                subject=reason.link or reason.frame,
+                f'Only one transform of "{frame}" has arrived.'
+                if is_single
+                else f'The transform of "{frame}" is no longer published.',
+                "Check that its publisher still sends it."
+                if is_single
+                else "Start its publisher again.",
+                subject=frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "link": reason.link},
                 command=f"ros2 run tf2_ros tf2_echo {seen.fixed_frame} {reason.link}",

@@ -8,7 +8,9 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 from webviz.api.status import OtherFixedFrame
+from webviz.data.transforms.conflicts import ConflictKind
 from webviz.data.transforms.reasons import Kind
+from webviz.data.transforms.tree import ancestors
 
 
 class TwoTrees(Check):
@@ -31,9 +33,12 @@ class TwoTrees(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each pair of trees that displays need together."""
+        contested = {frame for frame, _ in seen.conflicts(ConflictKind.TWO_PARENTS)}
         for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
             if not reason.roots:
                 continue  # it was not connected at that time, and now it is
+            if contested & {*ancestors(seen.buffer.tree, reason.frame)}:
+                continue  # its parent decides, on which two publishers disagree
             root, fixed_root = reason.roots
             yield self.found(
                 f'No transform connects the tree of "{root}" with that of "{fixed_root}".',

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.api.offer import Endpoint
+from webviz.checks.graph.names import named
 
 
 class DeadlineMismatch(Check):
@@ -31,16 +33,24 @@ class DeadlineMismatch(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with such a subscription."""
         for topic, offer in seen.offers.items():
+            waiting: list[tuple[Endpoint, float]] = []
             for reader in offer.readers:
                 offered = [p.deadline_s for p in offer.publishers if p.type == reader.type]
-                if not offered or min(offered) <= reader.deadline_s:
-                    continue
-                promise = f"{min(offered):g} s" if min(offered) < math.inf else "none"
-                yield self.found(
-                    f"{reader.label} receives nothing on {topic}: it asks for a deadline of "
-                    f"{reader.deadline_s:g} s, and {seen.nodes_of(topic)} offers {promise}.",
-                    "Remove the deadline of the subscription, or offer it in the publisher.",
-                    subject=topic,
-                    evidence={"topic": topic, "node": reader.label, "asked_s": reader.deadline_s},
-                    command=f"ros2 topic info --verbose {topic}",
-                )
+                if offered and min(offered) > reader.deadline_s:
+                    waiting.append((reader, min(offered)))
+            if not waiting:
+                continue
+            best = min(offered for _, offered in waiting)
+            promise = f"{best:g} s" if best < math.inf else "none"
+            asked_s = min(reader.deadline_s for reader, _ in waiting)
+            readers = named([reader for reader, _ in waiting])
+            is_one = len(waiting) == 1
+            yield self.found(
+                f"{readers} {'receives' if is_one else 'receive'} nothing on {topic}: "
+                f"{'it asks' if is_one else 'they ask'} for a deadline of {asked_s:g} s, and "
+                f"{seen.nodes_of(topic)} offers {promise}.",
+                "Remove the deadline of the subscription, or offer it in the publisher.",
+                subject=topic,
+                evidence={"topic": topic, "nodes": readers, "asked_s": asked_s},
+                command=f"ros2 topic info --verbose {topic}",
+            )

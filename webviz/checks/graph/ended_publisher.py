@@ -1,4 +1,4 @@
-"""Topics whose publisher has ended."""
+"""Nodes that have ended."""
 
 from __future__ import annotations
 
@@ -6,17 +6,20 @@ from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding
-from webviz.api.observation import Observation
+from webviz.api.observation import NO_OFFER, DisplaySeen, InputSeen, Observation
+from webviz.data.words import listed
+
+NAMED = 4
 
 
 class EndedPublisher(Check):
-    """Publisher that has ended.
+    """Node that has ended.
 
-    Messages arrived on a topic that has no publisher any more.
+    Messages arrived on topics that have no publisher any more.
 
     Why:
-        The node has exited or crashed, or its machine is out of reach; what is shown is its last
-        message.
+        The node has exited, crashed or was stopped, or its machine is out of reach; what is shown
+        is its last message.
 
     Repair:
         Start the node again. Its last words are in the log of its launch file, and in
@@ -25,16 +28,37 @@ class EndedPublisher(Check):
 
     id = "GRAPH011"
 
+    def __init__(self) -> None:
+        self._nodes: dict[str, str] = {}
+        """The last known publishers, by topic."""
+
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each topic that has lost its publisher."""
-        for display, each, offer in seen.starved():
-            if not each.received or offer.publishers:
-                continue
+        """Yield a finding for each node that has ended; several that left together are one."""
+        found: dict[str, list[tuple[DisplaySeen, InputSeen]]] = {}
+        for display, each in seen.inputs():
+            offer = seen.offers.get(each.topic, NO_OFFER)
+            if offer.publishers:
+                self._nodes[each.topic] = seen.nodes_of(each.topic)
+            elif each.received and display.problem(each.status):
+                node = self._nodes.get(each.topic, "")
+                found.setdefault(node or each.topic, []).append((display, each))
+        for lost in found.values():
+            topics = [*dict.fromkeys(each.topic for _, each in lost)]
+            node = self._nodes.get(topics[0], "")
+            gone = node and not {*node.split(", ")} & {*seen.nodes}
+            named = listed(topics, NAMED)
+            no_longer = "no longer has" if len(topics) == 1 else "no longer have"
             yield self.found(
-                f"{each.topic} no longer has a publisher.",
+                f"{node} has left the graph, so {named} {no_longer} a publisher."
+                if gone
+                else f"{named} {no_longer} a publisher.",
                 "Start its node again, or restore the link to its machine.",
-                subject=each.topic,
-                evidence={"topic": each.topic, "received": each.received},
+                subject=topics[0],
+                evidence={
+                    "topics": tuple(topics),
+                    "node": node,
+                    "received": sum(each.received for _, each in lost),
+                },
                 command="ros2 node list",
-                explains=display.symptom(each.status),
+                explains=tuple(s for display, each in lost for s in display.symptom(each.status)),
             )

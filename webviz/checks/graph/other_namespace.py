@@ -6,8 +6,12 @@ from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import ChangeDisplay, Finding
-from webviz.api.observation import Observation
+from webviz.api.observation import DisplaySeen, InputSeen, Observation
+from webviz.api.status import Remedy
 from webviz.checks.graph.names import is_elsewhere, suggested
+from webviz.data.words import listed
+
+NAMED = 4
 
 
 class OtherNamespace(Check):
@@ -29,17 +33,41 @@ class OtherNamespace(Check):
     id = "GRAPH003"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each topic that only another namespace has."""
+        """Yield a finding for each namespace in which topics are missing, and another has them."""
+        found: dict[tuple[str, str], list[tuple[DisplaySeen, InputSeen, Remedy]]] = {}
         for display, each, offer in seen.starved():
             remedy = suggested(display, each)
             if offer.publishers or each.received or not remedy:
                 continue
             if is_elsewhere(each.topic, remedy.value):
-                yield self.found(
-                    f"No node publishes {each.topic}, but {remedy.value} is published.",
-                    f"Choose {remedy.value}, or start webviz in that namespace.",
-                    subject=each.topic,
-                    evidence={"topic": each.topic, "nearest": remedy.value},
-                    button=ChangeDisplay(display.id, remedy),
-                    explains=display.symptom(each.status),
+                found.setdefault(_namespaces(each.topic, remedy.value), []).append(
+                    (display, each, remedy)
                 )
+        for (_, other), missing in found.items():
+            topics = [*dict.fromkeys(each.topic for _, each, _ in missing)]
+            display, each, remedy = missing[0]
+            is_one = len(topics) == 1
+            yield self.found(
+                f"No node publishes {each.topic}, but {remedy.value} is published."
+                if is_one
+                else f"No node publishes {listed(topics, NAMED)}, but they are published in "
+                f"{other or '/'}.",
+                f"Choose {remedy.value}, or start webviz in that namespace."
+                if is_one
+                else f"Start webviz in the namespace {other or '/'}, or choose its topics.",
+                subject=each.topic,
+                evidence={"topics": tuple(topics), "nearest": remedy.value},
+                command=f"webviz --ros-args -r __ns:={other}" if other else "",
+                button=ChangeDisplay(display.id, remedy),
+                explains=tuple(
+                    symptom for d, one, _ in missing for symptom in d.symptom(one.status)
+                ),
+            )
+
+
+def _namespaces(topic: str, other: str) -> tuple[str, str]:
+    """Return what differs at the beginning of two topics that end alike."""
+    first, second = topic.split("/"), other.split("/")
+    while first and second and first[-1] == second[-1]:
+        del first[-1], second[-1]
+    return "/".join(first), "/".join(second)

@@ -8,6 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 from webviz.api.offer import Endpoint, Offer, Publisher
+from webviz.checks.graph.names import named
 from webviz.sources.names import is_own
 
 Policies = tuple[str, ...]
@@ -16,8 +17,6 @@ REMEDIES = {
     "transient_local": "subscribe as volatile",
 }
 OFFERED = {"reliable": "best effort", "transient_local": "volatile"}
-MAX_NAMED = 5
-"""Nodes that are named."""
 
 
 class OthersQos(Check):
@@ -47,30 +46,28 @@ class OthersQos(Check):
             if offer.is_recorded:
                 continue
             pairs = _mismatches(offer)
-            if not pairs:
-                continue
-            lacking = pairs[0][2]
-            alike = [pair for pair in pairs if pair[2] == lacking]
-            readers = _named([reader for reader, _, _ in alike])
-            writers = _named([writer for _, writer, _ in alike])
-            starving = [reader for reader, _, _ in alike if not _is_served(reader, offer)]
-            asked = " and ".join(lacking).replace("_", " ")
-            offered = " and ".join(OFFERED[policy] for policy in lacking)
-            remedy = " and ".join(REMEDIES[policy] for policy in lacking)
-            yield self.found(
-                f"{readers} cannot receive {topic} from {writers}: requested {asked}, offered "
-                f"{offered}.",
-                f"Let {readers} {remedy}, or let {writers} publish as {asked}.",
-                subject=topic,
-                severity=Severity.WARNING if starving else Severity.NOTE,
-                evidence={
-                    "topic": topic,
-                    "subscribers": readers,
-                    "publishers": writers,
-                    "requested": lacking,
-                },
-                command=f"ros2 topic info --verbose {topic}",
-            )
+            for lacking in dict.fromkeys(lacking for _, _, lacking in pairs):
+                alike = [pair for pair in pairs if pair[2] == lacking]
+                readers = named([reader for reader, _, _ in alike])
+                writers = named([writer for _, writer, _ in alike])
+                starving = [reader for reader, _, _ in alike if not _is_served(reader, offer)]
+                asked = " and ".join(lacking).replace("_", " ")
+                offered = " and ".join(OFFERED[policy] for policy in lacking)
+                remedy = " and ".join(REMEDIES[policy] for policy in lacking)
+                yield self.found(
+                    f"{readers} cannot receive {topic} from {writers}: requested {asked}, offered "
+                    f"{offered}.",
+                    f"Let {readers} {remedy}, or let {writers} publish as {asked}.",
+                    subject=topic if lacking == pairs[0][2] else f"{topic} as {asked}",
+                    severity=Severity.WARNING if starving else Severity.NOTE,
+                    evidence={
+                        "topic": topic,
+                        "subscribers": readers,
+                        "publishers": writers,
+                        "requested": lacking,
+                    },
+                    command=f"ros2 topic info --verbose {topic}",
+                )
 
 
 def _mismatches(offer: Offer) -> Sequence[tuple[Endpoint, Publisher, Policies]]:
@@ -98,11 +95,3 @@ def _lacking(reader: Endpoint, writer: Publisher) -> Policies:
 def _is_served(reader: Endpoint, offer: Offer) -> bool:
     """Return whether any publisher matches a subscription."""
     return any(p.type == reader.type and not _lacking(reader, p) for p in offer.publishers)
-
-
-def _named(ends: Sequence[Endpoint]) -> str:
-    """Return the nodes of endpoints, for sentences."""
-    names = [*dict.fromkeys(each.label for each in ends)]
-    more = [f"{len(names) - MAX_NAMED} more"] if len(names) > MAX_NAMED else []
-    *first, last = [*names[:MAX_NAMED], *more]
-    return f"{', '.join(first)} and {last}" if first else last

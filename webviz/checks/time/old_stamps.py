@@ -44,5 +44,5 @@ class OldStamps(Check):
                 subject=each.topic,
                 evidence={"topic": each.topic, "delay_s": usual_ns / 1e9},
                 command=f"ros2 topic delay {each.topic}",
-                explains=display.symptom("Transform"),
+                explains=(*display.symptom("Transform"), *display.symptom("Map")),
             )

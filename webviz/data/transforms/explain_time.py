@@ -6,12 +6,14 @@ from dataclasses import replace
 
 from webviz.data.transforms.buffer import TransformBuffer
 from webviz.data.transforms.cache import TimeCache
+from webviz.data.transforms.diagnosis import STALE_PERIODS
 from webviz.data.transforms.errors import NS_PER_S, stamp_to_seconds
 from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, Explanation, Kind, in_words
 from webviz.data.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
-"""After this silence a link has stopped; the slowest usual publisher, AMCL at rest, takes 1 s."""
+"""After this silence, and `STALE_PERIODS` of its periods, a link has stopped; the slowest usual
+publisher, AMCL at rest, takes 1 s."""
 
 
 def explain_time(
@@ -103,7 +105,8 @@ def _ahead(
             "the data's publisher is fast, synchronise the clocks of the machines.",
             lag,
         )
-    delay = buffer.tree.caches[child].delay_ns or 0
+    cache = buffer.tree.caches[child]
+    delay = cache.delay_ns or 0
     if now_ns and delay > STALE_NS and age - delay < STALE_NS:
         return Explanation(
             Kind.CLOCKS,
@@ -111,7 +114,14 @@ def _ahead(
             "publisher is slow, or its transforms take long. Synchronise the machines' clocks.",
             lag,
         )
-    if now_ns and age > STALE_NS:
+    period = (newest_ns - cache.oldest_stamp) // max(1, len(cache) - 1)
+    if now_ns and age > STALE_NS and len(cache) == 1:
+        return Explanation(
+            Kind.AHEAD,
+            f"{text}, of which only one has arrived, {in_words(age)} ago. Check its publisher.",
+            lag,
+        )
+    if now_ns and age > max(STALE_NS, STALE_PERIODS * period):
         return Explanation(
             Kind.AHEAD,
             f"{text}, which has stopped: its last is {in_words(age)} old. Restart its publisher.",

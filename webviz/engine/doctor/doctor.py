@@ -20,10 +20,12 @@ from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.load import LoadMeter
 from webviz.engine.doctor.observing import observe
 from webviz.engine.doctor.ordering import ordered
+from webviz.engine.doctor.sim_time import SimTime
 from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import State
+from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
 
 EVERY_S = 1.0
@@ -83,6 +85,8 @@ class Doctor:
         """ROS time when each was first seen, and the position in the recording."""
         self.slice_s = SLICE_S
         """Time for checks in one turn."""
+        self.listening_since_s = time.monotonic()
+        """Monotonic time since which the graph is looked at."""
         self.environment: Environment | None = None
         """This machine, None until it was looked at."""
         self._asked_until_s = 0.0
@@ -90,6 +94,7 @@ class Doctor:
         self._next_look_s = 0.0
         self._lost_before = lost_so_far()
         self._judge = Judge()
+        self._sim_time = SimTime(core.gate)
         self._load = LoadMeter(displays.tracer)
         self.rules: Sequence[Rule] = ()
         """To judge besides those of the config; nothing is saved when one does not hold."""
@@ -170,7 +175,13 @@ class Doctor:
         seen = observe(core, self._displays, state, self._environment(state), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
         seen = replace(seen, findings=others, numbers=self._numbers(), clock=self._clock.seen())
+        listened_s = time.monotonic() - self.listening_since_s
+        joint_states = dict(self._clock.joint_states)
+        seen = replace(seen, joint_states=joint_states, listened_s=listened_s)
         self._clock.is_wanted = bool(seen.stalled()) and not seen.is_paused
+        if self._clock.is_wanted and not (seen.is_recorded or seen.bridges):
+            nodes = (node for node in seen.stalled_nodes() if not is_own(node))
+            seen = replace(seen, sim_time=self._sim_time.ask(nodes))
         self.verdicts = self._judge.judge(self._rules(state), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []

@@ -155,7 +155,8 @@ def _shared_memory() -> SharedMemory | None:
         if name.startswith(PORT) and name.endswith(LOCK) and name.removesuffix(LOCK) not in segments
     )
     size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
-    return SharedMemory(size, free, tuple(foreign), tuple(stale), programs_apart(SHM))
+    is_writable = os.access(SHM, os.W_OK)
+    return SharedMemory(size, free, tuple(foreign), tuple(stale), programs_apart(SHM), is_writable)
 
 
 def _is_foreign(file: os.DirEntry[str]) -> bool:

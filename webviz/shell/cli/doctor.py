@@ -130,7 +130,8 @@ def _examine(
         with contextlib.closing(connect.source(ros, config)) as bridge:
             return tell(examine_live(bridge, config, until_s, progress))
     # Some faults end the program when ROS starts.
-    machine = examine_machine(look_around())
+    environment = look_around()
+    machine = examine_machine(environment)
     if any(finding.severity == "error" for finding in machine.findings):
         return tell(machine)
     progress("starting ROS", 0.0)
@@ -139,7 +140,7 @@ def _examine(
     except Error as error:
         return tell(examine_machine(look_around(str(error))))
     with contextlib.closing(source):
-        report = examine_live(source, config, until_s, progress)
+        report = examine_live(source, config, until_s, progress, environment=environment)
         machine.unfinished = report.unfinished
         return tell(machine if report.unfinished else report)
 

@@ -15,7 +15,7 @@ import msgspec
 from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
-from webviz.api.observation import Observation
+from webviz.api.observation import DISCOVERED_S, Observation
 from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import SetFixedFrame
@@ -39,6 +39,8 @@ DISCOVERY_SHARE = 0.5
 REST_S = 0.05
 SLICE_S = 0.1
 """Time for checks in one turn of a live examination, so that it ends in time."""
+LOADING_S = 6.0
+"""Time beyond that for displays that load a robot or meshes, whose faults would be missed."""
 GRACE_S = 0.2
 """Time for the last turn of a live examination."""
 ROUNDS = 2
@@ -67,6 +69,8 @@ class Examination:
         source: of messages.
         progress: called now and then.
         results: of rules, which take the place of those of the config; None for no rules.
+        environment: this machine, as far as it was looked at.
+        since_s: monotonic time since which the graph is looked at, None for now.
     """
 
     def __init__(
@@ -75,6 +79,8 @@ class Examination:
         source: Source,
         progress: Progress,
         results: RuleResults | None = None,
+        environment: Environment | None = None,
+        since_s: float | None = None,
     ) -> None:
         # Those of the config would save a recording in the working folder.
         config = msgspec.structs.replace(
@@ -87,8 +93,12 @@ class Examination:
         self._progress = progress
         self._loop = FrameLoop(config, source, NoScene())
         self._loop.doctor.rules = results.rules if results else ()
+        self._loop.doctor.environment = environment
+        if since_s is not None:
+            self._loop.doctor.listening_since_s = since_s
         self._seen: dict[tuple[str, str], Finding] = {}
         self._state: State | None = None
+        self._is_loading = False
 
     def watch(self, until_s: float, is_frame_given: bool) -> DoctorReport:
         """Examine live topics until a monotonic time in seconds, and end the threads.
@@ -107,19 +117,28 @@ class Examination:
                 ended.set_exception(error)
 
         threading.Thread(target=run, name="webviz-examination", daemon=True).start()
-        with contextlib.suppress(TimeoutError):
-            ended.result(max(0.0, until_s - time.monotonic()) + GRACE_S)
+        for extra_s in (GRACE_S, LOADING_S):
+            with contextlib.suppress(TimeoutError):
+                ended.result(max(0.0, until_s + extra_s - time.monotonic()))
+            if not self._is_loading:
+                break
         state = self._state
         report = report_of("live", state, state.findings if state else (), len(known_checks()))
-        report.unfinished = self._loop.doctor.rounds < ROUNDS
+        doctor = self._loop.doctor
+        is_early = time.monotonic() - doctor.listening_since_s < DISCOVERED_S
+        is_alone = len(self._source.graph.nodes()) < 2
+        report.unfinished = doctor.rounds < ROUNDS or (is_early and is_alone)
         return report
 
     def _watch(self, until_s: float, is_frame_given: bool) -> None:
         began = time.monotonic()
-        while (now := time.monotonic()) < until_s:
+        while (now := time.monotonic()) < until_s or (
+            self._is_loading and now < until_s + LOADING_S
+        ):
             self._state = self._turn()
+            self._is_loading = self._loop.is_busy()
             passed = now - began
-            self._progress("examining", passed / (until_s - began))
+            self._progress("examining", min(1.0, passed / (until_s - began)))
             if not is_frame_given and passed > FRAME_S:
                 is_frame_given = True
                 self._choose_frame()
@@ -182,6 +201,7 @@ def examine_live(
     until_s: float,
     progress: Progress,
     results: RuleResults | None = None,
+    environment: Environment | None = None,
 ) -> DoctorReport:
     """Examine the ROS graph.
 
@@ -191,6 +211,7 @@ def examine_live(
         until_s: monotonic time in seconds at which it ends.
         progress: called now and then.
         results: of rules, which take the verdicts.
+        environment: this machine, as far as it was looked at.
     """
     began_s = time.monotonic()
     discovery_s = max(0.0, min(DISCOVERY_S, DISCOVERY_SHARE * (until_s - began_s)))
@@ -200,7 +221,8 @@ def examine_live(
     is_given = config is not None or MAP in source.offers()
     if config is None:
         config = live_config(source.offers())
-    return Examination(config, source, progress, results).watch(until_s, is_given)
+    examination = Examination(config, source, progress, results, environment, began_s)
+    return examination.watch(until_s, is_given)
 
 
 def examine_bag(

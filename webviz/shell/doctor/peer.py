@@ -333,6 +333,8 @@ def _link(sender: _Machine, receiver: _Machine, origin: End, to: End, port: int)
         receiving = to.interface(reached[0])
         via = used[0].name if used else ""
         mtu = min(each.mtu for each in (*used[:1], receiving)) if receiving else 0
+        if used and origin.shares_network(to):
+            mtu = used[0].mtu  # no router tells the sender that the receiver takes less
         token = secrets.token_hex(8)
         sizes = sorted({size for size in (*SIZES, mtu) if HEADERS + 64 <= size <= mtu})
         sender.ask("send", token, reached[0], port, [size - HEADERS for size in sizes])

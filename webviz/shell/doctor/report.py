@@ -18,8 +18,8 @@ WIDTH = 90
 COLORS = {"error": "31;1", "warning": "33;1", "note": "36", "id": "1", "faint": "2", "ok": "32;1"}
 """Codes of ANSI terminals."""
 UNFINISHED = (
-    "This machine is busy: there was too little time to check topics, transforms and data. Repeat "
-    "the command with --seconds 30."
+    "This machine is busy, or --seconds is short: there was too little time to check topics, "
+    "transforms and data. Repeat the command with --seconds 30."
 )
 LEVELS = {Level.ERROR: "error", Level.WARN: "warning"}
 Meta = msgspec.Meta
