@@ -36,11 +36,11 @@ import webviz
 import webviz.shell.cli.commands
 import webviz.shell.cli.serving
 from webviz.shell.app.bag_config import config_of
-from webviz.shell.bag_player import bag_player
+from webviz.sources.bag.history import BagHistory
 from webviz.engine.loop import FrameLoop
 from webviz.shell.doctor.scene import NoScene
 
-bag = bag_player(Path(sys.argv[1]))
+bag = BagHistory(Path(sys.argv[1]))
 loop = FrameLoop(config_of(bag), bag, NoScene())
 loop.turn()
 print(*sorted(bag.offers()))
