@@ -37,13 +37,14 @@ import webviz.shell.cli.commands
 import webviz.shell.cli.serving
 from webviz.shell.app.bag_config import config_of
 from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
 from webviz.engine.loop import FrameLoop
 from webviz.shell.doctor.scene import NoScene
 
 bag = BagHistory(Path(sys.argv[1]))
-loop = FrameLoop(config_of(bag), bag, NoScene())
+loop = FrameLoop(config_of(bag), Player(bag), NoScene())
 loop.turn()
-print(*sorted(bag.offers()))
+print(*sorted(bag.offers({})))
 loop.close()
 
 from webviz_urdf.loading import Loading, LoadRequest

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from math import dist
+
+import numpy as np
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 from webviz.checks.frames.names import is_named
 from webviz.data.transforms.cache import TimeCache
-from webviz.data.transforms.geometry import PACKED
 
 WORLDS = ("map", "odom", "world", "earth")
 """Frames in which a robot moves."""
@@ -70,8 +70,7 @@ class JumpingTransform(Check):
 
 def _jumps(cache: TimeCache) -> Sequence[float]:
     """Return the steps in metres that are much longer than the others, and too fast."""
-    poses = [PACKED.unpack(pose)[:3] for pose in cache.poses]
-    steps = [dist(a, b) for a, b in pairwise(poses)]
+    steps = np.linalg.norm(np.diff(cache.translations(), axis=0), axis=1).tolist()
     if not steps or max(steps) < LEAST_M:
         return ()
     usual = sorted(steps)[len(steps) // 2]

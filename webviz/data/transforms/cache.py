@@ -5,6 +5,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import deque
 
+import numpy as np
+from numpy.typing import NDArray
+
 from webviz.data.transforms.batches import Batches
 from webviz.data.transforms.errors import (
     BackwardExtrapolationException,
@@ -144,6 +147,10 @@ class TimeCache:
         """As `PACKED`."""
         self._take()
         return self._poses
+
+    def translations(self) -> NDArray[np.float64]:
+        """Return the translations of all samples, (N, 3) in metres, the oldest first."""
+        return np.frombuffer(b"".join(self.poses)).reshape(-1, 7)[:, :3]
 
     @property
     def parents(self) -> deque[str]:
