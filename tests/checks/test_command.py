@@ -15,10 +15,10 @@ from examining import SCAN, three_ranges
 import webviz
 import webviz.checks
 from webviz.api.check_registry import known_checks, register_checks
+from webviz.api.registry import register
 from webviz.engine.commands import ReloadPlugin
 from webviz.shell.cli import main
 from webviz.shell.doctor.report import DoctorReport, schema_text, to_text
-from webviz.shell.testing.messages import header
 
 LASER = """
 from webviz import Check
@@ -224,19 +224,36 @@ def test_a_warning_without_a_cause_is_not_called_well(
     assert said.splitlines()[-1].startswith("No finding explains 1 warning above")
 
 
+BROKEN = """
+from typing import Annotated
+from webviz import Display, Input, Topic
+
+class Broken(Display):
+    topic: Annotated[Topic, Input("geometry_msgs/msg/Twist")] = Topic("/twist")
+
+    def draw(self, samples, ctx):
+        raise ValueError("a fault of the display, not of the data")
+"""
+
+
 def test_an_error_without_a_cause_is_no_success(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     bag = Bag()
-    bag.add("/points", "sensor_msgs/msg/PointCloud2")
+    bag.add("/twist", "geometry_msgs/msg/Twist")
     for number in range(5):
-        at_s = number / 5
-        cloud = {"header": header("map", START_NS + ns(at_s)), "width": 3, "height": 1}
-        bag.put(at_s, "/points", cloud | {"point_step": 12, "row_step": 36, "data": [0] * 7})
+        bag.put(number / 5, "/twist", {"linear": {"x": 1.0}})
+    config, plugin = tmp_path / "broken.yaml", tmp_path / "broken.py"
+    config.write_text("displays: [{type: Broken}]")
+    plugin.write_text(BROKEN)
     path = str(bag.write(tmp_path / "run"))
-    assert main(["doctor", "--bag", path, "--json"]) == 3
-    report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
-    assert not [each for each in report.findings if each.severity != "note"]
-    assert "error" in {each.level for each in report.unexplained}
-    assert main(["doctor", "--bag", path]) == 3
-    assert "No finding explains 1 error above" in capsys.readouterr().out
+    command = ["doctor", "--bag", path, "-d", str(config), "--plugin", str(plugin)]
+    try:
+        assert main([*command, "--json"]) == 3
+        report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
+        assert not [each for each in report.findings if each.severity != "note"]
+        assert "error" in {each.level for each in report.unexplained}
+        assert main(command) == 3
+        assert "No finding explains 1 error above" in capsys.readouterr().out
+    finally:
+        register(str(plugin), {})

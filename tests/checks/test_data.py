@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from collections.abc import Callable
 from typing import Any
@@ -241,6 +242,31 @@ def test_odometry_against_its_own_twist(
         assert said.endswith(
             f", as if it were in {unit}." if unit else " times as fast as its pose moves."
         )
+
+
+@pytest.mark.parametrize(("worst", "ids"), [(4.0, ["DATA020 /odom"]), (6.0, [])])
+def test_a_twist_of_unsteady_motion_is_not_compared(
+    webviz_harness: Make, worst: float, ids: list[str]
+) -> None:
+    stage = webviz_harness(Odometry(), fixed_frame="odom")
+    at_s, speeds = 0.0, itertools.cycle([4.0, worst])
+
+    def publish() -> None:
+        nonlocal at_s
+        at_s += 1.1
+        values = {
+            "header": header("odom", stage.source.now),
+            "pose": {
+                "pose": {"position": {"x": at_s}, "orientation": {"w": 1.0}},
+                "covariance": [0.1] * 36,
+            },
+            "twist": {"twist": {"linear": {"x": next(speeds)}}},
+        }
+        stage.publish("/odom", "nav_msgs/msg/Odometry", values)
+
+    for _ in range(3):
+        examining.examined(stage, CauseLevel.DATA, 1.1, publish)
+    assert [*examining.examined(stage, CauseLevel.DATA, 1.1, publish)] == ids
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
+import time
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path as PathOfFile
@@ -23,7 +25,8 @@ import webviz.ros.node
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.engine.commands import SetProperty
-from webviz.shell.doctor.examination import live_config
+from webviz.shell.doctor.examination import examine_live, live_config
+from webviz.shell.ros_source import ros_source
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay
@@ -196,6 +199,17 @@ def test_tools_of_webviz_are_not_accused(webviz_domain: int, webviz_viewer: View
         viewer.wait_for(lambda: silent() == {"/pose"}, lambda: f"{silent()}")
         shown = live_config(viewer.source.offers()).displays
         assert [each.topic.name for each in shown if isinstance(each, Pose)] == ["/pose"]
+
+
+def test_topics_that_are_found_late_are_examined_too(robot: Node) -> None:
+    def progress(doing: str, share: float) -> None:
+        if doing == "examining" and not robot.count_publishers("/late"):
+            robot.create_publisher(PoseStamped, "/late", 1)
+
+    robot.create_publisher(PoseStamped, "/pose", 1)
+    with contextlib.closing(ros_source()) as source:
+        report = examine_live(source, None, time.monotonic() + 12.0, progress)
+    assert report.displays == len(("Grid", "/pose", "/late"))
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
+from webviz_displays.tf import TF
 
 WALL_NS = 1_700_000_000 * SECOND
 SIMULATOR = Publisher("/simulator", "rosgraph_msgs/msg/Clock", "reliable", "volatile")
@@ -195,6 +196,25 @@ def test_transforms_of_another_clock(stage: Harness) -> None:
     found = examined(stage)
     assert [*found] == ["TIME010"]
     assert [each.status for each in found["TIME010"].explains] == ["Clocks"]
+
+
+def test_a_transform_of_another_clock_is_not_said_to_have_stopped(webviz_harness: Make) -> None:
+    stage = webviz_harness(LaserScan(), TF(), fixed_frame="map")
+    stage.source.now = WALL_NS
+    stage.turn()
+    stage.transform("base_link", "laser")
+
+    def publish() -> None:
+        now = stage.source.now
+        stage.transform("map", "odom", stamp_ns=now)
+        stage.transform("odom", "base_link", stamp_ns=now - 5 * SECOND)
+        stage.publish("/scan", SCAN, three_ranges("laser", now))
+
+    for _ in range(8):
+        stage.findings(0.2, publish)
+    first, *others = stage.findings(0.2, publish)
+    assert first.id == "TIME010"
+    assert not {each.id for each in others} & {"TIME011", "TF018", "TF020"}
 
 
 def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:

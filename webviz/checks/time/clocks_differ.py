@@ -7,7 +7,11 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
-from webviz.data.transforms.clocks import clock_problem
+from webviz.data.transforms.clocks import clock_problem, is_off
+from webviz.data.transforms.reasons import Kind
+
+OF_LINKS = Kind.AHEAD, Kind.BEHIND, Kind.NO_DATA, Kind.CLOCKS
+"""Reasons why a frame behind such a transform has no pose."""
 
 
 class ClocksDiffer(Check):
@@ -31,10 +35,15 @@ class ClocksDiffer(Check):
         explains = seen.symptom("Clocks")
         problem = clock_problem(seen.buffer, seen.now_ns, seen.is_recorded)
         if problem and explains:
+            lost = [
+                symptom
+                for symptom, reason in seen.lost(*OF_LINKS)
+                if is_off(seen.buffer, reason.frame, seen.now_ns)
+            ]
             yield self.found(
                 problem.cause,
                 problem.remedy,
                 evidence={"status": str(problem)},
                 command="chronyc tracking",
-                explains=explains,
+                explains=(*explains, *lost),
             )

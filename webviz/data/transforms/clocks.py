@@ -31,16 +31,7 @@ def clock_problem(
     Returns:
         None if the clocks agree.
     """
-    offsets: dict[str, int] = {}  # stamp minus time of reception
-    for child, cache in buffer.tree.caches.items():
-        # A single transform may be its last, repeated where a slice of a recording begins.
-        if not isinstance(cache, TimeCache) or not cache or cache.is_single:
-            continue
-        if (delay_ns := cache.delay_ns) is None:
-            continue
-        received_ns = cache.newest_stamp + delay_ns
-        if now_ns - received_ns < RECENT_NS:
-            offsets[child] = -delay_ns
+    offsets = _offsets(buffer, now_ns)
     wrong = {child: ns for child, ns in offsets.items() if abs(ns) > TOLERANCE_NS}
     if not now_ns or not wrong:
         return None
@@ -74,6 +65,35 @@ def clock_problem(
         f"{who} are stamped {offset} the clock of this computer{rest}.",
         "Synchronise the clocks of the machines (chrony, NTP).",
     )
+
+
+def is_off(buffer: TransformBuffer, frame: str, now_ns: int) -> bool:
+    """Return whether a transform between a frame and its root is seconds or minutes off.
+
+    Beyond an hour, the two clocks are of different kinds.
+
+    Args:
+        buffer: transforms inserted with the time at which they were received.
+        frame: its name.
+        now_ns: the current ROS time.
+    """
+    offsets = _offsets(buffer, now_ns)
+    chain = ancestors(buffer.tree, frame)
+    return any(TOLERANCE_NS < abs(offsets.get(each, 0)) < HOUR_NS for each in chain)
+
+
+def _offsets(buffer: TransformBuffer, now_ns: int) -> Mapping[str, int]:
+    """Return stamps minus times of reception in nanoseconds, by child, of recent transforms."""
+    offsets: dict[str, int] = {}
+    for child, cache in buffer.tree.caches.items():
+        # A single transform may be its last, repeated where a slice of a recording begins.
+        if not isinstance(cache, TimeCache) or not cache or cache.is_single:
+            continue
+        if (delay_ns := cache.delay_ns) is None:
+            continue
+        if now_ns - (cache.newest_stamp + delay_ns) < RECENT_NS:
+            offsets[child] = -delay_ns
+    return offsets
 
 
 def receptions(buffer: TransformBuffer) -> Mapping[int, int]:

@@ -6,19 +6,23 @@ import contextlib
 import math
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
+from typing import Any
 
 import msgspec
 
 from webviz.api.check_registry import known_checks
+from webviz.api.declared import to_values
+from webviz.api.display import Display
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import DISCOVERED_S, Observation
+from webviz.api.registry import type_name
 from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands import SetFixedFrame
+from webviz.engine.commands import AddDisplay, SetFixedFrame
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
@@ -49,6 +53,8 @@ MAP = "/map"
 """A robot that publishes it is to be seen in its frame, so that a missing localisation is found."""
 FRAME_S = 1.5
 """After which the fixed frame is chosen by the transforms that have arrived."""
+FIRST_S = 2.0
+"""Time that a display needs for its first messages, so that none is added later than that."""
 STEP_NS = 100_000_000
 """Recording time between two turns in a bag: as quick as the processor, and the same on any."""
 LASTING_S = 3.0
@@ -99,11 +105,18 @@ class Examination:
         self._seen: dict[tuple[str, str], Finding] = {}
         self._state: State | None = None
         self._is_loading = False
+        self._offers: Mapping[str, Offer] = {}
+        self._shown = [subject for subject, _ in _added(config)]
 
-    def watch(self, until_s: float, is_frame_given: bool) -> DoctorReport:
-        """Examine live topics until a monotonic time in seconds, and end the threads.
+    def watch(self, until_s: float, is_given: bool) -> DoctorReport:
+        """Examine live topics, and end the threads.
 
         On a busy machine a turn may take seconds, for which nobody waits then.
+
+        Args:
+            until_s: monotonic time in seconds at which it ends.
+            is_given: whether the config is given, so that neither displays nor a fixed frame are
+                chosen by what arrives.
         """
         self._loop.doctor.slice_s = SLICE_S
         ended = Future[None]()
@@ -111,7 +124,7 @@ class Examination:
         def run() -> None:
             try:
                 with contextlib.closing(self):
-                    self._watch(until_s, is_frame_given)
+                    self._watch(until_s, is_given)
                 ended.set_result(None)
             except BaseException as error:
                 ended.set_exception(error)
@@ -130,8 +143,9 @@ class Examination:
         report.unfinished = doctor.rounds < ROUNDS or (is_early and is_alone)
         return report
 
-    def _watch(self, until_s: float, is_frame_given: bool) -> None:
+    def _watch(self, until_s: float, is_given: bool) -> None:
         began = time.monotonic()
+        is_frame_given = is_given
         while (now := time.monotonic()) < until_s or (
             self._is_loading and now < until_s + LOADING_S
         ):
@@ -142,6 +156,8 @@ class Examination:
             if not is_frame_given and passed > FRAME_S:
                 is_frame_given = True
                 self._choose_frame()
+            if not is_given and now < until_s - FIRST_S:
+                self._add_displays()
             self._source.inbox.arrived.wait(REST_S)
             self._source.inbox.arrived.clear()
 
@@ -188,7 +204,20 @@ class Examination:
             self._results.note(doctor.verdicts, at_s)
         return state
 
+    def _add_displays(self) -> None:
+        """Add displays of topics that are found later than most, as on a busy machine."""
+        offers = self._source.offers()
+        if offers is self._offers:
+            return
+        self._offers = offers
+        for subject, command in _added(live_config(offers)):
+            if subject not in self._shown:
+                self._shown.append(subject)
+                self._loop.enqueue(command)
+
     def _choose_frame(self) -> None:
+        if MAP in self._source.offers():
+            return
         buffer = self._loop.buffer
         links = {child: buffer.link(child) for child in buffer.publishers}
         if frame := fixed_frame_of([(link.parent, c) for c, link in links.items() if link]):
@@ -218,11 +247,9 @@ def examine_live(
     while (passed_s := time.monotonic() - began_s) < discovery_s:
         progress("discovering", passed_s / discovery_s)
         time.sleep(REST_S)
-    is_given = config is not None or MAP in source.offers()
-    if config is None:
-        config = live_config(source.offers())
-    examination = Examination(config, source, progress, results, environment, began_s)
-    return examination.watch(until_s, is_given)
+    shown = live_config(source.offers()) if config is None else config
+    examination = Examination(shown, source, progress, results, environment, began_s)
+    return examination.watch(until_s, config is not None)
 
 
 def examine_bag(
@@ -278,3 +305,14 @@ def live_config(offers: Mapping[str, Offer]) -> Config:
     config, _ = displays_of(published)
     config.displays = [each for each in config.displays if not getattr(each, "has_pane", False)]
     return config
+
+
+def _added(config: Config) -> Iterator[tuple[Mapping[str, Any], AddDisplay]]:
+    """Yield what each display shows, whatever others there are, and the command that adds it."""
+    for each in config.displays:
+        if isinstance(each, Display):
+            command = AddDisplay(type_name(type(each)), to_values(each))
+            subject = {"type": command.type} | command.values
+            for key in ("name", "enabled"):
+                subject.pop(key, None)
+            yield subject, command
