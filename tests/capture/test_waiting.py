@@ -54,7 +54,7 @@ def let_go() -> Iterator[None]:
 def opened(config: Config, bag: Path) -> Iterator[tuple[OfflineViewer, Player]]:
     """A viewer of a bag at its end."""
     with contextlib.closing(Player(BagHistory(bag))) as source:
-        viewer = OfflineViewer(config, source, NoScene())
+        viewer = OfflineViewer(config, source, NoScene())  # pyright: ignore[reportArgumentType]
         with contextlib.closing(viewer.loop):
             viewer.seek(source, source.history.end_ns, time.monotonic() + PATIENCE_S)
             yield viewer, source
