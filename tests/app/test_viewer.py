@@ -150,6 +150,27 @@ def test_what_must_be_text_is_refused_in_one_sentence(
     assert viewer.fixed_frame == before
 
 
+@pytest.mark.parametrize(("value", "shown"), [([1], "`[1]`"), (None, "nothing"), (3, "`3`")])
+def test_what_must_be_a_path_is_refused_in_one_sentence(
+    viewer: webviz.Viewer, refused: Refused, value: Any, shown: str
+) -> None:
+    for method in (viewer.open, viewer.save, viewer.open_recording):
+        assert refused(lambda method=method: method(value)) == (
+            f"path: expected a path, got {shown}."
+        )
+    assert refused(lambda: viewer.record(value)) == f"folder: expected a path, got {shown}."
+
+
+@pytest.mark.parametrize("value", [[1], b"a", {}])
+def test_what_must_be_a_number_is_refused_in_one_sentence(
+    viewer: webviz.Viewer, refused: Refused, value: Any
+) -> None:
+    sentence = f"expected a number, got `{value}`."
+    assert refused(lambda: viewer.play(value)) == f"rate: {sentence}"
+    assert refused(lambda: viewer.rewind(value)) == f"seconds: {sentence}"
+    assert refused(lambda: viewer.save_last(value)) == f"seconds: {sentence}"
+
+
 def test_waiting_ends_with_stop(viewer: webviz.Viewer) -> None:
     waiting = threading.Thread(target=viewer.wait)
     waiting.start()

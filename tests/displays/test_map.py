@@ -222,6 +222,17 @@ def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(at) -> N
     assert {key for key in after if after[key] is not before[key]} == {f"tile {TILE} {TILE}"}
 
 
+def test_an_origin_whose_rotation_is_all_zeros_is_drawn_and_said(at) -> None:
+    send_map(at, [[0]])
+    assert "Orientation" not in at.statuses()
+    send_map(at, [[0]], xyzw=(0.0, 0.0, 0.0, 0.0))
+    assert list(at.nodes()) == ["tile 0 0"]
+    assert at.statuses()["Orientation"] == (
+        "OK",
+        "The rotation of the origin is all zeros, taken as none.",
+    )
+
+
 def test_a_smaller_map_leaves_no_tile_of_the_larger_one(at) -> None:
     send_map(at, np.zeros((TILE + 1, TILE + 1)))
     send_map(at, np.zeros((2, 2)))

@@ -109,7 +109,7 @@ def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, slow_arm) ->
     place_arm(at)
     at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
     wait(at, lambda: "tool" in at.statuses()["Loading"][1])
-    assert at.statuses()["Loading"] == ("WARN", "Loading: 1 of 2 shapes, at link 'tool'.")
+    assert at.statuses()["Loading"] == ("IDLE", "Loading: 1 of 2 shapes, at link 'tool'.")
     assert at.nodes() == {}
     wait(at, lambda: is_loaded(at))
     assert len(at.nodes()) == 2

@@ -92,7 +92,7 @@ def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench
     send(at, 1)
     until(lambda: gates, turn=at.turn)
     assert dots(at) == []
-    assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
+    assert at.statuses()["Loading"] == ("IDLE", "Loading a message of 8 MB.")
     assert "Display" not in at.statuses()
     assert at.viewer.is_busy()
     open_gate(at, 0)
@@ -170,7 +170,7 @@ def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) ->
     send(at, 1)
     send(at, 2, size=1)
     until(lambda: gates, turn=at.turn)
-    assert at.statuses()["Loading"] == ("WARN", "Loading a message of 8 MB.")
+    assert at.statuses()["Loading"] == ("IDLE", "Loading a message of 8 MB.")
     assert dots(at) == []
     at.scene.watched = False  # all are folded, watched or not
     open_gate(at, 0)

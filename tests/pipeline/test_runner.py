@@ -151,7 +151,7 @@ def test_a_message_that_waits_is_a_state_and_not_an_empty_one(b: Any) -> None:
     b.turn()
     assert "Display" not in b.statuses()
     waiting = "Waiting for the transforms at the time of the data."
-    assert b.statuses()["Transform"] == ("WARN", waiting)
+    assert b.statuses()["Transform"] == ("IDLE", waiting)
     b.transform("map", "base", T + SECOND)
     b.turn()
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
@@ -161,7 +161,7 @@ def test_slow_work_without_a_status_is_a_state_and_not_nothing_to_draw(bench: Be
     GATE.clear()
     b = bench(Silent(name="Silent"))
     b.turn()
-    assert b.statuses() == {LOADING: ("WARN", "Loading.")}
+    assert b.statuses() == {LOADING: ("IDLE", "Loading.")}
     GATE.set()
     deadline = time.monotonic() + 60
     while not at(b) and time.monotonic() < deadline:

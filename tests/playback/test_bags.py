@@ -170,6 +170,9 @@ def test_a_program_plays_a_bag(tmp_path: Path, storage: StoragePlugin) -> None:
         assert viewer.position == 1.0
         with pytest.raises(webviz.Error, match=r"7 s is outside of run\. Give 0 to 4 s"):
             viewer.seek(7)
+        for value in ([1], None, b"end", {}):
+            with pytest.raises(webviz.Error, match=r"is not a valid time\. Give seconds"):
+                viewer.seek(value)  # pyright: ignore[reportArgumentType]
         viewer.play(rate=0.01)
         viewer.pause()
         assert 1.0 <= viewer.position < 4.0

@@ -311,6 +311,15 @@ def test_the_question_whether_all_arrived_follows_the_last_piece() -> None:
     assert sent[-2].update is not None
 
 
+def test_what_waits_before_the_question_whether_all_arrived_is_not_thinned() -> None:
+    queue = Queue(SLOW)
+    queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
+    queue.push(AcknowledgementRequest("1"))
+    sent = taken(queue)
+    ((name, updates),) = completed(sent[: sent.index(queue.live[1])])
+    assert (name, len(updates["points"]) // 3) == ("/lidar", 100_000)
+
+
 def test_a_thinned_cloud_is_not_sent_whole_once_there_is_a_newer_one() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))

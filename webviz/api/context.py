@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from webviz.api import nodes
 from webviz.api.frames import Frames, is_placeable
 from webviz.api.nodes import Ids, Node, Pose, Rgb, Shape, Solid
-from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
+from webviz.api.status import LOADING, Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.geometry import REACH_M
 from webviz.data.transforms.reasons import Explanation
 
@@ -299,6 +299,10 @@ class Context(Group):
     def ok(self, key: str, text: str) -> None:
         """Report that all is well."""
         self.statuses[key] = Status(Level.OK, text)
+
+    def loading(self, text: str) -> None:
+        """Report that files or threads are at work, which is neither good nor bad."""
+        self.statuses[LOADING] = Status(Level.IDLE, text)
 
     def warn(
         self,

@@ -18,7 +18,8 @@ LOADING = "Loading"
 class Level(enum.IntEnum):
     """The severity of a status; a parent has that of its worst child.
 
-    IDLE, in grey, is neither good nor bad: nothing is received while no browser shows the pane.
+    IDLE, in grey, is neither good nor bad: what is to be drawn loads or waits, or nothing is
+    received while no browser shows the pane. It counts more than OK, since nothing is there yet.
     """
 
     IDLE = -1
@@ -97,6 +98,12 @@ class Status:
     values: tuple[Measurement, ...] = ()
 
 
+def worst_status(statuses: Iterable[Status]) -> Status:
+    """Return the status that a parent with these children has, the first of the worst ones."""
+    order = Level.OK, Level.IDLE, Level.WARN, Level.ERROR
+    return max(statuses, key=lambda each: order.index(each.level), default=Status(Level.OK, ""))
+
+
 def worst(statuses: Iterable[Status]) -> Level:
     """Return the level of a parent with these children."""
-    return max((status.level for status in statuses), default=Level.OK)
+    return worst_status(statuses).level

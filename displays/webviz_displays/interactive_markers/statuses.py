@@ -22,7 +22,7 @@ def report(server: InteractiveMarkerServer, refusal: str, ctx: Context) -> None:
         ignored = counted(server.left_out, "marker")
         ctx.warn("Markers", f"Ignored {ignored} beyond the limit of {MAX_MARKERS}.")
     if loading := server.assets.loading:
-        ctx.warn("Loading", f"Loading {counted(loading, 'file')} of controls.")
+        ctx.loading(f"Loading {counted(loading, 'file')} of controls.")
     if server.undrawn:
         ctx.warn("Drawing", f"Drawing {counted(server.undrawn, 'more marker')}.")
     troubles = _troubles(server, ctx)

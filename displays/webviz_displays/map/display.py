@@ -269,6 +269,8 @@ class MapDisplay(Display, SelfPlacing):
             ctx.statuses["Map"] = Status(Level.WARN, text, values=(nothing,))
         else:
             ctx.ok("Map", f"{size} in frame '{grid.frame}'.")
+        if not grid.is_turned:
+            ctx.ok("Orientation", "The rotation of the origin is all zeros, taken as none.")
         if folded.update_fault:
             ctx.error("Update", folded.update_fault)
         elif folded.updates:

@@ -52,6 +52,7 @@ class TiledGrid(msgspec.Struct, frozen=True, eq=False):
         width, height: in cells.
         resolution: edge of a cell in metres.
         origin: of the corner of cell (0, 0).
+        is_turned: whether the message has a rotation of the origin, not all zeros.
         tiles: int8 arrays of at most `tile_shape` cells, by corner. They are read-only, and
             a tile that a message leaves as it was stays the same object.
     """
@@ -62,6 +63,7 @@ class TiledGrid(msgspec.Struct, frozen=True, eq=False):
     resolution: float
     origin: Pose
     tiles: Mapping[Corner, NDArray[np.int8]]
+    is_turned: bool = True
 
 
 def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGrid:
@@ -105,7 +107,10 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
         old = known.get((row, column))
         # A copy: a view would keep the whole message alive.
         tiles[row, column] = old if old is not None and np.array_equal(old, tile) else tile.copy()
-    return TiledGrid(frame, width, height, info.resolution, _origin(info.origin), tiles)
+    q = info.origin.orientation
+    is_turned = any((q.x, q.y, q.z, q.w))
+    origin = _origin(info.origin)
+    return TiledGrid(frame, width, height, info.resolution, origin, tiles, is_turned)
 
 
 def updated(grid: TiledGrid, update: Any, frame: str) -> TiledGrid:

@@ -64,7 +64,8 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
             "locked to, and areas of 4 km, are drawn. Use fewer.",
         )
     if loading:
-        (ctx.ok if shown else ctx.warn)("Loading", f"Loading {counted(loading, 'file')}.")
+        text = f"Loading {counted(loading, 'file')}."
+        ctx.ok("Loading", text) if shown else ctx.loading(text)
     if remarks.duplicates:
         names = listed([name_of(key) for key in dict.fromkeys(remarks.duplicates)], NAMED)
         ctx.warn(

@@ -283,7 +283,7 @@ class RobotModel(Display):
             return None
         written = ctx.state.written = last_written(path, ctx.state.written, ctx)
         if written.path != path:
-            ctx.warn("Loading", f"Loading: waiting for the disk with {path}.")
+            ctx.loading(f"Loading: waiting for the disk with {path}.")
             return None
         return LoadRequest(
             path=path, changed_ns=written.at_ns, package_paths=tuple(self.package_paths)

@@ -65,7 +65,7 @@ def load(request: LoadRequest, before: Loadings, ctx: Context, loadings: Loading
     robot = ctx.background(request, loading.run, stop=loading.stop)
     if robot is None:
         loadings[request] = loading
-        ctx.warn("Loading", progress(loading))
+        ctx.loading(progress(loading))
     return robot
 
 

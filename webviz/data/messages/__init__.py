@@ -60,7 +60,8 @@ from webviz.data.messages.types import (
     PointField,
     String,
 )
-from webviz.data.messages.typestore import definition, type_exists, type_hash
+from webviz.data.messages.typestore import definition, find_with, type_exists, type_hash
+from webviz.data.messages.workspaces import learn
 
 __all__ = [
     "Clock",
@@ -115,3 +116,5 @@ __all__ = [
     "type_exists",
     "type_hash",
 ]
+
+find_with(learn)  # the last to be asked: what is installed is what runs

@@ -113,10 +113,11 @@ def find_with(finder: Callable[[str], object]) -> None:
 
     Args:
         finder: called with the full name of a message, service or action type, in any thread; it
-            raises a `MessageError` if webviz cannot read the type.
+            raises a `MessageError` if webviz cannot read the type. It is asked before those that
+            were added earlier.
     """
     if finder not in _finders:
-        _finders.append(finder)
+        _finders.insert(0, finder)
 
 
 def find(type_name: str) -> None:
@@ -141,6 +142,15 @@ def fields(type_name: str) -> list[MessageField]:
         DefinitionError: Types that it contains have been replaced by others that do not fit.
     """
     return _fields_of(_definition(type_name))
+
+
+def fields_in(type_name: str, text: str) -> list[MessageField]:
+    """Return the fields of a type by its full name in a definition, which is not registered.
+
+    Raises:
+        DefinitionError: as `types_in`.
+    """
+    return _fields_of(types_in(type_name, text)[type_name])
 
 
 def constants(type_name: str) -> dict[str, bool | int | float | str]:

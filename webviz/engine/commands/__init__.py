@@ -1,6 +1,13 @@
 """The commands of a viewer: sent by the panel, ROS or Python, carried out by the frame loop."""
 
-from webviz.engine.commands.command import MAX_PRIORITY, PROGRAM, Command, Sender, wrong_text
+from webviz.engine.commands.command import (
+    MAX_PRIORITY,
+    PROGRAM,
+    Command,
+    Sender,
+    mistaken,
+    wrong_text,
+)
 from webviz.engine.commands.displays import (
     AddDisplay,
     DragHandle,
@@ -175,5 +182,6 @@ __all__ = [
     "UseTool",
     "ViewCommand",
     "WriteDisplays",
+    "mistaken",
     "wrong_text",
 ]

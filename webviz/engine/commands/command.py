@@ -28,9 +28,14 @@ def wrong_text(command: Command) -> str:
     for each in msgspec.structs.fields(type(command)):
         value = getattr(command, each.name)
         if each.type is str and not isinstance(value, str):
-            got = "nothing" if value is None else f"`{shortened(str(value), MAX_QUOTED)}`"
-            return f"{type(command).__name__}.{each.name}: expected text, got {got}."
+            return mistaken(f"{type(command).__name__}.{each.name}", "text", value)
     return ""
+
+
+def mistaken(name: str, expected: str, value: object) -> str:
+    """Return the sentence that what has this name is not of the expected kind."""
+    got = "nothing" if value is None else f"`{shortened(str(value), MAX_QUOTED)}`"
+    return f"{name}: expected {expected}, got {got}."
 
 
 @dataclass(frozen=True)

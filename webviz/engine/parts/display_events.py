@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from webviz.api.status import LOADING, Level, Status
+from webviz.api.status import LOADING, Level, Status, worst_status
 from webviz.engine.state import Row
 from webviz.sources.past_state import Event
 
@@ -49,5 +49,4 @@ class DisplayEvents:
 
 
 def _worst(row: Row) -> Status:
-    statuses = [status for key, status in row.statuses.items() if key != LOADING]
-    return max(statuses, key=lambda status: status.level, default=Status(Level.OK, ""))
+    return worst_status(status for key, status in row.statuses.items() if key != LOADING)

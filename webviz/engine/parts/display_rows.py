@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
-from webviz.api.status import Level, Status
+from webviz.api.status import Level, Status, worst_status
 from webviz.engine.parts.entry import Entry
 from webviz.engine.pipeline import Runner
 from webviz.engine.state import Row
@@ -55,7 +55,7 @@ def _summary(rows: Iterable[Row]) -> dict[str, Status]:
     rows = list(rows)
     is_idle = all(row.level is Level.IDLE for row in rows)
     return {
-        row.name: max(row.statuses.values(), key=lambda status: status.level)
+        row.name: worst_status(row.statuses.values())
         for row in rows
         if row.level > Level.OK or is_idle
     }

@@ -305,9 +305,9 @@ class InputSubscription:
         if placed is None:
             # In a bag nothing arrives while its time stands still.
             if waiting and frames.buffer.recorded:
-                return Status(
-                    Level.WARN, waiting.sentence, reason=waiting, values=_lag(waiting.lag_ns)
-                )
+                level = Level.IDLE if waiting.is_catching_up else Level.WARN
+                lag = _lag(waiting.lag_ns)
+                return Status(level, waiting.sentence, reason=waiting, values=lag)
             return None
         ready_ns = 0
         if placed.stamp_ns:

@@ -33,8 +33,8 @@ NOTHING_TO_DRAW = Status(
     Level.WARN,
     "Nothing to draw: the data is empty or the properties hide it. Check both.",
 )
-WORKING = Status(Level.WARN, "Loading.")
-WAITING = Status(Level.WARN, "Waiting for the transforms at the time of the data.")
+WORKING = Status(Level.IDLE, "Loading.")
+WAITING = Status(Level.IDLE, "Waiting for the transforms at the time of the data.")
 NO_BROWSER = Status(Level.OK, "Nothing is drawn until a browser connects.")
 
 
@@ -323,7 +323,7 @@ class Runner:
             result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
         size = self._sample_buffer.busy_with or self._renderer.busy_with
         if size:
-            level = Level.WARN if self._renderer.is_empty() else Level.OK
+            level = Level.IDLE if self._renderer.is_empty() else Level.OK
             result[LOADING] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received

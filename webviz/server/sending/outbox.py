@@ -99,7 +99,7 @@ class Outbox:
         self._thin: dict[object, int] = {}
         """Clouds of which the browser has only some of the points."""
         self._whole: set[object] = set()
-        """Those of them that wait to be sent whole."""
+        """Those that wait to be sent whole."""
         self._rested = 0.0
 
     @property
@@ -209,7 +209,8 @@ class Outbox:
         if key in self._pieces or not free:
             return False
         pieces = Pieces(message, min(free))  # pyright: ignore[reportArgumentType]
-        self._pieces[key] = _Begun(number, key in self._whole, pieces)
+        is_whole = key in self._whole and key in self._thin
+        self._pieces[key] = _Begun(number, is_whole, pieces)
         return True
 
     def _order(self, live: Mapping[int, Message]) -> list[tuple[object, int]]:
@@ -272,7 +273,8 @@ class Outbox:
             self._thin.pop(key, None)
 
     def _make_whole(self, live: Mapping[int, Message]) -> None:
-        """Put the clouds that were thinned in the line once more."""
+        """Put the clouds that were thinned in the line once more; thin none that waits there."""
+        self._whole.update(self._line)
         thin = {key: number for key, number in self._thin.items() if number in live}
         clouds = {_cloud(live[number]) for number in thin.values()} - {None}
         if clouds:  # small parts as well, as pages wait for all of them

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
-from webviz.api.status import Level, Status
+from webviz.api.status import Status, worst_status
 from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
@@ -239,7 +239,7 @@ class DisplayHandle:
 
 
 def _worst(row: Row) -> Status:
-    return max(row.statuses.values(), key=lambda status: status.level, default=Status(Level.OK, ""))
+    return worst_status(row.statuses.values())
 
 
 def _check(row: Row, name: str) -> None:

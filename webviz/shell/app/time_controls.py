@@ -23,6 +23,7 @@ from webviz.engine.commands import (
     StopRecording,
 )
 from webviz.engine.state import State
+from webviz.shell.app.arguments import absolute, number
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.past_state import PlaybackState
 from webviz.sources.recording.memory import MEMORY_OFF
@@ -62,9 +63,9 @@ class TimeControls(ABC):
         Raises:
             Error: it cannot be written, a recording goes on, or a bag is played.
         """
-        path = Path(folder).absolute() if folder else new_path("webviz")
-        self.do(StartRecording(str(path)))
-        return path
+        path = absolute(folder, "folder") if folder != "" else str(new_path("webviz"))
+        self.do(StartRecording(path))
+        return Path(path)
 
     def stop_recording(self) -> None:
         """Complete the recording.
@@ -87,9 +88,9 @@ class TimeControls(ABC):
         Raises:
             Error: nothing is remembered, or the folder cannot be written.
         """
-        path = Path(folder).absolute() if folder else new_path("webviz")
-        self.do(SaveMemory(seconds, str(path)))
-        return path
+        path = absolute(folder, "folder") if folder != "" else str(new_path("webviz"))
+        self.do(SaveMemory(None if seconds is None else number(seconds, "seconds"), path))
+        return Path(path)
 
     # The past of live topics
 
@@ -102,7 +103,7 @@ class TimeControls(ABC):
         Raises:
             Error: nothing is remembered, or a bag is played.
         """
-        shown = self._playback
+        seconds, shown = number(seconds, "seconds"), self._playback
         if shown.is_opened:
             raise Error("A recording is shown. Return to live first.")
         if shown.is_live is None:
@@ -118,7 +119,7 @@ class TimeControls(ABC):
         Raises:
             Error: it cannot be read, or the viewer was started with a bag.
         """
-        self.do(OpenRecording(str(Path(path).absolute())))
+        self.do(OpenRecording(absolute(path, "path")))
 
     def return_to_live(self) -> None:
         """Show live topics as they are."""
@@ -137,6 +138,7 @@ class TimeControls(ABC):
             Error: the rate is out of range, or topics are live and not rewound.
         """
         if rate is not None:
+            rate = number(rate, "rate")
             self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
         self.do(Play())
 

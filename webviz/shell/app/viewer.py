@@ -32,6 +32,7 @@ from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.app import notebook
 from webviz.shell.app.adding import by_topic, check_properties
+from webviz.shell.app.arguments import absolute
 from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.app.running import Running
@@ -281,7 +282,7 @@ class Viewer(Running, TimeControls):
         Raises:
             Error: the file cannot be read; nothing was changed.
         """
-        self.do(Open(str(Path(path).absolute())))
+        self.do(Open(absolute(path, "path")))
 
     def save(self, path: str | os.PathLike[str] = "") -> Path:
         """Save the config, by default to its file, and return the file.
@@ -289,7 +290,7 @@ class Viewer(Running, TimeControls):
         Raises:
             Error: the config has no file, or the file cannot be written.
         """
-        self.do(Save(str(Path(path).absolute()) if path else ""))
+        self.do(Save(absolute(path, "path") if path != "" else ""))
         return Path(self.path)
 
     @property

@@ -11,7 +11,7 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
-from webviz.api.status import LOADING, Level, Status
+from webviz.api.status import LOADING, Level, Status, worst
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.engine.commands import Command, Seek
 from webviz.engine.loop import FrameLoop
@@ -37,11 +37,14 @@ class Readiness:
         statuses: the worst status of each enabled display by name.
         general: statuses of the viewer as a whole, such as "Fixed Frame".
         awaited: names of the displays that must be OK.
+        awaits: whether displays that load or wait may still become OK, unlike those that wait in a
+            bag, whose time stands still.
     """
 
     statuses: Mapping[str, Status]
     general: Mapping[str, Status]
     awaited: tuple[str, ...]
+    awaits: bool = False
 
     def __post_init__(self) -> None:
         for name in self.awaited:
@@ -51,8 +54,12 @@ class Readiness:
 
     @property
     def is_ok(self) -> bool:
-        """Return whether all awaited displays are OK."""
-        return all(self.statuses[name].level is Level.OK for name in self.awaited)
+        """Return whether no awaited display has a problem.
+
+        To load or to wait is none, but as long as more may come they are not OK.
+        """
+        levels = {self.statuses[name].level for name in self.awaited}
+        return levels <= ({Level.OK} if self.awaits else {Level.OK, Level.IDLE})
 
 
 class OfflineViewer:
@@ -138,13 +145,14 @@ class OfflineViewer:
             self._source.inbox.arrived.clear()
             self._viewer.turn()
             state = self._viewer.state()
-            shown = Readiness(self._statuses(state), state.statuses, tuple(names))
             is_bag = isinstance(self._source, Player)
             is_loading = any(LOADING in row.statuses for row in state.rows)
             is_loading |= is_bag and self._viewer.is_busy()  # such as with compressed depths
-            is_final = shown.is_ok or is_bag
             late_s = time.monotonic() - deadline
-            if (is_final and not is_loading) or late_s > (LOADING_S if is_loading else 0.0):
+            is_over = late_s > (LOADING_S if is_loading else 0.0)
+            awaits = is_loading or not is_bag
+            shown = Readiness(self._statuses(state), state.statuses, tuple(names), awaits)
+            if is_over or (not is_loading and (is_bag or shown.is_ok)):
                 return shown
             self._source.inbox.arrived.wait(LOOK_S)
 
@@ -190,6 +198,6 @@ class OfflineViewer:
 
 def summary(statuses: Mapping[str, Status]) -> Status:
     """Return the worst level, with the texts of all statuses of that level."""
-    level = max((status.level for status in statuses.values()), default=Level.OK)
+    level = worst(statuses.values())
     texts = [status.text for status in statuses.values() if status.level is level]
     return Status(level, "\n".join(texts))

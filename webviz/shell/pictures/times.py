@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from numbers import Real
 from typing import Protocol
 
 from webviz.api.errors import Error
@@ -64,8 +65,7 @@ def position_ns(at: At, span: Span, name: str) -> int:
         return span.start_ns
     if at == "end":
         return span.end_ns
-    assert not isinstance(at, str)
-    if not math.isfinite(at):
+    if isinstance(at, str) or not isinstance(at, Real) or not math.isfinite(at):
         raise TimeError(f"{at} is not a valid time. Give seconds, `start` or `end`.")
     offset_ns = span.start_ns if at < ABSOLUTE_S else 0
     wanted_ns = offset_ns + round(at * 1e9)
