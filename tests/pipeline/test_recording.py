@@ -119,6 +119,18 @@ def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:
     assert [topic for topic, _ in contents(Path("all"))] == ["/robot_description", "/path", "/path"]
 
 
+def test_what_was_latched_before_the_last_seconds_is_saved_as_if_it_came_with_the_first(
+    bench: Bench,
+) -> None:
+    described = Raw(encode(STRING, {"data": "<robot/>"}), 50 * 10**9, time.monotonic() - 20.0)
+    bench.source.inbox.put("/robot_description", described)
+    publish(bench)
+    bench.ask(SaveMemory(10.0, "last"))
+    (description, first_ns), (path, path_ns) = contents(Path("last"))
+    assert (description, path) == ("/robot_description", "/path")
+    assert first_ns == path_ns
+
+
 def test_a_recording_begins_with_what_is_latched_and_ends_on_request(bench: Bench) -> None:
     bench.publish("/robot_description", STRING, {"data": "<robot/>"})
     publish(bench)

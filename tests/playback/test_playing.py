@@ -123,6 +123,19 @@ def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
     assert viewer.do(SelectSpan()).playback.selected is None
 
 
+@pytest.mark.parametrize("outside_s", [0.5, 3.0])
+def test_outside_of_the_selected_span_playing_begins_at_its_start(
+    theater: Callable, bag: Bag, outside_s: float
+) -> None:
+    viewer = theater(bag, CONFIG)
+    viewer.do(SelectSpan(1.0, 2.0))
+    viewer.do(Seek(outside_s))
+    viewer.do(SetRate(0.01))
+    shown = viewer.do(Play()).playback
+    assert shown.is_playing
+    assert shown.position_s == pytest.approx(1.0, abs=0.1)
+
+
 def test_a_loop_over_a_moment_ends(theater: Callable) -> None:
     viewer = theater(strings(1.0), CONFIG)
     viewer.do(SetLoop())

@@ -338,6 +338,25 @@ def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
     assert len(source.inbox.drain()["/path"]) == 1
 
 
+def test_what_came_since_the_memory_was_read_is_read_once() -> None:
+    source = HandFedSource()
+    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    memory = MemoryHistory(source)
+    player, recent = Player(memory), memory.recent
+    recent.seconds, recent.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: recent.put)
+    player.want({"/path": Subscription(PATH, Topic("/path"))})
+    now_s = time.monotonic()
+    source.inbox.put("/path", Raw(b"1", 1, now_s - 5))
+    player.jump(memory.end_ns - ns(4))
+    player.play_until(memory.end_ns - ns(4))
+    assert not memory.refresh()
+    source.inbox.put("/path", Raw(b"2", 1, now_s - 3))
+    player.play_until(memory.end_ns - ns(2))
+    assert [raw.cdr for raw in source.inbox.drain()["/path"]] == [b"1", b"2"]
+    assert [raw.cdr for _, raw in memory.entries()] == [b"1", b"2"]
+
+
 def test_a_recording_goes_on_while_the_past_is_shown(
     make: Benches, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

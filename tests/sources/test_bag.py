@@ -151,9 +151,21 @@ def test_another_topic_that_is_wanted_meanwhile_loses_nothing_of_the_first(tmp_p
     assert [len(arrived["/words"]), len(arrived["/more"])] == [4, 1]
 
 
+def test_another_topic_that_is_wanted_after_a_seek_loses_nothing_of_the_first(tmp_path, opened):
+    recorded = strings(0, 1, 2, 3)
+    recorded.add("/more", "std_msgs/msg/String")
+    bag = opened(recorded.write(tmp_path / "bag"))
+    bag.want("/words")
+    bag.source.jump(START_NS + ns(2))
+    bag.want("/words", "/more")
+    bag.play(3)
+    assert bag.heard() == ["2", "3"]
+
+
 def test_a_topic_that_is_no_longer_wanted_is_silent(tmp_path, opened):
     bag = opened(strings(0, 1).write(tmp_path / "bag"))
     bag.want("/words")
+    bag.play(0)  # of which the message waits
     bag.want()
     bag.play(1)
     assert bag.heard() == []

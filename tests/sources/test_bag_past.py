@@ -16,7 +16,7 @@ from webviz.sources.bag.history import BagHistory
 from webviz.sources.history.needed import NeededMessages
 from webviz.sources.player import Player
 
-STRING = "std_msgs/msg/String"
+STRING, POSE = "std_msgs/msg/String", "geometry_msgs/msg/PoseStamped"
 
 
 @contextmanager
@@ -77,6 +77,19 @@ def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
     with opened(path) as history:
         past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(4))
         assert [(each.stamp_ns - START_NS) // ns(1) for each in past.messages()] == [2, 3, 4]
+
+
+def test_messages_that_were_placed_when_transforms_ended_are_read(tmp_path: Path) -> None:
+    bag = moving(10)
+    bag.add("/pose", POSE)
+    for at_s in range(41):
+        bag.put(at_s, "/pose", {"header": {"frame_id": "base"}})
+    newest = Subscription(POSE, Topic("/pose"), lookbacks=(Lookback(count=1),), is_placed=True)
+    wanted = {"/tf": Subscription(TF, Topic("/tf")), "/pose": newest}
+    with opened(bag.write(tmp_path / "run")) as history:
+        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(40))
+        poses = [each.stamp_ns - START_NS for each in past.messages() if each.type == POSE]
+    assert poses == [ns(10), ns(11), ns(40)]
 
 
 @pytest.mark.parametrize(("left_s", "step_s"), [(0.4, 0.1), (8, 1), (12, 1.5), (16, 2), (60, 2)])

@@ -283,6 +283,23 @@ def test_a_hundred_thousand_topics_are_cut_and_said(liar: Liar) -> None:
     assert any("no name" in remark for remark in reader.bridge.remarks)
 
 
+def test_nodes_that_start_later_are_listed(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rosapi, "POLL_S", 0.01)
+    listed: list[str] = []
+
+    def script(connection: ServerConnection) -> None:
+        for frame in connection:
+            text = json.loads(frame)
+            if text.get("service") == "/rosapi/nodes":
+                listed.append(f"/node_{len(listed)}")
+            answer = {"op": "service_response", "id": text["id"], "result": True}
+            values = {"topics": [], "types": [], "nodes": listed, "services": []}
+            connection.send(json.dumps({**answer, "values": values}))
+
+    reader = liar(script)
+    reader.until(lambda: "/node_1" in reader.source.graph.nodes())
+
+
 def test_a_server_without_rosapi_is_explained(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         for frame in connection:
