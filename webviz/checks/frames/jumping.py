@@ -70,7 +70,10 @@ class JumpingTransform(Check):
 
 def _jumps(cache: TimeCache) -> Sequence[float]:
     """Return the steps in metres that are much longer than the others, and too fast."""
-    steps = np.linalg.norm(np.diff(cache.translations(), axis=0), axis=1).tolist()
+    translations = cache.translations()
+    if not np.isfinite(translations).all():
+        return ()
+    steps = np.linalg.norm(np.diff(translations, axis=0), axis=1).tolist()
     if not steps or max(steps) < LEAST_M:
         return ()
     usual = sorted(steps)[len(steps) // 2]

@@ -12,6 +12,7 @@ from webviz.api.check import Check
 from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
 from webviz.api.finding import Finding, Severity
+from webviz.api.observation import DISCOVERED_S
 from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
@@ -109,6 +110,12 @@ class Doctor:
         """ROS time of the last round, 0 before the first."""
         self.findings: Sequence[Finding] = ()
         """Of the last round, the one to repair first at the beginning."""
+
+    @property
+    def is_graph_found(self) -> bool:
+        """Return whether other nodes were found, or had the time to be."""
+        is_early = time.monotonic() - self.listening_since_s < DISCOVERED_S
+        return not is_early or len(self._core.gate.nodes()) > 1
 
     def ask(self) -> None:
         """Examine for some seconds even if no browser is connected; thread-safe."""

@@ -18,7 +18,7 @@ from webviz.api.declared import to_values
 from webviz.api.display import Display
 from webviz.api.environment import Environment
 from webviz.api.finding import CauseLevel, Finding
-from webviz.api.observation import DISCOVERED_S, Observation
+from webviz.api.observation import Observation
 from webviz.api.registry import type_name
 from webviz.api.two_ends import TwoEnds
 from webviz.data.transforms import TransformBuffer
@@ -138,9 +138,7 @@ class Examination:
         state = self._state
         report = report_of("live", state, state.findings if state else (), len(known_checks()))
         doctor = self._loop.doctor
-        is_early = time.monotonic() - doctor.listening_since_s < DISCOVERED_S
-        is_alone = len(self._source.graph.nodes()) < 2
-        report.unfinished = doctor.rounds < ROUNDS or (is_early and is_alone)
+        report.unfinished = doctor.rounds < ROUNDS or not doctor.is_graph_found
         return report
 
     def _watch(self, until_s: float, is_given: bool) -> None:
