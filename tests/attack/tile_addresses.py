@@ -38,7 +38,7 @@ def read_address(path: Path) -> None:
     """Read a tile of the address in a file, as AerialMap does.
 
     Raises:
-        TileError: it is refused, or there is no tile.
+        TileError: the address is refused, or the tile does not exist.
         AssertionError: a server was asked for something outside of the folder.
     """
     asked: list[tuple[str, str]] = []

@@ -68,4 +68,4 @@ def test_a_finding_that_explains_nothing_more_is_a_symptom() -> None:
     assert ordered([both, other, cause]) == (cause, other)
     assert ordered([both, cause]) == (cause, both), "one status is not explained"
     silent, summed = finding("VIEW001"), finding("VIEW002", SUM)
-    assert ordered([summed, silent, cause]) == (cause, silent, summed), "as these are no symptoms"
+    assert ordered([summed, silent, cause]) == (cause, silent, summed), "neither is a symptom"

@@ -16,7 +16,7 @@ ALL = [
     Provocation("all is well", "", ""),
     Provocation("domain out of range", "ENV001", "ROS_DOMAIN_ID", here={"ROS_DOMAIN_ID": "233"}),
     Provocation(
-        "domain that is no number", "ENV001", "ROS_DOMAIN_ID", here={"ROS_DOMAIN_ID": "robot"}
+        "domain that is not a number", "ENV001", "ROS_DOMAIN_ID", here={"ROS_DOMAIN_ID": "robot"}
     ),
     Provocation("another domain", "GRAPH001", "ROS_DOMAIN_ID", here={"ROS_DOMAIN_ID": "7"}),
     Provocation(

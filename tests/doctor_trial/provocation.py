@@ -25,7 +25,7 @@ class Provocation:
         apart: commands that are run before in a mount namespace of the robot alone.
         options: of `webviz doctor`.
         seconds: of the examination.
-        is_alone: whether there is no robot.
+        is_alone: whether the doctor runs without a robot.
         files: that are written into the working folder before, by name.
     """
 

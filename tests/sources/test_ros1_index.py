@@ -21,7 +21,7 @@ Content = list[tuple[str, int, bytes]]
 
 
 def records(data: bytes) -> Iterator[tuple[int, int, bytes]]:
-    """Where the records of a bag begin and end, and their kinds."""
+    """Kinds of the records of a bag, with the offsets at which they begin and end."""
     at = data.index(b"\n") + 1
     while at < len(data):
         (size,) = struct.unpack_from("<I", data, at)

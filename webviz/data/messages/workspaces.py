@@ -15,7 +15,7 @@ from webviz.data.messages.decode import register
 from webviz.data.messages.errors import DefinitionError
 
 DEPTHS = ("", "*/", "*/*/", "src/*/*/")
-"""Where packages are: in `src` of a workspace, or in repositories there and their folders."""
+"""Folders of packages: `src` of a workspace, repositories in it, and their folders."""
 
 
 def learn(type_name: str) -> None:

@@ -1,4 +1,4 @@
-"""Where the messages of a ROS 1 bag are: by the index behind each chunk, or by reading the chunk.
+"""Places of the messages of a ROS 1 bag: by the index behind each chunk, or by reading the chunk.
 
 The index at the end of a file is not needed: recorders write that of a chunk right behind it, so
 that a bag whose end is missing has all but the last.
@@ -65,7 +65,7 @@ class Ros1Connection(NamedTuple):
 
 
 class Ros1Chunk(NamedTuple):
-    """Where the messages of a chunk are in a file, and how they are compressed."""
+    """A chunk of messages: its data in the file, and how they are compressed."""
 
     offset: int
     size: int
@@ -122,7 +122,7 @@ class Ros1Index:
         return self._file.read(min(size, self._size))
 
     def _begin(self, path: Path) -> int:
-        """Read what a file says of itself; where its records begin."""
+        """Read the head of a file, and return the offset of the record behind it."""
         line = self._read(0, 64).split(b"\n", 1)[0]
         version = line.decode(errors="replace").removeprefix("#ROSBAG V")
         if version != "2.0":
@@ -191,7 +191,7 @@ class Ros1Index:
         self._end_chunk(chunk, ())  # its index may be cut off
 
     def _next_chunk(self, at: int) -> int | None:
-        """Where the next chunk begins; None without one."""
+        """Return the offset of the next chunk, None without one."""
         while at < self._size and self._left_to_search > 0:
             block = self._read(at, 1 << 20)
             self._left_to_search -= len(block)
