@@ -124,6 +124,7 @@ setup(
             "Wrench = webviz_displays.vectors:Wrench",
             "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
+        "webviz.features": ["what_if = webviz.features.what_if:WhatIf"],
         "webviz.checks": ["webviz = webviz.checks"],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",

@@ -55,9 +55,9 @@ def test_every_check_has_a_page() -> None:
 
 
 def test_the_types_of_the_page_are_those_of_python() -> None:
-    for name, text in typings.files().items():
-        written = (typings.FOLDER / name).read_text(encoding="utf-8")
-        assert written == text, f"run {docs.COMMAND} and commit {name}"
+    for path, text in typings.files().items():
+        written = path.read_text(encoding="utf-8")
+        assert written == text, f"run {docs.COMMAND} and commit {path.name}"
 
 
 def test_every_environment_variable_is_in_the_reference() -> None:

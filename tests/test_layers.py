@@ -2,6 +2,7 @@
 
 import ast
 import graphlib
+import posixpath
 import re
 from collections import defaultdict
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ import pytest
 from webviz.api.registry import display_types
 
 ROOT = Path(__file__).parent.parent
+FEATURES = ROOT / "webviz/features"
 PACKAGES = [ROOT / "webviz", *(ROOT / d for d in ("displays", "urdf", "sim"))]
 
 ROOMS = (
@@ -28,6 +30,7 @@ ROOMS = (
     "webviz.checks",
     "webviz.tools",
     "webviz.panels",
+    "webviz.features",
     "webviz.shell",
 )
 """Each may import itself and those before it."""
@@ -35,6 +38,7 @@ FACES = ("webviz", "webviz.__main__", "webviz.commands", "webviz.testing", "webv
 """Public names, under which nothing inside webviz is imported."""
 FOLDERS = {
     "webviz.engine": (
+        "store",
         "state",
         "commands",
         "driving",
@@ -42,6 +46,7 @@ FOLDERS = {
         "playback",
         "pipeline",
         "parts",
+        "feature",
         "doctor",
         "loop",
     ),
@@ -138,17 +143,53 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     assert list(graphlib.TopologicalSorter(graph).static_order())
 
 
-def test_no_modules_of_the_page_import_each_other_in_a_circle() -> None:
-    folder = ROOT / "webviz/page/web"
-    graph = {
-        path: {
-            (path.parent / target).resolve()
+GENERATED = {"constants.js", "contents.js", "messages.js", "types.js"}
+"""Modules of the page that are no files, or only types."""
+
+
+def modules_of_the_page() -> dict[str, set[str]]:
+    """Return the modules that each one of the page imports, by their addresses there."""
+    folders = {"": ROOT / "webviz/page/web", "features/": FEATURES}
+    return {
+        prefix + path.relative_to(folder).as_posix(): {
+            posixpath.normpath(f"{prefix}{path.parent.relative_to(folder).as_posix()}/{target}")
             for target in re.findall(r'(?:from|import) "(\.[^"]+)"', path.read_text("utf-8"))
         }
-        for path in folder.resolve().rglob("*.js")
+        for prefix, folder in folders.items()
+        for path in folder.rglob("*.js")
     }
+
+
+def test_no_modules_of_the_page_import_each_other_in_a_circle() -> None:
+    graph = modules_of_the_page()
     assert len(graph) > 100
+    imported = {other for others in graph.values() for other in others}
+    assert {each for each in imported if Path(each).name not in GENERATED} <= graph.keys()
     assert list(graphlib.TopologicalSorter(graph).static_order())
+
+
+def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None:
+    wrong = {
+        (name, other)
+        for name in MODULES
+        for other in imports(name)
+        if is_within(other, "webviz.features") and other != "webviz.features"
+        if not is_within(name, feature_of(other))
+        # Features meet through what one exports.
+        if not (is_within(name, "webviz.features") and other == feature_of(other))
+    }
+    wrong |= {
+        (name, other)
+        for name, others in modules_of_the_page().items()
+        for other in others
+        if other.startswith("features/") and name.split("/")[:2] != other.split("/")[:2]
+    }
+    assert not wrong
+
+
+def feature_of(module: str) -> str:
+    """Return the package of the feature that a module belongs to."""
+    return ".".join(module.split(".")[:3])
 
 
 def is_outer(name: str, other: str) -> bool:

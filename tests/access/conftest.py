@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.guest import Guest
+from webviz.api.roles import Role
 from webviz.api.vehicle import Velocity
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import DrivingAnswer
@@ -19,7 +20,6 @@ from webviz.page.pages import Pages
 from webviz.scene import open_server
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import Token, make
 from webviz.server.http.viser_server import Server
 

@@ -19,6 +19,7 @@ from websockets.frames import Frame, Opcode
 from tests.access.conftest import PATIENCE_S, House
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
+from webviz.api.roles import Role
 from webviz.engine.commands import Command, DragHandle, UseTool
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.dispatcher import NOT_OF_PAGES
@@ -26,7 +27,7 @@ from webviz.scene import open_server
 from webviz.scene.browsers import HasPainted, Vitals
 from webviz.server.access import roles, rules, token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import LIMITS, LINKS, Limits, Role
+from webviz.server.access.roles import LIMITS, LINKS, Limits
 from webviz.server.access.tokens import make
 from webviz.server.channel.refusals import HALF
 from webviz.server.http import connections
@@ -124,7 +125,7 @@ def test_a_websocket_needs_a_cookie(house: House, path: str) -> None:
 def test_everything_that_a_page_sends_is_held_against_its_role(house: House, role: Role) -> None:
     guest = house.enter(role)
     assert guest.receive("You") == {"type": "You", "role": role.label, "name": f"some {role.label}"}
-    for command, required in rules.COMMANDS.items():
+    for command, required in rules.commands().items():
         if command in SILENT and role >= required:
             guest.send("Do", number=5, command=command.__name__, arguments=FIELDS[command.__name__])
             continue
@@ -133,7 +134,7 @@ def test_everything_that_a_page_sends_is_held_against_its_role(house: House, rol
     guest.send("Drive", tool="t", beat=0, linear=1, lateral=0, angular=0)
     problem = guest.receive("DrivingReport")["problem"]
     assert problem.startswith("Not allowed: ") == (role is Role.WATCHER)
-    allowed = {c.__name__ for c, required in rules.COMMANDS.items() if role >= required}
+    allowed = {c.__name__ for c, required in rules.commands().items() if role >= required}
     allowed -= {"Dismiss", "Invite", "Revoke", "UseWidget"}  # the server does these itself
     acted = {"Drive"} if role > Role.WATCHER else set()
     internal = {"InspectTopics", "InspectSelections", "InspectTransforms"}

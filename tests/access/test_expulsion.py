@@ -14,11 +14,11 @@ from websockets.exceptions import ConnectionClosed
 
 from tests.access.conftest import House
 from tests.support.guest import Guest
+from webviz.api.roles import Role
 from webviz.data.disk import MAX_THREADS, in_thread
 from webviz.scene import open_server
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import make
 
 

@@ -12,7 +12,8 @@ import playwright.sync_api as playwright
 import pytest
 
 from tests.access.conftest import House
-from webviz.server.access.roles import LINKS, Role
+from webviz.api.roles import Role
+from webviz.server.access.roles import LINKS
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 

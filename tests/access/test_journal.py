@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.server.access import journal, journal_file
 from webviz.server.access.journal import MAX_TEXT, Journal
 from webviz.server.access.journal_file import JournalFile
-from webviz.server.access.roles import Role
 from webviz.server.access.visitors import Visitor
 
 ADA = Visitor("Ada", Role.OWNER, "192.0.2.1", 0.0)

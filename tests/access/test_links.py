@@ -13,8 +13,8 @@ from types import SimpleNamespace
 import psutil
 import pytest
 
+from webviz.api.roles import Role
 from webviz.server.access.announcing import Announcement, announced, reachable
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import make
 from webviz.shell.cli.links import show_links
 

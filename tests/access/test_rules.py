@@ -9,12 +9,13 @@ import pytest
 
 import webviz.page
 from webviz import commands
+from webviz.api.roles import Role
 from webviz.engine.commands import Command
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.content import MAKERS
 from webviz.server.access import rules
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
-from webviz.server.access.roles import LIMITS, LINKS, Role
+from webviz.server.access.roles import LIMITS, LINKS
 from webviz.server.channel import messages
 from webviz.server.channel.messages import FromPage
 from webviz.server.channel.refusals import answer
@@ -80,7 +81,7 @@ def every_message() -> set[str]:
 
 
 def test_every_command_has_a_role_or_a_reason_why_no_page_may_send_it() -> None:
-    allowed = {command.__name__ for command in rules.COMMANDS}
+    allowed = {command.__name__ for command in rules.commands()}
     assert not allowed & NOT_OF_PAGES.keys()
     assert allowed | NOT_OF_PAGES.keys() == every_command()
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from websockets.datastructures import Headers
 
+from webviz.api.roles import Role
 from webviz.server.access import login, token_file
 from webviz.server.access.access import EVERYBODY, Access
-from webviz.server.access.roles import Role
 from webviz.server.access.starting import access_to, is_local, link, make_missing
 from webviz.server.access.tokens import MAX_TOKENS, Token, TokenError, make
 

@@ -23,9 +23,9 @@ from mcp.client.streamable_http import streamable_http_client
 from waiting import until
 
 import webviz
+from webviz.api.roles import Role
 from webviz.data.messages import encode
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import make
 from webviz.shell.agents.caller import AgentCaller
 from webviz.shell.agents.server import HttpServer, made

@@ -16,9 +16,9 @@ import playwright.sync_api as playwright
 import pytest
 
 import webviz
+from webviz.api.roles import Role
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import make
 from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders, html
 from webviz.shell.testing.source import HandFedSource

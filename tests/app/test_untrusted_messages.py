@@ -11,7 +11,7 @@ import pytest
 import webviz
 from tests.support.guest import Guest
 from webviz.page.content.forms import MAX_TEXT
-from webviz.server.access.rules import COMMANDS
+from webviz.server.access import rules
 
 LONG = "x" * 40_000
 ARGUMENTS: list[dict[str, Any]] = [
@@ -46,7 +46,7 @@ def guest(
 def test_commands_that_make_no_sense_are_refused_in_one_short_sentence(
     guest: Guest, caplog: pytest.LogCaptureFixture
 ) -> None:
-    for class_ in COMMANDS:
+    for class_ in rules.commands():
         for arguments in ARGUMENTS:
             answer = guest.do(class_.__name__, **arguments)
             assert len(answer) <= 1000, class_

@@ -15,7 +15,7 @@ from bags import strings
 from tests.attack import commands
 from tests.attack.attack import Attack, Case, Outcome, Violation, changed_part, mutated
 from tests.attack.target import ANSWER_S, INTERNAL, homes
-from webviz.server.access.rules import COMMANDS
+from webviz.server.access import rules
 
 START_S = 180.0
 """For the start of a viewer on a busy machine."""
@@ -65,7 +65,7 @@ class Agents(Attack):
     def draw(self, random: Random) -> Case:
         tool = random.choice(TOOLS)
         if tool == "act":
-            command = random.choice(sorted(each.__name__ for each in COMMANDS))
+            command = random.choice(sorted(each.__name__ for each in rules.commands()))
             fields = commands.arguments(random, command) if command not in ENDINGS else {}
             arguments: dict[str, Any] = {"command": command, "fields": fields}
         else:

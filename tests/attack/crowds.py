@@ -10,7 +10,7 @@ import msgspec
 
 from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import ANSWER_S, Target
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 ELSEWHERE = "127.0.0.2"
 """Another address of this machine than that of the owner."""

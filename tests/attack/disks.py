@@ -14,11 +14,11 @@ import msgspec
 from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import ANSWER_S
 from tests.attack.visitor import Visitor
+from webviz.api.roles import Role
 from webviz.data.disk import MAX_THREADS, in_thread
 from webviz.scene import open_server
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.tokens import Token, make
 from webviz.server.http.viser_server import Server
 

@@ -9,7 +9,7 @@ from random import Random
 
 from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
 from tests.attack.target import ANSWER_S, Target
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 METHODS = (b"HEAD", b"POST", b"PUT", b"OPTIONS", b"TRACE", b"get", b"")
 PATHS = (

@@ -10,7 +10,7 @@ import websockets.exceptions
 from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import ANSWER_S, Target
 from tests.attack.visitor import Visitor
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 COMMANDS = ("Export", "WriteDisplays", "Identify", "FocusFrame", "ResetView")
 """That a watcher may send: two wait for a thread, the others for the frame loop."""

@@ -41,7 +41,7 @@ from tests.attack.sockets import Sockets, kind_of
 from tests.attack.target import Target
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 from webviz.shell.testing.domain import isolated_domain
 
 CORPUS = Path(__file__).parent / "corpus"

@@ -16,8 +16,9 @@ from tests.attack import commands
 from tests.attack.attack import Attack, Case, Outcome, Violation, mutated
 from tests.attack.target import ANSWER_S, Target
 from tests.attack.visitor import Visitor
-from webviz.server.access.roles import Role
-from webviz.server.access.rules import COMMANDS, MESSAGES, SCENE
+from webviz.api.roles import Role
+from webviz.server.access import rules
+from webviz.server.access.rules import MESSAGES, SCENE
 from webviz.server.channel.messages import Do
 
 VISER = "viser.msgpack"
@@ -44,7 +45,7 @@ WORDS = (
     "text", "steps", "tool", "paused", "browser", "store", "displays", "group", "index", "kind",
 )  # fmt: skip
 FROM_PAGE = sorted(MESSAGES)
-REQUIRED = {class_.__name__: role for class_, role in COMMANDS.items()}
+REQUIRED = {class_.__name__: role for class_, role in rules.commands().items()}
 
 SILENT = ("DragHandle", "UseTool")
 """Commands of which only refusals and what tools say are answered."""

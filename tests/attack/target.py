@@ -18,8 +18,9 @@ from tests.attack.attack import Violation
 from tests.attack.visitor import Visitor
 from webviz.api.errors import Error
 from webviz.api.registry import display_types
+from webviz.api.roles import Role
 from webviz.files.opening import load
-from webviz.server.access.roles import LINKS, Role
+from webviz.server.access.roles import LINKS
 
 ANSWER_S = 20.0
 """In which the viewer must answer whatever else it is sent; a busy machine takes seconds."""

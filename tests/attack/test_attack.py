@@ -13,7 +13,7 @@ from tests.attack.attack import Case, Outcome, random_of
 from tests.attack.run import CORPUS, KINDS, local_attacks, remote_attacks, run
 from tests.attack.sockets import kind_of
 from tests.attack.target import INTERNAL, Target
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 SECONDS = 6.0
 SEED = 11

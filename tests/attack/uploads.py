@@ -11,7 +11,7 @@ import websockets.exceptions
 
 from tests.attack.attack import Attack, Case, Outcome, Violation
 from tests.attack.target import ANSWER_S, Target
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 NAMES = (
     "a.yaml", "../a.yaml", "/etc/passwd", "a/b.yaml", "..", "", "\x00.yaml", "a" * 300 + ".yaml",

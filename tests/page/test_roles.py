@@ -14,13 +14,13 @@ from pages import COARSE
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab, open_page
+from webviz.api.roles import Role
 from webviz.engine import commands
 from webviz.engine.state import Row, ToolButton
 from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import open_server
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, make
 

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from bench import Benches
 
+from webviz.api.roles import Role
 from webviz.engine.commands import (
     ChangeView,
     Export,
@@ -33,8 +34,7 @@ from webviz.engine.commands import (
 )
 from webviz.files.opening import load
 from webviz.files.sessions import MAX_VIEWERS, Sessions
-from webviz.server.access.roles import Role
-from webviz.server.access.rules import COMMANDS
+from webviz.server.access import rules
 from webviz_displays.axes import Axes
 
 
@@ -240,5 +240,5 @@ def test_watchers_leave_nothing_in_a_session(start: Benches, file: Path) -> None
         b.until_done(b.viewer.enqueue(command, Sender(1)))
     b.viewer.close()
     assert not file.exists()
-    allowed = {kind for kind, role in COMMANDS.items() if role is Role.WATCHER}
+    allowed = {kind for kind, role in rules.commands().items() if role is Role.WATCHER}
     assert allowed == set(map(type, done))

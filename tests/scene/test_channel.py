@@ -20,10 +20,11 @@ from several import Make
 from waiting import until
 from websockets.sync.connection import Connection
 
+from webviz.api.roles import Role
 from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter.greeting import greet
 from webviz.server.access import rules
-from webviz.server.access.roles import LIMITS, Role
+from webviz.server.access.roles import LIMITS
 from webviz.server.channel.messages import Answer, Ask, FromPage, ToPage
 from webviz.server.channel.outgoing import MAX_WAITING
 from webviz.server.http.viser_server import Server

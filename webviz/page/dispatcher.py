@@ -16,7 +16,7 @@ from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
 from webviz.page.content.forms import MAX_TEXT
 from webviz.server.access.requests import Dismiss, Invite, Revoke
-from webviz.server.access.rules import COMMANDS, UNKNOWN
+from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Download
 
@@ -172,7 +172,7 @@ def form_of(name: str) -> type[msgspec.Struct]:
 @functools.cache
 def _forms() -> dict[str, tuple[type[Any], Any]]:
     """By name the commands of pages, each with a struct of the fields that a page may fill in."""
-    return {class_.__name__: (class_, _form(class_)) for class_ in COMMANDS}
+    return {class_.__name__: (class_, _form(class_)) for class_ in commands()}
 
 
 def _form(class_: type[Any]) -> Any:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from webviz.api.registry import display_types
+from webviz.api.roles import Role
 from webviz.engine.commands import Command, DragHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
+from webviz.engine.feature import Feature, stores, stores_of
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content import MAKERS
-from webviz.page.content.store import PageStore
 from webviz.page.dependency_tracking import DependencyTracker
 from webviz.page.derived_subscriptions import DerivedSubscriptions
 from webviz.page.dispatcher import Dispatcher, Handler
@@ -25,7 +27,6 @@ from webviz.page.toolbar import Toolbar
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
-from webviz.server.access.roles import Role
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Shell, ShowPictures
 
@@ -42,6 +43,7 @@ class Pages:
         steer: takes set-points of vehicles, see `webviz.engine.driving.VelocityControllers`.
         access: knows the tokens; None if none are asked for.
         keep: called with each line of the journal, from any thread.
+        features: of the viewer, which make their own stores.
     """
 
     def __init__(
@@ -51,6 +53,7 @@ class Pages:
         steer: Steer,
         access: Access | None = None,
         keep: Callable[[str], object] | None = None,
+        features: Sequence[Feature] = (),
     ) -> None:
         self._channel = channel
         self._guard = Guard("The page", strict=False)
@@ -81,6 +84,10 @@ class Pages:
             **{name: partial(make, people) for name, make in MAKERS_OF_PEOPLE.items()},
             **{name: partial(make, panels) for name, make in MAKERS_OF_PANELS.items()},
         }
+        self._features = {name: each for each in features for name in stores_of(type(each))}
+        """Those with stores, by the name of each store."""
+        self._versions: dict[str, object] = {}
+        """Of the stores of features that are kept."""
         self._read: dict[str, DependencyTracker] = {}
         """Dependencies of the stores that are kept."""
         self._types = display_types()
@@ -109,12 +116,21 @@ class Pages:
 
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")
-        if (make := self._of_parts.get(name)) is not None:
+        if (feature := self._features.get(name)) is not None:
+            self._ask(feature, store, name, argument)
+        elif (make := self._of_parts.get(name)) is not None:
             self._show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
             reading = DependencyTracker(state)
             self._show(store, make(reading.state, argument))
             self._read[store] = reading
+
+    def _ask(self, feature: Feature, store: str, name: str, argument: str) -> None:
+        """Let a feature make a store, unless it depends on what it did before."""
+        version = feature.version(store)
+        if version is None or self._versions.get(store) != version:
+            self._show(store, stores_of(type(feature))[name].make(feature, argument))
+            self._versions[store] = version
 
     def _show(self, store: str, made: PageStore | None) -> None:
         self._channel.show(store, {} if made is None else made.by_key())
@@ -124,8 +140,10 @@ class Pages:
         if (types := display_types()) != self._types:
             self._types = types
             self._read.clear()
-        for store in self._read.keys() - watched:
-            del self._read[store]
+            self._versions.clear()
+        for kept in self._read, self._versions:
+            for store in kept.keys() - watched:
+                del kept[store]
 
 
 def _ranked(channel: Channel, sender: Sender) -> Sender:
@@ -139,4 +157,6 @@ def _ranked(channel: Channel, sender: Sender) -> Sender:
 def _may_watch(browser: int, store: str) -> bool:
     """Return whether a store may be sent to a browser: a view is that of its own page only."""
     name, _, argument = store.partition(":")
-    return name not in OF_ONE_BROWSER or argument == str(browser)
+    own = stores().get(name)
+    is_private = name in OF_ONE_BROWSER if own is None else own.is_private
+    return not is_private or argument == str(browser)

@@ -11,15 +11,15 @@ from typing import ClassVar, TypeVar
 import msgspec
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
-from webviz.page.content.store import PageStore
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.requests import Dismiss, Invite, Revoke
-from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, TokenError, make
 from webviz.server.channel.channel import Channel

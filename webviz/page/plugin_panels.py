@@ -18,10 +18,10 @@ from webviz.api.registry import broken_types, plugin_types
 from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
 from webviz.page.content.forms import Form, form, values_of
 from webviz.page.content.modules import ModulesStore, modules
-from webviz.page.content.store import PageStore
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
 from webviz.server.access.requests import UseWidget

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
+from webviz.engine.feature import features
 from webviz.scene.capacity import FEWEST_POINTS, MAX_POINTS
 from webviz.scene.drawn import OPACITY_BIT
 from webviz.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
@@ -17,6 +18,9 @@ DARKEST = 0.3
 
 CONSTANTS = {
     "ROLES": rules.table(),
+    "FEATURES": [
+        f"features/{name}/{each.module}" for name, each in features().items() if each.module
+    ],
     "ROOT": ROOT,
     "TILE_PREFIX": TILE_PREFIX,
     "PART_PREFIX": PART_PREFIX,

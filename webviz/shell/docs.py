@@ -323,8 +323,8 @@ def write_small_pictures() -> None:
 
 def main() -> None:
     """Write everything."""
-    for name, text in typings.files().items():
-        (typings.FOLDER / name).write_text(text, encoding="utf-8")
+    for path, text in typings.files().items():
+        path.write_text(text, encoding="utf-8")
     for name, text in pages().items():
         (PAGES / name).write_text(text, encoding="utf-8")
     for name, text in check_docs.pages().items():

@@ -94,7 +94,6 @@ from webviz.engine.commands.views import (
     StartWithView,
     ViewCommand,
 )
-from webviz.engine.commands.what_if import EndTrial, FindFrame, TryFrame
 
 __all__ = [
     "MAX_PRIORITY",
@@ -108,10 +107,8 @@ __all__ = [
     "DismissGoal",
     "DragHandle",
     "DuplicateDisplay",
-    "EndTrial",
     "Export",
     "FileCommand",
-    "FindFrame",
     "FocusDisplay",
     "FocusFrame",
     "Identify",
@@ -177,7 +174,6 @@ __all__ = [
     "StopRecording",
     "StopSharing",
     "TraceDisplay",
-    "TryFrame",
     "Undo",
     "UseTool",
     "ViewCommand",

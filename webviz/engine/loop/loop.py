@@ -18,6 +18,7 @@ from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Requests
 from webviz.engine.doctor import Doctor
 from webviz.engine.driving import VelocityControllers
+from webviz.engine.feature import broken_features, features
 from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
@@ -35,6 +36,7 @@ from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.latency import LatencyPart
 from webviz.engine.parts.layouts import LayoutsPart
 from webviz.engine.parts.panels import PanelsPart
+from webviz.engine.parts.part import P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.recording import RecordingPart
@@ -49,14 +51,13 @@ from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
-from webviz.engine.parts.what_if import WhatIfPart
 from webviz.engine.pipeline import Runner, Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.state import State
 from webviz.engine.state.memoizing import reuse_unchanged
-from webviz.engine.state.statuses import failures
+from webviz.engine.state.statuses import failures, without
 from webviz.files.config import Config, Settings
 from webviz.sources import Gate, Rights, Source
 from webviz.sources.player import Player
@@ -160,14 +161,15 @@ class FrameLoop:
         first += [views, LayoutsPart(core, self._settings)]
         others, history, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
+        self.features = [make(core) for make in features().values()]
         last = [
             ReportsPart(core, self._files, player, self._examined, lambda: self._shown),
             SharingPart(core, self._files, player, lambda: self._shown, export),
-            WhatIfPart(core, self._displays, services),
             *(make(core) for make in parts),
+            *self.features,
         ]
-        clock_watch = ClockWatchPart(core)
-        self._parts = Parts([*first, *others, numbers, clock_watch, *last], self._guard)
+        core.parts = [*first, *others, numbers, clock_watch := ClockWatchPart(core), *last]
+        self._parts = Parts(core.parts, self._guard)
         self._do = history.noting(self._parts.do)
         self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
         """Finds the causes behind the statuses."""
@@ -247,6 +249,10 @@ class FrameLoop:
     def settings(self) -> Settings:
         """Everything in the config except its lists."""
         return self._settings.settings
+
+    def get(self, kind: type[P]) -> P:
+        """Return the part or feature of a class; see `Core.get`."""
+        return self._core.get(kind)
 
     def runners(self) -> Sequence[Runner]:
         """Return the displays that are shown."""
@@ -351,6 +357,7 @@ class FrameLoop:
         state, statuses = self._parts.state(), self._parts.statuses()
         self._black_box.look(state.rows, self.doctor.verdicts)
         statuses = statuses | failures(self._guard.crashes) | self._showing.statuses
+        statuses |= without(broken_features())
         warned = self._playback.warned(state.rows)
         seen = replace(state, statuses=statuses, warned=warned)
         doctor = self.doctor

@@ -49,6 +49,7 @@ class DisplaysPart(Part):
     def __init__(self, core: Core, services: Services) -> None:
         super().__init__(core)
         self.list = DisplayList(services)
+        self.services = services
         self.tracer = services.tracer
         self.points = services.points
         self.consistency = ConsistencyCheck(core, self.list)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any, ClassVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, ClassVar, TypeVar
 
 from webviz.api.frames import Frames
 from webviz.api.status import Status
@@ -22,6 +22,9 @@ Handler = Callable[[Any, Sender], str | Job[Any] | None]
 
 It raises a `webviz.Error` with one sentence to refuse the command.
 """
+
+
+P = TypeVar("P", bound="Part")
 
 
 class Core:
@@ -55,6 +58,19 @@ class Core:
         """ROS time of the turn, also while paused; 0 while it is unknown."""
         self.offers: Mapping[str, Offer] = {}
         """Publishers and QoS by topic."""
+        self.parts: Sequence[Part] = ()
+        """All parts, once they are there."""
+
+    def get(self, kind: type[P]) -> P:
+        """Return the part of a class.
+
+        Raises:
+            LookupError: this viewer has none.
+        """
+        found = next((part for part in self.parts if isinstance(part, kind)), None)
+        if found is None:
+            raise LookupError(f"This viewer has no {kind.__name__}.")
+        return found
 
     def is_watched(self) -> bool:
         """Return whether any browser is connected."""

@@ -15,7 +15,6 @@ from webviz.engine.state.state import (
     ToolButton,
     Traffic,
     UndoHistory,
-    WhatIf,
 )
 
 __all__ = [
@@ -33,5 +32,4 @@ __all__ = [
     "ToolButton",
     "Traffic",
     "UndoHistory",
-    "WhatIf",
 ]

@@ -261,26 +261,6 @@ class Step(msgspec.Struct, frozen=True):
     restored: str = ""
 
 
-class WhatIf(msgspec.Struct, frozen=True):
-    """A static frame that is tried in another pose.
-
-    Args:
-        frame, parent: ids.
-        position: of the frame in its parent, in metres.
-        rpy: roll, pitch and yaw in radians.
-        fits: by name of each display of a scan in that frame: the share of its points on walls,
-            the number of them, and the topic of the map.
-        browser: that tries it, None for a program.
-    """
-
-    frame: str
-    parent: str
-    position: tuple[float, float, float]
-    rpy: tuple[float, float, float]
-    fits: Mapping[str, tuple[float, int, str]] = msgspec.field(default_factory=dict)
-    browser: int | None = None
-
-
 class UndoHistory(msgspec.Struct, frozen=True):
     """Undo and redo steps, each with the newest first."""
 
@@ -325,7 +305,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
         sharing: files that share the shown moment, None before the first turn.
-        what_if: the frame that is tried in another pose, None for none.
         selected: by browser, ids of things with those of their displays, and whether they move.
         selections: what is known of it, for the browsers that show it.
         reported: the selection of the bug report that is shown.
@@ -368,7 +347,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     recording: RecordingState | None = None
     black_box: BlackBoxState | None = None
     sharing: SharingState | None = None
-    what_if: WhatIf | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
     reported: tuple[ReportedPick, ...] = ()

@@ -40,3 +40,15 @@ def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
         part: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
         for part, text in crashes.items()
     }
+
+
+def without(broken: Mapping[str, str]) -> dict[str, Status]:
+    """Return which features cannot be loaded, by name.
+
+    Args:
+        broken: the reasons by name.
+    """
+    return {
+        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Install webviz anew.")
+        for name, reason in broken.items()
+    }

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.bridges import bridges
 from webviz.page.content.clock import clock
 from webviz.page.content.displays import displays, rate
@@ -25,14 +26,12 @@ from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.recording import black_box, recording, sharing
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, reported, selected, selection
-from webviz.page.content.store import PageStore
 from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
 from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.page.content.views import view, views
-from webviz.page.content.what_if import what_if
 
 MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "attributions": attributions,
@@ -81,5 +80,4 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "types": types,
     "view_type": view_type,
     "watchers": watchers,
-    "what_if": what_if,
 }

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import brief
-from webviz.page.content.store import PageStore
 
 
 class BridgesStore(PageStore, frozen=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 
 class ClockStore(PageStore, frozen=True):

@@ -12,8 +12,8 @@ from webviz.api.display import Display, inputs
 from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.data.transforms.reasons import FOR_ALL
 from webviz.engine.state import Row, State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import sendable
-from webviz.page.content.store import PageStore
 
 LevelName = Literal["idle", "ok", "warn", "error"]
 

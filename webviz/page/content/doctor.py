@@ -11,9 +11,9 @@ from webviz.api.check_registry import known_checks
 from webviz.api.finding import ChangeDisplay, Fact, Finding, Severity
 from webviz.api.status import Level, Status
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.displays import RemedyButton, remedy_of
 from webviz.page.content.forms import brief
-from webviz.page.content.store import PageStore
 
 NS_PER_S = 1e9
 LEVELS = {Severity.NOTE: "ok", Severity.WARNING: "warn", Severity.ERROR: "error"}

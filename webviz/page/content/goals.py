@@ -9,9 +9,9 @@ from typing import ClassVar, Literal
 import msgspec
 
 from webviz.engine.state import GoalProgress, State
+from webviz.engine.store import PageStore
 from webviz.page.content.displays import LevelName, level_name
 from webviz.page.content.forms import brief
-from webviz.page.content.store import PageStore
 
 MAX_VALUES = 12
 MAX_VALUE = 100

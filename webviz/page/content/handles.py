@@ -10,8 +10,8 @@ import msgspec
 from webviz.api.handles import Control, Facing, Handle, MenuEntry, Mode, Wxyz
 from webviz.engine.pipeline.dragging import reference_group
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import brief
-from webviz.page.content.store import PageStore
 
 MAX_HELP = 300
 MAX_TITLE = 200

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import msgspec
 
 from webviz.engine.state import State, Step
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 
 class HistoryStep(msgspec.Struct, frozen=True):

@@ -8,8 +8,8 @@ import msgspec
 
 from webviz.engine.state import State
 from webviz.engine.state.latency import Stage
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import brief
-from webviz.page.content.store import PageStore
 
 
 class ShownStage(msgspec.Struct, frozen=True):

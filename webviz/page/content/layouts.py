@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import msgspec
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import sendable
-from webviz.page.content.store import PageStore
 
 
 class SavedLayout(msgspec.Struct, frozen=True):

@@ -10,7 +10,7 @@ from webviz.api.modules import module_texts
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 
 class ModulesStore(PageStore, frozen=True):

@@ -9,8 +9,8 @@ import msgspec
 
 from webviz.api.status import Level
 from webviz.engine.state import Row, State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import brief, sendable
-from webviz.page.content.store import PageStore
 from webviz.page.content.titles import titles
 from webviz.page.content.visibility import enabled, hidden_in
 

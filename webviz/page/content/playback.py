@@ -11,9 +11,9 @@ import numpy as np
 from msgspec.structs import replace
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.displays import LevelName, level_name
 from webviz.page.content.forms import brief, sendable
-from webviz.page.content.store import PageStore
 from webviz.sources.past_state import Event, PlaybackState
 
 

@@ -12,9 +12,9 @@ from webviz.api.display import inputs
 from webviz.api.ports import ANY
 from webviz.api.status import Status
 from webviz.engine.state import Row, State
+from webviz.engine.store import PageStore
 from webviz.page.content.displays import LevelName, RemedyButton, causes, level_name, remedy_of
 from webviz.page.content.forms import Form, brief, form, sendable, values_of
-from webviz.page.content.store import PageStore
 from webviz.page.content.visibility import names, switches_of
 from webviz.sources import Offer, Publisher
 

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import msgspec
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.files.config.model import MemorySettings
 from webviz.page.content.forms import sendable
-from webviz.page.content.store import PageStore
 from webviz.sources.past_state import MemoryState
 from webviz.sources.recording.memory import MEMORY_OFF
 

@@ -9,7 +9,7 @@ import msgspec
 
 from webviz.api.nodes import Rgb
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 from webviz.page.content.titles import titles
 
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, TypeVar
 import msgspec
 
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 _T = TypeVar("_T")
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import Form, form, sendable, values_of
-from webviz.page.content.store import PageStore
 
 
 class ToolStore(PageStore, frozen=True):

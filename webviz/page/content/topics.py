@@ -12,7 +12,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages.tree import Tree
 from webviz.engine.commands.by_topic import Pick, no_display, picks
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 from webviz.sources import Offer, Publisher
 
 

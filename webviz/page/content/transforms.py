@@ -13,7 +13,7 @@ from webviz.data.rotations import to_rpy, w_first
 from webviz.data.transforms import FrameReport
 from webviz.data.transforms.layout import lay_out
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 
 class Frame(msgspec.Struct, frozen=True):

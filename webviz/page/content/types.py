@@ -15,7 +15,7 @@ from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY
 from webviz.api.registry import display_types
 from webviz.engine.state import State
-from webviz.page.content.store import PageStore
+from webviz.engine.store import PageStore
 
 
 class DisplayType(msgspec.Struct, frozen=True):

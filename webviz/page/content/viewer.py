@@ -10,10 +10,10 @@ import msgspec
 from webviz.api.nodes import Rgb
 from webviz.api.views import type_of
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.files.config import Settings
 from webviz.page.content.forms import Form, form, values_of
 from webviz.page.content.properties import StatusLine, lines
-from webviz.page.content.store import PageStore
 
 NO_CONTROL = (
     *("version", "view", "views", "memory", "watch", "watch_limits", "bookmarks", "rviz"),

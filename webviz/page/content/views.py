@@ -10,8 +10,8 @@ import msgspec
 
 from webviz.api.views import VIEW_TYPES, type_of
 from webviz.engine.state import State
+from webviz.engine.store import PageStore
 from webviz.page.content.forms import Form, form, sendable, values_of
-from webviz.page.content.store import PageStore
 
 DIGITS = 3
 """Decimals that are shown; a view moved by hand has more."""

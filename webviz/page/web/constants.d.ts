@@ -2,6 +2,7 @@
 
 declare const constants: {
   ROLES: Record<string, string>;
+  FEATURES: Array<string>;
   ROOT: string;
   TILE_PREFIX: string;
   PART_PREFIX: string;

@@ -61,7 +61,17 @@ async function install() {
   for (const part of [view, mouse, handles, saveImage, overlay, capacity, blocks]) part.install();
   if (!isExported) vitals.install();
   toolbar.install(shell.places);
+  for (const module of constants.FEATURES) await installFeature(module);
   extensions.install();
+}
+
+/** @param {string} module of a feature, which may fail without others */
+async function installFeature(module) {
+  try {
+    (await import(new URL(`webviz/${module}`, location.href).href)).install();
+  } catch (error) {
+    console.error(error);
+  }
 }
 
 /** @param {About | null} run what is recorded, null if it cannot be read */

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import msgspec
 
+from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads
 from webviz.server.access import token_file
-from webviz.server.access.roles import Role
 from webviz.server.access.token_file import Tokens
 from webviz.server.access.tokens import Token, TokenIndex, make, role_of
 

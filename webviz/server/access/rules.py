@@ -2,87 +2,86 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.engine import commands
+from webviz.api.roles import Role
+from webviz.engine import commands as engine_commands
+from webviz.engine import feature
 from webviz.server.access import requests
-from webviz.server.access.roles import Role
 
-COMMANDS: Mapping[type[Any], Role] = {
+_COMMANDS: Mapping[type[Any], Role] = {
     # A page's own camera, selection and pictures, and texts of what everybody sees.
-    commands.ChangeView: Role.WATCHER,
-    commands.Export: Role.WATCHER,
-    commands.FocusDisplay: Role.WATCHER,
-    commands.FocusFrame: Role.WATCHER,
-    commands.Identify: Role.WATCHER,
-    commands.LookUpTransform: Role.WATCHER,
-    commands.ResetView: Role.WATCHER,
-    commands.SaveImage: Role.WATCHER,
-    commands.Select: Role.WATCHER,
-    commands.ShowView: Role.WATCHER,
-    commands.WriteDisplays: Role.WATCHER,
+    engine_commands.ChangeView: Role.WATCHER,
+    engine_commands.Export: Role.WATCHER,
+    engine_commands.FocusDisplay: Role.WATCHER,
+    engine_commands.FocusFrame: Role.WATCHER,
+    engine_commands.Identify: Role.WATCHER,
+    engine_commands.LookUpTransform: Role.WATCHER,
+    engine_commands.ResetView: Role.WATCHER,
+    engine_commands.SaveImage: Role.WATCHER,
+    engine_commands.Select: Role.WATCHER,
+    engine_commands.ShowView: Role.WATCHER,
+    engine_commands.WriteDisplays: Role.WATCHER,
     # What everybody sees, and what the robot does.
-    commands.AddDisplay: Role.OPERATOR,
-    commands.AddPanel: Role.OPERATOR,
-    commands.CancelGoal: Role.OPERATOR,
-    commands.DismissGoal: Role.OPERATOR,
-    commands.DuplicateDisplay: Role.OPERATOR,
-    commands.DragHandle: Role.OPERATOR,
-    commands.EndTrial: Role.OPERATOR,
-    commands.FindFrame: Role.OPERATOR,
-    commands.MoveDisplay: Role.OPERATOR,
-    commands.Pause: Role.OPERATOR,
-    commands.Play: Role.OPERATOR,
-    commands.Redo: Role.OPERATOR,
-    commands.RemoveBookmark: Role.OPERATOR,
-    commands.RemoveDisplay: Role.OPERATOR,
-    commands.RemoveLayout: Role.OPERATOR,
-    commands.RemovePanel: Role.OPERATOR,
-    commands.RemoveView: Role.OPERATOR,
-    commands.RenameView: Role.OPERATOR,
-    commands.Reset: Role.OPERATOR,
-    commands.ResetDisplay: Role.OPERATOR,
-    commands.ReturnToLive: Role.OPERATOR,
-    commands.SaveBookmark: Role.OPERATOR,
-    commands.SaveLayout: Role.OPERATOR,
-    commands.SaveView: Role.OPERATOR,
-    commands.Seek: Role.OPERATOR,
-    commands.SelectSpan: Role.OPERATOR,
-    commands.SetBackground: Role.OPERATOR,
-    commands.SetFixedFrame: Role.OPERATOR,
-    commands.SetFrameRate: Role.OPERATOR,
-    commands.SetLayout: Role.OPERATOR,
-    commands.SetLoop: Role.OPERATOR,
-    commands.SetPanelProperty: Role.OPERATOR,
-    commands.SetProperty: Role.OPERATOR,
-    commands.SetRate: Role.OPERATOR,
-    commands.SetToolProperty: Role.OPERATOR,
-    commands.StartWithView: Role.OPERATOR,
-    commands.StepMessage: Role.OPERATOR,
-    commands.TryFrame: Role.OPERATOR,
-    commands.Undo: Role.OPERATOR,
-    commands.UseTool: Role.OPERATOR,
+    engine_commands.AddDisplay: Role.OPERATOR,
+    engine_commands.AddPanel: Role.OPERATOR,
+    engine_commands.CancelGoal: Role.OPERATOR,
+    engine_commands.DismissGoal: Role.OPERATOR,
+    engine_commands.DuplicateDisplay: Role.OPERATOR,
+    engine_commands.DragHandle: Role.OPERATOR,
+    engine_commands.MoveDisplay: Role.OPERATOR,
+    engine_commands.Pause: Role.OPERATOR,
+    engine_commands.Play: Role.OPERATOR,
+    engine_commands.Redo: Role.OPERATOR,
+    engine_commands.RemoveBookmark: Role.OPERATOR,
+    engine_commands.RemoveDisplay: Role.OPERATOR,
+    engine_commands.RemoveLayout: Role.OPERATOR,
+    engine_commands.RemovePanel: Role.OPERATOR,
+    engine_commands.RemoveView: Role.OPERATOR,
+    engine_commands.RenameView: Role.OPERATOR,
+    engine_commands.Reset: Role.OPERATOR,
+    engine_commands.ResetDisplay: Role.OPERATOR,
+    engine_commands.ReturnToLive: Role.OPERATOR,
+    engine_commands.SaveBookmark: Role.OPERATOR,
+    engine_commands.SaveLayout: Role.OPERATOR,
+    engine_commands.SaveView: Role.OPERATOR,
+    engine_commands.Seek: Role.OPERATOR,
+    engine_commands.SelectSpan: Role.OPERATOR,
+    engine_commands.SetBackground: Role.OPERATOR,
+    engine_commands.SetFixedFrame: Role.OPERATOR,
+    engine_commands.SetFrameRate: Role.OPERATOR,
+    engine_commands.SetLayout: Role.OPERATOR,
+    engine_commands.SetLoop: Role.OPERATOR,
+    engine_commands.SetPanelProperty: Role.OPERATOR,
+    engine_commands.SetProperty: Role.OPERATOR,
+    engine_commands.SetRate: Role.OPERATOR,
+    engine_commands.SetToolProperty: Role.OPERATOR,
+    engine_commands.StartWithView: Role.OPERATOR,
+    engine_commands.StepMessage: Role.OPERATOR,
+    engine_commands.Undo: Role.OPERATOR,
+    engine_commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
     # Files of the machine that runs the viewer, and the config as a whole.
-    commands.ListMoment: Role.OWNER,
-    commands.ListReport: Role.OWNER,
-    commands.Load: Role.OWNER,
-    commands.Open: Role.OWNER,
-    commands.OpenRecording: Role.OWNER,
-    commands.Save: Role.OWNER,
-    commands.SaveMemory: Role.OWNER,
-    commands.SaveReport: Role.OWNER,
-    commands.ShareMoment: Role.OWNER,
-    commands.StartRecording: Role.OWNER,
-    commands.StopRecording: Role.OWNER,
-    commands.StopSharing: Role.OWNER,
+    engine_commands.ListMoment: Role.OWNER,
+    engine_commands.ListReport: Role.OWNER,
+    engine_commands.Load: Role.OWNER,
+    engine_commands.Open: Role.OWNER,
+    engine_commands.OpenRecording: Role.OWNER,
+    engine_commands.Save: Role.OWNER,
+    engine_commands.SaveMemory: Role.OWNER,
+    engine_commands.SaveReport: Role.OWNER,
+    engine_commands.ShareMoment: Role.OWNER,
+    engine_commands.StartRecording: Role.OWNER,
+    engine_commands.StopRecording: Role.OWNER,
+    engine_commands.StopSharing: Role.OWNER,
     # Who may come.
     requests.Dismiss: Role.OWNER,
     requests.Invite: Role.OWNER,
     requests.Revoke: Role.OWNER,
 }
-"""Of the commands that pages may send; see `webviz.page.dispatcher`."""
+"""Of commands that no feature has; see `commands`."""
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,
@@ -109,7 +108,7 @@ STORES: Mapping[str, Role] = {
     "links": Role.OWNER,
     "sharing": Role.OWNER,
 }
-"""Of the stores that not everybody may watch; see `webviz.page.content`."""
+"""Of the stores of no feature that not everybody may watch; see `webviz.page.content`."""
 
 SCENE: Mapping[str, Role] = {
     "SceneNodeClickMessage": Role.OPERATOR,
@@ -126,7 +125,23 @@ viser's widgets, of which pages show none, and ShareUrlRequest, which opens a pu
 UNKNOWN = "Not done: this page is out of date. Reload the page."
 REMEDY = "Ask the owner of this viewer for another link."
 
-_COMMANDS = {class_.__name__: role for class_, role in COMMANDS.items()}
+
+@functools.cache
+def commands() -> Mapping[type[Any], Role]:
+    """Return the commands that pages may send, with the roles; see `webviz.page.dispatcher`."""
+    own = feature.commands().values()
+    return {**_COMMANDS, **{each.type: each.role for each in own if each.role is not None}}
+
+
+def role_to_watch(store: str) -> Role:
+    """Return the role that a store requires, by its name before the colon."""
+    own = feature.stores().get(store)
+    return STORES.get(store, Role.WATCHER) if own is None else own.role
+
+
+@functools.cache
+def _by_name() -> Mapping[str, Role]:
+    return {class_.__name__: role for class_, role in commands().items()}
 
 
 def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
@@ -140,11 +155,11 @@ def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
     """
     required = SCENE.get(kind) or MESSAGES.get(kind)
     if kind == "Do":
-        required = _COMMANDS.get(command)
+        required = _by_name().get(command)
     if required is None:
         return UNKNOWN
     if store:
-        required = max(required, STORES.get(store.partition(":")[0], Role.WATCHER))
+        required = max(required, role_to_watch(store.partition(":")[0]))
     if role >= required:
         return ""
     return f"Not allowed: this needs {required.phrase}, and you are {role.phrase}. {REMEDY}"
@@ -153,4 +168,4 @@ def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
 def table() -> dict[str, str]:
     """For pages: the label of the role that each command and message of theirs needs."""
     messages = {kind: role.label for kind, role in MESSAGES.items() if role is not None}
-    return messages | {name: role.label for name, role in _COMMANDS.items()}
+    return messages | {name: role.label for name, role in _by_name().items()}

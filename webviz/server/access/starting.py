@@ -9,9 +9,10 @@ from collections.abc import MutableMapping
 from datetime import UTC, datetime
 from pathlib import Path
 
+from webviz.api.roles import Role
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
-from webviz.server.access.roles import LINKS, Role
+from webviz.server.access.roles import LINKS
 from webviz.server.access.tokens import Token, TokenError, make, role_of
 
 NAMES = {Role.WATCHER: "watcher", Role.OPERATOR: "operator", Role.OWNER: "owner"}

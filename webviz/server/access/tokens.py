@@ -12,7 +12,7 @@ from typing import Annotated, Literal, cast
 import msgspec
 
 from webviz.api.errors import Error
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 SECRET_BYTES = 24
 """192 bits, which make 32 characters of a link."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 
 
 class Visitor(msgspec.Struct, frozen=True):

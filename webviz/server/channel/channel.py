@@ -16,9 +16,10 @@ from typing import Annotated, Any, Protocol, TypeVar
 import msgspec
 from websockets.exceptions import ConnectionClosed
 
+from webviz.api.roles import Role
 from webviz.server.access import rules
 from webviz.server.access.access import Grant
-from webviz.server.access.roles import LIMITS, Limits, Role
+from webviz.server.access.roles import LIMITS, Limits
 from webviz.server.access.visitors import Visitor
 from webviz.server.channel.messages import (
     Do,

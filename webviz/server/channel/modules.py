@@ -10,16 +10,20 @@ import functools
 import hashlib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
+
+from webviz.engine.feature import features, folder_of
 
 CHANNEL = "/webviz/channel"
 """Where the websocket of the channel is, below the page."""
 
 _FOLDER = Path(str(resources.files("webviz.page"))) / "web"
 _STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
+_OWN_STYLE = re.compile(r"features/.*\.css")
+"""Names of the style sheets of features, which come after those of the page."""
 _MODULES = "$MODULES"
 """Stands in `head.html` for all modules, as JSON."""
 
@@ -56,16 +60,32 @@ class Modules:
 @functools.cache
 def _built(constants: str) -> tuple[str, bytes]:
     """Return the version and the head of a page with these constants, as JSON."""
-    files = {
-        file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
-        for file in _FOLDER.rglob("*")
-        if file.suffix in (".js", ".css", ".html")
-    }
+    files = _texts(_FOLDER, _FOLDER.rglob("*"))
+    for name, feature in features().items():
+        folder = folder_of(feature)
+        texts = _texts(folder, folder.glob("*") if feature.module else ())
+        files |= {f"features/{name}/{file}": text for file, text in texts.items()}
     content = repr((constants, sorted(files.items()))).encode()
     version = hashlib.sha256(content).hexdigest()[:16]
     shared = json.dumps({**json.loads(constants), "VERSION": version})
     modules = {name: text for name, text in files.items() if name.endswith(".js")}
     modules["constants.js"] = f"export default {shared};\n"
-    head = _STYLE.sub(lambda link: f"<style>\n{files[link[1]]}</style>", files["head.html"])
+    head = _STYLE.sub(lambda link: _style(files[link[1]]), files["head.html"])
+    head += "".join(
+        _style(text) for name, text in sorted(files.items()) if _OWN_STYLE.fullmatch(name)
+    )
     # Nothing in a module may end the element that it is in.
     return version, head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
+
+
+def _texts(folder: Path, files: Iterable[Path]) -> dict[str, str]:
+    """Return the texts of the modules and style sheets among files, by their paths in a folder."""
+    return {
+        file.relative_to(folder).as_posix(): file.read_text("utf-8")
+        for file in files
+        if file.suffix in (".js", ".css", ".html")
+    }
+
+
+def _style(rules: str) -> str:
+    return f"<style>\n{rules}</style>"

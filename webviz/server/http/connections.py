@@ -15,8 +15,9 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode, Frame, Opcode
 from websockets.protocol import State
 
+from webviz.api.roles import Role
 from webviz.server.access.access import EVERYBODY, Grant
-from webviz.server.access.roles import LIMITS, Role
+from webviz.server.access.roles import LIMITS
 from webviz.server.http.backoff import BackOff
 from webviz.server.http.eviction import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import http
 
-from webviz.server.access.roles import Role
+from webviz.api.roles import Role
 from webviz.server.http.requests import is_upgrade
 from webviz.server.http.steps import HTML, Reply, Visit
 

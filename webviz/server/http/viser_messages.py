@@ -7,8 +7,8 @@ from dataclasses import fields
 
 import msgspec
 
+from webviz.api.roles import Role
 from webviz.server.access import rules
-from webviz.server.access.roles import Role
 from webviz.server.http.viser_types import message_type
 
 MAX_BYTES = 4 << 20

@@ -6,9 +6,9 @@ import time
 
 import msgspec
 
+from webviz.api.roles import Role
 from webviz.engine.commands import Command, Sender
-from webviz.server.access.roles import Role
-from webviz.server.access.rules import COMMANDS
+from webviz.server.access import rules
 from webviz.server.access.visitors import Visitor
 
 BROWSER = -1
@@ -38,7 +38,7 @@ class AgentCaller(msgspec.Struct, frozen=True):
 
     def refusal(self, command: type[Command]) -> str:
         """Why a command is not its to give, by the rules of pages; "" if it is."""
-        needed = COMMANDS[command]
+        needed = rules.commands()[command]
         if self.role >= needed:
             return ""
         return (

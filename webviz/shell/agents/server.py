@@ -17,8 +17,8 @@ from mcp.server.transport_security import TransportSecuritySettings
 from mcp.types import ToolAnnotations
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.shell.agents.caller import AgentCaller
 from webviz.shell.agents.tools import AgentTools, known
 from webviz.shell.pictures.browser import Pixels

@@ -14,7 +14,7 @@ from webviz.engine.commands import Command, InspectTopic, LookUpTransform, Refre
 from webviz.engine.state import Inspected
 from webviz.files.config import nearest
 from webviz.page.dispatcher import command_of
-from webviz.server.access.rules import COMMANDS
+from webviz.server.access import rules
 from webviz.shell.agents import texts
 from webviz.shell.agents.caller import AgentCaller
 from webviz.shell.app.picture_controls import Wanted
@@ -188,4 +188,4 @@ class AgentTools:
 
 def known() -> set[str]:
     """Return the names of the commands that agents may give, as far as their role allows."""
-    return {each.__name__ for each in COMMANDS if issubclass(each, Command)}
+    return {each.__name__ for each in rules.commands() if issubclass(each, Command)}

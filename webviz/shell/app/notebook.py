@@ -7,8 +7,8 @@ import sys
 from collections.abc import Sequence
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.server.access.access import Access
-from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import role_of
 

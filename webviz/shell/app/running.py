@@ -212,7 +212,14 @@ class Running(PictureControls):
         from webviz.server.access.announcing import Announcement, reachable
 
         loop = self._loop
-        self._pages = Pages(server.channel, loop.enqueue, loop.controllers.steer, self.access, keep)
+        self._pages = Pages(
+            server.channel,
+            loop.enqueue,
+            loop.controllers.steer,
+            self.access,
+            keep,
+            loop.features,
+        )
         if self.access.asks:
             page = reachable(self.url, self._host, allow_hosts)
             self._closing.add("The announcement", Announcement(page, self.port).close)

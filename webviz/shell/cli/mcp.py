@@ -60,7 +60,7 @@ def mcp(
     options = replace(options, token=options.token or http is not None)
 
     def work(stop: Stop) -> int:
-        from webviz.server.access.roles import Role
+        from webviz.api.roles import Role
         from webviz.shell.agents.caller import AgentCaller
         from webviz.shell.agents.server import HttpServer, serve_stdio
         from webviz.shell.agents.tools import AgentTools

@@ -8,10 +8,10 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from webviz.api.roles import Role
 from webviz.files.config import nearest
 from webviz.server.access import token_file
 from webviz.server.access.announcing import announced
-from webviz.server.access.roles import Role
 from webviz.server.access.starting import link
 from webviz.server.access.token_file import Tokens
 from webviz.server.access.tokens import RoleName, Token, TokenError, make

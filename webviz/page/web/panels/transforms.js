@@ -8,8 +8,8 @@ import { icon, iconButton, textButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { watch } from "../stores.js";
 import { needs } from "../access.js";
-import { tryFrame } from "../tools/what_if.js";
 import { foldByKey } from "./folds.js";
+import { frameActions } from "./frame_actions.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
@@ -63,19 +63,15 @@ export const transforms = {
     });
     const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
     const facts = el("div");
-    const attempt = textButton(
-      "What if…",
-      () => {
-        const row = list.marked();
-        if (row) tryFrame(row.name);
-      },
-      { tip: "Try this frame in another pose; nothing is published" },
-    );
+    const actions = frameActions.map(({ label, tip, needs: command, isFor, run }) => {
+      const button = textButton(label, () => run(list.marked()?.name ?? ""), { tip });
+      return { isFor, button: needs(command, button) };
+    });
     const detail = el(
       "div",
       { class: "wv-frame-detail", hidden: true },
       facts,
-      needs("TryFrame", attempt),
+      actions.map(({ button }) => button),
     );
     const pair = between();
     element.append(
@@ -110,7 +106,8 @@ export const transforms = {
       const row = list.marked();
       set(detail, { hidden: !row });
       if (row) setText(facts, detailOf(row));
-      set(attempt, { hidden: !row?.frame?.is_static });
+      for (const { button, isFor } of actions)
+        set(button, { hidden: !row?.frame || !isFor(row.frame) });
     }
 
     /** @param {FrameRow} row */

@@ -18,7 +18,6 @@ import * as layout from "./layout.js";
 import { keepTextStill } from "./text_drag.js";
 import * as timeBar from "./time_bar.js";
 import { banner } from "../timeline/rewound.js";
-import { whatIf } from "../tools/what_if.js";
 import { tabs } from "./tabs.js";
 import * as toasts from "./toasts.js";
 import * as tooltips from "./tooltips.js";
@@ -26,6 +25,7 @@ import * as viser from "../viser_page.js";
 
 /** Places for what lies over the scene and beside it; filled by the modules that they belong to. */
 export const places = {
+  scene: el("div", { class: "wv-over" }),
   toolbar: el("div", { class: "wv-top-left" }),
   status: el("div", { class: "wv-top-right" }),
   pointer: el("div", { class: "wv-bottom-left" }),
@@ -47,8 +47,8 @@ function build() {
   history.install();
   displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
-  const scene = el("div", { class: "wv-over" }, Object.values(places).slice(0, -1));
-  scene.append(banner(), whatIf());
+  const { scene, time, ...corners } = places;
+  scene.append(...Object.values(corners), banner());
   toasts.install(scene);
   timeBar.build(places.time);
   keepKeysFree(places.time);

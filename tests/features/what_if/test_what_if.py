@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 
 import building
@@ -12,11 +13,10 @@ from examining import HERE, display
 from webviz.api.errors import Error
 from webviz.api.handles import Drag
 from webviz.api.nodes import Pose
-from webviz.data.rotations import from_rpy
-from webviz.engine.commands import DragHandle, EndTrial, FindFrame, RemoveDisplay, TryFrame
-from webviz.engine.parts.what_if import ID
+from webviz.commands import DragHandle, EndTrial, FindFrame, RemoveDisplay, TryFrame
+from webviz.data.rotations import from_rpy, to_rpy, w_first
 from webviz.engine.pipeline.frame_handle import KEY
-from webviz.page.content.what_if import what_if
+from webviz.features.what_if import ID, WhatIf, WhatIfStore
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan
@@ -51,9 +51,22 @@ def share(stage: Harness) -> float:
     """The share of points on walls, as pages see it."""
     stage.clock += 1.1
     stage.turn()
-    tried = stage.viewer.snapshot().what_if
-    assert tried is not None
-    return tried.fits["Scan"][0]
+    stage.viewer.snapshot()
+    return int(re.findall(r"Scan: (\d+)%", shown(stage).fits[0])[0]) / 100.0
+
+
+def shown(stage: Harness) -> WhatIfStore:
+    """The store of the frame that is tried."""
+    store = stage.viewer.get(WhatIf).what_if("")
+    assert store is not None
+    return store
+
+
+def mounting(stage: Harness) -> Pose:
+    """The tried pose of the laser on the robot."""
+    tried = stage.viewer.buffer.lookup("base_link", "laser", 0)
+    w, x, y, z = w_first(tried.rotation).tolist()
+    return Pose(tried.translation, wxyz=(w, x, y, z))
 
 
 def drag(stage: Harness, kind: str, pose: Pose | None = None) -> None:
@@ -72,19 +85,16 @@ def test_a_frame_is_found_and_returns(robot: Harness) -> None:
     assert share(robot) < 0.4
     robot.do(FindFrame())
     assert share(robot) > 0.95
-    store = what_if(robot.viewer.snapshot(), "")
-    assert store is not None
-    tried = robot.viewer.snapshot().what_if
-    assert tried is not None
+    store, tried = shown(robot), mounting(robot)
     assert tried.position == pytest.approx((0.0, 0.0, 0.2), abs=0.03)
-    assert tried.rpy == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
+    assert to_rpy(tried.wxyz) == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
     x = f"{round(tried.position[0], 4):g}"
     assert store.urdf.startswith(f'<origin xyz="{x} ')
     assert store.command.startswith("ros2 run tf2_ros static_transform_publisher --x ")
     assert store.command.endswith(" --frame-id base_link --child-frame-id laser")
     assert store.fits[0].endswith("points on walls of /map")
     robot.do(EndTrial())
-    assert robot.viewer.snapshot().what_if is None
+    assert robot.viewer.get(WhatIf).what_if("") is None
     assert not robot.viewer.snapshot().handles
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + WRONG_X)
 
@@ -100,9 +110,7 @@ def test_dragging_moves_what_hangs_below(robot: Harness) -> None:
     assert pose_of_laser(robot).position == pytest.approx((HERE.x, HERE.y, 0.2))
     assert share(robot) > 0.95 > before
     drag(robot, "release")
-    tried = robot.viewer.snapshot().what_if
-    assert tried is not None
-    assert tried.position == (0.0, 0.0, 0.2)
+    assert mounting(robot).position == (0.0, 0.0, 0.2)
 
 
 def test_what_is_published_meanwhile_counts_afterwards(robot: Harness) -> None:
@@ -122,7 +130,7 @@ def test_a_frame_that_begins_to_move_ends_it(robot: Harness) -> None:
     robot.transform("base_link", "laser", (1.0, 0.0, 0.0), stamp_ns=robot.source.now)
     robot.turn()
     robot.do(EndTrial())
-    assert robot.viewer.snapshot().what_if is None
+    assert robot.viewer.get(WhatIf).what_if("") is None
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + 1.0)
 
 

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Sequence
 
 from webviz.api.errors import Error
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
-from webviz.data.rotations import conjugate, to_rpy, w_last
+from webviz.api.roles import Role
+from webviz.data.rotations import conjugate, w_last
 from webviz.data.transforms import TransformException
 from webviz.data.transforms.pinned import is_pinned, pin, unpin
 from webviz.data.transforms.tree import ancestors
-from webviz.engine.commands import Command, EndTrial, FindFrame, Sender, TryFrame
+from webviz.engine.commands import Sender
+from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.pipeline import Runner, Services
+from webviz.engine.parts.part import Core
+from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.frame_handle import FrameHandle, FrameTrial
-from webviz.engine.state import WhatIf
+from webviz.engine.store import PageStore
+from webviz.features.what_if.lines import static_transform_publisher, urdf_origin
 
 ID = "whatif"
 """Of the display with the handle."""
@@ -27,28 +29,39 @@ NO_SCAN = (
 )
 
 
-class WhatIfPart(Part):
-    """Tries one static frame at a time in another pose, for this viewer alone.
+class WhatIfStore(PageStore, frozen=True):
+    """The frame that is tried in another pose; no field without one.
 
     Args:
-        core: shared by all parts.
-        displays: all of them.
-        services: for the handle.
+        frame, parent: ids.
+        fits: how well each scan of the frame lies on walls, sentences.
+        urdf: the origin of its joint in a URDF.
+        command: publishes it as a static transform.
+        browser: that tries it, None for a program.
     """
 
-    name = "What if"
+    frame: str
+    parent: str
+    fits: Sequence[str]
+    urdf: str
+    command: str
+    browser: int | None
 
-    def __init__(self, core: Core, displays: DisplaysPart, services: Services) -> None:
+
+class WhatIf(Feature):
+    """Tries one static frame at a time in another pose, for this viewer alone."""
+
+    name = "What if"
+    module = "what_if.js"
+
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._displays = displays
-        self._services = services
         self._trial: FrameTrial | None = None
         self._browser: int | None = None
 
     @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {TryFrame: self._try, FindFrame: self._find, EndTrial: self._end}
+    def _displays(self) -> DisplaysPart:
+        return self.core.get(DisplaysPart)
 
     def keep_up(self, commanded: bool) -> None:
         """End when the frame is not a static one any more."""
@@ -56,31 +69,39 @@ class WhatIfPart(Part):
         if trial and not is_pinned(self.core.buffer, trial.frame):
             self._leave()
 
-    def state(self) -> Mapping[str, Any]:
+    @store()
+    def what_if(self, argument: str) -> WhatIfStore | None:
         """Return the trial, and how well scans fit."""
         trial = self._trial
         if trial is None:
-            return {"what_if": None}
+            return None
         names = {
             runner.id: runner.display.name or type(runner.display).__name__
             for runner in self._displays.list.active()
         }
-        fits = {
-            names[id]: (fit.fit.share, fit.fit.points, fit.map_topic)
-            for id, fit in self._displays.consistency.fits.items()
-            if id in names and self._carries(fit.frame)
-        }
-        rpy = to_rpy(trial.pose.wxyz)
-        found = WhatIf(trial.frame, trial.parent, trial.pose.position, rpy, fits, self._browser)
-        return {"what_if": found}
+        return WhatIfStore(
+            frame=trial.frame,
+            parent=trial.parent,
+            fits=[
+                f"{names[id]}: {fit.fit.share:.0%} of {fit.fit.points} points on walls of "
+                f"{fit.map_topic}"
+                for id, fit in self._displays.consistency.fits.items()
+                if id in names and self._carries(fit.frame)
+            ],
+            urdf=urdf_origin(trial.pose),
+            command=static_transform_publisher(trial.parent, trial.frame, trial.pose),
+            browser=self._browser,
+        )
 
     def close(self) -> None:
         """End the trial."""
         self._leave()
 
-    def _try(self, command: TryFrame, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def try_frame(self, frame: str, sender: Sender) -> None:
+        """Take hold of a static frame; another one that is tried returns to its place."""
         self._leave()
-        buffer, frame = self.core.buffer, command.frame
+        buffer = self.core.buffer
         link = buffer.link(frame)
         if link is None or not link.is_static:
             raise Error(f"'{frame}' does not have a static transform. Choose one that has.")
@@ -90,7 +111,9 @@ class WhatIfPart(Part):
         trial = FrameTrial(frame, link.parent, pose, pose, self._move)
         self._trial, self._browser = trial, sender.browser
         self._move(pose)
-        self._displays.list.aids[:] = [Runner(ID, FrameHandle(trial=trial), self._services)]
+        self._displays.list.aids[:] = [
+            Runner(ID, FrameHandle(trial=trial), self._displays.services)
+        ]
 
     def _move(self, pose: Pose) -> None:
         trial = self._trial
@@ -102,7 +125,9 @@ class WhatIfPart(Part):
         trial.version += 1
         self._displays.consistency.hurry()
 
-    def _find(self, command: FindFrame, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def find_frame(self) -> None:
+        """Move the tried frame to where its laser scan fits the map best."""
         trial = self._trial
         if trial is None:
             raise Error("No frame is being tried. Choose one in the panel TF.")
@@ -120,7 +145,9 @@ class WhatIfPart(Part):
         moved = compose(compose(found.after, _inverse(found.before)), on_map)
         self._move(compose(_inverse(parent), moved))
 
-    def _end(self, command: EndTrial, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def end_trial(self) -> None:
+        """Return the tried frame to where its transforms have it."""
         self._leave()
 
     def _leave(self) -> None:

@@ -1,31 +1,40 @@
 // A static frame that is tried in another pose: a banner on every page, with the lines to copy.
 
-import { needs, why } from "../access.js";
-import { act } from "../act.js";
-import { copyAndTell } from "../clipboard.js";
-import { el, set, setText } from "../dom.js";
-import { textButton } from "../icons.js";
-import { command } from "../shell/commands.js";
-import { watch } from "../stores.js";
-import * as registry from "./registry.js";
+import { needs, why } from "../../access.js";
+import { act } from "../../act.js";
+import { copyAndTell } from "../../clipboard.js";
+import { el, set, setText } from "../../dom.js";
+import { textButton } from "../../icons.js";
+import { overlay } from "../../overlay/overlay.js";
+import { frameAction } from "../../panels/frame_actions.js";
+import { command } from "../../shell/commands.js";
+import { watch } from "../../stores.js";
+import * as registry from "../../tools/registry.js";
 
 const BESIDE =
   "No laser scan of this frame is compared with a map: add displays of both to see how it fits.";
 
-/**
- * Takes hold of a frame.
- *
- * @param {string} frame
- */
-export function tryFrame(frame) {
+/** @param {string} frame */
+function tryFrame(frame) {
   registry.select(null); // Interact, which drags handles
   act("TryFrame", { frame });
 }
 
 const end = () => act("EndTrial", {});
 
+export function install() {
+  frameAction({
+    label: "What if…",
+    tip: "Try this frame in another pose; nothing is published",
+    needs: "TryFrame",
+    isFor: (frame) => frame.is_static,
+    run: tryFrame,
+  });
+  overlay("scene", "what if", banner());
+}
+
 /** The banner; hidden while no frame is tried. */
-export function whatIf() {
+function banner() {
   let isTried = false;
   const title = el("b");
   const fits = el("p", { role: "status", "aria-live": "polite" });

@@ -1,0 +1,115 @@
+"""Features are declared by one line each, and none is needed by the others."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import webviz
+from webviz.api.roles import Role
+from webviz.engine import feature
+from webviz.engine.commands import Command, Sender
+from webviz.engine.feature import Feature, command, commands_of, store, stores_of
+from webviz.engine.store import PageStore
+from webviz.server.access import rules
+
+PACKAGE = Path(webviz.__file__).parent
+FOLDERS = sorted(path.parent.name for path in (PACKAGE / "features").glob("*/__init__.py"))
+START = """
+import sys
+from pathlib import Path
+from webviz import Viewer
+from webviz.shell.testing.source import HandFedSource
+viewer = Viewer(source=HandFedSource(), port=0)
+try:
+    print({name: status.text for name, status in viewer.state.statuses.items()})
+finally:
+    viewer.close()
+"""
+
+
+class CountStore(PageStore, frozen=True):
+    """A number."""
+
+    count: int
+
+
+class Counting(Feature):
+    """Counts."""
+
+    count = 0
+
+    @command(Role.OPERATOR)
+    def count_up(self, sender: Sender, by: int = 1) -> str:
+        """Count."""
+        self.count += by
+        return f"{sender.browser}: {self.count}"
+
+    @command(None)
+    def start_over(self) -> None:
+        """Begin at 0."""
+
+    @store(Role.OWNER, is_private=True)
+    def counted(self, argument: str) -> CountStore:
+        """Return the number."""
+        return CountStore(self.count)
+
+
+def test_every_folder_is_declared() -> None:
+    assert sorted(feature.features()) == FOLDERS
+    assert not feature.broken_features()
+
+
+def test_a_command_follows_from_the_signature_of_a_method() -> None:
+    declared = commands_of(Counting)["CountUp"]
+    assert issubclass(declared.type, Command)
+    assert declared.role is Role.OPERATOR
+    assert declared.type.__struct_fields__ == ("by",)
+    assert declared.type.__doc__ == "Count."
+    counting = object.__new__(Counting)
+    obey = counting.handles[declared.type]
+    assert obey(declared.type(**{"by": 2}), Sender(7)) == "7: 2"
+    assert obey(declared.type(), Sender(7)) == "7: 3"
+    assert commands_of(Counting)["StartOver"].role is None
+
+
+def test_a_store_has_a_role() -> None:
+    declared = stores_of(Counting)["counted"]
+    assert (declared.role, declared.is_private) == (Role.OWNER, True)
+
+
+def test_a_command_without_a_role_is_refused_to_everybody(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(feature, "commands", lambda: commands_of(Counting))
+    monkeypatch.setattr(feature, "stores", lambda: stores_of(Counting))
+    names = {kind.__name__: role for kind, role in rules.commands.__wrapped__().items()}
+    assert names["CountUp"] is Role.OPERATOR
+    assert "StartOver" not in names
+    assert rules.role_to_watch("counted") is Role.OWNER
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path) -> None:
+    inner = tmp_path / "webviz"
+    inner.mkdir()
+    for path in PACKAGE.iterdir():
+        if path.name != "features":
+            (inner / path.name).symlink_to(path)
+    (inner / "features").mkdir()
+    for path in (PACKAGE / "features").iterdir():
+        if path.name != name:
+            (inner / "features" / path.name).symlink_to(path)
+    done = subprocess.run(
+        [sys.executable, "-c", START],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(tmp_path), "PATH": "", "HOME": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert f"{name} is missing: " in done.stdout
+    assert done.stdout.count("is missing") == 1

@@ -1,0 +1,16 @@
+// Actions on the frame that is marked in the panel "TF"; features add to them.
+
+/** @import {Frame} from "../contents.js" */
+
+/**
+ * @typedef {{
+ *   label: string, tip: string, needs: string,
+ *   isFor: (frame: Frame) => boolean, run: (name: string) => unknown,
+ * }} FrameAction `needs` names the command of the viewer that it sends
+ */
+
+/** @type {FrameAction[]} */
+export const frameActions = [];
+
+/** @param {FrameAction} action */
+export const frameAction = (action) => frameActions.push(action);
