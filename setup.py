@@ -124,7 +124,10 @@ setup(
             "Wrench = webviz_displays.vectors:Wrench",
             "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
-        "webviz.features": ["what_if = webviz.features.what_if:WhatIf"],
+        "webviz.features": [
+            "sharing = webviz.features.sharing:Sharing",
+            "what_if = webviz.features.what_if:WhatIf",
+        ],
         "webviz.checks": ["webviz = webviz.checks"],
         "webviz.tools": [
             "GoalPose = webviz.tools.goal_pose:GoalPose",

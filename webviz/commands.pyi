@@ -11,6 +11,22 @@ class EndTrial(Command, frozen=True):
 class FindFrame(Command, frozen=True):
     """Move the tried frame to where its laser scan fits the map best."""
 
+class ListMoment(Command, frozen=True):
+    """Answer with what `ShareMoment` would write, one line per part."""
+
+class ShareMoment(Command, frozen=True):
+    """Begin to write the moment that is shown, and the time around it, as one HTML file.
+
+    Args:
+        path: of the file, only for programs; "" is one in the working folder, named by the
+            time.
+    """
+
+    path: str = ...
+
+class StopSharing(Command, frozen=True):
+    """Stop writing such a file, and remove it."""
+
 class TryFrame(Command, frozen=True):
     """Take hold of a static frame; another one that is tried returns to its place."""
 

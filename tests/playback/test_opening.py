@@ -121,7 +121,7 @@ def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
         assert str(gate.publish(goal, cdr).exception()) == REWOUND
         bench.do(ReturnToLive())
         gate.publish(goal, cdr).result()
-        assert bench.viewer._core.source.inbox is bench.source.inbox, "live without any memory"
+        assert bench.viewer._core.player.inbox is bench.source.inbox, "live without any memory"
 
 
 def test_a_page_opens_recordings_of_the_black_box_alone(drive: Callable[..., Drive]) -> None:

@@ -101,21 +101,6 @@ class BlackBoxState(msgspec.Struct, frozen=True):
     saving: str = ""
 
 
-class SharingState(msgspec.Struct, frozen=True):
-    """Files that share the shown moment.
-
-    Args:
-        share: that is done of the one that is being made, None for none.
-        number: how many have ended.
-        level, text: how the last one ended.
-    """
-
-    share: float | None = None
-    number: int = 0
-    level: Level = Level.OK
-    text: str = ""
-
-
 class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
     """A recording of live topics that goes on.
 

@@ -54,7 +54,6 @@ from webviz.engine.commands.recording import (
 )
 from webviz.engine.commands.reports import ListReport, RestoreSelection, SaveReport
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
-from webviz.engine.commands.sharing import ListMoment, ShareMoment, StopSharing
 from webviz.engine.commands.tools import (
     CallService,
     CancelGoal,
@@ -117,7 +116,6 @@ __all__ = [
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",
-    "ListMoment",
     "ListReport",
     "Load",
     "LookUpTransform",
@@ -166,13 +164,11 @@ __all__ = [
     "SetProperty",
     "SetRate",
     "SetToolProperty",
-    "ShareMoment",
     "ShowView",
     "StartRecording",
     "StartWithView",
     "StepMessage",
     "StopRecording",
-    "StopSharing",
     "TraceDisplay",
     "Undo",
     "UseTool",

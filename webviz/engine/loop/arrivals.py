@@ -25,12 +25,12 @@ class Arrivals:
         """Take what arrived since the last turn; while paused, messages wait in the inbox."""
         core, attempt = self._core, self._core.guard.attempt
         batches: Batches = {}
-        core.now_ns = attempt("Source", core.now_ns, core.source.now_ns)
-        core.offers = attempt("Source", core.offers, core.source.offers)
+        core.now_ns = attempt("Source", core.now_ns, core.player.now_ns)
+        core.offers = attempt("Source", core.offers, core.player.offers)
         if self._time.is_paused:
-            self._time.missed = attempt("Source", self._time.missed, core.source.inbox.hold)
+            self._time.missed = attempt("Source", self._time.missed, core.player.inbox.hold)
         else:
-            batches = attempt("Source", batches, core.source.inbox.drain)
+            batches = attempt("Source", batches, core.player.inbox.drain)
         if attempt("Time", False, self._time.ros.step, core.now_ns):
             # Messages of this turn may be older or newer. Latched ones are requested again.
             batches = {}

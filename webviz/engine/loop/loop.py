@@ -36,7 +36,7 @@ from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.latency import LatencyPart
 from webviz.engine.parts.layouts import LayoutsPart
 from webviz.engine.parts.panels import PanelsPart
-from webviz.engine.parts.part import P
+from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.recording import RecordingPart
@@ -45,7 +45,6 @@ from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.sharing import Exporter, SharingPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
@@ -91,7 +90,7 @@ class FrameLoop:
         session: a file that keeps unsaved changes for the next start, None for none.
         restore: whether to show those of the last one.
         parts: factories of additional parts.
-        export: makes a file of what is shown, for those who share it; None if that is impossible.
+        host: the program around it, for features.
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages; None for that of the source, which
             stands still with a recording and while the past is shown.
@@ -112,7 +111,7 @@ class FrameLoop:
         session: Path | None = None,
         restore: bool = True,
         parts: Sequence[Callable[[Core], Part]] = (),
-        export: Exporter | None = None,
+        host: HostProgram = NO_PROGRAM,
         strict: bool = False,
         clock: Callable[[], float] | None = None,
     ) -> None:
@@ -127,7 +126,6 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._offers: object = None
-        self._shown = State()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         self._owed: list[Callable[[], None]] = []
         own = own_names(config, self._guard)
@@ -138,7 +136,7 @@ class FrameLoop:
             lambda: self._settings.settings.publish,
             lambda: "" if player.is_live else REWOUND,
         )
-        core = self._core = Core(player, gate, scene, self._guard, clock)
+        core = self._core = Core(player, gate, scene, self._guard, clock, host)
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
@@ -163,8 +161,7 @@ class FrameLoop:
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         self.features = [make(core) for make in features().values()]
         last = [
-            ReportsPart(core, self._files, player, self._examined, lambda: self._shown),
-            SharingPart(core, self._files, player, lambda: self._shown, export),
+            ReportsPart(core, self._files, player, self._examined, lambda: core.shown),
             *(make(core) for make in parts),
             *self.features,
         ]
@@ -373,8 +370,8 @@ class FrameLoop:
         return self._files.config()
 
     def _show_state(self) -> None:
-        self._shown = reuse_unchanged(self.state(), self._shown)
-        self._show(self._shown)
+        self._core.shown = reuse_unchanged(self.state(), self._core.shown)
+        self._show(self._core.shown)
 
     def _move_on(self) -> None:
         """Look up frames at the time that is shown now."""

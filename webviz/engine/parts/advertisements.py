@@ -22,7 +22,7 @@ def advertisement_of(
 ) -> Advertisement | None:
     """Where messages of a type are published; None if the topic has no valid name."""
     try:
-        name = core.source.resolve(topic.name) if topic.name else ""
+        name = core.player.resolve(topic.name) if topic.name else ""
     except ValueError:
         return None
     if not name:

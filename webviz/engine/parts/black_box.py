@@ -197,7 +197,7 @@ class BlackBoxPart(Part):
     def _resolved(self, rule: WatchRule) -> str:
         try:
             topic = rule.watched_topic
-            return self.core.source.resolve(topic) if topic else ""
+            return self.core.player.resolve(topic) if topic else ""
         except ValueError:
             return ""
 
@@ -250,7 +250,7 @@ class BlackBoxPart(Part):
         path = Path(FOLDER).absolute() / f"{now:{MOMENT}}_{cause}"
         past = _newest(memory, max_bytes)
         folder = in_thread(lambda: new_folder(path))
-        folder.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
+        folder.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
         until_s = time.monotonic() + AFTER_S
         self._saving = _Saving(rule.title, until_s, past.whole, max_bytes, bound, folder)
 
@@ -319,7 +319,7 @@ class BlackBoxPart(Part):
 
     def _list(self) -> None:
         self._listing = in_thread(_listed)
-        self._listing.add_done_callback(lambda _: self.core.source.inbox.arrived.set())
+        self._listing.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
 
 
 def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:

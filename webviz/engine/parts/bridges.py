@@ -43,11 +43,11 @@ class BridgesPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """Return the bridges as they are now."""
-        return {"bridges": tuple(self.core.source.bridges)}
+        return {"bridges": tuple(self.core.player.bridges)}
 
     def statuses(self) -> Mapping[str, Status]:
         """Return one status for each bridge."""
-        bridges = self.core.source.bridges
+        bridges = self.core.player.bridges
         return {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
 
 

@@ -99,7 +99,7 @@ class DisplaysPart(Part):
         core = self.core
         if self._is_unseen(runner):
             return {"Display": UNSEEN}
-        dropped = core.source.inbox.dropped
+        dropped = core.player.inbox.dropped
         return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
 
     def _is_unseen(self, runner: Runner) -> bool:

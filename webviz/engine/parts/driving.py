@@ -82,7 +82,7 @@ class DrivingPart(Part):
         for tool, topic in self._odometry().items() if attended else ():
             if tool in attended and topic.name:
                 try:
-                    found[tool] = self.core.source.resolve(topic.name), topic
+                    found[tool] = self.core.player.resolve(topic.name), topic
                 except ValueError:
                     continue
         return found

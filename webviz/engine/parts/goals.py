@@ -56,7 +56,7 @@ class GoalsPart(Part):
             Error: too many goals are active, or the name of the action is invalid.
         """
         try:
-            action = self.core.source.resolve(request.action)
+            action = self.core.player.resolve(request.action)
         except ValueError as error:
             raise Error(f"{error}. Choose another action.") from error
         active = [goal for goal in self._goals.values() if goal.is_active]

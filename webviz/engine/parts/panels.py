@@ -188,7 +188,7 @@ class PanelsPart(Part):
 
     def _call(self, command: CallService, sender: Sender) -> None:
         try:
-            name = self.core.source.resolve(command.service)
+            name = self.core.player.resolve(command.service)
             parts = interfaces.service(command.type, command.definition)
             request = encode(parts.request, command.request)
         except ValueError as error:  # the name, the type or a value

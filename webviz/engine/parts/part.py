@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar, TypeVar
+
+import msgspec
 
 from webviz.api.frames import Frames
 from webviz.api.status import Status
@@ -12,7 +15,9 @@ from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Job
 from webviz.engine.pipeline.scene import Scene
-from webviz.sources import Gate, Offer, Raw, Source, Subscription
+from webviz.engine.state import State
+from webviz.sources import Gate, Offer, Raw, Subscription
+from webviz.sources.player import Player
 
 Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""
@@ -27,30 +32,49 @@ It raises a `webviz.Error` with one sentence to refuse the command.
 P = TypeVar("P", bound="Part")
 
 
+class HostProgram(msgspec.Struct, frozen=True):
+    """The program around a viewer, for its features.
+
+    Args:
+        offer: lets pages download a file, by its name and content; None without pages.
+        plugins: files with plug-ins that were loaded.
+    """
+
+    offer: Callable[[str, bytes], object] | None = None
+    plugins: Sequence[Path] = ()
+
+
+NO_PROGRAM = HostProgram()
+"""Of a viewer without pages."""
+
+
 class Core:
     """Shared by all parts of a viewer. Only the frame loop changes it.
 
     Args:
-        source: where messages come from.
+        player: where messages come from.
         gate: where messages, requests and goals go to.
         scene: where to draw.
         guard: for all calls.
         clock: monotonic time in seconds.
+        host: what the program around it gives.
     """
 
     def __init__(
         self,
-        source: Source,
+        player: Player,
         gate: Gate,
         scene: Scene,
         guard: Guard,
         clock: Callable[[], float],
+        host: HostProgram,
     ) -> None:
-        self.source = source
+        self.player = player
         self.gate = gate
         self.scene = scene
         self.guard = guard
         self.clock = clock
+        self.host = host
         self.buffer = TransformBuffer()
         self.frames = Frames(self.buffer, "", 0)
         """The transforms at the time that is shown."""
@@ -60,6 +84,8 @@ class Core:
         """Publishers and QoS by topic."""
         self.parts: Sequence[Part] = ()
         """All parts, once they are there."""
+        self.shown = State()
+        """The last state that pages have seen."""
 
     def get(self, kind: type[P]) -> P:
         """Return the part of a class.

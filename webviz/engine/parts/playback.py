@@ -202,7 +202,7 @@ class PlaybackPart(Part):
         player = self._known()
         topic = command.topic
         try:
-            topic = self.core.source.resolve(topic) if topic else ""
+            topic = self.core.player.resolve(topic) if topic else ""
         except ValueError as error:
             raise Error(f"{error}.") from error
         if not player.step(topic, command.is_forward):

@@ -78,7 +78,7 @@ class RuleNumbersPart(Part):
         """Yield each path and the full name of its topic."""
         for text, each in self._read.items():
             try:
-                yield text, self.core.source.resolve(each.path.topic)
+                yield text, self.core.player.resolve(each.path.topic)
             except ValueError:  # no name of a topic
                 continue
 

@@ -60,7 +60,7 @@ class TimePart(Part):
         ros_ns, wall_s = self.core.frames.now_ns, time.time()
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
-        messages = self.core.source.clock_messages()
+        messages = self.core.player.clock_messages()
         player = self._player
         is_paused = self.is_paused if player.is_live else not player.is_playing
         clock = PanelTimes(
@@ -92,7 +92,7 @@ class TimePart(Part):
         self._paused_ns = None
         self.core.buffer.forget()  # also static transforms that come later in the recording
         self._reset_all()
-        self.ros.restart(self.core.source.now_ns())
+        self.ros.restart(self.core.player.now_ns())
 
     def _start(self) -> None:
         self._began_ns = 0  # set when ROS time is known

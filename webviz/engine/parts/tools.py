@@ -131,12 +131,12 @@ class ToolsPart(Part):
 
         core, report = self.core, command.report
         context = ToolContext(
-            tool, core.frames, core.source.now_ns(), publish, self._call, send_goal, report
+            tool, core.frames, core.player.now_ns(), publish, self._call, send_goal, report
         )
         tool.done(gesture, context)
 
     def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
-        name = self.core.source.resolve(service)
+        name = self.core.player.resolve(service)
         return self.core.gate.call(name, type, request, timeout_s)
 
     def _refusal(self, tool: Tool) -> str:
@@ -144,7 +144,7 @@ class ToolsPart(Part):
         names = [advertisement.topic for advertisement in self._advertisements(tool)]
         for name in tool.uses:
             with contextlib.suppress(ValueError):
-                names.append(self.core.source.resolve(name))
+                names.append(self.core.player.resolve(name))
         refusals = [self.core.gate.refusal(name) for name in names]
         return refusals[0] if refusals and all(refusals) else ""
 

@@ -118,7 +118,7 @@ class TopicsPart(Part):
 
     def _traffic(self) -> dict[str, Traffic]:
         """Rates by topic over the last seconds, measured anew now and then."""
-        now, counts = self.core.clock(), self.core.source.inbox.received()
+        now, counts = self.core.clock(), self.core.player.inbox.received()
         if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
             return {topic: each for topic, each in self._shown.items() if topic in counts}
         self._shown = self._rates(now, counts)

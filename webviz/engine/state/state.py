@@ -29,7 +29,6 @@ from webviz.sources.past_state import (
     MemoryState,
     PlaybackState,
     RecordingState,
-    SharingState,
 )
 
 
@@ -304,11 +303,10 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         memory: what is remembered of live topics, None for a recording.
         recording: the one that goes on, None for none.
         black_box: recordings that the rules of the config made, None for a bag.
-        sharing: files that share the shown moment, None before the first turn.
         selected: by browser, ids of things with those of their displays, and whether they move.
         selections: what is known of it, for the browsers that show it.
         reported: the selection of the bug report that is shown.
-        more: fields of additional parts, by name.
+        more: fields of features, by name; they can be read as those of the state, too.
     """
 
     rows: tuple[Row, ...] = ()
@@ -346,8 +344,12 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     memory: MemoryState | None = None
     recording: RecordingState | None = None
     black_box: BlackBoxState | None = None
-    sharing: SharingState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
     reported: tuple[ReportedPick, ...] = ()
     more: Mapping[str, Any] = msgspec.field(default_factory=dict)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in (more := self.more):
+            return more[name]
+        raise AttributeError(f"a State has no field {name}")

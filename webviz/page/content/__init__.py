@@ -23,7 +23,7 @@ from webviz.page.content.layouts import layout
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
-from webviz.page.content.recording import black_box, recording, sharing
+from webviz.page.content.recording import black_box, recording
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, reported, selected, selection
 from webviz.page.content.tools import driving, tool
@@ -71,7 +71,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "tool": tool,
     "topics": topics,
     "traffic": traffic,
-    "sharing": sharing,
     "statuses": statuses,
     "topics_of": topics_of,
     "view": view,

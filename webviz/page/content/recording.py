@@ -104,30 +104,6 @@ def black_box(state: State, _: str) -> BlackBoxStore | None:
     )
 
 
-class SharingStore(PageStore, frozen=True):
-    """Files that share the shown moment.
-
-    Args:
-        share: that is done of the one that is being made, None for none.
-        number: how many have ended.
-        level, text: how the last one ended.
-    """
-
-    share: float | None
-    number: int
-    level: str
-    text: str
-
-
-def sharing(state: State, _: str) -> SharingStore | None:
-    """Return the file that is being made of what is shown, and how the last one ended."""
-    told = state.sharing
-    if told is None:
-        return None
-    level = told.level.name.lower()
-    return SharingStore(told.share, told.number, level, str(sendable(told.text)))
-
-
 def _about(memory: MemoryState, limits: MemorySettings) -> str:
     """Sentences on the memory: its bounds, which of them is reached, and what is kept beyond."""
     if not (limits.seconds and limits.megabytes):

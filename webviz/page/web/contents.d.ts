@@ -352,7 +352,7 @@ export interface Stores {
   selected: { own: {  }; items: [string, boolean] };
   selection: { own: { "/info"?: SelectionInfo }; items: Thing };
   settings: { own: { declared: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; fixed_frame: string; background: [number, number, number] | null; frame_rate: number; views: Array<string>; statuses: Array<StatusLine>; more: number }; items: never };
-  sharing: { own: { share?: number | null; number?: number; level?: string; text?: string }; items: never };
+  sharing: { own: { share: number | null; number: number; level: string; text: string }; items: never };
   statuses: { own: { statuses?: Array<StatusLine>; more?: number }; items: never };
   tool: { own: { name?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
   topics: { own: {  }; items: GraphTopic };

@@ -64,7 +64,6 @@ _COMMANDS: Mapping[type[Any], Role] = {
     engine_commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
     # Files of the machine that runs the viewer, and the config as a whole.
-    engine_commands.ListMoment: Role.OWNER,
     engine_commands.ListReport: Role.OWNER,
     engine_commands.Load: Role.OWNER,
     engine_commands.Open: Role.OWNER,
@@ -72,10 +71,8 @@ _COMMANDS: Mapping[type[Any], Role] = {
     engine_commands.Save: Role.OWNER,
     engine_commands.SaveMemory: Role.OWNER,
     engine_commands.SaveReport: Role.OWNER,
-    engine_commands.ShareMoment: Role.OWNER,
     engine_commands.StartRecording: Role.OWNER,
     engine_commands.StopRecording: Role.OWNER,
-    engine_commands.StopSharing: Role.OWNER,
     # Who may come.
     requests.Dismiss: Role.OWNER,
     requests.Invite: Role.OWNER,
@@ -106,7 +103,6 @@ STORES: Mapping[str, Role] = {
     "black_box": Role.OWNER,
     "journal": Role.OWNER,
     "links": Role.OWNER,
-    "sharing": Role.OWNER,
 }
 """Of the stores of no feature that not everybody may watch; see `webviz.page.content`."""
 

@@ -130,7 +130,7 @@ class Running(PictureControls):
             if session is not None:
                 closing.add("The session", session.close)
             from webviz.engine.loop import FrameLoop
-            from webviz.shell.export.process import exporter
+            from webviz.engine.parts.part import HostProgram
 
             self._loop = FrameLoop(
                 shown,
@@ -144,7 +144,7 @@ class Running(PictureControls):
                 autosave=autosave,
                 session=session and session.path,
                 restore=bool(sessions and sessions.restore),
-                export=exporter([Path(file) for file in plugins], server.shared.offer),
+                host=HostProgram(server.shared.offer, [Path(file) for file in plugins]),
             )
             self._open_pages(server, allow_hosts, keep)
             self._run_loop(source)

@@ -4,28 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import os
-import select
-import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO
 
 import msgspec
 
 from webviz.api.errors import Error
-from webviz.engine.parts.sharing import Exporter, SharedMoment
 
-REST_S = 0.2
-"""Between two looks whether the file is still wanted."""
 NICE = 10
 """The viewer goes first."""
-ENDING_S = 5.0
 
 
 class ExportRequest(msgspec.Struct, frozen=True):
-    """A file to make; the words of `SharedMoment`, and the files with plug-ins."""
+    """A file to make of a bag and a config, and the files with plug-ins."""
 
     bag: str
     config: str
@@ -41,82 +35,6 @@ class ExportProgress(msgspec.Struct, frozen=True, omit_defaults=True):
     share: float | None = None
     done: str = ""
     problem: str = ""
-
-
-def exporter(
-    plugins: Sequence[Path], offer: Callable[[str, bytes], object] = lambda name, data: None
-) -> Exporter:
-    """Return an `Exporter` that starts a process for each file.
-
-    Args:
-        plugins: files to load there.
-        offer: called with the name and the content of each file that was made.
-    """
-
-    def export(
-        moment: SharedMoment, tell: Callable[[float], object], stopped: threading.Event
-    ) -> str:
-        files = [str(path.absolute()) for path in plugins]
-        bag, config, path = (str(each) for each in (moment.bag, moment.config, moment.path))
-        order = ExportRequest(bag, config, path, moment.name, moment.at_s, files)
-        with _process(order) as process:
-            for told in _lines(process, stopped):
-                if told.problem:
-                    raise Error(told.problem)
-                if told.done:
-                    offer(moment.path.name, moment.path.read_bytes())
-                    return told.done
-                tell(told.share or 0.0)
-            if stopped.is_set():
-                raise Error("Stopped.")
-            status = process.wait()
-        raise Error(
-            f"The export ended unexpectedly, with status {status}. Save the moment as a bag, and "
-            "try `webviz export` to see why."
-        )
-
-    return export
-
-
-@contextlib.contextmanager
-def _process(order: ExportRequest) -> Iterator[subprocess.Popen[bytes]]:
-    """Start a process that makes a file; it ends with the block, whatever happens."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", __name__],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-    )
-    assert process.stdin is not None
-    try:
-        with contextlib.suppress(BrokenPipeError):
-            process.stdin.write(msgspec.json.encode(order) + b"\n")
-            process.stdin.flush()
-        yield process
-    finally:
-        with contextlib.suppress(BrokenPipeError):
-            process.stdin.close()  # which ends it
-        try:
-            process.wait(ENDING_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
-
-
-def _lines(process: subprocess.Popen[bytes], stopped: threading.Event) -> Iterator[ExportProgress]:
-    """Yield the lines of a process, until it ends or is not wanted any more."""
-    assert process.stdout is not None
-    rest = b""
-    while not stopped.is_set():
-        if not select.select([process.stdout], [], [], REST_S)[0]:
-            continue
-        data = os.read(process.stdout.fileno(), 1 << 16)
-        if not data:
-            return
-        *whole, rest = (rest + data).split(b"\n")
-        yield from (msgspec.json.decode(line, type=ExportProgress) for line in whole)
 
 
 def main() -> None:

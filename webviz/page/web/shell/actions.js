@@ -11,7 +11,6 @@ import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
 import { openReport } from "./report.js";
 import { setTheme } from "./theme.js";
-import { toggleShare } from "../timeline/share.js";
 import { toggle } from "./video.js";
 
 /** @import {Command} from "./commands.js" */
@@ -64,13 +63,6 @@ export const actions = {
     group: "Time",
     needs: "SaveReport",
     run: () => openReport(),
-  },
-  share: {
-    name: "Share this moment…",
-    icon: "upload",
-    group: "Time",
-    needs: "ShareMoment",
-    run: () => toggleShare(),
   },
   undo: {
     name: "Undo",
@@ -131,6 +123,15 @@ export const actions = {
     run: () => openKeys(),
   },
 };
+
+/** Actions of features, which the menu has, too. @type {Command[]} */
+export const added = [];
+
+/** @param {Command} action */
+export function action(action) {
+  added.push(action);
+  command(action);
+}
 
 export function install() {
   for (const action of Object.values(actions))

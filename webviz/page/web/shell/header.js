@@ -4,7 +4,7 @@ import { needs, why } from "../access.js";
 import { layoutMenu } from "../docks/layout_menu.js";
 import { el, set, setText } from "../dom.js";
 import { iconButton } from "../icons.js";
-import { actions, item } from "./actions.js";
+import { actions, added, item } from "./actions.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
 import { fold, openPanel } from "./layout.js";
@@ -149,7 +149,7 @@ function menu(owner) {
     item(actions.people),
     item(actions.doctor),
     item(actions.report),
-    item(actions.share),
+    ...added.map((action) => item(action)),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),

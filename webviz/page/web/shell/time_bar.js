@@ -7,7 +7,6 @@ import { el, set, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { record } from "../timeline/record.js";
-import { share } from "../timeline/share.js";
 import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
@@ -16,6 +15,12 @@ import { duration, timeOfDay } from "./time_text.js";
 
 const TICK_MS = 100;
 const RESET_HINT = "Reset: forget all transforms and messages (R)";
+
+/** @type {Element[]} */
+const buttonsOfFeatures = [];
+
+/** Adds a button to the bar. @param {Element} button */
+export const timeBarButton = (button) => buttonsOfFeatures.push(button);
 
 /**
  * Fills the footer.
@@ -51,7 +56,7 @@ export function build(place) {
     elapsed.element,
     el("div", { class: "wv-space" }),
     record(),
-    share(),
+    ...buttonsOfFeatures,
     wall.element,
     wallElapsed.element,
   );

@@ -1,14 +1,16 @@
 // "Share this moment": what is shown, and the time around it, as one file that opens without webviz.
 
-import { needs, onRole, why } from "../access.js";
-import { act } from "../act.js";
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { openDialog } from "../shell/dialog.js";
-import { toast } from "../shell/toasts.js";
-import { watch } from "../stores.js";
+import { needs, onRole, why } from "../../access.js";
+import { act } from "../../act.js";
+import { el, set, setText } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { action } from "../../shell/actions.js";
+import { openDialog } from "../../shell/dialog.js";
+import { timeBarButton } from "../../shell/time_bar.js";
+import { toast } from "../../shell/toasts.js";
+import { watch } from "../../stores.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {ValuesOf} from "../../types.js" */
 
 const NAME = "Share this moment";
 const TIP = "Make one file of what you see, which opens in any browser without webviz";
@@ -18,28 +20,40 @@ let isBag = false; // of which a span can be selected
 let done = null; // the share of the work, while a file is made
 let isMine = false; // whether this page has asked for it
 
+export function install() {
+  timeBarButton(button());
+  action({
+    name: `${NAME}…`,
+    icon: "upload",
+    group: "Time",
+    needs: "ShareMoment",
+    run: toggle,
+  });
+}
+
 /** Asks whether to share the moment, or stops the file that is being made. */
-export const toggleShare = () => (done === null ? openShare() : act("StopSharing"));
+const toggle = () => (done === null ? openShare() : act("StopSharing"));
 
 /** The button; hidden where there is nothing to share, and in a file that was shared. */
-export function share() {
+function button() {
   let isThere = false;
   let known = -1; // how many had ended
 
   const label = el("span", { class: "wv-number" });
-  const button = el(
+  const element = el(
     "button",
-    { type: "button", class: "wv-button wv-share", hidden: true, onclick: toggleShare },
+    { type: "button", class: "wv-button wv-share", hidden: true, onclick: toggle },
     icon("upload", 14),
     label,
   );
 
   function show() {
     const isRunning = done !== null;
-    button.hidden = !isThere || Boolean(window.webvizRun);
+    element.hidden = !isThere || Boolean(window.webvizRun);
     setText(label, isRunning ? `Sharing… ${Math.round((done ?? 0) * 100)} %` : NAME);
-    set(button, {
+    set(element, {
       "aria-label": isRunning ? "Stop making the file to share" : NAME,
+      "data-bag": isBag,
       "data-tip": isRunning ? "Click to stop" : TIP,
     });
   }
@@ -70,7 +84,7 @@ export function share() {
   });
   show();
 
-  return needs("ShareMoment", button);
+  return needs("ShareMoment", element);
 }
 
 /** Downloads the last file that was made; the page may be at a path of a proxy. */

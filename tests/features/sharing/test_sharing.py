@@ -14,11 +14,11 @@ from playwright.sync_api import expect
 from waiting import until
 
 import webviz
+from webviz.commands import Refresh, ShareMoment, StopSharing
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh, ShareMoment, StopSharing
+from webviz.features.sharing import SharingState
 from webviz.shell.testing import header
 from webviz.shell.testing.source import SECOND, HandFedSource
-from webviz.sources.past_state import SharingState
 
 PATH = "nav_msgs/msg/Path"
 AT_S = 2.0

@@ -7,25 +7,27 @@ import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, wait
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import msgspec
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
 from webviz.data.names import new_path
 from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
-from webviz.engine.commands import Command, ListMoment, Sender, ShareMoment, StopSharing
+from webviz.engine.commands import Sender
+from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Core, HostProgram
 from webviz.engine.parts.shown_moment import as_seen, slice_around
-from webviz.engine.state import State
+from webviz.engine.store import PageStore
+from webviz.features.sharing.exporting import SharedMoment, export
 from webviz.files import config as config_file
 from webviz.files.config import Config
-from webviz.sources.past_state import SharingState
-from webviz.sources.player import Player
+from webviz.page.content.forms import sendable
 from webviz.sources.slices import Slice, write_slice
 
 MAX_SLICE = 2_000_000_000
@@ -39,43 +41,6 @@ _exports = DiskThreads(8)
 """For files that take minutes to be made."""
 
 
-class SharedMoment(msgspec.Struct, frozen=True):
-    """A recording to make a file of.
-
-    Args:
-        bag: MCAP file.
-        config: YAML file.
-        path: of the file to make, in a folder that is removed afterwards.
-        name: of the config, for the page; "" for none.
-        at_s: moment to begin with, in seconds from the start of the bag.
-    """
-
-    bag: Path
-    config: Path
-    path: Path
-    name: str
-    at_s: float
-
-
-class Exporter(Protocol):
-    """Makes the file, in any thread."""
-
-    def __call__(
-        self, moment: SharedMoment, tell: Callable[[float], object], stopped: threading.Event
-    ) -> str:
-        """Make it; returns its length and size as the end of a sentence.
-
-        Args:
-            moment: what to make.
-            tell: called with the share that is done.
-            stopped: set once the file is not wanted any more.
-
-        Raises:
-            Error: one sentence.
-        """
-        ...
-
-
 class _Running(msgspec.Struct):
     """An export that goes on."""
 
@@ -84,39 +49,40 @@ class _Running(msgspec.Struct):
     share: float = 0.0
 
 
-class SharingPart(Part):
-    """Writes what is shown as one HTML file, one at a time.
+class SharingState(msgspec.Struct, frozen=True):
+    """Files that share the shown moment.
 
     Args:
-        core: shared by all parts.
-        files: have the config.
-        player: of what is shown.
-        state: the last state, from any thread.
-        export: makes the file; None if it cannot be made.
+        share: that is done of the one that is being made, None for none.
+        number: how many have ended.
+        level, text: how the last one ended.
     """
 
+    share: float | None = None
+    number: int = 0
+    level: Level = Level.OK
+    text: str = ""
+
+
+class SharingStore(PageStore, frozen=True):
+    """The same, for pages."""
+
+    share: float | None
+    number: int
+    level: str
+    text: str
+
+
+class Sharing(Feature):
+    """Writes what is shown as one HTML file, one at a time."""
+
     name = "Share"
+    module = "sharing.js"
 
-    def __init__(
-        self,
-        core: Core,
-        files: FilesPart,
-        player: Player,
-        state: Callable[[], State],
-        export: Exporter | None,
-    ) -> None:
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._files = files
-        self._player = player
-        self._state = state
-        self._export = export
         self._running: _Running | None = None
-        self._told = SharingState()
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {ListMoment: self._list, ShareMoment: self._share, StopSharing: self._stop}
+        self._ended = SharingState()
 
     def keep_up(self, commanded: bool) -> None:
         """Notice that an export has ended."""
@@ -133,13 +99,20 @@ class SharingPart(Part):
         else:
             known = isinstance(error, Error)
             text = str(error) if known else self.core.guard.note("Share", error)
-        self._told = SharingState(number=self._told.number + 1, level=level, text=text)
+        self._ended = SharingState(number=self._ended.number + 1, level=level, text=text)
 
     def state(self) -> Mapping[str, Any]:
         """Return the export that goes on, and the answer to the last one."""
-        told, running = self._told, self._running
+        running = self._running
         share = None if running is None else int(running.share * STEP) / STEP
-        return {"sharing": SharingState(share, told.number, told.level, told.text)}
+        return {"sharing": msgspec.structs.replace(self._ended, share=share)}
+
+    @store(Role.OWNER)
+    def sharing(self, argument: str) -> SharingStore:
+        """Return the file that is being made of what is shown, and how the last one ended."""
+        state: SharingState = self.state()["sharing"]
+        text = str(sendable(state.text))
+        return SharingStore(state.share, state.number, state.level.name.lower(), text)
 
     def close(self) -> None:
         """Stop an export."""
@@ -147,10 +120,11 @@ class SharingPart(Part):
             self._running.stopped.set()
             wait([self._running.done], ENDING_S)
 
-    def _list(self, command: ListMoment, sender: Sender) -> str:
-        part, source = slice_around(self._player)
-        state = self._state()
-        displays = sum(row.type != "Group" for row in state.rows)
+    @command(Role.OWNER)
+    def list_moment(self) -> str:
+        """Answer with what `ShareMoment` would write, one line per part."""
+        part, source = slice_around(self.core.player)
+        displays = sum(row.type != "Group" for row in self.core.shown.rows)
         of = "memory" if source == "live" else "the bag"
         return "\n".join(
             (
@@ -161,33 +135,42 @@ class SharingPart(Part):
             )
         )
 
-    def _share(self, command: ShareMoment, sender: Sender) -> str:
-        export = self._export
-        if export is None:
+    @command(Role.OWNER)
+    def share_moment(self, sender: Sender, path: str = "") -> str:
+        """Begin to write the moment that is shown, and the time around it, as one HTML file.
+
+        Args:
+            path: of the file, only for programs; "" is one in the working folder, named by the
+                time.
+        """
+        core, files = self.core, self.core.get(FilesPart)
+        if core.host.offer is None:
             raise Error("This viewer cannot make files to share. Use `webviz export`.")
-        if command.path and sender.browser is not None:
+        if path and sender.browser is not None:
             raise Error("A page cannot choose the file to share.")
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
-        part, _ = slice_around(self._player)
-        config = as_seen(self._files.config(), self._state(), sender)
-        path = Path(command.path).absolute() if command.path else new_path("webviz_run", ".html")
-        name = self._files.path.name if self._files.path else ""
+        part, _ = slice_around(core.player)
+        config = as_seen(files.config(), core.shown, sender)
+        made = Path(path).absolute() if path else new_path("webviz_run", ".html")
+        name = files.path.name if files.path else ""
         stopped = threading.Event()
 
         def work() -> str:
-            return _made(part, config, (path, name), export, tell, stopped)
+            return _made(part, config, (made, name), core.host, progress, stopped)
 
-        def tell(share: float) -> None:
+        def progress(share: float) -> None:
             running.share = share
 
         try:
             running = self._running = _Running(stopped, _exports.start(work))
         except OSError as error:
             raise Error(f"Failed: {error.strerror}.") from error
-        return f"Making {path.name}. Panels and scene stay usable meanwhile."
+        return f"Making {made.name}. Panels and scene stay usable meanwhile."
 
-    def _stop(self, command: StopSharing, sender: Sender) -> str:
+    @command(Role.OWNER)
+    def stop_sharing(self) -> str:
+        """Stop writing such a file, and remove it."""
         if self._running is None:
             raise Error("No file is being made.")
         self._running.stopped.set()
@@ -198,8 +181,8 @@ def _made(
     part: Slice,
     config: Config,
     target: tuple[Path, str],
-    export: Exporter,
-    tell: Callable[[float], object],
+    host: HostProgram,
+    progress: Callable[[float], object],
     stopped: threading.Event,
 ) -> str:
     """Write the messages and the config to a temporary folder, and make the file of them."""
@@ -217,7 +200,7 @@ def _made(
             shown.write_text(config_file.dump(config), encoding="utf-8")
             at_s = (written.at_ns - written.first_ns) / 1e9
             made = folder / path.name
-            size = export(SharedMoment(bag, shown, made, name, at_s), tell, stopped)
+            size = export(SharedMoment(bag, shown, made, name, at_s), host, progress, stopped)
             made.replace(path)
             return f"Saved {path.name}: {size}"
     except OSError as error:
