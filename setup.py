@@ -125,8 +125,10 @@ setup(
             "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
         "webviz.features": [
-            "sharing = webviz.features.sharing:Sharing",
-            "what_if = webviz.features.what_if:WhatIf",
+            "black_box = webviz.features.black_box:BlackBoxFeature",
+            "recording = webviz.features.recording:RecordingFeature",
+            "sharing = webviz.features.sharing:SharingFeature",
+            "what_if = webviz.features.what_if:WhatIfFeature",
         ],
         "webviz.checks": ["webviz = webviz.checks"],
         "webviz.tools": [

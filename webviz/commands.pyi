@@ -2,6 +2,7 @@
 
 from webviz.engine.commands import *  # noqa: F403
 from webviz.engine.commands.command import Command
+from webviz.engine.commands.files import FileCommand
 
 __all__: list[str]
 
@@ -14,6 +15,26 @@ class FindFrame(Command, frozen=True):
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 
+class OpenRecording(FileCommand, frozen=True):
+    """Play a recording in the place of live topics, until `ReturnToLive`.
+
+    Args:
+        path: a file or folder. Browsers can choose only those of the black box.
+    """
+
+    path: str
+
+class SaveMemory(FileCommand, frozen=True):
+    """Write the last seconds of what was subscribed to, with the latched messages before them.
+
+    Args:
+        seconds: as far as they are remembered; None is everything.
+        path: as that of `StartRecording`.
+    """
+
+    seconds: float | None = ...
+    path: str = ...
+
 class ShareMoment(Command, frozen=True):
     """Begin to write the moment that is shown, and the time around it, as one HTML file.
 
@@ -23,6 +44,19 @@ class ShareMoment(Command, frozen=True):
     """
 
     path: str = ...
+
+class StartRecording(FileCommand, frozen=True):
+    """Record all topics that are subscribed to, until `StopRecording`.
+
+    Args:
+        path: of a new folder; "" is one in the working folder, named by date and time.
+            Browsers cannot choose it.
+    """
+
+    path: str = ...
+
+class StopRecording(FileCommand, frozen=True):
+    """Complete the recording."""
 
 class StopSharing(Command, frozen=True):
     """Stop writing such a file, and remove it."""

@@ -28,7 +28,10 @@ from webviz.engine.commands import (
     SetProperty,
 )
 from webviz.engine.driving import DrivingAnswer
+from webviz.engine.feature import Feature, store
 from webviz.engine.state import Row, State
+from webviz.features.black_box.saved import BlackBoxStore, black_box_store
+from webviz.features.recording import RecordingStore, recording_store
 from webviz.page.pages import Pages
 from webviz.scene import open_server
 from webviz.scene.server import Server
@@ -98,7 +101,10 @@ class Loop:
         self.controller = DrivingAnswer()
         """To all of them."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
-        self.pages = Pages(server.channel, self._enqueue, self._steer, access)
+        self.of_features: dict[str, Any] = {}
+        """Public fields of features."""
+        features = [ShownFeatures(self)]
+        self.pages = Pages(server.channel, self._enqueue, self._steer, access, features=features)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
         answer: Future[str] = Future()
@@ -111,8 +117,14 @@ class Loop:
 
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""
-        self.state = replace(self.state, rows=rows, **changes)
+        self.change(rows=rows, **changes)
         self.pages.update(self.state)
+
+    def change(self, **changes: Any) -> None:
+        """Change fields of the state, and public ones of features, from the next turn on."""
+        own = {name: value for name, value in changes.items() if name in State.__struct_fields__}
+        self.of_features |= {name: changes[name] for name in changes.keys() - own.keys()}
+        self.state = replace(self.state, **own)
 
     def turn(self) -> None:
         """Collect the commands, obey the property changes that are valid, and update the pages."""
@@ -136,6 +148,23 @@ class Loop:
             else:
                 answer.set_result(reply)
         self.pages.update(self.state)
+
+
+class ShownFeatures(Feature):
+    """The stores of features, from what is given to the loop."""
+
+    def __init__(self, loop: Loop) -> None:
+        self._loop = loop
+
+    @store()
+    def recording(self, argument: str) -> RecordingStore | None:
+        given, bounds = self._loop.of_features, self._loop.state.settings.memory
+        return recording_store(given.get("memory"), given.get("recording"), bounds)
+
+    @store()
+    def black_box(self, argument: str) -> BlackBoxStore | None:
+        has_rules = bool(self._loop.state.settings.watch)
+        return black_box_store(self._loop.of_features.get("black_box"), has_rules)
 
 
 def _as_is(row: Row) -> Row:
@@ -247,6 +276,7 @@ def tidy(lasting: Tab) -> Tab:
     page.keyboard.press("Escape")
     lasting.show_tab("Displays")
     lasting.loop.state = State()
+    lasting.loop.of_features.clear()
     lasting.loop.turn()
     page.evaluate(CATCH_UP)  # images beside the scene would go while a test measures it
     page.evaluate(TIDY)
@@ -258,6 +288,7 @@ def tab(tidy: Tab) -> Iterator[Tab]:
     """The tab with an empty viewer; it must not see an error."""
     lasting = tidy
     lasting.loop.state = State()
+    lasting.loop.of_features.clear()
     lasting.loop.answer = lasting.loop.made = ""
     lasting.loop.turn()
     lasting.page.evaluate(CATCH_UP)  # else it may lose what a test before has left there

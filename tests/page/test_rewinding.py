@@ -12,16 +12,12 @@ from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.api.status import Level
-from webviz.engine.commands import OpenRecording, ReturnToLive, Seek
+from webviz.commands import OpenRecording
+from webviz.engine.commands import ReturnToLive, Seek
 from webviz.engine.state import PanelTimes
-from webviz.sources.past_state import (
-    BlackBoxState,
-    Event,
-    MemoryState,
-    PlaybackState,
-    RecordingState,
-    SavedMoment,
-)
+from webviz.features.black_box.saved import BlackBoxState, SavedMoment
+from webviz.features.recording import MemoryState, RecordingState
+from webviz.sources.past_state import Event, PlaybackState
 
 SHORT = MemoryState(60.0, 0)
 BEGAN_S = 100

@@ -13,24 +13,23 @@ from playwright.sync_api import Locator, Position, expect
 from tests.page.conftest import Loop, Tab
 from webviz.api.errors import Error
 from webviz.api.status import Level
+from webviz.commands import SaveMemory, StartRecording, StopRecording
 from webviz.engine.commands import (
     Pause,
     RemoveBookmark,
     SaveBookmark,
-    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
-    StartRecording,
     StepMessage,
-    StopRecording,
 )
 from webviz.engine.state import ClockRate, PanelTimes
+from webviz.features.recording import MemoryState, RecordingState
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.scene.server import Server
-from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
+from webviz.sources.past_state import Event, PlaybackState
 
 START_S = 1_700_000_000
 COUNTS = [20] * 100 + [0] * 50 + [5] * 350

@@ -26,6 +26,7 @@ from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
 from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
+from webviz.features.recording import MemoryState, RecordingState
 from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter import greeting
@@ -34,7 +35,7 @@ from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing import share_of_difference
 from webviz.shell.testing.pictures import ReferenceImages
 from webviz.sources import Offer, Publisher
-from webviz.sources.past_state import Event, MemoryState, PlaybackState, RecordingState
+from webviz.sources.past_state import Event, PlaybackState
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map
@@ -160,6 +161,7 @@ def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
     """Show a viewer in which nothing moves, with these statuses of its scan."""
     browser = tab.page.evaluate("window.webviz.browser")
     offer = Offer((Publisher("/driver", SCAN, "best_effort", "volatile"),))
+    tab.loop.of_features.clear()
     tab.loop.state = State(
         rows=rows(scan),
         views={browser: Orbit()},
@@ -315,10 +317,10 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
 def test_live_topics_that_are_recorded_and_rewound(desk: Tab, references: ReferenceImages) -> None:
     tab = desk
     tab.page.evaluate(HEARD)
-    tab.loop.state = replace(tab.loop.state, **LIVE)
+    tab.loop.change(**LIVE)
     tab.wait_for(lambda: tab.page.get_by_role("button", name="Stop recording").count() == 1)
     references.check("recording", capture(tab), tolerance=TOLERANCE)
-    tab.loop.state = replace(tab.loop.state, **PAST)
+    tab.loop.change(**PAST)
     tab.wait_for(tab.page.locator(".wv-rewound-banner").is_visible)
     references.check("rewound", capture(tab), tolerance=TOLERANCE)
 
@@ -336,7 +338,7 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
     references.check("phone", capture(phone), tolerance=TOLERANCE)
 
     phone.page.evaluate(HEARD)
-    phone.loop.state = replace(phone.loop.state, **PAST)
+    phone.loop.change(**PAST)
     banner = phone.page.locator(".wv-rewound-banner")
     phone.wait_for(banner.is_visible)
     references.check("phone_rewound", capture(phone), tolerance=TOLERANCE)

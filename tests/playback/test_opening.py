@@ -13,19 +13,11 @@ from drives import CONFIG, recorded
 
 from tests.playback.conftest import Drive, Theater
 from webviz.api.errors import Error
+from webviz.commands import OpenRecording, SaveMemory
 from webviz.data.messages import encode
-from webviz.engine.commands import (
-    Command,
-    OpenRecording,
-    Pause,
-    Refresh,
-    ReturnToLive,
-    SaveMemory,
-    Seek,
-    Sender,
-)
-from webviz.engine.parts.black_box import FOLDER
+from webviz.engine.commands import Command, Pause, Refresh, ReturnToLive, Seek, Sender
 from webviz.engine.parts.playback import NO_LIVE, REWOUND
+from webviz.features.black_box.saved import FOLDER
 from webviz.files.config.model import MemorySettings
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.remembering_graph import RememberingGraph

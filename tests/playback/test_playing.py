@@ -10,18 +10,17 @@ import pytest
 from bags import START_NS, Bag, ns, strings
 from shown_stores import shown_by
 
+from webviz.commands import SaveMemory, StartRecording
 from webviz.engine.commands import (
     Command,
     Pause,
     Play,
     RemoveBookmark,
     SaveBookmark,
-    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
-    StartRecording,
     StepMessage,
     Undo,
 )

@@ -15,6 +15,7 @@ from rcl_interfaces.msg import ParameterDescriptor, ParameterType, SetParameters
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.engine.commands import (
@@ -22,12 +23,9 @@ from webviz.engine.commands import (
     Open,
     Reset,
     Save,
-    SaveMemory,
     SetFixedFrame,
     ShowView,
-    StartRecording,
     StartWithView,
-    StopRecording,
 )
 from webviz.engine.state import State
 from webviz.files.config.files import SUFFIXES
@@ -265,13 +263,13 @@ class ControlNode:
             return f"Saved {viewer.save_screenshot()}."
 
         def save_last() -> str:
-            return viewer.do(SaveMemory())
+            return viewer.do(commands.SaveMemory())
 
         def start_recording() -> str:
-            return viewer.do(StartRecording())
+            return viewer.do(commands.StartRecording())
 
         def stop_recording() -> str:
-            return viewer.do(StopRecording())
+            return viewer.do(commands.StopRecording())
 
         return [
             _Service(self._node, type, name, work, self._pool, self._wake, _say)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import msgspec
 
 from webviz.api.status import Level
@@ -59,61 +57,3 @@ class Event(msgspec.Struct, frozen=True):
     level: Level
     name: str
     text: str
-
-
-class MemoryState(msgspec.Struct, frozen=True):
-    """The memory of live topics.
-
-    Args:
-        seconds: since the oldest message.
-        size: bytes of all messages.
-        is_full: whether younger messages than wanted were forgotten for their size.
-        pinned: topics whose latched messages are kept although they are older.
-    """
-
-    seconds: float
-    size: int
-    is_full: bool = False
-    pinned: tuple[str, ...] = ()
-
-
-class SavedMoment(msgspec.Struct, frozen=True):
-    """A recording that a rule made.
-
-    Args:
-        path: of its folder, whose name has the time and the cause.
-        size: bytes of its files.
-    """
-
-    path: Path
-    size: int
-
-
-class BlackBoxState(msgspec.Struct, frozen=True):
-    """Recordings that rules made.
-
-    Args:
-        saved: those in the folder, the newest first.
-        saving: cause of the one that goes on, "" for none.
-    """
-
-    saved: tuple[SavedMoment, ...] = ()
-    saving: str = ""
-
-
-class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
-    """A recording of live topics that goes on.
-
-    Args:
-        path: of its folder.
-        seconds: since it began.
-        messages: that were written.
-        size: bytes of its files.
-        dropped: messages that the disk was too slow for.
-    """
-
-    path: Path
-    seconds: float
-    messages: int
-    size: int
-    dropped: int

@@ -16,7 +16,7 @@ from webviz.api.nodes import Pose
 from webviz.commands import DragHandle, EndTrial, FindFrame, RemoveDisplay, TryFrame
 from webviz.data.rotations import from_rpy, to_rpy, w_first
 from webviz.engine.pipeline.frame_handle import KEY
-from webviz.features.what_if import ID, WhatIf, WhatIfStore
+from webviz.features.what_if import ID, WhatIfFeature, WhatIfStore
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan
@@ -57,7 +57,7 @@ def share(stage: Harness) -> float:
 
 def shown(stage: Harness) -> WhatIfStore:
     """The store of the frame that is tried."""
-    store = stage.viewer.get(WhatIf).what_if("")
+    store = stage.viewer.get(WhatIfFeature).what_if("")
     assert store is not None
     return store
 
@@ -94,7 +94,7 @@ def test_a_frame_is_found_and_returns(robot: Harness) -> None:
     assert store.command.endswith(" --frame-id base_link --child-frame-id laser")
     assert store.fits[0].endswith("points on walls of /map")
     robot.do(EndTrial())
-    assert robot.viewer.get(WhatIf).what_if("") is None
+    assert robot.viewer.get(WhatIfFeature).what_if("") is None
     assert not robot.viewer.snapshot().handles
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + WRONG_X)
 
@@ -130,7 +130,7 @@ def test_a_frame_that_begins_to_move_ends_it(robot: Harness) -> None:
     robot.transform("base_link", "laser", (1.0, 0.0, 0.0), stamp_ns=robot.source.now)
     robot.turn()
     robot.do(EndTrial())
-    assert robot.viewer.get(WhatIf).what_if("") is None
+    assert robot.viewer.get(WhatIfFeature).what_if("") is None
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + 1.0)
 
 

@@ -46,12 +46,6 @@ from webviz.engine.commands.playback import (
     SetRate,
     StepMessage,
 )
-from webviz.engine.commands.recording import (
-    OpenRecording,
-    SaveMemory,
-    StartRecording,
-    StopRecording,
-)
 from webviz.engine.commands.reports import ListReport, RestoreSelection, SaveReport
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
@@ -122,7 +116,6 @@ __all__ = [
     "MoveDisplay",
     "Open",
     "OpenPanels",
-    "OpenRecording",
     "Pause",
     "Pick",
     "Picks",
@@ -147,7 +140,6 @@ __all__ = [
     "SaveBookmark",
     "SaveImage",
     "SaveLayout",
-    "SaveMemory",
     "SaveReport",
     "SaveView",
     "Seek",
@@ -165,10 +157,8 @@ __all__ = [
     "SetRate",
     "SetToolProperty",
     "ShowView",
-    "StartRecording",
     "StartWithView",
     "StepMessage",
-    "StopRecording",
     "TraceDisplay",
     "Undo",
     "UseTool",

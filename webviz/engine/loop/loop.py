@@ -24,7 +24,6 @@ from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
-from webviz.engine.parts.black_box import BlackBoxPart
 from webviz.engine.parts.bridges import BridgesPart
 from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
@@ -39,7 +38,6 @@ from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
-from webviz.engine.parts.recording import RecordingPart
 from webviz.engine.parts.reports import ReportsPart
 from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.selection import SelectionPart
@@ -153,7 +151,6 @@ class FrameLoop:
             self.controllers.halt,
             autoplay,
         )
-        self._black_box = BlackBoxPart(core, self._settings, player, self._displays.list)
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings]
         first += [views, LayoutsPart(core, self._settings)]
@@ -227,8 +224,6 @@ class FrameLoop:
             BridgesPart(core, self._robots, player.live),
             TopicsPart(core),
             LatencyPart(core, self._tracer, displays.list.active),
-            RecordingPart(core, settings, player),
-            self._black_box,
             SelectionPart(core, displays),
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),
@@ -352,7 +347,7 @@ class FrameLoop:
     def state(self) -> State:
         """Return a snapshot for a panel, as of the last turn."""
         state, statuses = self._parts.state(), self._parts.statuses()
-        self._black_box.look(state.rows, self.doctor.verdicts)
+        self._core.verdicts = self.doctor.verdicts
         statuses = statuses | failures(self._guard.crashes) | self._showing.statuses
         statuses |= without(broken_features())
         warned = self._playback.warned(state.rows)

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, TypeVar
 import msgspec
 
 from webviz.api.frames import Frames
+from webviz.api.rule import Verdict
 from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
@@ -86,6 +87,8 @@ class Core:
         """All parts, once they are there."""
         self.shown = State()
         """The last state that pages have seen."""
+        self.verdicts: Sequence[Verdict] = ()
+        """Last verdicts on the rules of the config."""
 
     def get(self, kind: type[P]) -> P:
         """Return the part of a class.

@@ -13,7 +13,6 @@ from webviz.data.names import problem_of
 from webviz.data.words import joined
 from webviz.engine.commands import (
     Command,
-    OpenRecording,
     Play,
     RemoveBookmark,
     ReturnToLive,
@@ -26,7 +25,6 @@ from webviz.engine.commands import (
     StepMessage,
 )
 from webviz.engine.commands.requests import Job
-from webviz.engine.parts.black_box import FOLDER
 from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.settings import SettingsPart
@@ -80,7 +78,6 @@ class PlaybackPart(Part):
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
         return {
-            OpenRecording: self._open,
             Play: self._play,
             ReturnToLive: self._return_to_live,
             Seek: self._seek,
@@ -107,6 +104,25 @@ class PlaybackPart(Part):
             self._player.play()
         if self._player.advance(is_busy):
             self._start_over()
+
+    def open(self, path: Path) -> Job[BagHistory]:
+        """Play a recording in the place of live topics.
+
+        Raises:
+            Error: there are none.
+        """
+        player = self._player
+        if player.live is None:
+            raise Error(NO_LIVE)
+
+        def then(bag: BagHistory) -> str:
+            player.show(bag)
+            self._display_events = DisplayEvents()
+            self._start_over()
+            player.play()
+            return self._stopped(player)
+
+        return Job(lambda: BagHistory(path), then)
 
     def take(self, batches: Batches) -> None:
         """Remember where frames are while a seek passes them, since nothing is drawn."""
@@ -156,22 +172,6 @@ class PlaybackPart(Part):
         if self._known().return_to_live():
             self._display_events = self._first_events
             self._start_over()
-
-    def _open(self, command: OpenRecording, sender: Sender) -> Job[BagHistory]:
-        player, path = self._player, Path(command.path)
-        if player.live is None:
-            raise Error(NO_LIVE)
-        if sender.browser is not None and path.absolute().parent != Path(FOLDER).absolute():
-            raise Error(f"A page can open only recordings in {FOLDER}.")
-
-        def then(bag: BagHistory) -> str:
-            player.show(bag)
-            self._display_events = DisplayEvents()
-            self._start_over()
-            player.play()
-            return self._stopped(player)
-
-        return Job(lambda: BagHistory(path), then)
 
     def _set_rate(self, command: SetRate, sender: Sender) -> None:
         player, rate = self._known(), command.rate

@@ -24,11 +24,8 @@ from webviz.files.config import Settings
 from webviz.files.report import ReportedPick
 from webviz.sources import Offer
 from webviz.sources.past_state import (
-    BlackBoxState,
     Event,
-    MemoryState,
     PlaybackState,
-    RecordingState,
 )
 
 
@@ -300,9 +297,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         findings: of the doctor, the one to repair first at the beginning.
         examined_ns: ROS time of that examination; 0 before the first, or while it is unknown.
         found: when findings began, as far as a recording was shown, by time.
-        memory: what is remembered of live topics, None for a recording.
-        recording: the one that goes on, None for none.
-        black_box: recordings that the rules of the config made, None for a bag.
         selected: by browser, ids of things with those of their displays, and whether they move.
         selections: what is known of it, for the browsers that show it.
         reported: the selection of the bug report that is shown.
@@ -341,9 +335,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     findings: Sequence[Finding] = ()
     examined_ns: int = 0
     found: Sequence[Event] = ()
-    memory: MemoryState | None = None
-    recording: RecordingState | None = None
-    black_box: BlackBoxState | None = None
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
     reported: tuple[ReportedPick, ...] = ()

@@ -73,7 +73,7 @@ class SharingStore(PageStore, frozen=True):
     text: str
 
 
-class Sharing(Feature):
+class SharingFeature(Feature):
     """Writes what is shown as one HTML file, one at a time."""
 
     name = "Share"

@@ -16,6 +16,7 @@ const NAME = "Share this moment";
 const TIP = "Make one file of what you see, which opens in any browser without webviz";
 
 let isBag = false; // of which a span can be selected
+let isAlone = false; // a bag in whose place no live topics can be
 /** @type {number | null} */
 let done = null; // the share of the work, while a file is made
 let isMine = false; // whether this page has asked for it
@@ -53,7 +54,7 @@ function button() {
     setText(label, isRunning ? `Sharing… ${Math.round((done ?? 0) * 100)} %` : NAME);
     set(element, {
       "aria-label": isRunning ? "Stop making the file to share" : NAME,
-      "data-bag": isBag,
+      "data-alone": isAlone,
       "data-tip": isRunning ? "Click to stop" : TIP,
     });
   }
@@ -61,6 +62,7 @@ function button() {
   watch("playback", (values) => {
     isThere = values.has("start");
     isBag = values.get("is_live") === null;
+    isAlone = isBag && !values.get("is_opened");
     show();
   });
   /** @param {ValuesOf<"sharing">} values */

@@ -48,7 +48,7 @@ class WhatIfStore(PageStore, frozen=True):
     browser: int | None
 
 
-class WhatIf(Feature):
+class WhatIfFeature(Feature):
     """Tries one static frame at a time in another pose, for this viewer alone."""
 
     name = "What if"

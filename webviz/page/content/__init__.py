@@ -23,7 +23,6 @@ from webviz.page.content.layouts import layout
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
-from webviz.page.content.recording import black_box, recording
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, reported, selected, selection
 from webviz.page.content.tools import driving, tool
@@ -36,7 +35,6 @@ from webviz.page.content.views import view, views
 MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "attributions": attributions,
     "between": between,
-    "black_box": black_box,
     "bookmarks": bookmarks,
     "clock": clock,
     "density": density,
@@ -62,7 +60,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "properties": properties,
     "rate": rate,
     "recorded": recorded,
-    "recording": recording,
     "reported": reported,
     "routes": routes,
     "selected": selected,

@@ -67,12 +67,8 @@ _COMMANDS: Mapping[type[Any], Role] = {
     engine_commands.ListReport: Role.OWNER,
     engine_commands.Load: Role.OWNER,
     engine_commands.Open: Role.OWNER,
-    engine_commands.OpenRecording: Role.OWNER,
     engine_commands.Save: Role.OWNER,
-    engine_commands.SaveMemory: Role.OWNER,
     engine_commands.SaveReport: Role.OWNER,
-    engine_commands.StartRecording: Role.OWNER,
-    engine_commands.StopRecording: Role.OWNER,
     # Who may come.
     requests.Dismiss: Role.OWNER,
     requests.Invite: Role.OWNER,
@@ -100,7 +96,6 @@ MESSAGES: Mapping[str, Role | None] = {
 
 STORES: Mapping[str, Role] = {
     "addresses": Role.OWNER,
-    "black_box": Role.OWNER,
     "journal": Role.OWNER,
     "links": Role.OWNER,
 }

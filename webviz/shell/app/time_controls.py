@@ -8,20 +8,10 @@ import time
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.data.names import new_path
-from webviz.engine.commands import (
-    Command,
-    OpenRecording,
-    Pause,
-    Play,
-    ReturnToLive,
-    SaveMemory,
-    Seek,
-    SetRate,
-    StartRecording,
-    StopRecording,
-)
+from webviz.engine.commands import Command, Pause, Play, ReturnToLive, Seek, SetRate
 from webviz.engine.state import State
 from webviz.shell.app.arguments import absolute, number
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
@@ -64,7 +54,7 @@ class TimeControls(ABC):
             Error: it cannot be written, a recording goes on, or a bag is played.
         """
         path = absolute(folder, "folder") if folder != "" else str(new_path("webviz"))
-        self.do(StartRecording(path))
+        self.do(commands.StartRecording(path))
         return Path(path)
 
     def stop_recording(self) -> None:
@@ -73,7 +63,7 @@ class TimeControls(ABC):
         Raises:
             Error: nothing is being recorded, or it could not be written.
         """
-        self.do(StopRecording())
+        self.do(commands.StopRecording())
 
     def save_last(self, seconds: float | None = None, folder: str | os.PathLike[str] = "") -> Path:
         """Write what is remembered, with the newest latched messages before it, to a new folder.
@@ -89,7 +79,7 @@ class TimeControls(ABC):
             Error: nothing is remembered, or the folder cannot be written.
         """
         path = absolute(folder, "folder") if folder != "" else str(new_path("webviz"))
-        self.do(SaveMemory(None if seconds is None else number(seconds, "seconds"), path))
+        self.do(commands.SaveMemory(None if seconds is None else number(seconds, "seconds"), path))
         return Path(path)
 
     # The past of live topics
@@ -119,7 +109,7 @@ class TimeControls(ABC):
         Raises:
             Error: it cannot be read, or the viewer was started with a bag.
         """
-        self.do(OpenRecording(absolute(path, "path")))
+        self.do(commands.OpenRecording(absolute(path, "path")))
 
     def return_to_live(self) -> None:
         """Show live topics as they are."""

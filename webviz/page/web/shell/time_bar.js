@@ -6,7 +6,6 @@ import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { record } from "../timeline/record.js";
 import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "./commands.js";
 import { duration, timeOfDay } from "./time_text.js";
@@ -55,7 +54,6 @@ export function build(place) {
     badge,
     elapsed.element,
     el("div", { class: "wv-space" }),
-    record(),
     ...buttonsOfFeatures,
     wall.element,
     wallElapsed.element,

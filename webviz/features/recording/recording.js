@@ -1,18 +1,20 @@
 // Buttons for live topics: record them, and save the last minute.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { provide } from "../shell/commands.js";
-import { blackBox } from "./black_box.js";
-import { duration } from "../shell/time_text.js";
-import { watch } from "../stores.js";
+import { needs } from "../../access.js";
+import { act } from "../../act.js";
+import { el, set, setText } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { provide } from "../../shell/commands.js";
+import { timeBarButton } from "../../shell/time_bar.js";
+import { duration } from "../../shell/time_text.js";
+import { watch } from "../../stores.js";
 
-/** @import {RunningRecording} from "../contents.js" */
+/** @import {RunningRecording} from "../../contents.js" */
+
+export const install = () => timeBarButton(buttons());
 
 /** The buttons; hidden for a bag. */
-export function record() {
+function buttons() {
   /** @type {RunningRecording | null | undefined} */
   let recording = null;
   let isLive = false;
@@ -34,7 +36,6 @@ export function record() {
     "div",
     { class: "wv-recorder", hidden: true },
     memory,
-    blackBox(),
     needs("StartRecording", start),
     needs("SaveMemory", save),
   );

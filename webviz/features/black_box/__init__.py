@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 import re
-import shutil
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
@@ -18,36 +16,44 @@ from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
-from webviz.api.rule import DOCTOR, Verdict
+from webviz.api.roles import Role
+from webviz.api.rule import DOCTOR
 from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
-from webviz.engine.parts.display_list import DisplayList
-from webviz.engine.parts.part import Core, Part
-from webviz.engine.parts.recording import new_folder
+from webviz.engine.commands import FileCommand, Sender
+from webviz.engine.commands.requests import Job
+from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core
+from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES
-from webviz.files.config import WatchRule
+from webviz.features.black_box.saved import (
+    FOLDER,
+    BlackBoxState,
+    BlackBoxStore,
+    SavedMoment,
+    black_box_store,
+    listed,
+)
+from webviz.features.recording import new_folder
+from webviz.files.config import Settings, WatchRule
 from webviz.files.config import nearest as nearest_name
 from webviz.sources import Subscriber, Subscription
-from webviz.sources.past_state import BlackBoxState, SavedMoment
-from webviz.sources.player import Player
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.recording import Entry, Recorder, Remembered
 from webviz.sources.recording.memory import MemoryHistory
 from webviz.sources.recording.recent import OVERHEAD
 
-FOLDER = "webviz_black_box"
-"""In the working folder."""
 BEFORE_S, AFTER_S = 60.0, 10.0
 """Time around the moment at which a rule fires that is saved, as far as it is remembered."""
 SETTLE_S = 3.0
 """Time after the first message of a display in which its status does not count: while a robot
 starts, transforms and other topics are still missing."""
-PARTS = "metadata.yaml", "*.mcap"
-"""Of a recording; either may be missing if it was cut off or has no messages."""
 MOMENT = "%Y-%m-%d_%H-%M-%S"
 GIGABYTE = 10**9
 LIMIT = "which is the limit. Delete recordings, or raise watch_limits.gigabytes."
@@ -68,31 +74,18 @@ class _Saving(msgspec.Struct):
     closed: Future[None] | None = None
 
 
-class BlackBoxPart(Part):
+class BlackBoxFeature(Feature):
     """Saves what led to a problem, and what came of it.
 
-    Args:
-        core: shared by all parts.
-        settings: have the rules.
-        player: has the memory; on a bag, which has none, no rule fires. Rules about displays wait
-            while the past is shown.
-        displays: those that are shown.
+    On a bag, which has no memory, no rule fires. Rules about displays wait while the past is shown.
     """
 
     name = "Black box"
+    module = "black_box.js"
 
-    def __init__(
-        self,
-        core: Core,
-        settings: SettingsPart,
-        player: Player,
-        displays: DisplayList,
-    ) -> None:
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._settings = settings
-        self._player = player
-        self._memory = player.memory
-        self._displays = displays
+        self._memory = core.player.memory
         self._heard: dict[str, float] = {}
         """By display, when its first message was noticed, in monotonic seconds."""
         self._observer = TopicObserver()
@@ -100,8 +93,6 @@ class BlackBoxPart(Part):
         self._subscriber = Subscriber()
         self._types: dict[str, list[str]] = {}
         """The last type of each topic of the rules, in a list."""
-        self._rows: Sequence[Row] = ()
-        self._verdicts: Sequence[Verdict] = ()
         self._saving: _Saving | None = None
         self._listing: Future[tuple[tuple[SavedMoment, ...], int]] | None = None
         self._saved: tuple[SavedMoment, ...] = ()
@@ -109,7 +100,7 @@ class BlackBoxPart(Part):
         """Bytes of the disk."""
         self._problem = ""
         if self._memory is not None:
-            player.inbox.read_along(lambda: self._observer.put)
+            core.player.inbox.read_along(lambda: self._observer.put)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics of the rules, as the first type of each that can be read."""
@@ -125,14 +116,13 @@ class BlackBoxPart(Part):
                 wanted[name] = Subscription(types[0], Topic(name))
         return self._subscriber.subscribe(wanted)
 
-    def look(self, rows: Sequence[Row], verdicts: Sequence[Verdict]) -> None:
-        """Take the displays of the last state, and what became of the rules."""
-        self._rows = rows
-        self._verdicts = verdicts
+    @property
+    def _settings(self) -> Settings:
+        return self.core.get(SettingsPart).settings
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the rules, and what is being saved."""
-        memory, settings = self._memory, self._settings.settings
+        memory, settings = self._memory, self._settings
         if memory is None:
             return
         if self._watcher.rules != settings.watch:
@@ -151,19 +141,38 @@ class BlackBoxPart(Part):
         }
         self._observer.observe([*wanted], leveled, paths)
         if self._listing is None:  # else it is not known yet how much may be saved
-            for rule in self._watcher.fired(self._observation(self._player.is_live)):
+            for rule in self._watcher.fired(self._observation(self.core.player.is_live)):
                 self._save(rule, memory)
         self._go_on(memory)
 
     def state(self) -> Mapping[str, Any]:
         """Return the recordings."""
-        if self._memory is None:
-            return {"black_box": None}
+        return {"black_box": None if self._memory is None else self._recordings()}
+
+    def _recordings(self) -> BlackBoxState:
         listing = self._listing
         if listing is not None and listing.done():
             self._listing = None
             self._saved, self._free = ((), 0) if listing.exception() else listing.result()
-        return {"black_box": BlackBoxState(self._saved, self._saving.title if self._saving else "")}
+        return BlackBoxState(self._saved, self._saving.title if self._saving else "")
+
+    @store(Role.OWNER)
+    def black_box(self, argument: str) -> BlackBoxStore | None:
+        """Return recordings that rules made, None without any rule or recording."""
+        box = None if self._memory is None else self._recordings()
+        return black_box_store(box, bool(self._settings.watch))
+
+    @command(Role.OWNER, FileCommand)
+    def open_recording(self, path: str, sender: Sender) -> Job[BagHistory]:
+        """Play a recording in the place of live topics, until `ReturnToLive`.
+
+        Args:
+            path: a file or folder. Browsers can choose only those of the black box.
+        """
+        place = Path(path)
+        if sender.browser is not None and place.absolute().parent != Path(FOLDER).absolute():
+            raise Error(f"A page can open only recordings in {FOLDER}.")
+        return self.core.get(PlaybackPart).open(place)
 
     def statuses(self) -> Mapping[str, Status]:
         """Reasons why nothing is saved, and rules that are about nothing."""
@@ -171,7 +180,7 @@ class BlackBoxPart(Part):
             return {"Black box": Status(Level.WARN, self._problem)}
         if self._memory is None:
             return {}
-        names = [row.name for row in self._rows]
+        names = [row.name for row in self.core.shown.rows]
         for rule in self._watcher.rules:
             watched = rule.condition.subject if rule.condition else rule.display
             is_display = watched != DOCTOR and not watched.startswith("/")
@@ -207,7 +216,7 @@ class BlackBoxPart(Part):
         settled = self._settled(now_s)
         for row in settled if is_live else ():  # else they are about the past
             displays[row.name] = max(displays.get(row.name, Level.OK), row.level)
-        starting = {row.name for row in self._rows} - {row.name for row in settled}
+        starting = {row.name for row in self.core.shown.rows} - {row.name for row in settled}
         rates, levels = self._observer.rates(now_s), self._observer.levels(now_s)
         for rule in self._watcher.rules:
             name = self._resolved(rule)
@@ -217,7 +226,7 @@ class BlackBoxPart(Part):
                 levels[rule.topic] = levels[name]
         kept = {
             each.rule.text: None if each.rule.subject in starting else each.holds
-            for each in (self._verdicts if is_live else ())
+            for each in (self.core.verdicts if is_live else ())
         }
         numbers = self._observer.numbers()
         return WatchedMoment(now_s, displays, rates, levels, numbers, kept)
@@ -226,7 +235,7 @@ class BlackBoxPart(Part):
         """Return the displays whose status counts, and the groups that contain some."""
         has_frames = bool(self.core.buffer.frames())
         heard: dict[str, float] = {}
-        for runner in self._displays.active():
+        for runner in self.core.get(DisplaysPart).list.active():
             received = has_frames if runner.has_received is None else runner.has_received
             if received or runner.id in self._heard:
                 heard[runner.id] = self._heard.get(runner.id, now_s)
@@ -234,7 +243,7 @@ class BlackBoxPart(Part):
         settled = {id_ for id_, at_s in heard.items() if now_s - at_s >= SETTLE_S}
         return [
             row
-            for row in self._rows
+            for row in self.core.shown.rows
             if row.id in settled or (row.type == type_name(DisplayGroup) and settled)
         ]
 
@@ -256,7 +265,7 @@ class BlackBoxPart(Part):
 
     def _excess(self, now: datetime) -> str:
         """Return the reason why no more may be saved; "" if more may."""
-        limits = self._settings.settings.watch_limits
+        limits = self._settings.watch_limits
         today = f"{now:{MOMENT}}".partition("_")[0]
         count = sum(each.path.name.startswith(today) for each in self._saved)
         if count >= limits.per_day:
@@ -269,7 +278,7 @@ class BlackBoxPart(Part):
 
     def _room(self) -> tuple[int, str]:
         """Return the bytes that may still be saved, and what bounds them."""
-        limit = round(self._settings.settings.watch_limits.gigabytes * GIGABYTE)
+        limit = round(self._settings.watch_limits.gigabytes * GIGABYTE)
         size, free = sum(each.size for each in self._saved), self._free
         left = f"its disk has {free / GIGABYTE:.1f} GB left. Make room, so that it can go on."
         return min(
@@ -287,7 +296,7 @@ class BlackBoxPart(Part):
         except (Error, OSError) as error:
             self._end(str(error))
             return
-        inbox = self._player.inbox
+        inbox = self.core.player.inbox
         if saving.recorder is None:
             inbox.read_along(lambda: self._recorder(saving, folder, memory).put)
         elif saving.closed is None and (
@@ -318,7 +327,7 @@ class BlackBoxPart(Part):
         self._list()
 
     def _list(self) -> None:
-        self._listing = in_thread(_listed)
+        self._listing = in_thread(listed)
         self._listing.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
 
 
@@ -331,14 +340,3 @@ def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:
         if size > max_bytes:
             return memory.recent.last(time.monotonic() - raw.arrived_s)
     return past
-
-
-def _listed() -> tuple[tuple[SavedMoment, ...], int]:
-    """Return the recordings in the folder, the newest first, and the free bytes of its disk."""
-    files = itertools.chain(*(Path(FOLDER).absolute().glob(f"*/{name}") for name in PARTS))
-    paths = {file.parent for file in files}
-    saved = tuple(
-        SavedMoment(path, sum(each.stat().st_size for each in path.iterdir()))
-        for path in sorted(paths, reverse=True)
-    )
-    return saved, shutil.disk_usage(Path.cwd()).free

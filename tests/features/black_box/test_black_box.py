@@ -18,11 +18,11 @@ from webviz.api.status import Level
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
 from webviz.engine.commands import Refresh
-from webviz.engine.parts import black_box
 from webviz.engine.state import State
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S
 from webviz.engine.watch.rules import REARM_S
+from webviz.features import black_box
 from webviz.files.config import ConfigError, WatchLimits, WatchRule, dump
 from webviz.files.opening import parse
 from webviz.sources import Offer, Publisher, Raw

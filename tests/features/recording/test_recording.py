@@ -11,10 +11,11 @@ from pathlib import Path
 import pytest
 from bench import Bench, benches
 
+from webviz.commands import SaveMemory, StartRecording, StopRecording
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder
-from webviz.engine.commands import SaveMemory, Sender, StartRecording, StopRecording
+from webviz.engine.commands import Sender
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw

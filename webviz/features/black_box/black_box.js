@@ -1,17 +1,20 @@
 // Recordings that the rules of the config made: a button with a menu, for the owner.
 
-import { onRole, self } from "../access.js";
-import { act } from "../act.js";
-import { copy } from "../clipboard.js";
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { openMenu } from "../shell/menu.js";
-import { toast } from "../shell/toasts.js";
-import { watch } from "../stores.js";
-import { savedText } from "./saved_text.js";
+import { onRole, self } from "../../access.js";
+import { act } from "../../act.js";
+import { copy } from "../../clipboard.js";
+import { el, set, setText } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { openMenu } from "../../shell/menu.js";
+import { timeBarButton } from "../../shell/time_bar.js";
+import { toast } from "../../shell/toasts.js";
+import { watch } from "../../stores.js";
+import { savedText } from "../../timeline/saved_text.js";
+
+export const install = () => timeBarButton(blackBox());
 
 /** The button; hidden while there are neither rules nor recordings. */
-export function blackBox() {
+function blackBox() {
   /** @type {[name: string, megabytes: number, path: string, command: string][]} */
   let saved = [];
   const label = el("span");

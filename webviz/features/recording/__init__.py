@@ -1,0 +1,307 @@
+"""The last minutes of live topics, and their recording to files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from webviz.api.errors import Error
+from webviz.api.roles import Role
+from webviz.api.status import Level, Status
+from webviz.data.names import new_path
+from webviz.data.recordings import RecordingError
+from webviz.data.recordings.folder_writing import RecordingFolder
+from webviz.data.words import counted, joined
+from webviz.engine.commands import FileCommand, Sender
+from webviz.engine.commands.requests import Job
+from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.part import Core
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.store import PageStore
+from webviz.files.config.model import MemorySettings
+from webviz.page.content.forms import sendable
+from webviz.sources.recording import Recorder, library
+from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
+
+MEGABYTE = 1_000_000
+NAMED = 4
+"""Topics that are named."""
+FROM_BAG = "A bag is a recording already. Copy its files."
+
+
+class MemoryState(msgspec.Struct, frozen=True):
+    """The memory of live topics.
+
+    Args:
+        seconds: since the oldest message.
+        size: bytes of all messages.
+        is_full: whether younger messages than wanted were forgotten for their size.
+        pinned: topics whose latched messages are kept although they are older.
+    """
+
+    seconds: float
+    size: int
+    is_full: bool = False
+    pinned: tuple[str, ...] = ()
+
+
+class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
+    """A recording of live topics that goes on.
+
+    Args:
+        path: of its folder.
+        seconds: since it began.
+        messages: that were written.
+        size: bytes of its files.
+        dropped: messages that the disk was too slow for.
+    """
+
+    path: Path
+    seconds: float
+    messages: int
+    size: int
+    dropped: int
+
+
+class RunningRecording(msgspec.Struct, frozen=True):
+    """The recording that goes on.
+
+    Args:
+        name: of its file.
+        seconds, megabytes: so far.
+        dropped: messages that are missing in it.
+    """
+
+    name: str
+    seconds: int
+    megabytes: float
+    dropped: int
+
+
+class RecordingStore(PageStore, frozen=True):
+    """The memory of live topics and their recording.
+
+    Args:
+        remembered: seconds and megabytes of the memory.
+        is_remembering: whether there is a memory.
+        about: sentences on the memory.
+        recording: None for none.
+    """
+
+    remembered: tuple[int, int]
+    is_remembering: bool
+    about: str
+    recording: RunningRecording | None
+
+
+class RecordingFeature(Feature):
+    """Remembers what arrives, and writes it to files; nothing of a bag."""
+
+    name = "Recording"
+    module = "recording.js"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self._memory = core.player.memory
+        self._recorder: Recorder | None = None
+        self._problem = ""
+        if (memory := self._memory) is not None:
+            core.player.inbox.read_along(lambda: memory.recent.put)
+
+    @property
+    def _bounds(self) -> MemorySettings:
+        return self.core.get(SettingsPart).settings.memory
+
+    def keep_up(self, commanded: bool) -> None:
+        """Follow the settings, and notice that a recording has ended by itself."""
+        if self._memory is not None:
+            bounds, recent = self._bounds, self._memory.recent
+            recent.seconds = bounds.seconds
+            recent.max_bytes = round(bounds.megabytes * MEGABYTE)
+            self._memory.recorded_channels.look()
+        if self._recorder is not None and self._recorder.problem:
+            self._problem = joined(self._recorder.problem, "The recording has ended.")
+            self._end(self._recorder)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the memory and the recording."""
+        memory = self._memory and self._remembered(self._memory)
+        return {"memory": memory, "recording": self._recorded()}
+
+    def _remembered(self, memory: MemoryHistory) -> MemoryState:
+        seconds, size = memory.recent.size()
+        return MemoryState(seconds, size, memory.recent.is_full, memory.recent.pinned())
+
+    def _recorded(self) -> RecordingState | None:
+        recorder = self._recorder
+        return recorder and RecordingState(
+            path=recorder.path,
+            seconds=recorder.seconds,
+            messages=recorder.messages,
+            size=recorder.bytes_written,
+            dropped=recorder.dropped,
+        )
+
+    @store()
+    def recording(self, argument: str) -> RecordingStore | None:
+        """Return the memory and the recording, None for a bag."""
+        memory = self._memory and self._remembered(self._memory)
+        return recording_store(memory, self._recorded(), self._bounds)
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Messages that are missing in the recording."""
+        if self._problem:
+            return {"Recording": Status(Level.ERROR, self._problem)}
+        if self._recorder is not None and self._recorder.dropped:
+            lost = counted(self._recorder.dropped, "message")
+            text = f"{lost} dropped, because the disk is too slow. Show fewer topics."
+            return {"Recording": Status(Level.WARN, text)}
+        return {}
+
+    def close(self) -> None:
+        """Complete the recording."""
+        self.core.player.inbox.readers = ()
+        if self._recorder is not None:
+            self._recorder.close()
+
+    def _end(self, recorder: Recorder) -> None:
+        """Let a recorder read no more."""
+        self._recorder = None
+        self.core.player.inbox.forget(recorder.put)
+
+    @command(Role.OWNER, FileCommand)
+    def start_recording(self, sender: Sender, path: str = "") -> Job[RecordingFolder]:
+        """Record all topics that are subscribed to, until `StopRecording`.
+
+        Args:
+            path: of a new folder; "" is one in the working folder, named by date and time.
+                Browsers cannot choose it.
+        """
+        memory, place = self._known(), _new_path(path, sender)
+        if self._recorder is not None:
+            raise Error(f"{self._recorder.path.name} is being recorded already. Stop it first.")
+
+        def then(folder: RecordingFolder) -> str:
+            now_ns = memory.live.now_ns()
+            latched = memory.recent.last(0.0).latched
+            past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
+            self._recorder = recorder = Recorder(folder, memory.recorded_channels, past)
+            self._problem = ""
+            self.core.player.inbox.read_along(lambda: recorder.put)
+            return f"Recording to {place.name}."
+
+        return Job(lambda: new_folder(place), then)
+
+    @command(Role.OWNER, FileCommand)
+    def stop_recording(self) -> Job[None]:
+        """Complete the recording."""
+        recorder = self._recorder
+        if recorder is None:
+            raise Error("Nothing is being recorded.")
+        self._end(recorder)
+
+        def then(_: None) -> str:
+            if recorder.problem:
+                raise Error(recorder.problem)
+            return f"Recorded {counted(recorder.messages, 'message')} to {recorder.path.name}."
+
+        return Job(recorder.close, then)
+
+    @command(Role.OWNER, FileCommand)
+    def save_memory(
+        self, sender: Sender, seconds: float | None = None, path: str = ""
+    ) -> Job[Recorder]:
+        """Write the last seconds of what was subscribed to, with the latched messages before them.
+
+        Args:
+            seconds: as far as they are remembered; None is everything.
+            path: as that of `StartRecording`.
+        """
+        memory, place = self._known(), _new_path(path, sender)
+        span_s = math.inf if seconds is None else seconds
+        if not span_s > 0:
+            raise Error(f"{span_s:g} s is not a valid time span. Give a positive number.")
+        past = memory.recent.last(span_s)
+        if not past.messages:
+            raise Error(
+                "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
+                "config."
+            )
+
+        def work() -> Recorder:
+            recorder = Recorder(new_folder(place), memory.recorded_channels, past.whole)
+            recorder.close()
+            return recorder
+
+        def then(recorder: Recorder) -> str:
+            if recorder.problem:
+                raise Error(recorder.problem)
+            (_, first), (_, last) = past.messages[0], past.messages[-1]
+            saved_s = (last.received_ns - first.received_ns) / 1e9
+            return f"Saved the last {saved_s:.0f} s to {recorder.path.name}."
+
+        return Job(work, then)
+
+    def _known(self) -> MemoryHistory:
+        if self._memory is None:
+            raise Error(FROM_BAG)
+        return self._memory
+
+
+def _new_path(path: str, sender: Sender) -> Path:
+    if path and sender.browser is not None:
+        raise Error("A page cannot choose the folder of a recording.")
+    return Path(path) if path else new_path("webviz")
+
+
+def new_folder(path: Path) -> RecordingFolder:
+    """Return a folder to record to; blocks.
+
+    Raises:
+        Error: it cannot be written.
+    """
+    try:
+        return RecordingFolder(path.absolute(), library())
+    except RecordingError as error:
+        raise Error(str(error)) from error
+
+
+def recording_store(
+    memory: MemoryState | None, recording: RecordingState | None, bounds: MemorySettings
+) -> RecordingStore | None:
+    """Return what pages show of a memory and a recording, None without a memory."""
+    if memory is None:
+        return None
+    running = None
+    if recording is not None:
+        running = RunningRecording(
+            name=str(sendable(recording.path.name)),
+            seconds=int(recording.seconds),
+            megabytes=round(recording.size / 1e6, 1),
+            dropped=recording.dropped,
+        )
+    return RecordingStore(
+        remembered=(int(memory.seconds), memory.size // 1_000_000),
+        is_remembering=bounds.seconds > 0 and bounds.megabytes > 0,
+        about=str(sendable(_about(memory, bounds))),
+        recording=running,
+    )
+
+
+def _about(memory: MemoryState, limits: MemorySettings) -> str:
+    """Sentences on the memory: its bounds, which of them is reached, and what is kept beyond."""
+    if not (limits.seconds and limits.megabytes):
+        return MEMORY_OFF
+    bound = f"the last {limits.seconds:g} s of the displayed topics, up to {limits.megabytes:g} MB"
+    sentences = [f"Remembers {bound}."]
+    if memory.is_full:
+        sentences.append("Older messages are dropped already: raise memory.megabytes.")
+    if pinned := memory.pinned:
+        names = ", ".join(pinned[:NAMED]) + (" …" if len(pinned) > NAMED else "")
+        sentences.append(f"Older latched messages and last transforms are kept of {names}.")
+    return " ".join(sentences)
