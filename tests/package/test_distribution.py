@@ -49,7 +49,8 @@ def files() -> list[Path]:
 
 
 def test_every_file_of_the_packages_is_installed() -> None:
-    patterns = re.search(r'DATA = "(.*)"', (ROOT / "setup.py").read_text(encoding="utf-8"))
+    setup = (ROOT / "setup.py").read_text(encoding="utf-8")
+    patterns = re.search(r'DATA = """([^"]*)"""', setup)
     assert patterns
     known = ["*.py", *patterns[1].split()]
     missing = [str(f) for f in files() if not any(fnmatch.fnmatch(f.name, p) for p in known)]

@@ -11,12 +11,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages import definitions
 from webviz.ros.types import message_class
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
-STORE.register(get_types_from_msg(DEFINITIONS[UPDATE], UPDATE))
+STORE.register(get_types_from_msg(definitions.text(UPDATE), UPDATE))
 
 
 def subscribe(
