@@ -78,7 +78,7 @@ DOORS: Mapping[str, Door] = {
     ),
     "texts of others in YAML": Door(("yaml texts",), ("webviz/data/plain_yaml.py",)),
     "names in terminals": Door(("terminals",), ("webviz/shell/cli/*",)),
-    "maps": Door(("files", "yaml texts"), ("webviz/data/map_file.py", "sim/webviz_sim/plan.py")),
+    "maps": Door(("files", "yaml texts"), ("webviz/data/map_file.py",)),
     "tiles": Door(("tiles", "tile addresses"), ("webviz/data/tiles/*",)),
     "pages": Door(
         (
