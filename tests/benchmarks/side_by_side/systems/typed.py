@@ -25,7 +25,7 @@ def subscribe(
     """Call `callback(topic, message)` for each message.
 
     tf2_msgs and map_msgs are not on PyPI. Where such a package is missing the message comes raw and
-    rosbags decodes it, which takes about as long as rclpy's own conversion (bench_messages.py).
+    rosbags decodes it, which takes about as long as rclpy's own conversion.
     """
     package, _, name = kind.split("/")
     try:
