@@ -22,19 +22,15 @@ class _Buffer(msgspec.Struct, frozen=True):
         width: size of its numbers in bytes if these are shuffled, else 1.
         rows: how many points it has, 0 if it is not of a cloud.
         kind: of buffers that are alike, and compressed side by side.
-        is_column: whether it has values of a cloud that are left out first.
     """
 
     data: memoryview
     width: int
     rows: int = 0
     kind: str = ""
-    is_column: bool = False
 
-    def packed(self, every: int, has_columns: bool) -> bytes:
+    def packed(self, every: int) -> bytes:
         """Return the bytes as they are compressed, of a cloud with one of `every` points."""
-        if self.is_column and not has_columns:
-            return b""
         flat = np.frombuffer(self.data, np.uint8)
         if self.rows and every > 1:
             flat = flat.reshape(self.rows, -1)[chosen(self.rows, every)].ravel()
@@ -50,7 +46,6 @@ class Buffers:
         self._all: list[_Buffer] = []
         self.size = 0
         """Bytes before compression."""
-        self.has_columns = False
 
     def add(
         self,
@@ -58,24 +53,20 @@ class Buffers:
         dtype: str = "",
         rows: int = 0,
         kind: str = "",
-        is_column: bool = False,
     ) -> int:
         """Add an array or bytes; its number."""
         view = memoryview(data)
         item = np.dtype(dtype).itemsize if dtype else 1
         width = item if item > 1 and view.nbytes >= SHUFFLED_BYTES else 1
-        self._all.append(_Buffer(view, width, rows, kind, is_column))
-        self.has_columns |= is_column
+        self._all.append(_Buffer(view, width, rows, kind))
         self.size += view.nbytes
         return len(self._all) - 1
 
-    def packed(
-        self, every: int, has_columns: bool = True
-    ) -> tuple[list[tuple[int, int, int]], bytes]:
+    def packed(self, every: int) -> tuple[list[tuple[int, int, int]], bytes]:
         """Start, size and width of each, and all of them."""
         whole, index = bytearray(), [(0, 0, 1)] * len(self._all)
         for number, buffer in sorted(enumerate(self._all), key=lambda each: each[1].kind):
-            data = buffer.packed(every, has_columns)
+            data = buffer.packed(every)
             whole += bytes(-len(whole) % ALIGNMENT)
             index[number] = len(whole), len(data), buffer.width
             whole += data

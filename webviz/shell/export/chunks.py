@@ -10,11 +10,9 @@ from typing import Any
 
 import msgspec
 
-from webviz.engine.pipeline.selectable import ItemColumns
 from webviz.scene.adapter.tape import SceneMessage
 from webviz.server.sending.outbox import BULK_BYTES
 from webviz.shell.export.buffers import ALIGNMENT, Buffers
-from webviz.shell.export.columns import encoded
 
 LEVEL = 9
 """Of compression: a twentieth smaller than the usual one, for half a second a minute of a run."""
@@ -87,12 +85,6 @@ class TapeChunk(msgspec.Struct):
         self.json_bytes += len(bytes(value))
         self.values.append((kind, value))
 
-    def add_columns(self, kind: str, columns: ItemColumns) -> None:
-        """Add the values of the points of a cloud; those of a kind are compressed side by side."""
-        value = msgspec.Raw(encoded(columns, kind, self.buffers))
-        self.json_bytes += len(bytes(value))
-        self.values.append((kind, value))
-
     def _with_shared(self, column: bytes) -> msgspec.Raw:
         """Return a column with the numbers of its items."""
         numbers: list[int] = []
@@ -108,14 +100,13 @@ class TapeChunk(msgspec.Struct):
         """Add a picture of a pane as pages receive it."""
         self.pictures.append(self.buffers.add(data))
 
-    def packed(self, every: int = 1, has_columns: bool = True) -> bytes:
+    def packed(self, every: int = 1) -> bytes:
         """Return the chunk as the page reads it: gzip of JSON's length, the JSON and the arrays.
 
         Args:
             every: of how many points of large clouds one is kept.
-            has_columns: whether the values of these points are kept.
         """
-        index, arrays = self.buffers.packed(every, has_columns)
+        index, arrays = self.buffers.packed(every)
         order = sorted(range(len(self.values)), key=lambda number: self.values[number][0])
         places = {number: place for place, number in enumerate(order)}
         text = msgspec.json.encode(
