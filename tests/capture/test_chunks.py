@@ -9,8 +9,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from webviz.shell.export.buffers import Buffers
-from webviz.shell.export.chunks import SHARED_BYTES, TapeChunk
+from webviz.shell.export.chunks import SHARED_BYTES, Buffers, TapeChunk
 
 GZIP = 31
 

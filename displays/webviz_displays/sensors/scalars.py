@@ -1,4 +1,4 @@
-"""Base of the displays of one measured number: a coloured point, with RViz's properties."""
+"""Displays of one measured number: a coloured point, with RViz's properties."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from webviz import ColorScale, Context, Details, Hit, Pose, Prop, Sample
+from webviz import ColorScale, Context, Details, Hit, Input, Pose, Prop, Sample, Topic
 from webviz_displays.shared.colors import RAINBOW, ramp
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.shared.opaque import opaque
@@ -84,3 +84,60 @@ class ScalarDisplay(PointStyle):
 
     def _amount(self, value: float) -> str:
         return f"{value:.6g} {self.unit}".rstrip()
+
+
+class FluidPressure(ScalarDisplay):
+    """A pressure of air or water, as the colour of a point where its sensor is."""
+
+    rviz = "rviz_default_plugins/FluidPressure"
+    quantity: ClassVar[str] = "fluid_pressure"
+    unit: ClassVar[str] = "Pa"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/FluidPressure"), Prop(help="Topic of the measurements.")
+    ] = Topic("/pressure")
+    min_intensity: Annotated[float, LOWEST] = 98_000.0
+    max_intensity: Annotated[float, HIGHEST] = 105_000.0
+
+
+class Illuminance(ScalarDisplay):
+    """Brightness as the colour of a point at its sensor."""
+
+    rviz = "rviz_default_plugins/Illuminance"
+    quantity: ClassVar[str] = "illuminance"
+    unit: ClassVar[str] = "lx"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/Illuminance"), Prop(help="Topic of the measurements.")
+    ] = Topic("/illuminance")
+    min_intensity: Annotated[float, LOWEST] = 0.0
+    max_intensity: Annotated[float, HIGHEST] = 1000.0
+
+
+class RelativeHumidity(ScalarDisplay):
+    """A humidity from 0 to 1, as the colour of a point where its sensor is."""
+
+    rviz = "rviz_default_plugins/RelativeHumidity"
+    quantity: ClassVar[str] = "relative_humidity"
+    unit: ClassVar[str] = ""
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/RelativeHumidity"), Prop(help="Topic of the measurements.")
+    ] = Topic("/humidity")
+    min_intensity: Annotated[float, LOWEST] = 0.0
+    max_intensity: Annotated[float, HIGHEST] = 1.0
+
+
+class Temperature(ScalarDisplay):
+    """A temperature, as the colour of a point where its sensor is."""
+
+    rviz = "rviz_default_plugins/Temperature"
+    quantity: ClassVar[str] = "temperature"
+    unit: ClassVar[str] = "°C"
+
+    topic: Annotated[
+        Topic, Input("sensor_msgs/msg/Temperature"), Prop(help="Topic of the measurements.")
+    ] = Topic("/temperature")
+    invert_rainbow: InvertRainbow = True
+    min_intensity: Annotated[float, LOWEST] = 0.0
+    max_intensity: Annotated[float, HIGHEST] = 100.0

@@ -1,17 +1,23 @@
-"""The simulated robot of `webviz demo`, in its own process."""
+"""The configs of `webviz demo`, and its simulated robots, which run in a process of their own."""
 
 import contextlib
 import importlib.util
 import os
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop, kill
 from webviz.shell.ros_source import NO_ROS
 
+DEMO, FLEET = (Path(__file__).with_name(name) for name in ("demo.yaml", "fleet.yaml"))
+_NO_ROBOTS = "robots: []"
+MAX_WITH_TOOLS = 8
+"""Tools of more robots would push the others out of the toolbar."""
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 ONLY_LOCAL = (
     "webviz: only ROS nodes of this machine with the same DDS see the demo; "
@@ -19,6 +25,23 @@ ONLY_LOCAL = (
 )
 SPARE_S = 0.5
 """Time that the program keeps for itself when the simulator has to be killed."""
+
+
+@contextlib.contextmanager
+def standard_config(robots: int) -> Iterator[Path]:
+    """Provide the file of a config for so many robots, during the block."""
+    if robots == 1:
+        yield DEMO
+        return
+    names = ", ".join(f"robot{number}" for number in range(1, robots + 1))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, FLEET.name)
+        shown, _, tools = FLEET.read_text().partition("tools:\n")
+        if robots > MAX_WITH_TOOLS:
+            some = range(1, MAX_WITH_TOOLS + 1)
+            tools = "".join(tools.replace("{robot}", f"robot{number}") for number in some)
+        path.write_text(shown.replace(_NO_ROBOTS, f"robots: [{names}]") + "tools:\n" + tools)
+        yield path
 
 
 @contextlib.contextmanager

@@ -1,14 +1,17 @@
-"""Base of the displays of velocities and accelerations, with RViz's properties."""
+"""Displays of velocities and accelerations, with RViz's properties."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz import Color, Prop, Remedy
+from webviz import Color, Context, Input, Prop, Remedy, Sample, Topic
 from webviz.data import messages
+from webviz_displays.shared.frame_names import frame_of
+from webviz_displays.shared.history import HistoryLength
 from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 
 
@@ -56,3 +59,49 @@ class MotionDisplay(VectorDisplay):
             text = "Hide Small Values hides arrows that are not longer than Arrow Width."
             return text, Remedy("hide_small_values", False, "Show small values")
         return super().why_hidden()
+
+
+class Twist(MotionDisplay):
+    """A velocity without a header, such as a command for a robot's base.
+
+    Its message names no frame, so it is drawn at the origin of the reference frame, and moves with
+    it. Only the newest is shown, because nothing says where the former ones belong.
+    """
+
+    topic: Annotated[
+        Topic, Input("geometry_msgs/msg/Twist"), Prop(help="Topic of the velocities.")
+    ] = Topic("/cmd_vel")
+    reference_frame: Annotated[
+        str, Prop(widget="frame", help="Frame in which the velocity is given.")
+    ] = "base_link"
+
+    def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
+        """Draw the newest velocity, at the origin of the reference frame."""
+        if samples:
+            group = ctx.follow(frame_of(self.reference_frame))
+            self.draw_vectors(samples, (0.0, 0.0, 0.0), group, ctx)
+
+
+class TwistStamped(MotionDisplay):
+    """A linear and an angular velocity, drawn at the origin of their frame."""
+
+    rviz = "rviz_default_plugins/TwistStamped"
+    field = "twist"
+
+    topic: Annotated[
+        Topic, Input("geometry_msgs/msg/TwistStamped"), Prop(help="Topic of the velocities.")
+    ] = Topic("/twist")
+    history_length: HistoryLength = 1
+
+
+class AccelStamped(MotionDisplay):
+    """A linear and an angular acceleration, drawn at the origin of their frame."""
+
+    rviz = "rviz_default_plugins/AccelStamped"
+    units = ("m/s²", "rad/s²")
+    field = "accel"
+
+    topic: Annotated[
+        Topic, Input("geometry_msgs/msg/AccelStamped"), Prop(help="Topic of the accelerations.")
+    ] = Topic("/accel")
+    history_length: HistoryLength = 1
