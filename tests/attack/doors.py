@@ -72,7 +72,6 @@ DOORS: Mapping[str, Door] = {
             "webviz/engine/parts/files.py",
             "webviz/files/sessions.py",
             "webviz/data/working_folder.py",
-            "webviz/shell/cli/checking.py",
             "webviz/shell/cli/convert.py",
         ),
     ),

@@ -1,4 +1,4 @@
-"""Base of the displays of nvblox."""
+"""The displays of nvblox: meshes, and layers of voxels."""
 
 from __future__ import annotations
 
@@ -7,8 +7,23 @@ from collections.abc import Sequence
 from typing import Annotated, ClassVar
 
 import msgspec
+import numpy as np
 
-from webviz import Context, Display, Lookback, Node, Prop, Remedy, Sample
+from webviz import (
+    Context,
+    Details,
+    Display,
+    Hit,
+    Input,
+    Instances,
+    Lookback,
+    Mesh,
+    Node,
+    Prop,
+    Remedy,
+    Sample,
+    Topic,
+)
 from webviz.data.words import counted
 from webviz_displays.nvblox.layer import Key, Layer, MapBlock, regions
 from webviz_displays.shared.geometry import FARTHEST
@@ -101,3 +116,63 @@ class NvbloxDisplay(Display):
             ctx.warn("Blocks", "All blocks are above Ceiling Height. Raise it.", remedy)
         else:
             ctx.ok("Blocks", f"{shown} of {layer.block_m:g} m.")
+
+
+class NvbloxMesh(NvbloxDisplay):
+    """The surfaces that nvblox reconstructs, in the colours of its cameras."""
+
+    rviz = "nvblox_rviz_plugin/NvbloxMesh"
+    noun: ClassVar[str] = "triangle"
+    most: ClassVar[int] = 1_000_000
+
+    topic: Annotated[Topic, Input("nvblox_msgs/msg/Mesh"), Prop(help="Topic of the meshes.")] = (
+        Topic("/nvblox_node/mesh")
+    )
+
+    def size(self, block: MapBlock) -> int:
+        """Its triangles."""
+        return len(block.faces)
+
+    def node(self, blocks: Sequence[MapBlock], layer: Layer) -> Mesh:
+        """One mesh."""
+        starts = np.cumsum([0, *(len(block.points) for block in blocks)], dtype=np.uint32)
+        faces = [block.faces + start for block, start in zip(blocks, starts, strict=False)]
+        colors = np.concatenate([block.colors for block in blocks])
+        opaque = np.full((len(colors), 1), 255, np.uint8)
+        return Mesh(
+            np.concatenate([block.points for block in blocks]),
+            np.concatenate(faces).astype(np.uint32),
+            (255, 255, 255),
+            colors=np.hstack((colors, opaque)),
+        )
+
+
+class NvbloxVoxelBlockLayer(NvbloxDisplay):
+    """The voxels of a layer of nvblox, such as obstacles, people or colours."""
+
+    rviz = "nvblox_rviz_plugin/NvbloxVoxelBlockLayer"
+    noun: ClassVar[str] = "voxel"
+    most: ClassVar[int] = 200_000
+
+    topic: Annotated[
+        Topic, Input("nvblox_msgs/msg/VoxelBlockLayer"), Prop(help="Topic of the voxels.")
+    ] = Topic("/nvblox_node/color_layer")
+
+    def size(self, block: MapBlock) -> int:
+        """Its voxels."""
+        return len(block.points)
+
+    def node(self, blocks: Sequence[MapBlock], layer: Layer) -> Instances:
+        """Return a box for each voxel."""
+        centers = np.concatenate([block.points for block in blocks])
+        return Instances(
+            centers,
+            np.full(centers.shape, layer.voxel_m, np.float32),
+            np.concatenate([block.colors for block in blocks]),
+            is_data=True,
+        )
+
+    def inspect(self, hit: Hit, ctx: Context) -> Details | None:
+        """Where a voxel is, and its edge."""
+        layer: Layer = hit.sample.message
+        return Details("Voxel", {"Edge": f"{layer.voxel_m:g} m"})
