@@ -93,7 +93,7 @@ check: $(VENV)/ready-to-check
 	@NODE_OPTIONS=--max-semi-space-size=256 $(VENV)/bin/basedpyright
 
 # ARGS="--scenes D --seconds 3 --rounds 1" for a quick look.
-bench: $(VENV)/ready-to-bench
+bench: $(VENV)/ready-to-test
 	@PYTHONPATH=tests/benchmarks:tests/support $(VENV)/bin/python -m side_by_side $(ARGS)
 
 # ARGS="--minutes 30" for half an hour instead of ten minutes.
@@ -171,7 +171,7 @@ $(VENV)/ready-to-check: $(VENV)/ready-to-test tests/javascript/package-lock.json
 		echo "npm failed to fetch the packages in tests/javascript: read its last lines above (it needs the network)." >&2; exit 1; }
 	@touch $@
 
-# mutants, release and bench.
+# mutants and release.
 $(VENV)/ready-to-%: $(VENV)/ready-to-test
 	@$(call add,$(TESTS)$(comma)$*)
 	@touch $@

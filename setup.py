@@ -11,7 +11,9 @@ FOLDERS = {
     "webviz_urdf": "urdf/webviz_urdf",
     "webviz_sim": "sim/webviz_sim",
 }
-DATA = "py.typed *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.d.ts *.css *.txt *.html"
+DATA = """
+    py.typed *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.d.ts *.css *.txt *.html
+    *.msg *.srv *.action"""
 
 
 def files(folder: str, *patterns: str) -> list[str]:

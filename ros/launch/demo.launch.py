@@ -14,10 +14,7 @@ SHARE = Path(get_package_share_directory("webviz"))
 ARGUMENTS = {
     "config": ("", "Config to show, YAML or .rviz; empty: the template."),
     "template": (str(SHARE / "config" / "demo.yaml"), "Config to start with, never overwritten."),
-    "world": (
-        "",
-        "Map to drive in, a yaml for map_server or an SVG plan; empty: as the parameters say.",
-    ),
+    "world": ("", "Map to drive in, a yaml for nav2's map_server; empty: as the parameters say."),
     "robot": ("", "URDF of the robot; empty: that of the parameters."),
     "port": ("8080", "Port of the page; 0 picks a free one."),
     "use_sim_time": ("false", "Let the simulator publish /clock, and the viewer follow it."),

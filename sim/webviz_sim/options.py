@@ -55,7 +55,7 @@ FAULT = "fault_"
 OPTIONS = {
     "world": Option(
         "",
-        "Map to drive in: a yaml for map_server, or an SVG plan; empty: the bundled building.",
+        "Map to drive in: a yaml for nav2's map_server; empty: the bundled building.",
         read_only=True,
     ),
     "start_pose": Option(

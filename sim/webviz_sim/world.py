@@ -1,4 +1,4 @@
-"""The world: an occupancy image and its YAML, read as by nav2's map_server, or an SVG plan."""
+"""The world: an occupancy image and its YAML, read as by nav2's map_server."""
 
 import math
 from dataclasses import dataclass
@@ -8,13 +8,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.map_file import FREE, MapFileError, occupancy, read_map
-from webviz_sim import plan
+from webviz.data.map_file import FREE, MapFileError, read_map
 from webviz_sim.pose import Pose2D
 
 # Occupancies at which a cell counts as occupied or free by map_saver's defaults.
 OCCUPIED_FROM, FREE_BELOW = 65, 25
-PLAN_RESOLUTION = 0.05  # m, the edge of a plan's cells
 
 
 class WorldError(ValueError):
@@ -88,34 +86,16 @@ class World:
 
 
 def load_world(path: str | Path) -> World:
-    """Load a map or a plan.
+    """Load a map.
 
     Args:
-        path: The yaml file; `image` in it is relative to the yaml's folder. A file that ends in
-            .svg is a plan, whose lower left corner is the origin of the map.
+        path: The yaml file; `image` in it is relative to the yaml's folder.
 
     Raises:
         WorldError: A file is missing or unreadable, or an entry is missing or invalid.
     """
-    path = Path(path)
-    if path.suffix.lower() == ".svg":
-        return _load_plan(path)
     try:
-        file = read_map(path)
+        file = read_map(Path(path))
     except MapFileError as error:
         raise WorldError(str(error)) from None
     return World(file.cells, file.resolution, Pose2D(*file.origin))
-
-
-def _load_plan(path: Path) -> World:
-    try:
-        shade = plan.draw(path, PLAN_RESOLUTION)
-    except OSError as error:
-        raise WorldError(f"Cannot read the plan {path}: {error.strerror}.") from None
-    except plan.PlanError as error:
-        raise WorldError(f"Invalid plan {path}: {error}.") from None
-    # The thresholds of map_saver.
-    cells = occupancy(
-        shade, None, mode="trinary", negate=False, occupied_thresh=0.65, free_thresh=0.25
-    )
-    return World(np.ascontiguousarray(cells[::-1]), PLAN_RESOLUTION, Pose2D())

@@ -72,13 +72,12 @@ DOORS: Mapping[str, Door] = {
             "webviz/engine/parts/files.py",
             "webviz/files/sessions.py",
             "webviz/data/working_folder.py",
-            "webviz/shell/cli/checking.py",
             "webviz/shell/cli/convert.py",
         ),
     ),
     "texts of others in YAML": Door(("yaml texts",), ("webviz/data/plain_yaml.py",)),
     "names in terminals": Door(("terminals",), ("webviz/shell/cli/*",)),
-    "maps": Door(("files", "yaml texts"), ("webviz/data/map_file.py", "sim/webviz_sim/plan.py")),
+    "maps": Door(("files", "yaml texts"), ("webviz/data/map_file.py",)),
     "tiles": Door(("tiles", "tile addresses"), ("webviz/data/tiles/*",)),
     "pages": Door(
         (

@@ -1,30 +1,26 @@
 """Opening, seeking and playing of a large bag, next to plain readers, in one run.
 
-    python tests/benchmarks/bench_bags.py ../shared/data/bags/macfirst_floor_take_2 --gigabytes 5 \\
-        --rerun ~/rerun/bin/python    # with `pip install "rerun-sdk[catalog]"`
+    python tests/benchmarks/bench_bags.py BAG --gigabytes 5
 
 The large bag is the given one, repeated at later times with its stamps, in a temporary folder that
 is deleted at the end. A seek of webviz takes until the frame loop has drawn every display of the
 bag; the link to a browser is not included. The plain readers only fetch, for the same times, all
 messages of the last second: no map of an hour ago, and no transforms. They take turns with webviz.
-Rerun reads no MCAP file in place: it is converted first, and the queries are of its catalog server.
 """
 
 from __future__ import annotations
 
 import argparse
-import functools
 import random
 import resource
 import statistics
-import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from pathlib import Path
 
-from long_bag import SECOND, drive_of, write_db3, write_mcap
+from long_bag import SECOND, drive_of, write_mcap
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
@@ -58,7 +54,7 @@ def memory_mb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def measure(path: Path, count: int, rerun: Path | None = None) -> None:
+def measure(path: Path, count: int) -> None:
     """Print what one bag takes."""
     print(f"\n{path.name}, {path.stat().st_size / 1e9:.1f} GB      median      p99  longest   ms")
     opened: list[BagViewer] = []
@@ -70,10 +66,8 @@ def measure(path: Path, count: int, rerun: Path | None = None) -> None:
         times = [chance.uniform(0, duration_s) for _ in range(count)]
         readers = {
             "webviz: seek": lambda at_s: viewer.do(Seek(at_s)),
-            **{name: make(path) for name, make in READERS.items() if fits(name, path)},
+            **{name: make(path) for name, make in READERS.items()},
         }
-        if rerun and path.suffix == ".mcap":
-            readers["rerun: 1 s of messages"] = by_rerun(path, rerun)
         found: dict[str, list[float]] = {name: [] for name in readers}
         for at_s in times:
             for name, read in readers.items():
@@ -88,11 +82,6 @@ def measure(path: Path, count: int, rerun: Path | None = None) -> None:
         played = timed(lambda: viewer.play_to(at_s + PLAYED_S))
         print(f"webviz plays {PLAYED_S / (played / 1e3):.0f} times as fast as recorded", end=", ")
         print(f"{memory_mb():.0f} MB at most, plain readers included")
-
-
-def fits(name: str, path: Path) -> bool:
-    """Return whether a reader reads such a file."""
-    return path.suffix == ".mcap" or not name.startswith("mcap")
 
 
 def by_mcap(path: Path) -> Callable[[float], object]:
@@ -139,38 +128,6 @@ def by_recording(path: Path) -> Callable[[float], object]:
     return read
 
 
-def by_rerun(path: Path, python: Path) -> Callable[[float], object]:
-    """Read by Rerun, in another process.
-
-    Args:
-        path: of the MCAP file; what it is converted to stays beside it.
-        python: with Rerun and its catalog.
-    """
-    recording = open_recording(path)
-    assert recording.span_ns is not None
-    start_ns = recording.span_ns[0]
-    recording.close()
-    converted = path.with_suffix(".rrd")
-    command = [python.with_name("rerun"), "mcap", "convert", path, "-o", converted]
-    convert = functools.partial(subprocess.run, command, check=True, capture_output=True)
-    told("rerun: convert", [timed(convert)])
-    reader = subprocess.Popen(
-        [python, Path(__file__).with_name("rerun_reader.py"), converted],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-
-    def read(at_s: float) -> object:
-        assert reader.stdin is not None
-        assert reader.stdout is not None
-        print(start_ns + round(at_s * SECOND), file=reader.stdin, flush=True)
-        return int(reader.stdout.readline())
-
-    told("rerun: open and first query", [timed(lambda: read(1.0))])
-    return read
-
-
 READERS: dict[str, Callable[[Path], Callable[[float], object]]] = {
     "webviz's reader: 1 s of messages": by_recording,
     "mcap library: 1 s of messages": by_mcap,
@@ -184,15 +141,12 @@ def main() -> None:
     parser.add_argument("bag", type=Path)
     parser.add_argument("--gigabytes", type=float, default=5.0)
     parser.add_argument("--seeks", type=int, default=100)
-    parser.add_argument("--rerun", type=Path, help="Python with rerun-sdk[catalog]")
     options = parser.parse_args()
     drive = drive_of(options.bag)
     with tempfile.TemporaryDirectory(prefix="webviz-bench-") as folder:
-        for write, name in ((write_mcap, "large.mcap"), (write_db3, "large.db3")):
-            path = Path(folder) / name
-            write(path, drive, round(options.gigabytes * 1e9))
-            measure(path, options.seeks, options.rerun)
-            path.unlink()
+        path = Path(folder) / "large.mcap"
+        write_mcap(path, drive, round(options.gigabytes * 1e9))
+        measure(path, options.seeks)
 
 
 if __name__ == "__main__":

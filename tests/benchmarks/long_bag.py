@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
-import sqlite3
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -102,12 +100,10 @@ def _stamps_in(type_name: str, data: bytes) -> list[int]:
     return [4] if peek_header(type_name, data) else []
 
 
-def write_mcap(
-    path: Path, drive: Drive, size: int, compression: CompressionType = CompressionType.NONE
-) -> None:
+def write_mcap(path: Path, drive: Drive, size: int) -> None:
     """Write an MCAP file, as `ros2 bag record` does."""
     with path.open("wb") as file:
-        writer = Writer(file, chunk_size=CHUNK, compression=compression)
+        writer = Writer(file, chunk_size=CHUNK, compression=CompressionType.NONE)
         writer.start("ros2", "a benchmark")
         schemas: dict[str, int] = {}
         numbers: dict[RecordedChannel, int] = {}
@@ -123,37 +119,3 @@ def write_mcap(
                 )
             writer.add_message(numbers[channel], stamp, data, stamp)
         writer.finish()
-
-
-def write_db3(path: Path, drive: Drive, size: int) -> None:
-    """Write a db3 file with rosbag2's tables, and the metadata that webviz reads beside it."""
-    db = sqlite3.connect(path)
-    db.executescript(
-        "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
-        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
-        " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
-        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL,"
-        " timestamp INTEGER NOT NULL, data BLOB NOT NULL);"
-        "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
-    )
-    channels = dict.fromkeys([*(each[0] for each in drive.once), *drive.channels])
-    numbers = {channel: number for number, channel in enumerate(channels, 1)}
-    db.executemany(
-        "INSERT INTO topics VALUES (?, ?, ?, 'cdr', ?)",
-        [(number, c.topic, c.type, c.profiles) for c, number in numbers.items()],
-    )
-    db.executemany(
-        "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)",
-        ((numbers[c], stamp, data) for c, stamp, data in drive.repeated(size)),
-    )
-    db.commit()
-    counts = db.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id").fetchall()
-    db.close()
-    names = {number: channel.topic for channel, number in numbers.items()}
-    topics = [
-        {"topic_metadata": {"name": names[number]}, "message_count": count}
-        for number, count in counts
-    ]
-    information = {"relative_file_paths": [path.name], "topics_with_message_count": topics}
-    text = json.dumps({"rosbag2_bagfile_information": information})
-    path.with_name("metadata.yaml").write_text(text)

@@ -9,13 +9,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from webviz.api.picking import Column, Columns
-from webviz.engine.pipeline.selectable import ItemColumns
-from webviz.scene.adapter.tape import SceneChange
-from webviz.shell.export.buffers import Buffers
-from webviz.shell.export.chunks import SHARED_BYTES, TapeChunk
-from webviz.shell.export.limit import RESERVE, SizeLimit
-from webviz.shell.export.tape import Tape, TapeFrame
+from webviz.shell.export.chunks import SHARED_BYTES, Buffers, TapeChunk
 
 GZIP = 31
 
@@ -68,24 +62,3 @@ def test_arrays_that_are_alike_are_compressed_side_by_side() -> None:
             shuffled = np.frombuffer(packed[start : start + size], np.uint8).reshape(width, -1)
             assert np.array_equal(np.ascontiguousarray(shuffled.T).view("<f4").ravel(), array)
     assert sizes["scan", "trail"] < 0.95 * sizes["", ""]
-
-
-def test_values_of_large_clouds_are_left_out_before_anything_else() -> None:
-    chance = np.random.default_rng(0)
-    columns = Columns("Point {}", {"intensity": Column(chance.random(50_000))})
-    key = "values:a", "group\nkey\n#columns"
-    frames = [
-        TapeFrame(at_s, at_s, SceneChange([], ()), {}, {key: ItemColumns(None, columns)}, {})
-        for at_s in (0.0, 1.0)
-    ]
-    packed: list[bytes] = []
-    for room in (2_000_000, 50_000):
-        limit = SizeLimit(RESERVE + room, 1.0)
-        tape = Tape(lambda data: packed.append(data) or 0, limit, 0)
-        for frame in frames:
-            tape.add(frame)
-        tape.finish()
-        left_out = ["Values of points of large clouds are missing between 0.0 and 1.0 s."]
-        assert limit.notes() == (left_out if room == 50_000 else [])
-    whole, without = packed
-    assert len(without) < 1000 < 600_000 < len(whole)

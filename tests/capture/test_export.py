@@ -43,7 +43,6 @@ from webviz.shell.pictures.browser_scripts import (
 )
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.testing import BagViewer, header
-from webviz_displays.map import Map
 
 TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 420}
@@ -257,30 +256,24 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     page.keyboard.press("Escape")
 
 
-def test_a_cell_of_the_map_has_its_value(file: OpenFile, folder: Path) -> None:
-    with contextlib.closing(BagViewer(folder / "run", CONFIG)) as viewer:
-        viewer.do(Seek(2.0))
-        (runner,) = [each for each in viewer.loop.runners() if type(each.display) is Map]
-        values = runner._renderer._state.grid.tiles[0, 0]
+NOT_IN_THE_FILE = "not in the file. Open the bag in webviz to see them."
+
+
+def test_a_map_is_selected_without_the_values_of_its_cells(file: OpenFile) -> None:
     file.seek(2.0)
     page = file.page
     page.keyboard.press("s")
     (left, top, width, _), (columns, rows) = page.evaluate(BOX), page.evaluate(CANVAS)
     # Next to what the robot publishes, and in the middle of the picture.
-    places = {
-        (column, row): page.evaluate(PIXEL, [column + 0.3, row + 0.6, 0.0])
+    places = (
+        page.evaluate(PIXEL, [column + 0.3, row + 0.6, 0.0])
         for column, row in itertools.product(range(4), (1, 2, 3))
-    }
-    (column, row), (x, y) = min(
-        places.items(), key=lambda each: math.dist(each[1], (columns / 2, rows / 2))
     )
+    x, y = min(places, key=lambda each: math.dist(each, (columns / 2, rows / 2)))
     page.mouse.click(left + x * width / columns, top + y * width / columns)
     shown = page.locator(".wv-selection")
-    expect(shown).to_contain_text(f"Cell {column}, {row}")
-    field = shown.locator(".wv-field-row").filter(has_text="Value")
-    value = re.compile(rf"^{values[row, column]}\b")
-    expect(field.locator(".wv-field-value")).to_have_text(value)
-    expect(shown).to_contain_text(f"{column + 0.5:.4f}, {row + 0.5:.4f}, 0.0000 m")
+    expect(shown).to_contain_text("/map")
+    expect(shown).to_contain_text(NOT_IN_THE_FILE)
     page.keyboard.press("Escape")
 
 
@@ -404,7 +397,7 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
         assert cli([*arguments, "-o", str(path), "--max-size", limit]) == 0
         sizes[limit] = path.stat().st_size, capfd.readouterr().err
     whole, said = sizes["50MB"]
-    assert (whole > 4_000_000, said) == (True, "")
+    assert (whole > 3_500_000, said) == (True, "")
     thinned, said = sizes["3MB"]
     assert thinned <= 3_000_000
     assert "Clouds keep at least one of" in said
@@ -421,7 +414,7 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
     assert not (clouds / "none.html").exists()
 
 
-def test_a_click_shows_the_values_of_a_point_of_a_large_cloud(
+def test_a_point_of_a_large_cloud_says_where_its_values_are(
     clouds: Path, browser: playwright.Browser
 ) -> None:
     path = clouds / "50MB.html"
@@ -431,32 +424,14 @@ def test_a_click_shows_the_values_of_a_point_of_a_large_cloud(
     with browser.new_context(viewport=SIZE, offline=True) as context:
         file = OpenFile(context.new_page(), path)
         file.seek(0.4)
-        page, made = file.page, points(4)
+        page = file.page
         page.keyboard.press("s")
         left, top, width, height = page.evaluate(BOX)
         page.mouse.click(left + width / 2, top + height / 2)
         shown = page.locator(".wv-selection")
-        expect(shown).to_contain_text(re.compile(r"Point \d+"))
-        number = int(re.findall(r"Point (\d+)", shown.inner_text())[0])
-        rows = shown.locator(".wv-field-row")
-        told = {
-            row.locator(".wv-field-name").inner_text(): row.locator(".wv-field-value").inner_text()
-            for row in rows.all()
-        }
-        point = made[number]
-        red, green, blue = (int(point["rgb"]) >> shift & 255 for shift in (16, 8, 0))
-        place = ", ".join(f"{point[axis]:.4f}" for axis in "xyz")
-        assert (
-            told
-            | {
-                "intensity": str(point["intensity"]),
-                "rgb": f"r {red}, g {green}, b {blue}",
-                "ring": str(point["ring"]),
-                "Position in lidar": f"{place} m",
-                "Points in the cloud": "20000",
-            }
-            == told
-        )
+        expect(shown).to_contain_text("lidar")
+        expect(shown).to_contain_text(NOT_IN_THE_FILE)
+        expect(shown).not_to_contain_text("Position")
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from webviz.files.config import Config, ConfigError, Unreadable, dump, standard
 from webviz.files.config.schema import schema
 from webviz.files.opening import parse
 from webviz.shell.cli import main as cli
-from webviz.shell.cli.fleet import DEMO
+from webviz.shell.cli.demo import DEMO
 from webviz.shell.cli.schema import COMMAND, SHIPPED, text
 
 INSTALLED = display_types()

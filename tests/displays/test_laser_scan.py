@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import scans
-from inspecting import Benches, check_columns
+from inspecting import Benches
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.shell.testing import check_details
@@ -374,4 +374,3 @@ def test_selecting_beam_of_a_scan(bench: Benches) -> None:
             "Beams in the scan": "5",
         },
     )
-    check_columns(at, "points")

@@ -10,7 +10,6 @@ from inspecting import QUARTER, Benches
 from mapping_scenes import COSTMAP, costmaps
 
 from webviz import Image, Topic
-from webviz.api.frames import Frames
 from webviz.shell.testing import check_details
 from webviz.shell.testing.messages import header
 from webviz_displays.map import Costmap, Map
@@ -414,10 +413,6 @@ def test_selecting_cell_of_a_map(at) -> None:
             "Centre in map": "9.2500, 260.2500, 0.0000 m",
         },
     )
-    read = at.runner.cells("tile 0 512", Frames(at.buffer, "map", at.now_ns))
-    assert (read.corner, read.columns, read.resolution, read.frame) == ((0, 512), 600, 0.5, "map")
-    assert (read.told[100], read.told[255], read.told[7]) == ("100, occupied", "-1, unknown", 7)
-    assert at.runner.cells("another", Frames(at.buffer, "map", at.now_ns)) is None
 
 
 def test_selecting_cell_of_a_costmap(bench: Benches) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import photos
 import pytest
 from built_in_checks import BuiltInChecks
-from inspecting import Benches, check_columns
+from inspecting import Benches
 from plain_scenes import in_moving_frame
 from rtabmap_scenes import (
     BOTH,
@@ -265,4 +265,3 @@ def test_selecting_point_of_a_map(bench: Benches) -> None:
         "Point of node 5",
         {"Seen": "500.000 s", "Points of the node": "3", "Intensity": "90.0"},
     )
-    check_columns(at, "points")

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from known_types import OURS
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from webviz.data.messages import FrameTransform
+from webviz.data.messages import FrameTransform, definitions
 from webviz.data.messages.classes import VECTORS
-from webviz.data.messages.definitions import DEFINITIONS
 
 VECTOR_NAMES = {name.rpartition("/")[2] for name in VECTORS}
 
@@ -21,8 +21,8 @@ VECTOR_NAMES = {name.rpartition("/")[2] for name in VECTORS}
 @pytest.fixture(scope="session")
 def rosbags_store() -> Any:
     store = get_typestore(Stores.ROS2_JAZZY)
-    for type_name, text in DEFINITIONS.items():
-        store.register(get_types_from_msg(text, type_name))
+    for name in OURS:
+        store.register(get_types_from_msg(definitions.text(name), name))
     return store
 
 

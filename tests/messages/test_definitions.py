@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from known_types import OURS
 
 from webviz.data.messages import (
     DefinitionError,
@@ -23,7 +24,6 @@ from webviz.data.messages import (
     type_hash,
 )
 from webviz.data.messages.decoders import decoder
-from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.typestore import are_same
 from webviz.sources.bridge.definitions import Definitions
 
@@ -32,7 +32,7 @@ WHEEL = "=" * 80 + "\nMSG: prepared_msgs/Wheel\n{} turns\n"
 
 
 def test_what_displays_need_is_known_without_ros():
-    for name in ["map_msgs/OccupancyGridUpdate", "tf2_msgs/msg/TFMessage", *DEFINITIONS]:
+    for name in ["map_msgs/OccupancyGridUpdate", "tf2_msgs/msg/TFMessage", *OURS]:
         assert type_exists(name)
 
 
@@ -44,7 +44,7 @@ def test_what_nobody_defined_does_not_exist(name):
             ask(name)
 
 
-@pytest.mark.parametrize("name", DEFINITIONS)
+@pytest.mark.parametrize("name", OURS)
 def test_every_definition_of_ours_is_complete(name):
     register(name, definition(name))
     assert message_class(name)() is not None

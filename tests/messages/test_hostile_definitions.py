@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 from hostile_definitions import NAME, READ, REFUSED, idl, msg
+from known_types import OURS
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
@@ -24,6 +25,7 @@ from webviz.data.messages import (
     MessageError,
     decode,
     definition,
+    definitions,
     encode,
     message_class,
     register,
@@ -32,7 +34,6 @@ from webviz.data.messages import (
     typestore,
 )
 from webviz.data.messages import cdr as cdr_module
-from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.idl_text import types_in_idl
 from webviz.data.messages.msg_text import types_in_msg
 from webviz.data.messages.ros1 import Ros1Type
@@ -214,13 +215,14 @@ def test_many_long_definitions_are_read_in_seconds() -> None:
 def test_texts_are_read_as_rosbags_reads_them() -> None:
     store = get_typestore(Stores.ROS2_JAZZY)
     texts = {name: definition(name) for name in store.fielddefs if "/msg/" in name}
+    ours = {name: definitions.text(name) for name in OURS}
     odd = (
         'int32 A=5\nstring B = "x y" # c\nfloat32 C=1.5e3 # d\nbool D=True\nint8[<=3] a\n'
         "string<=5[2] b [1,2]\n@key\n@optional int8 x 5\n int32 Z=0x1F\nint8 Y=-017\nint8 W=0b11\n"
         "string E=foo # bar \nbyte Q=1\nuint8 c#c\nint8 U=09\ntime t\nduration[] d\nHeader header\n"
         "foo/Bar[3] x1\nfoo/msg/Bar[] x2\n"
     )
-    for name, text in {**texts, **DEFINITIONS, NAME: odd}.items():
+    for name, text in {**texts, **ours, NAME: odd}.items():
         assert types_in_msg(text, name) == get_types_from_msg(text, name), name
     words = {"bool": "boolean", "byte": "octet", "float32": "float", "float64": "double"}
 

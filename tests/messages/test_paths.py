@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from known_types import OURS
 
 from webviz.data.messages import (
     FrameTransform,
@@ -21,7 +22,6 @@ from webviz.data.messages import (
     Time,
     message_class,
 )
-from webviz.data.messages.definitions import DEFINITIONS
 from webviz.data.messages.message_paths import MAX_KEPT, MessagePath
 from webviz.data.messages.paths import (
     MAX_FOUND,
@@ -249,7 +249,7 @@ def test_functions_over_time_follow_the_values() -> None:
     assert math.isnan(change(0.5, 3.0))
 
 
-@pytest.mark.parametrize("name", DEFINITIONS)
+@pytest.mark.parametrize("name", OURS)
 def test_every_path_that_is_listed_is_a_number(name: str) -> None:
     message = message_class(name)()
     for path in numeric_paths(message, 100):

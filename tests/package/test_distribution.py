@@ -25,7 +25,7 @@ OPTIONAL = {"rclpy", "xacro", "pytest", "_pytest"}
 EXTRAS = "pictures", "outdoors", "foxglove", "rosbridge", "mcp"
 """Whose modules are imported where they are used."""
 REQUIREMENT = {"google": "protobuf", "PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
-REQUIREMENT |= {"ruamel": "ruamel.yaml", "svg": "svg.path"}
+REQUIREMENT["ruamel"] = "ruamel.yaml"
 """Of modules with another name."""
 IMPORT = re.compile(r"^ *(?:import (\w+)|from (\w+)[\w.]* import )", re.MULTILINE)
 OF_ROS = re.compile(r"(\w+_(msgs|srvs|interfaces|runtime_py)|rcl_\w+|rpyutils)$")
@@ -49,7 +49,8 @@ def files() -> list[Path]:
 
 
 def test_every_file_of_the_packages_is_installed() -> None:
-    patterns = re.search(r'DATA = "(.*)"', (ROOT / "setup.py").read_text(encoding="utf-8"))
+    setup = (ROOT / "setup.py").read_text(encoding="utf-8")
+    patterns = re.search(r'DATA = """([^"]*)"""', setup)
     assert patterns
     known = ["*.py", *patterns[1].split()]
     missing = [str(f) for f in files() if not any(fnmatch.fnmatch(f.name, p) for p in known)]

@@ -7,7 +7,7 @@ import inspect
 import sys
 import weakref
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, cast
+from typing import Annotated, Any
 
 import pytest
 from bench import Benches
@@ -31,7 +31,7 @@ from webviz import (
 from webviz.api.capabilities import CAPABILITIES
 from webviz.api.connection import GraphConnection
 from webviz.api.handles import Control, Drag, Handle
-from webviz.api.nodes import Node, Pose
+from webviz.api.nodes import Pose
 from webviz.api.status import Level
 from webviz.engine.commands import DragHandle, Identify, Picks, Refresh, SetBackground, SetProperty
 
@@ -117,12 +117,6 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
     def inspect(self, hit: Hit, ctx: Context) -> None:
         self._raise_in("inspect")
 
-    def cells(self, key: str, ctx: Context) -> None:
-        self._raise_in("cells")
-
-    def columns(self, node: Node, sample: Sample, ctx: Context) -> None:
-        self._raise_in("columns")
-
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> None:
         self._raise_in("consistency_input")
 
@@ -184,9 +178,6 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
         b.viewer.enqueue(Identify(dot))
         b.viewer.enqueue(DragHandle("display1", Drag("m1", 0, "press")))
         b.turn()
-        first, frames = b.viewer._displays.list.active()[0], b.viewer._core.frames
-        first.cells("dot", frames)  # as exporting does
-        first.columns(DOT, cast(Sample, None), frames)
     before = sound.turns
     feed(b)
     level, text = b.statuses(0)["Display"]

@@ -21,7 +21,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Open, Save, SetProperty, Undo
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
-from webviz.shell.cli.fleet import standard_config
+from webviz.shell.cli.demo import standard_config
 from webviz.shell.testing.messages import stamped_transform
 from webviz_displays.interactive_markers.completion import Completed
 from webviz_displays.interactive_markers.feedback import POSE_UPDATE, values_of

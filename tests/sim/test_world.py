@@ -135,7 +135,12 @@ def test_a_wrong_entry_is_refused_in_one_sentence(write, changes, message):
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a: [", "is not valid YAML"), ("just text", "expected the keys"), ("", "expected the keys")],
+    [
+        ("a: [", "is not valid YAML"),
+        ("just text", "expected the keys"),
+        ("", "expected the keys"),
+        ('<svg width="4m" viewBox="0 0 4 2"><rect/></svg>', "expected the keys"),
+    ],
 )
 def test_a_yaml_that_is_no_map_is_refused_in_one_sentence(tmp_path, text, message):
     path = tmp_path / "map.yaml"

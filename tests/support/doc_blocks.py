@@ -26,7 +26,7 @@ class Block:
     line: int
     language: str
     title: str
-    """Things that its commands need and a test does not have; "" if tests run them."""
+    """Name of a file, or things that commands need and a test does not have; "" if tests run it."""
     text: str
 
     def __str__(self) -> str:

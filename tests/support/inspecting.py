@@ -7,12 +7,6 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
-from webviz import Frames
-from webviz.api.picking import Column
-from webviz.engine.pipeline.details import details_tree
-
 Benches = Callable[..., Any]
 """The fixtures `bench`, `shown` and `turned`, which make the bench of a display."""
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -25,31 +19,3 @@ POSE_TOLD = {
         "Roll, pitch, yaw": "0.00, 0.00, 0.00 °",
     }
 }
-
-
-def check_columns(at: Any, key: str) -> None:
-    """Check that the columns of a node have what `inspect` returns for each of its items.
-
-    Args:
-        at: a bench that has drawn one message.
-        key: of the node.
-    """
-    node = at.nodes()[key]
-    sample = next(shot.samples[-1] for *_, shot in at.runner.shots() if shot.samples)
-    columns = at.runner.columns(node, sample, Frames(at.buffer, at.fixed_frame, at.now_ns))
-    ids = range(len(node.xyz)) if node.ids is None else node.ids
-    for number, id in enumerate(ids):
-        details = at.pick(key, number)
-        assert details.title == columns.title.replace("{}", str(id))
-        wanted = details_tree(details.values)["fields"]
-        found = {
-            name: value.text.format(*map(str, np.atleast_1d(value.values[number])))
-            if isinstance(value, Column)
-            else value
-            for name, value in columns.values.items()
-        }
-        wanted.pop(columns.position, None)  # which the page knows
-        assert found.keys() == wanted.keys()
-        for name, text in wanted.items():
-            assert NUMBER.sub("#", found[name]) == NUMBER.sub("#", text)
-            assert [*map(float, NUMBER.findall(found[name]))] == [*map(float, NUMBER.findall(text))]

@@ -9,8 +9,10 @@ from typing import Any
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages.definitions import FILES
 
+OURS = [name for name in FILES if "/msg/" in name]
+"""Those whose definitions are files of webviz."""
 _OF_ROS = get_typestore(Stores.ROS2_JAZZY).fielddefs
 
 
@@ -19,8 +21,8 @@ def _by_package(names: set[str]) -> dict[str, list[str]]:
     return {package: list(group) for package, group in groups}
 
 
-TYPES = _by_package({*_OF_ROS, *DEFINITIONS})
-ROS_TYPES = _by_package({*_OF_ROS} - {*DEFINITIONS})
+TYPES = _by_package({*_OF_ROS, *OURS})
+ROS_TYPES = _by_package({*_OF_ROS} - {*OURS})
 """Those of ROS's own packages."""
 
 

@@ -13,11 +13,10 @@ from PIL import Image
 from trimesh.visual.material import PBRMaterial, SimpleMaterial
 
 from webviz.api.nodes import U8
-from webviz_urdf.dae import only_xml, without_broken_materials
 from webviz_urdf.files import read_file
 from webviz_urdf.glb import MeshContent, MeshPart, Surface, linear_to_srgb
+from webviz_urdf.mesh_repairs import only_xml, whole_stl, without_broken_materials
 from webviz_urdf.resolve import Resolver
-from webviz_urdf.stl import whole_stl
 from webviz_urdf.textures import TextureFolder, encode
 
 Scale = tuple[float, float, float]

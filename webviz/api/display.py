@@ -26,8 +26,7 @@ import msgspec
 from webviz.api.capabilities import Selective, capability
 from webviz.api.declared import Declared, Topic
 from webviz.api.lookback import Lookback
-from webviz.api.nodes import Node
-from webviz.api.picking import Cells, Columns, Details, Hit, noun_of
+from webviz.api.picking import Details, Hit, noun_of
 from webviz.api.ports import Input, Namespace
 from webviz.api.properties import ports_of
 
@@ -198,20 +197,6 @@ class Display(Declared, kw_only=True):
         """
         noun = noun_of(hit.node)
         return Details(noun if hit.id is None else f"{noun} {hit.id}")
-
-    def cells(self, key: str, ctx: Context) -> Cells | None:
-        """Return how the cells of the image with a key are read; None if they have no values.
-
-        A shared file tells the values of cells by that, as `inspect` does in the viewer.
-        """
-        return None
-
-    def columns(self, node: Node, sample: Sample, ctx: Context) -> Columns | None:
-        """Return the details of all items of a node; None if they are not known as columns.
-
-        A shared file has them for nodes with too many items to call `inspect` for each.
-        """
-        return None if overrides(self, "inspect") else Columns(f"{noun_of(node)} {{}}")
 
 
 D = TypeVar("D", bound=Display)

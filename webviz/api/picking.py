@@ -12,9 +12,8 @@ from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points, Pose
+from webviz.api.nodes import Arrows, Axes, Image, Instances, Labels, Lines, Node, Points
 from webviz.api.sample import Sample
 
 
@@ -72,65 +71,9 @@ class Details:
     values: Mapping[str, object] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class Cells:
-    """Reading of the cells of an image with a palette, where there is no display to ask.
-
-    Args:
-        corner: row and column of its first cell in the whole grid.
-        columns: of the whole grid.
-        resolution: edge of a cell in metres.
-        origin: of the whole grid, in `frame`.
-        frame: frame id.
-        told: what is said about a cell, by its index in the palette.
-    """
-
-    corner: tuple[int, int]
-    columns: int
-    resolution: float
-    origin: Pose
-    frame: str
-    told: Sequence[str | int]
-
-
-class Column(NamedTuple):
-    """A value of all items of a node.
-
-    Attributes:
-        values: (N,) or (N, K) numbers in the order of the items of the node.
-        text: of a value, with a pair of braces for each of its K numbers.
-    """
-
-    values: NDArray[Any]
-    text: str = "{}"
-
-
-@dataclass(frozen=True, eq=False)
-class Columns:
-    """Details of all items of a node at once, where there is no display to ask.
-
-    Args:
-        title: of an item, with a pair of braces for its id.
-        values: by name: columns, and texts that all items share.
-        position: name of the value that an item has by its position.
-        origin: that position is relative to this point, in metres.
-    """
-
-    title: str
-    values: Mapping[str, Column | str] = field(default_factory=dict[str, Column | str])
-    position: str = "Position"
-    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-
 def count_of(node: Node) -> int:
     """Return the number of items of a node whose items are selected one by one."""
     return len(getattr(node, fields(node)[0].name))
-
-
-def rows_of(node: Node) -> NDArray[np.intp]:
-    """Return the ids of the items of a node, int (N,), which are their rows in the message."""
-    ids = getattr(node, "ids", None)
-    return np.arange(count_of(node)) if ids is None else ids
 
 
 def noun_of(node: Node) -> str:

@@ -76,7 +76,7 @@ def _read(entries: dict[str, Any], folder: Path) -> MapFile:
     if mode not in ("trinary", "scale", "raw"):
         raise MapFileError(f"mode must be trinary, scale or raw, not {_shown(mode)}")
     shade, alpha = _load_image(folder / image)
-    cells = occupancy(
+    cells = _occupancy(
         shade,
         alpha,
         mode=mode,
@@ -89,7 +89,7 @@ def _read(entries: dict[str, Any], folder: Path) -> MapFile:
     return MapFile(np.ascontiguousarray(cells[::-1]), resolution, (x, y, yaw))
 
 
-def occupancy(
+def _occupancy(
     shade: NDArray[np.float64],
     alpha: NDArray[np.float64] | None,
     *,

@@ -24,8 +24,6 @@ from webviz import (
     Topic,
 )
 from webviz.api.consistency import ScanPoints
-from webviz.api.nodes import Node
-from webviz.api.picking import Column, Columns, rows_of
 from webviz.data import messages
 from webviz_displays.laser_scan import beams
 from webviz_displays.shared.geometry import coordinate
@@ -123,21 +121,6 @@ class LaserScan(PointsDisplay, Comparable, Sweep):
             time_ms = round(1e3 * hit.id * scan.time_increment, 3)
             values["Time after the first beam"] = Quantity(time_ms, "ms")
         return Details(f"Beam {hit.id}", values | {"Beams in the scan": len(scan.ranges)})
-
-    def columns(self, node: Node, sample: Sample, ctx: Context) -> Columns:
-        """Range, intensity and angle of all beams, as `inspect` has them."""
-        scan: messages.LaserScan = sample.message
-        rows = rows_of(node)
-        values: dict[str, Column | str] = {"Range": Column(scan.ranges[rows], "{} m")}
-        if len(scan.intensities) == len(scan.ranges):
-            values["Intensity"] = Column(scan.intensities[rows])
-        angles = scan.angle_min + rows * scan.angle_increment
-        both = np.stack([np.round(angles, 6), np.round(np.degrees(angles), 2)], axis=1)
-        values["Angle"] = Column(both, "{} rad, {}°")
-        if scan.time_increment:
-            times_ms = np.round(1e3 * rows * scan.time_increment, 3)
-            values["Time after the first beam"] = Column(times_ms, "{} ms")
-        return Columns("Beam {}", values | {"Beams in the scan": str(len(scan.ranges))})
 
     def _place(self, points: beams.BeamPoints, sample: Sample, ctx: Context) -> Floats:
         """Return the points in the frame of the laser at the stamp."""

@@ -34,7 +34,6 @@ from webviz import (
     compose,
 )
 from webviz.api.consistency import OccupiedCells
-from webviz.api.picking import Cells
 from webviz.data.words import counted, joined
 from webviz_displays.map.cells import MEANINGS, cell_details, tile_key
 from webviz_displays.map.palettes import lookup_table
@@ -246,14 +245,6 @@ class MapDisplay(Display, SelfPlacing):
         """Return a cell, with the value that it has now."""
         grid, corner = _tile(ctx.state, hit.key)
         return cell_details(grid, corner, hit.point, self.told) if grid and corner else None
-
-    def cells(self, key: str, ctx: Context) -> Cells | None:
-        """Return how the cells of a tile are read."""
-        grid, corner = _tile(ctx.state, key)
-        if grid is None or corner is None:
-            return None
-        told = [self.told(int(value)) for value in np.arange(256).astype(np.uint8).view(np.int8)]
-        return Cells(corner, grid.width, grid.resolution, grid.origin, grid.frame, told)
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"

@@ -25,8 +25,7 @@ from webviz import (
     compose,
 )
 from webviz.api.connection import GraphConnection
-from webviz.api.nodes import POINTS_HELD, Node
-from webviz.api.picking import Column, Columns, rows_of
+from webviz.api.nodes import POINTS_HELD
 from webviz.data.words import counted, joined
 from webviz_displays.map_cloud.known import KnownMap
 from webviz_displays.map_cloud.node_cloud import CloudSettings, NodeCloud
@@ -249,22 +248,6 @@ class MapCloud(PointsDisplay, ProtocolClient):
                 if cloud.intensities is not None:
                     values["Intensity"] = cloud.intensities[hit.id - start]
                 return Details(f"Point of node {id}", values)
-        return None
-
-    def columns(self, node: Node, sample: Sample, ctx: Context) -> Columns | None:
-        """Return the details of the points of a node of the map, as `inspect` has them."""
-        known: KnownMap = sample.message
-        rows = rows_of(node)
-        for id, start in _starts(known).items():
-            cloud = known.clouds[id]
-            if start <= rows[0] < start + len(cloud.xyz):
-                values: dict[str, Column | str] = {
-                    "Seen": f"{known.stamps[id]:.3f} s",
-                    "Points of the node": str(len(cloud.xyz)),
-                }
-                if cloud.intensities is not None:
-                    values["Intensity"] = Column(cloud.intensities[rows - start])
-                return Columns(f"Point of node {id}", values)
         return None
 
     def _rows(self, known: KnownMap) -> NDArray[np.intp]:

@@ -1,6 +1,5 @@
 """Displays of nvblox: maps of blocks, of which messages bring those that have changed."""
 
-from webviz_displays.nvblox.mesh import NvbloxMesh
-from webviz_displays.nvblox.voxels import NvbloxVoxelBlockLayer
+from webviz_displays.nvblox.display import NvbloxMesh, NvbloxVoxelBlockLayer
 
 __all__ = ["NvbloxMesh", "NvbloxVoxelBlockLayer"]

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.api.picking import Column
 from webviz.data import messages
 from webviz.data.words import listed
 from webviz_displays.shared.geometry import FARTHEST, origin_near
@@ -158,22 +157,6 @@ class Cloud:
                 found[field.name] = ", ".join(f"{name} {value}" for name, value in named)
             else:
                 found[field.name] = values[0] if len(values) == 1 else values
-        return found
-
-    def columns(self, rows: NDArray[np.intp]) -> dict[str, Column | str]:
-        """All fields of some points by name, as `point` has them."""
-        found: dict[str, Any] = {}
-        for field, offset, dtype in self._places(found):
-            if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
-                letters = field.name
-                bgra = self.quads(field.name)[rows].astype("<u4")[:, None].view(np.uint8)
-                channels = np.ascontiguousarray(bgra[:, [2, 1, 0, 3][: len(letters)]])
-                found[field.name] = Column(channels, ", ".join(f"{each} {{}}" for each in letters))
-            else:
-                size = max(field.count, 1)
-                whole = np.dtype([("values", dtype, (size,))])
-                values = self._view(whole, offset)[rows]["values"]
-                found[field.name] = Column(values, ", ".join(["{}"] * size))
         return found
 
     def _places(self, problems: dict[str, Any]) -> Iterator[tuple[Any, int, np.dtype[Any]]]:

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from webviz import Context, Details, Hit, Input, Pose, Prop, Remedy, Rgb, Sample, Topic, compose
-from webviz.api.nodes import POINTS_HELD, Node
-from webviz.api.picking import Column, Columns, rows_of
+from webviz.api.nodes import POINTS_HELD
 from webviz.data.words import joined, spaced
 from webviz_displays.point_cloud2.blocks import in_blocks
 from webviz_displays.point_cloud2.cloud import Cloud, CloudError, drawable
@@ -190,18 +189,6 @@ class CloudDisplay(PointsDisplay):
         if cloud.width < cloud.count:
             values |= {"Row": hit.id // cloud.width, "Column": hit.id % cloud.width}
         return Details(f"Point {hit.id}", values | {"Points in the cloud": cloud.count})
-
-    def columns(self, node: Node, sample: Sample, ctx: Context) -> Columns:
-        """All fields of the points, as `inspect` has them."""
-        cloud = self.cloud_of(sample.message)
-        rows = rows_of(node)
-        values = {k: v for k, v in cloud.columns(rows).items() if k not in ("x", "y", "z")}
-        if cloud.width < cloud.count:
-            row, column = np.divmod(rows.astype(np.uint32), np.uint32(cloud.width))
-            values |= {"Row": Column(row), "Column": Column(column)}
-        values["Points in the cloud"] = str(cloud.count)
-        _, origin = cloud.positions()
-        return Columns("Point {}", values, f"Position in {sample.frame}", origin)
 
     def _select(self, xyz: F32, state: _State, rests: bool) -> tuple[Rows | None, bool, str]:
         """Return the points to show.

@@ -15,19 +15,19 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from side_by_side import table
+from side_by_side import machine, report
 from side_by_side.case import CaseFailed, CaseResult, Load, run
 from side_by_side.figures import rows
 from side_by_side.scenes import SCENES
 from side_by_side.systems.registry import SYSTEMS
 
-USUAL = (Load(0), Load(1), Load(4), Load(1, 1))
-LOADS = {str(load): load for load in (*USUAL, Load(10), Load(30), Load(100))}
+USUAL = (Load(1),)
+LOADS = {str(load): load for load in (Load(0), *USUAL, Load(1, 1), Load(4), Load(30))}
 THE_CALLBACK = [Load(1)]
 """The floor has no clients but itself."""
 
-
-Report = dict[str, Any]
+Cases = list[tuple[str, str, CaseResult]]
+"""Scene, system and what was measured."""
 
 
 def main() -> int:
@@ -35,7 +35,7 @@ def main() -> int:
     for number in (signal.SIGINT, signal.SIGTERM):  # a shell lets its background ignore Ctrl-C
         signal.signal(number, signal.default_int_handler)
     options = _options()
-    cases: list[tuple[str, str, CaseResult]] = []
+    cases: Cases = []
     failures: list[tuple[str, str, str]] = []
     with contextlib.suppress(KeyboardInterrupt):
         for number in range(options.rounds):
@@ -48,12 +48,24 @@ def main() -> int:
                     print(f"  failed: {reason}", file=sys.stderr)
                     failures.append((scene, system, reason))
                 if options.json:
-                    report = {**_facts(options), "rows": rows(cases), "failures": failures}
-                    text = json.dumps(report, indent=1, default=asdict)
-                    options.json.write_text(f"{text}\n")
-    print("\n".join(f"- {name}: {fact}" for name, fact in _facts(options).items()))
-    print("\n".join(table.markdown(rows(cases), failures)))
+                    options.json.write_text(f"{_report(options, cases, failures)}\n")
+    if cases:
+        made = json.loads(_report(options, cases, failures))
+        print(report.facts(made), report.table([made], report.TITLES), sep="\n\n")
     return 0 if cases else 1
+
+
+def _report(options: argparse.Namespace, cases: Cases, failures: list[tuple[str, str, str]]) -> str:
+    facts = {
+        **machine.machine(),
+        "commit": machine.commit(),
+        "versions": machine.versions(options.systems),
+        "date": time.strftime("%Y-%m-%d"),
+        "seconds of each load": options.seconds,
+        "rounds": options.rounds,
+    }
+    made = {**facts, "rows": rows(cases), "failures": failures}
+    return json.dumps(made, indent=1, default=asdict)
 
 
 def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
@@ -64,17 +76,6 @@ def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
         return run(
             SYSTEMS[system], SCENES[scene], loads, options.seconds, Path(folder), options.patience
         )
-
-
-def _facts(options: argparse.Namespace) -> Report:
-    return {
-        **table.machine(),
-        "commit": table.commit(),
-        "versions": table.versions(options.systems),
-        "date": time.strftime("%Y-%m-%d"),
-        "seconds of each load": options.seconds,
-        "rounds": options.rounds,
-    }
 
 
 def _options() -> argparse.Namespace:

@@ -15,7 +15,6 @@ import numpy as np
 import psutil
 from program import Program
 
-from side_by_side.audience import Audience, CaseFailed
 from side_by_side.log import Log
 from side_by_side.scenes import Scene
 from side_by_side.systems.registry import System
@@ -28,6 +27,10 @@ GIVE_UP_S = 40.0
 SAMPLES_PER_S = 2.0
 QUIET = 0.2
 """Cores that other programs of a quiet machine use."""
+
+
+class CaseFailed(Exception):
+    """A system did not do its part; the text says what."""
 
 
 @dataclass(frozen=True)
@@ -64,8 +67,6 @@ class Result:
     shown: dict[int, float] = field(default_factory=dict)
     latency: list[float] = field(default_factory=list)
     """Of every publication of the scene's first lane that was shown."""
-    least_shown: float | None = None
-    """Of all lanes, at the client of many who saw the fewest."""
     others: float = 0.0
     """Cores that other programs of the machine used meanwhile."""
 
@@ -91,7 +92,6 @@ class Case:
         self._log = folder / "publications.bin"
         self._log.touch()
         self._stack = contextlib.ExitStack()
-        self._mine: Sequence[int] = ()
 
     def __enter__(self) -> Case:
         self._stack.enter_context(isolated_domain())
@@ -154,22 +154,11 @@ class Case:
             join_s = time.monotonic() - start if watchers else None
             for _ in range(load.stalled):
                 stack.callback(self.watch(recognise=False, stalls=True).close)
-            place = (self.system.name, self.scene.name, self.port, self.folder)
-            audience = Audience(*place, max(0, load.clients - 1))
-            stack.callback(audience.close)
-            self._mine = audience.pids
+            for _ in range(1, load.clients):
+                stack.callback(self.watch(recognise=False).close)
             time.sleep(SETTLE_S)
             self._wait_until_quiet(patience)
-            start_ns = time.time_ns()
-            result = self._figures(watchers, seconds)
-            end_ns = start_ns + int(1e9 * result.seconds)
-            log = self.log()
-            shown = [
-                sum(map(len, log.latencies(seen, start_ns, end_ns).values()))
-                for seen in audience.seen()
-            ]
-            least = min(shown) / result.seconds if shown else None
-            return replace(result, join_s=join_s, least_shown=least)
+            return replace(self._figures(watchers, seconds), join_s=join_s)
 
     def _figures(self, watchers: Sequence[Watcher], seconds: float) -> Result:
         start, start_ns, cpu = time.monotonic(), time.time_ns(), self.cpu()
@@ -213,7 +202,7 @@ class Case:
 
     def _all_cpu(self) -> float:
         """CPU seconds of the system, the publisher and this process."""
-        mine = (os.getpid(), self._publisher.process.pid, *self._mine)
+        mine = (os.getpid(), self._publisher.process.pid)
         return self.cpu() + sum(_cpu(psutil.Process(pid)) for pid in mine)
 
     def _start(self, command: Sequence[str], name: str) -> Program:

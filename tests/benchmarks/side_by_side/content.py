@@ -9,10 +9,13 @@ import numpy as np
 from clouds import XYZ
 
 from side_by_side import strip
-from side_by_side.marks import FRAME_Z, LINK_Z
-from side_by_side.streams import NO_MARK, header
+from side_by_side.marks import FRAME_Z, LINK_Z, PER_METRE, Lane, Place
+from side_by_side.streams import NO_MARK, Stream, header
 
 VARIANTS = 8
+DEPTHS = 32
+"""Images of depths, each with its mark."""
+FOCAL = 500.0
 Values = dict[str, Any]
 
 
@@ -215,6 +218,47 @@ def odometry() -> list[Values]:
             }
         )
     return made
+
+
+def depths(width: int, height: int) -> list[Stream]:
+    """Depths of 16UC1 at 30 Hz; x of the point of the first pixel is the mark.
+
+    Hence the principal point, left of the image: x is depth in mm by `PER_METRE`.
+    """
+    rng = np.random.default_rng(7)
+    rows, columns = np.mgrid[:height, :width]
+    walls = 2000 + 1000 * np.sin(columns / 90) + 500 * np.cos(rows / 70)
+    left = -FOCAL * 1000 / PER_METRE
+    lane = Lane(0, Place.FIRST_POINT, DEPTHS)
+    made = []
+    for variant in range(DEPTHS):
+        millimetres = (walls + rng.normal(0, 5, walls.shape)).astype(np.uint16)
+        millimetres[0, 0] = round(lane.encode(variant) * PER_METRE)
+        made.append(
+            {
+                "header": header("optical"),
+                "height": height,
+                "width": width,
+                "encoding": "16UC1",
+                "step": 2 * width,
+                "data": millimetres.reshape(-1).view(np.uint8),
+            }
+        )
+    info = {
+        "header": header("optical"),
+        "width": width,
+        "height": height,
+        "distortion_model": "plumb_bob",
+        "d": np.zeros(5),
+        "k": np.array([FOCAL, 0, left, 0, FOCAL, height / 2, 0, 0, 1]),
+        "r": np.eye(3).reshape(-1),
+        "p": np.array([FOCAL, 0, left, 0, 0, FOCAL, height / 2, 0, 0, 0, 1, 0]),
+    }
+    return [
+        Stream("/tf_static", "tf2_msgs/msg/TFMessage", 0, static(("map", "optical"))),
+        Stream("/depth/camera_info", "sensor_msgs/msg/CameraInfo", 30, [info]),
+        Stream("/depth/image", "sensor_msgs/msg/Image", 30, made, lane),
+    ]
 
 
 def _yaw(angle: float) -> Values:

@@ -48,17 +48,6 @@ def rows(cases: Sequence[tuple[str, str, CaseResult]]) -> list[Row]:
     ]
 
 
-def ratio(rows: Sequence[Row], row: Row, name: str, to: str) -> float | None:
-    """A figure of a row to that of another system in the same place."""
-    place = (row.scene, row.load)
-    (other,) = [r for r in rows if (r.scene, r.load) == place and r.system == to] or [None]
-    mine = row.figures[name]
-    theirs = other.figures[name] if other else None
-    if mine is None or theirs is None or not theirs.median:
-        return None
-    return mine.median / theirs.median
-
-
 def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
     late = result.latency
     published, shown = sum(result.published.values()), sum(result.shown.values())
@@ -69,7 +58,6 @@ def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
         "published_per_s": published,
         "shown_per_s": shown if is_watched else None,
         "left_out_per_s": published - shown if is_watched else None,
-        "least_shown_per_s": result.least_shown,
         "cpu_percent": 100 * result.cpu,
         "megabytes_per_s": result.bytes / 1e6 if is_watched else None,
         "resident_mb": result.rss,

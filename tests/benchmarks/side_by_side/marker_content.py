@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from side_by_side.content import VARIANTS, Values
+from side_by_side.content import Values
 from side_by_side.marks import FRAME_Z
 from side_by_side.streams import NO_MARK, header
 
-CUBE, LINE_LIST, TEXT = 1, 5, 9
+CUBE = 1
 ADD, DELETE = 0, 2
 BLOCK = 10
 """Cubes that come and go in one message of `churn`."""
@@ -24,30 +22,6 @@ def cubes(count: int, variants: int = 2) -> list[Values]:
     return [
         {"markers": [_mark(), *(_cube(i, 0.05 * variant) for i in range(1, count))]}
         for variant in range(variants)
-    ]
-
-
-def lines(points: int, variants: int = 2) -> list[Values]:
-    """A tangle of lines, another one each time; the first point is marked."""
-    rng = np.random.default_rng(6)
-    made = []
-    for _ in range(variants):
-        xyz = rng.normal(0, 10, (points, 3))
-        xyz[0] = NO_MARK, 0, 0
-        made.append({"markers": [_marker(0, LINE_LIST, (0, 0, 0), points=xyz)]})
-    return made
-
-
-def texts(count: int) -> list[Values]:
-    """Texts in rows that all change; the first is marked."""
-    return [
-        {
-            "markers": [
-                _marker(i, TEXT, _place(i) if i else (NO_MARK, 0, FRAME_Z), text=f"{i}: {variant}")
-                for i in range(count)
-            ]
-        }
-        for variant in range(VARIANTS)
     ]
 
 

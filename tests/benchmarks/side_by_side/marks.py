@@ -23,7 +23,7 @@ class Place(StrEnum):
     LAST_POSE = "z of the last arrow of a trail"
     FRAME = "x of a frame at z = -7"
     LINK = "x of a robot's link at z = -8"
-    PICTURE = "a strip in a map or an image"
+    PICTURE = "a strip in a map"
 
 
 FRAME_Z, LINK_Z = -7.0, -8.0

@@ -16,6 +16,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from side_by_side.systems.registry import SYSTEMS
 from webviz.data.words import counted
 
 ROOT = Path(__file__).parents[3]
@@ -28,6 +29,7 @@ CHOSEN = {
     "F": "updates of a map of 4000 x 4000 at 5 Hz",
 }
 """Scenes in `README.md`, in its words."""
+TITLES = {name: system.title for name, system in SYSTEMS.items()}
 ALL = 0.98
 """Share of publications that counts as all: some are on their way at the end."""
 SHOWN = ("webviz", "plain viser", "foxglove-sdk")
@@ -43,7 +45,7 @@ def table(reports: Sequence[Mapping[str, Any]], titles: Mapping[str, str]) -> st
         reports: as written with `--json`.
         titles: of the systems by name.
     """
-    rows = {(row["scene"], row["system"]): row for each in reports for row in each["rows"]}
+    rows = {(_place(row), row["system"]): row for each in reports for row in each["rows"]}
     scenes = dict.fromkeys(scene for scene, _ in rows)
     systems = [name for name in titles if any(name == system for _, system in rows)]
     lines = [_line("scene", *(titles[name] for name in systems)), "| --- |" * (len(systems) + 1)]
@@ -51,6 +53,12 @@ def table(reports: Sequence[Mapping[str, Any]], titles: Mapping[str, str]) -> st
     for scene in scenes:
         lines.append(_line(scene, *(_cell(rows.get((scene, name))) for name in systems)))
     return "\n".join(lines)
+
+
+def _place(row: Mapping[str, Any]) -> str:
+    """The scene, and who watched if it was not one client."""
+    is_usual = row["load"] == "1"
+    return row["scene"] if is_usual else f"{row['scene']}, {row['load']} clients"
 
 
 def facts(report: Mapping[str, Any]) -> str:
@@ -133,14 +141,11 @@ def _short(value: float | None) -> str:
 
 def main() -> None:
     """Write both tables."""
-    from side_by_side.systems.registry import SYSTEMS
-
     parser = argparse.ArgumentParser(prog="side_by_side.report", description=__doc__)
     parser.add_argument("files", nargs="+", type=Path)
     reports = [json.loads(file.read_text()) for file in parser.parse_args().files]
-    titles = {name: system.title for name, system in SYSTEMS.items()}
     told = dict.fromkeys(map(facts, reports))
-    figures = "\n\n".join([*told, table(reports, titles)])
+    figures = "\n\n".join([*told, table(reports, TITLES)])
     BENCHMARKS.write_text(replaced(BENCHMARKS.read_text(), figures))
     README.write_text(replaced(README.read_text(), summary(BENCHMARKS.read_text())))
 

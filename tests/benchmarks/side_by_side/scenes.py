@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import webviz_urdf
-from side_by_side import content, image_content, marker_content
+from side_by_side import content, marker_content
 from side_by_side.marks import Lane, Place
 from side_by_side.streams import Stream
 
@@ -99,10 +99,6 @@ def _frames() -> list[Stream]:
     return [Stream("/tf", TF, 50, content.frames("frame_", "map", 200), Lane(0, Place.FRAME))]
 
 
-def _many_frames() -> list[Stream]:
-    return [Stream("/tf", TF, 30, content.frames("frame_", "map", 1000), Lane(0, Place.FRAME))]
-
-
 def _laser() -> list[Stream]:
     return [
         Stream("/tf_static", TF, 0, content.static(("map", "laser"))),
@@ -181,7 +177,6 @@ EVERYTHING = "".join(
     ]
 )
 ARRAY = "- {type: MarkerArray, topic: /markers}\n"
-HELD_POINTS = "- {type: PointCloud2}\n"
 ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
 
 SCENES = {
@@ -195,20 +190,9 @@ SCENES = {
             "- {type: RobotModel}\n- {type: TF}\n",
         ),
         Scene("TF", "200 frames, 50 Hz", _frames, "- {type: TF}\n"),
-        Scene("C", "1000 frames, 30 Hz", _many_frames, "- {type: TF}\n"),
         Scene("D", "a scan of 1080 beams, 40 Hz", _laser, "- {type: LaserScan}\n"),
         Scene("E100k", "100 000 points, 10 Hz", _cloud(100_000, 10), ALL_POINTS),
         Scene("E1M3", "1 000 000 points, 3 Hz", _cloud(1_000_000, 3), ALL_POINTS),
-        Scene("E1M10", "1 000 000 points, 10 Hz", _cloud(1_000_000, 10), ALL_POINTS),
-        Scene("E5M1", "5 000 000 points, 1 Hz", _cloud(5_000_000, 1), ALL_POINTS),
-        Scene("held1M3", "1 000 000 points, 3 Hz, as held", _cloud(1_000_000, 3), HELD_POINTS),
-        Scene("held5M1", "5 000 000 points, 1 Hz, as held", _cloud(5_000_000, 1), HELD_POINTS),
-        Scene(
-            "E300k",
-            "1 000 000 points, 10 Hz; webviz shows 300 000",
-            _cloud(1_000_000, 10),
-            "- {type: PointCloud2, max_points: 300000}\n",
-        ),
         Scene("F", "a map of 4000 x 4000, 200 x 200 updates, 5 Hz", _big_map, "- {type: Map}\n"),
         Scene(
             "G",
@@ -217,57 +201,15 @@ SCENES = {
             EVERYTHING,
         ),
         Scene(
-            "M10k",
-            "10 000 cubes in one array, 1 Hz",
-            _markers(lambda: marker_content.cubes(10_000), 1, Place.FRAME),
-            ARRAY,
-        ),
-        Scene(
             "M1k",
             "1000 cubes, 20 Hz",
             _markers(lambda: marker_content.cubes(1000, 8), 20, Place.FRAME),
             ARRAY,
         ),
         Scene(
-            "lines",
-            "a LINE_LIST of 100 000 points, 10 Hz",
-            _markers(lambda: marker_content.lines(100_000), 10, Place.FIRST_VERTEX),
-            ARRAY,
-        ),
-        Scene(
-            "texts",
-            "500 texts, 2 Hz",
-            _markers(lambda: marker_content.texts(500), 2, Place.FRAME),
-            ARRAY,
-        ),
-        Scene(
-            "churn",
-            "200 cubes added and 200 deleted a second, 20 Hz",
-            _markers(marker_content.churn, 20, Place.FRAME),
-            ARRAY,
-        ),
-        Scene(
-            "image",
-            "images of 640 x 480, rgb8, 30 Hz",
-            lambda: image_content.raw(640, 480),
-            "- {type: Image, topic: /image}\n",
-        ),
-        Scene(
-            "image-hd",
-            "images of 1920 x 1080, rgb8, 30 Hz",
-            lambda: image_content.raw(1920, 1080),
-            "- {type: Image, topic: /image}\n",
-        ),
-        Scene(
-            "jpeg",
-            "JPEG of 1920 x 1080, 30 Hz",
-            lambda: image_content.jpeg(1920, 1080),
-            "- {type: Image, topic: /image/compressed}\n",
-        ),
-        Scene(
             "depth",
             "depths of 640 x 480, 16UC1, 30 Hz, as a cloud",
-            lambda: image_content.depths(640, 480),
+            lambda: content.depths(640, 480),
             "- {type: DepthCloud, topic: /depth/image, max_points: 0}\n",
         ),
         Scene(

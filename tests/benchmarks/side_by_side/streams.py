@@ -77,8 +77,6 @@ class Template:
         gap = bytes([strip.GAP]) * strip.LENGTH * strip.BLOCK
         strips = _places(cdr, gap)
         self._strip = strips if len(strips) == strip.BLOCK else None
-        in_color = len(strips) == 3 * strip.BLOCK
-        self._colors = strips.reshape(strip.BLOCK, -1, 3) if in_color else None
 
     def filled(self, stamp_ns: int, lane: Lane | None, number: int) -> bytes:
         """The message of a publication."""
@@ -89,8 +87,6 @@ class Template:
                 self._bytes[at] = np.array(lane.encode(number), dtype).reshape(1).view(np.uint8)
             if self._strip is not None:
                 self._bytes[self._strip] = strip.cells(lane.number, number).view(np.uint8)
-            if self._colors is not None:
-                self._bytes[self._colors] = strip.pixels(lane.number, number)
         return self._bytes.tobytes()
 
 

@@ -1,4 +1,4 @@
-"""Marks in maps and images: black and white blocks that survive palettes, tiles and JPEG.
+"""Marks in maps: black and white blocks that survive palettes, tiles and JPEG.
 
 Sixteen blocks by which the strip is found, three for the lane, thirteen for the publication. A
 block is 4 x 4 cells on a grid of 4 cells, so that one cell of four is looked at.
@@ -28,12 +28,6 @@ def cells(lane: int, publication: int) -> NDArray[np.int8]:
     bits = [code >> i & 1 for i in reversed(range(LANE_BITS + NUMBER_BITS))]
     row = np.where(np.concatenate([SYNC, bits]), OCCUPIED, FREE).astype(np.int8)
     return np.tile(np.repeat(row, BLOCK), (BLOCK, 1))
-
-
-def pixels(lane: int, publication: int) -> NDArray[np.uint8]:
-    """The strip in an image: uint8 (4, 128, 3)."""
-    bright = np.where(cells(lane, publication) == OCCUPIED, 255, 0).astype(np.uint8)
-    return np.repeat(bright[..., None], 3, axis=2)
 
 
 def read(picture: bytes) -> list[tuple[int, int]]:

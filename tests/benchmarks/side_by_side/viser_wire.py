@@ -86,8 +86,6 @@ def _candidates(message: dict[str, Any]) -> Iterable[tuple[Place, Any]]:
         elif abs(z - LINK_Z) < EXACT_M:
             yield Place.LINK, x
         return
-    if isinstance(message.get("rgb_data"), bytes):  # behind the scene
-        yield Place.PICTURE, message["rgb_data"]
     props = message.get("updates") or message.get("props") or {}
     positions = props.get("batched_positions")
     if isinstance(positions, np.ndarray):

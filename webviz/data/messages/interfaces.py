@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 
 from rosbags.interfaces import Nodetype
 
-from webviz.data.messages import typestore
+from webviz.data.messages import definitions, typestore
 from webviz.data.messages.decode import decode, register
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
-from webviz.data.messages.service_definitions import ACTIONS, SERVICES
 
 _SEPARATOR = re.compile(r"^---\s*$", re.MULTILINE)
 
@@ -54,8 +53,8 @@ def service(type_name: str, text: str = "") -> Service:
         DefinitionError: the definition is invalid.
     """
     parts = Service(f"{type_name}_Request", f"{type_name}_Response")
-    text = text or SERVICES.get(type_name, "")
-    if not text and not typestore.type_exists(parts.request):
+    is_known = typestore.type_exists(parts.request)
+    if not is_known and not (text := text or definitions.text(type_name)):
         typestore.find(type_name)
     if not typestore.type_exists(parts.request):
         texts = _split(type_name, text, 2)
@@ -76,7 +75,7 @@ def learn(type_name: str, request: str, response: str) -> None:
         MessageError: the name or a definition is invalid.
     """
     parts = Service(f"{type_name}_Request", f"{type_name}_Response")
-    if type_name in SERVICES or typestore.type_exists(parts.request):
+    if type_name in definitions.FILES or typestore.type_exists(parts.request):
         return
     described = [
         _described(part, text) for part, text in zip(parts, (request, response), strict=True)
@@ -111,8 +110,7 @@ def action(type_name: str, text: str = "") -> Action:
     parts = Action(
         f"{type_name}_SendGoal", f"{type_name}_GetResult", f"{type_name}_FeedbackMessage", goal
     )
-    text = text or ACTIONS.get(type_name, "")
-    if not text and not typestore.type_exists(goal):
+    if not typestore.type_exists(goal) and not (text := text or definitions.text(type_name)):
         typestore.find(type_name)
     if typestore.type_exists(goal):
         return parts

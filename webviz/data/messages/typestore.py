@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeVar
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_typestore
 
-from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages import definitions
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 from webviz.data.messages.extents import Extent, extent
 from webviz.data.messages.idl_text import types_in_idl
@@ -82,11 +82,11 @@ def _store() -> Any:
 def _known(name: str) -> Any:
     """Return the definition of a type by its full name, None if there is none.
 
-    Those of `DEFINITIONS` are parsed when they are needed: all of them take a tenth of a start.
+    Those of `definitions` are read when they are needed: all of them take a tenth of a start.
     """
     known = _store().fielddefs
-    if name not in known and name in DEFINITIONS:
-        parsed = types_in_msg(DEFINITIONS[name], name)[name]
+    if name not in known and "/msg/" in name and (text := definitions.text(name)):
+        parsed = types_in_msg(text, name)[name]
         for field in filter(lambda field: field.is_message, _fields_of(parsed)):
             _known(field.base)  # they are looked for in the store
         known[name] = parsed

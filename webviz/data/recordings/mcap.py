@@ -12,8 +12,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from webviz.data.recordings.mcap_chunks import INDEX_ENTRY, INDEX_FIELDS, McapChunk, contents_of
-from webviz.data.recordings.mcap_content import ChunkContent
+from webviz.data.recordings.mcap_chunks import (
+    INDEX_ENTRY,
+    INDEX_FIELDS,
+    ChunkContent,
+    McapChunk,
+    contents_of,
+)
 from webviz.data.recordings.mcap_index import McapIndex
 from webviz.data.recordings.mcap_records import (
     CHANNEL,

@@ -14,7 +14,7 @@ from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
 from webviz.api.nodes import Node
-from webviz.api.picking import Cells, Columns, Details, Hit
+from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
 from webviz.engine.commands import Picks
@@ -164,21 +164,6 @@ class Renderer:
         if self._state is _NO_STATE:
             return None
         return guard.attempt("inspect", None, display.inspect, hit, self._context(frames))
-
-    def cells(self, display: Display, guard: Guard, key: str, frames: Frames) -> Cells | None:
-        """Return how the display reads the cells of an image that is drawn."""
-        if self._state is _NO_STATE:
-            return None
-        return guard.attempt("cells", None, display.cells, key, self._context(frames))
-
-    def columns(
-        self, display: Display, guard: Guard, node: Node, sample: Sample, frames: Frames
-    ) -> Columns | None:
-        """Return the details of all items of a node that is drawn."""
-        if self._state is _NO_STATE:
-            return None
-        context = self._context(frames)
-        return guard.attempt("columns", None, display.columns, node, sample, context)
 
     def has(self, sample: Sample) -> bool:
         """Return whether a sample is drawn, by itself or with others."""

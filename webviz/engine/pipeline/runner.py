@@ -12,11 +12,9 @@ from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
 from webviz.api.handles import Drag, Handle
-from webviz.api.nodes import Node
 from webviz.api.observation import InputSeen
-from webviz.api.picking import Cells, Columns, Details
+from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
-from webviz.api.sample import Sample
 from webviz.api.status import LOADING, Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
 from webviz.engine.commands.guard import Guard
@@ -235,15 +233,6 @@ class Runner:
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
         return self._renderer.inspect(self.display, self._guard, found.hit, self._own(frames))
-
-    def cells(self, key: str, frames: Frames) -> Cells | None:
-        """Return how the display reads the cells of an image that is drawn."""
-        return self._renderer.cells(self.display, self._guard, key, self._own(frames))
-
-    def columns(self, node: Node, sample: Sample, frames: Frames) -> Columns | None:
-        """Return the details of all items of a node that is drawn."""
-        own = self._own(frames)
-        return self._renderer.columns(self.display, self._guard, node, sample, own)
 
     def shows(self, found: Found) -> bool:
         """Return whether the message that something was drawn from is still drawn."""

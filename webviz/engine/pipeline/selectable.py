@@ -4,53 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from webviz.api.frames import Frames
-from webviz.api.nodes import Image, Node
-from webviz.api.picking import Column, Columns, Details, Quantity
+from webviz.api.nodes import Node
+from webviz.api.picking import Details, Quantity
 from webviz.api.sample import Sample
-from webviz.data.rotations import matrices
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.pipeline.details import details_tree
-from webviz.engine.pipeline.picking import Found, Items, drawn_rows, every_item
+from webviz.engine.pipeline.picking import Found, every_item
 from webviz.engine.pipeline.runner import Runner
 
 MAX_ITEMS = 2000
-"""Of one node whose display is asked about each item; those of larger nodes come as columns."""
+"""Of one node; those of larger nodes are left out."""
 MAX_OF_DISPLAY = 4000
 DIGITS = 4
 """Of numbers that are not integers: more would mostly be noise, which cannot be compressed."""
 
 Values = Mapping[str, Any]
 """Of one node: "#frame", "#stamp", and columns with the titles, "#titles", and values of its items,
-after a dot; or "#columns", see `ItemColumns`."""
-
-
-class ItemColumns(msgspec.Struct, frozen=True, eq=False):
-    """Details of the items of a large node as arrays.
-
-    Args:
-        ids: of the items, None if these are their numbers.
-        columns: of them.
-    """
-
-    ids: NDArray[Any] | None
-    columns: Columns
-
-    def only(self, rows: NDArray[np.intp]) -> ItemColumns:
-        """Return those of some of the items."""
-        values = {
-            name: each._replace(values=each.values[rows]) if isinstance(each, Column) else each
-            for name, each in self.columns.values.items()
-        }
-        ids = rows if self.ids is None else self.ids[rows]
-        return ItemColumns(ids, replace(self.columns, values=values))
+after a dot."""
 
 
 class _Drawn(msgspec.Struct, frozen=True):
@@ -98,13 +74,11 @@ class SelectableValues:
             known = before.get(drawn.path)
             if known and drawn.is_in(known[0]) and not (drawn.is_moving and drawn.items):
                 made[drawn.path] = known
-            elif isinstance(drawn.node, Image):
-                made[drawn.path] = drawn, _cell_values(runner, drawn, frames)
             elif drawn.items and len(drawn.items) <= room:
                 room -= len(drawn.items)
                 made[drawn.path] = drawn, _values(runner, drawn, frames)
             elif drawn.samples:
-                made[drawn.path] = drawn, _column_values(runner, drawn, frames)
+                made[drawn.path] = drawn, {"#frame": drawn.frame, "#stamp": _stamp(drawn)}
         self._made[runner.id] = made
         return {
             f"{path}\n{what}": value
@@ -137,39 +111,9 @@ def _values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
     }
 
 
-def _column_values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
-    """Return the details of the items of a large node, of all at once."""
-    node = drawn.node
-    columns = runner.columns(node, drawn.samples[-1], frames) if isinstance(node, Items) else None
-    if columns is None or not isinstance(node, Items):
-        return {}
-    made = ItemColumns(node.ids, columns)
-    if (rows := drawn_rows(node)) is not None:
-        made = made.only(rows)
-    return {"#frame": drawn.frame, "#stamp": _stamp(drawn), "#columns": made}
-
-
 def _stamp(drawn: _Drawn) -> str:
     stamp_ns = drawn.samples[-1].stamp_ns if drawn.samples else 0
     return f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
-
-
-def _cell_values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
-    """Return how the cells of an image are read: their values are in it."""
-    cells = runner.cells(drawn.key, frames)
-    if cells is None:
-        return {}
-    along, across, _ = matrices(cells.origin.wxyz).T.tolist()
-    grid = {
-        "corner": cells.corner,
-        "columns": cells.columns,
-        "resolution": cells.resolution,
-        "origin": cells.origin.position,
-        "axes": [along, across],
-        "frame": cells.frame,
-        "told": cells.told,
-    }
-    return {"#frame": cells.frame, "#stamp": _stamp(drawn), "#cells": grid}
 
 
 def _titles(details: Iterable[Details | None]) -> list[str | None]:

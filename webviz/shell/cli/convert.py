@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from cyclopts import App
@@ -10,7 +11,7 @@ from webviz.engine.pipeline import plugins
 from webviz.files import config as config_file
 from webviz.files import opening, rviz
 from webviz.files.config import ConfigError
-from webviz.shell.cli.checking import print_check
+from webviz.files.rviz.report import percent
 from webviz.shell.cli.options import File, Flag, Plugins, report_unsupported
 from webviz.shell.cli.terminal import say
 
@@ -91,3 +92,30 @@ def convert(
         text = config_file.dump(config)
     config_file.write_text(text, target)
     say(f"webviz: wrote {target}")
+
+
+def print_check(paths: Sequence[Path]) -> None:
+    """Print the unsupported parts of each file, and totals.
+
+    Raises:
+        ConfigError: some files cannot be read; the others are printed nevertheless.
+    """
+    whole, complete, unreadable = rviz.Report(), 0, 0
+    for path in paths:
+        try:
+            config, report = rviz.read(config_file.read_text(path), str(path))
+        except ConfigError as error:
+            say(f"{path}: {error}")
+            unreadable += 1
+            continue
+        whole.total += report.total
+        whole.carried += report.carried
+        complete += report.is_complete
+        counts = ", ".join(f"{report.carried[k]} of {report.total[k]} {k}" for k in report.missing)
+        say(f"{path}: {counts or 'complete'}")
+        for sentence in config.report:
+            say(f"  {sentence}")
+    say("", f"Complete: {complete} of {len(paths)} files, {percent(complete, len(paths)).strip()}")
+    say(*whole.table().split("\n"))
+    if unreadable:
+        raise ConfigError(f"{unreadable} of {len(paths)} files cannot be read.")

@@ -84,9 +84,8 @@ def demo(
     """
 
     def work(stop: Stop) -> int:
-        from webviz.shell.cli.fleet import standard_config
+        from webviz.shell.cli.demo import simulator, standard_config
         from webviz.shell.cli.serving import serve
-        from webviz.shell.cli.simulator import simulator
         from webviz.shell.domains import demo_domain
 
         extra = ["--robots", str(robots)] if robots > 1 else []

@@ -9,12 +9,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
+import numpy as np
 
-from webviz.engine.pipeline.selectable import ItemColumns
 from webviz.scene.adapter.tape import SceneMessage
 from webviz.server.sending.outbox import BULK_BYTES
-from webviz.shell.export.buffers import ALIGNMENT, Buffers
-from webviz.shell.export.columns import encoded
+from webviz.server.sending.thinning import chosen
 
 LEVEL = 9
 """Of compression: a twentieth smaller than the usual one, for half a second a minute of a run."""
@@ -22,6 +21,70 @@ SHARED_BYTES = 1 << 10
 """Columns of values from this size on have the numbers of their items, each of which a chunk has
 once: compression does not see as far back as the trail with one point less."""
 COLUMN = b'{"each":['
+ALIGNMENT = 8
+"""Bytes; browsers make numbers only of what is aligned."""
+SHUFFLED_BYTES = 256
+"""Arrays from this size on have the first bytes of all their numbers first, then the second ones
+and so on, which compresses floats by a third more."""
+
+
+class _Buffer(msgspec.Struct, frozen=True):
+    """Bytes of a chunk.
+
+    Args:
+        data: an array, or bytes.
+        width: size of its numbers in bytes if these are shuffled, else 1.
+        rows: how many points it has, 0 if it is not of a cloud.
+        kind: of buffers that are alike, and compressed side by side.
+    """
+
+    data: memoryview
+    width: int
+    rows: int = 0
+    kind: str = ""
+
+    def packed(self, every: int) -> bytes:
+        """Return the bytes as they are compressed, of a cloud with one of `every` points."""
+        flat = np.frombuffer(self.data, np.uint8)
+        if self.rows and every > 1:
+            flat = flat.reshape(self.rows, -1)[chosen(self.rows, every)].ravel()
+        if self.width > 1:
+            flat = np.ascontiguousarray(flat.reshape(-1, self.width).T)
+        return flat.tobytes()
+
+
+class Buffers:
+    """The binary part of a chunk."""
+
+    def __init__(self) -> None:
+        self._all: list[_Buffer] = []
+        self.size = 0
+        """Bytes before compression."""
+
+    def add(
+        self,
+        data: memoryview | bytes,
+        dtype: str = "",
+        rows: int = 0,
+        kind: str = "",
+    ) -> int:
+        """Add an array or bytes; its number."""
+        view = memoryview(data)
+        item = np.dtype(dtype).itemsize if dtype else 1
+        width = item if item > 1 and view.nbytes >= SHUFFLED_BYTES else 1
+        self._all.append(_Buffer(view, width, rows, kind))
+        self.size += view.nbytes
+        return len(self._all) - 1
+
+    def packed(self, every: int) -> tuple[list[tuple[int, int, int]], bytes]:
+        """Start, size and width of each, and all of them."""
+        whole, index = bytearray(), [(0, 0, 1)] * len(self._all)
+        for number, buffer in sorted(enumerate(self._all), key=lambda each: each[1].kind):
+            data = buffer.packed(every)
+            whole += bytes(-len(whole) % ALIGNMENT)
+            index[number] = len(whole), len(data), buffer.width
+            whole += data
+        return index, bytes(whole)
 
 
 class _Column(msgspec.Struct):
@@ -87,12 +150,6 @@ class TapeChunk(msgspec.Struct):
         self.json_bytes += len(bytes(value))
         self.values.append((kind, value))
 
-    def add_columns(self, kind: str, columns: ItemColumns) -> None:
-        """Add the values of the points of a cloud; those of a kind are compressed side by side."""
-        value = msgspec.Raw(encoded(columns, kind, self.buffers))
-        self.json_bytes += len(bytes(value))
-        self.values.append((kind, value))
-
     def _with_shared(self, column: bytes) -> msgspec.Raw:
         """Return a column with the numbers of its items."""
         numbers: list[int] = []
@@ -108,14 +165,13 @@ class TapeChunk(msgspec.Struct):
         """Add a picture of a pane as pages receive it."""
         self.pictures.append(self.buffers.add(data))
 
-    def packed(self, every: int = 1, has_columns: bool = True) -> bytes:
+    def packed(self, every: int = 1) -> bytes:
         """Return the chunk as the page reads it: gzip of JSON's length, the JSON and the arrays.
 
         Args:
             every: of how many points of large clouds one is kept.
-            has_columns: whether the values of these points are kept.
         """
-        index, arrays = self.buffers.packed(every, has_columns)
+        index, arrays = self.buffers.packed(every)
         order = sorted(range(len(self.values)), key=lambda number: self.values[number][0])
         places = {number: place for place, number in enumerate(order)}
         text = msgspec.json.encode(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import msgspec
 
 MAX_EVERY = 16
-"""First the values of large clouds are left out. Then at least one of so many of their points is
-kept, and at last versions of what is large are left out."""
+"""First at least one of so many points of large clouds is kept, then versions of what is large are
+left out."""
 MAX_SKIP = 64
 RESERVE = 400_000
 """Bytes for what comes at the end of the file."""
@@ -26,9 +26,6 @@ class SizeLimit(msgspec.Struct):
     """Of how many points of clouds one is kept."""
     skip: int = 1
     """Of how many versions of a large cloud, map, mesh or picture one is kept."""
-    _without_columns: list[tuple[float, float]] = msgspec.field(
-        default_factory=list[tuple[float, float]]
-    )
     _thinned: list[tuple[float, float, int, int]] = msgspec.field(
         default_factory=list[tuple[float, float, int, int]]
     )
@@ -49,10 +46,6 @@ class SizeLimit(msgspec.Struct):
         left = max(0, self.bytes - RESERVE - used) * 3 / 4  # base64
         return left * min(1.0, max(last_s - first_s, 0.1) / rest_s)
 
-    def leave_out_columns(self, first_s: float, last_s: float) -> None:
-        """Note that a part has no values of the points of large clouds."""
-        self._without_columns.append((first_s, last_s))
-
     def adapt(self, size: int, room: float, first_s: float, last_s: float) -> None:
         """Note how a part was made, and choose how the next one begins."""
         if self.is_exceeded:
@@ -68,7 +61,8 @@ class SizeLimit(msgspec.Struct):
         """Sentences on what was left out."""
         notes: list[str] = []
         if self._thinned:
-            when = _when(self._thinned[0][0], self._thinned[-1][1])
+            first_s, last_s = self._thinned[0][0], self._thinned[-1][1]
+            when = f"between {first_s:.1f} and {last_s:.1f} s"
             every, skip = (max(each[part] for each in self._thinned) for part in (2, 3))
             if every > 1:
                 notes.append(f"Clouds keep at least one of {every} points {when}.")
@@ -76,12 +70,4 @@ class SizeLimit(msgspec.Struct):
                 what = f"at least one of {skip} versions is shown"
                 notes.append(f"Of clouds, maps and pictures, {what} {when}.")
             notes.append(f"Values of selected points are missing {when}.")
-        thinned = {(first_s, last_s) for first_s, last_s, *_ in self._thinned}
-        if whole := [span for span in self._without_columns if span not in thinned]:
-            when = _when(whole[0][0], whole[-1][1])
-            notes.append(f"Values of points of large clouds are missing {when}.")
         return notes
-
-
-def _when(first_s: float, last_s: float) -> str:
-    return f"between {first_s:.1f} and {last_s:.1f} s"

@@ -13,7 +13,7 @@ import msgspec
 from webviz.api.frames import Frames
 from webviz.api.views import FIXED_FRAME
 from webviz.engine.commands import Refresh
-from webviz.engine.pipeline.selectable import ItemColumns, SelectableValues
+from webviz.engine.pipeline.selectable import SelectableValues
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.page.pages import Pages
@@ -21,7 +21,6 @@ from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter.tape import SceneTape
 from webviz.scene.cameras import ViserCameras
 from webviz.server.http.viser_server import Server
-from webviz.shell.export.columns import ColumnTape
 from webviz.shell.export.panes import PaneTape
 from webviz.shell.export.stores import VALUES, RecordingChannel
 from webviz.shell.export.tape import TapeFrame
@@ -92,7 +91,6 @@ class RunRecorder:
     def __init__(self, config: Config, source: Player) -> None:
         self._source = source
         self._values = SelectableValues()
-        self._columns = ColumnTape()
         with contextlib.ExitStack() as stack:
             server = open_server(port=0)
             stack.callback(server.stop)
@@ -149,18 +147,14 @@ class RunRecorder:
             pictures = self._panes.take(self._scene.link.pictures.panes())
             ros_s = self._source.now_ns() / 1e9
             stores = self.channel.take(is_slow_due)
-            columns = self._columns.take()
-            yield TapeFrame(at_s, ros_s, self._tape.take(), stores, columns, pictures)
+            yield TapeFrame(at_s, ros_s, self._tape.take(), stores, pictures)
             tell(at_s / length_s if length_s else 1.0)
 
     def _show_values(self) -> None:
         """Record the details of what can be selected."""
         frames = self._frames()
         for runner in self.viewer.loop.runners():
-            store, values = f"{VALUES}{runner.id}", self._values.of(runner, frames)
-            columns = {key: each for key, each in values.items() if isinstance(each, ItemColumns)}
-            self.channel.show(store, {k: v for k, v in values.items() if k not in columns})
-            self._columns.show(store, columns)
+            self.channel.show(f"{VALUES}{runner.id}", self._values.of(runner, frames))
 
     def _frames(self) -> Frames:
         """Return the transforms at the time that is shown."""

@@ -10,7 +10,6 @@ import msgspec
 from webviz.scene.adapter.tape import SceneChange, SceneMessage
 from webviz.server.sending.outbox import BULK_BYTES
 from webviz.shell.export.chunks import TapeChunk
-from webviz.shell.export.columns import ColumnChanges
 from webviz.shell.export.limit import MAX_EVERY, SizeLimit
 from webviz.shell.export.stores import VALUES, Changes
 
@@ -30,7 +29,6 @@ class TapeFrame(msgspec.Struct, frozen=True):
         ros_s: ROS time in seconds.
         scene: changes of the scene since the frame before.
         stores: changes of the stores.
-        columns: changes of the values of large clouds.
         pictures: new pictures of panes by display as pages receive them, None if one is gone; and
             whether it can be shown without those before.
     """
@@ -39,7 +37,6 @@ class TapeFrame(msgspec.Struct, frozen=True):
     ros_s: float
     scene: SceneChange
     stores: Changes
-    columns: ColumnChanges
     pictures: Mapping[str, tuple[bytes, bool] | None]
 
 
@@ -94,7 +91,7 @@ class Tape:
         is_key = self._chunk is None
         chunk = self._chunk = self._chunk or TapeChunk(self._messages, self._values, self._pictures)
         added, gone = self._add_scene(chunk, frame.scene)
-        values = self._add_values(chunk, frame.stores) + self._add_columns(chunk, frame.columns)
+        values = self._add_values(chunk, frame.stores)
         pictures = self._add_pictures(chunk, frame.pictures)
         self._times.append(frame.at_s)
         if is_key:
@@ -114,14 +111,10 @@ class Tape:
         self.index.append(ChunkIndex(self._times, *first))
         self._chunk, self._times = None, []
         room = limit.room(self._used, first_s, until_s)
-        has_columns = chunk.buffers.has_columns and not limit.is_exceeded
-        packed = chunk.packed(limit.every, has_columns)
-        if has_columns and len(packed) > room:
-            limit.leave_out_columns(first_s, until_s)
-            packed = chunk.packed(limit.every, has_columns=False)
+        packed = chunk.packed(limit.every)
         while len(packed) > room and chunk.has_clouds and limit.every < MAX_EVERY:
             limit.every *= 2
-            packed = chunk.packed(limit.every, has_columns=False)
+            packed = chunk.packed(limit.every)
         limit.adapt(len(packed), room, first_s, until_s)
         self._used = self._write(packed)
 
@@ -162,19 +155,6 @@ class Tape:
             number = self._number(chunk, f"{store} {key}", value)
             self._stores[store, key] = number
             told.append([store, key, number])
-        return told
-
-    def _add_columns(self, chunk: TapeChunk, changes: ColumnChanges) -> list[Any]:
-        told: list[Any] = []
-        for (store, key), columns in changes.items():
-            if columns is None or self._limit.is_exceeded:
-                self._stores.pop((store, key), None)
-                told.append([store, key, -1])
-                continue
-            chunk.add_columns(f"{store} {key}", columns)
-            self._stores[store, key] = self._values
-            told.append([store, key, self._values])
-            self._values += 1
         return told
 
     def _number(self, chunk: TapeChunk, kind: str, value: msgspec.Raw) -> int:

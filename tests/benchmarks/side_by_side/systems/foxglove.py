@@ -12,9 +12,9 @@ from __future__ import annotations
 import sys
 from functools import partial
 
-import foxglove  # pyright: ignore[reportMissingImports]
+import foxglove
 import rclpy
-from foxglove.websocket import ChannelView, Client  # pyright: ignore[reportMissingImports]
+from foxglove.websocket import ChannelView, Client
 from rclpy.node import Node
 
 from side_by_side.systems.arguments import LATCHED, parsed

@@ -20,13 +20,12 @@ import viser
 import yourdfpy
 from rclpy.node import Node
 
-from side_by_side.systems import plain_images
 from side_by_side.systems.arguments import LATCHED, parsed
 from side_by_side.systems.shades import picture, rainbow
 from side_by_side.systems.typed import subscribe
 
 TRAIL = 10_000
-LINE_LIST, TEXT, DELETE = 5, 9, 2
+DELETE = 2
 
 
 class PlainViewer:
@@ -133,7 +132,7 @@ class PlainViewer:
         self.handles[topic].points = arrows
 
     def on_markers(self, topic: str, message: Any) -> None:
-        """A node for each marker: boxes, lines and texts."""
+        """A box for each marker."""
         for marker in message.markers:
             name, p = (
                 f"{self.path(marker.header.frame_id)}{topic}/{marker.id}",
@@ -145,34 +144,16 @@ class PlainViewer:
                     self.handles.pop(name).remove()
                 continue
             if node is None:
-                node = self.handles[name] = self.add_marker(name, marker)
-            if marker.type == LINE_LIST:
-                points = np.array([(p.x, p.y, p.z) for p in marker.points], np.float32)
-                node.points = points.reshape(-1, 2, 3)
-            elif marker.type == TEXT:
-                node.text = marker.text
+                size, color = marker.scale, (marker.color.r, marker.color.g, marker.color.b)
+                node = self.scene.add_box(name, color, (size.x, size.y, size.z))
+                self.handles[name] = node
             node.position = (p.x, p.y, p.z)
 
-    def add_marker(self, name: str, marker: Any) -> Any:
-        """The node of a new marker."""
-        size, color = marker.scale, (marker.color.r, marker.color.g, marker.color.b)
-        if marker.type == LINE_LIST:
-            return self.scene.add_line_segments(name, np.zeros((1, 2, 3)), color)
-        if marker.type == TEXT:
-            return self.scene.add_label(name, marker.text)
-        return self.scene.add_box(name, color, (size.x, size.y, size.z))
-
     def on_image(self, topic: str, message: Any) -> None:
-        """Behind the scene; depths as points."""
-        if message.encoding != "16UC1":
-            plain_images.on_image(self.scene, message)
-        elif self.info is not None:
-            points, colors = plain_images.depth_points(message, self.info)
+        """Depths as points."""
+        if self.info is not None:
+            points, colors = depth_points(message, self.info)
             self.set_points(topic, message.header.frame_id, points, colors)
-
-    def on_compressed(self, topic: str, message: Any) -> None:
-        """Behind the scene."""
-        plain_images.on_compressed(self.scene, message)
 
     def on_info(self, topic: str, message: Any) -> None:
         """Needed for depths."""
@@ -188,6 +169,16 @@ class PlainViewer:
                 if mesh := solid(visual.geometry):
                     mesh.apply_transform(np.eye(4) if visual.origin is None else visual.origin)
                     self.scene.add_mesh_trimesh(f"/{name}/visual_{i}", mesh)
+
+
+def depth_points(depth: Any, info: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Points (N, 3) of depths in mm, coloured by their depth: uint8 (N, 3)."""
+    z = np.frombuffer(depth.data, np.uint16).reshape(depth.height, depth.width) / 1000
+    columns, rows = np.meshgrid(np.arange(depth.width), np.arange(depth.height))
+    x = (columns - info.p[2]) * z / info.p[0]
+    y = (rows - info.p[6]) * z / info.p[5]
+    points = np.stack([x, y, z], axis=-1)[z > 0].astype(np.float32)
+    return points, rainbow(points[:, 2])
 
 
 def solid(geometry: yourdfpy.Geometry) -> trimesh.Trimesh | None:
@@ -215,7 +206,6 @@ def main(*topics: str) -> None:
         "nav_msgs/msg/Odometry": viewer.on_odometry,
         "visualization_msgs/msg/MarkerArray": viewer.on_markers,
         "sensor_msgs/msg/Image": viewer.on_image,
-        "sensor_msgs/msg/CompressedImage": viewer.on_compressed,
         "sensor_msgs/msg/CameraInfo": viewer.on_info,
         "std_msgs/msg/String": viewer.on_description,
     }

@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from side_by_side.picture_watcher import PictureWatcher
 from side_by_side.scenes import Scene
 from side_by_side.watchers import FileWatcher, FoxgloveWatcher, ViserWatcher, Watcher
 
@@ -70,19 +69,8 @@ def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> 
     return ViserWatcher(port, scene, stalls)
 
 
-def _watch_webviz(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
-    has_panes = "type: Image" in (folder / "scene.yaml").read_text()
-    return (PictureWatcher if has_panes else ViserWatcher)(port, scene, stalls)
-
-
 def _watch_foxglove(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
     return FoxgloveWatcher(port, scene, stalls)
-
-
-def _watch_rerun(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
-    from side_by_side.rerun_wire import RerunWatcher  # grpcio comes with the extra "bench" only
-
-    return RerunWatcher(port, scene, stalls)
 
 
 def _watch_floor(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
@@ -93,16 +81,15 @@ SYSTEMS = {
     system.name: system
     for system in (
         System("floor", "rclpy alone", _floor, _watch_floor, ("rclpy",), is_served=False),
-        System("webviz", "webviz", _webviz, _watch_webviz, ("ros-webviz", "viser")),
+        System("webviz", "webviz", _webviz, _watch_viser, ("ros-webviz", "viser")),
         System(
             "bridged",
             "webviz behind foxglove-sdk",
             _bridged,
-            _watch_webviz,
+            _watch_viser,
             ("ros-webviz", "viser", "foxglove-sdk"),
         ),
         System("plain", "plain viser", _module("plain"), _watch_viser, ("viser",)),
         System("foxglove", "foxglove-sdk", _module("foxglove"), _watch_foxglove, ("foxglove-sdk",)),
-        System("rerun", "rerun-sdk", _module("rerun"), _watch_rerun, ("rerun-sdk",)),
     )
 }

@@ -11,12 +11,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from webviz.data.messages.definitions import DEFINITIONS
+from webviz.data.messages import definitions
 from webviz.ros.types import message_class
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
-STORE.register(get_types_from_msg(DEFINITIONS[UPDATE], UPDATE))
+STORE.register(get_types_from_msg(definitions.text(UPDATE), UPDATE))
 
 
 def subscribe(
@@ -25,7 +25,7 @@ def subscribe(
     """Call `callback(topic, message)` for each message.
 
     tf2_msgs and map_msgs are not on PyPI. Where such a package is missing the message comes raw and
-    rosbags decodes it, which takes about as long as rclpy's own conversion (bench_messages.py).
+    rosbags decodes it, which takes about as long as rclpy's own conversion.
     """
     package, _, name = kind.split("/")
     try:

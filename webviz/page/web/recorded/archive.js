@@ -83,17 +83,14 @@ export function archive(index) {
       });
     },
     /**
-     * A function of the number of a value; it revives the value if it has arrays.
+     * A function of the number of a value.
      *
      * @param {number[]} numbers
-     * @returns {Promise<(number: number, hasArrays?: boolean) => any>}
+     * @returns {Promise<(number: number) => any>}
      */
     async values(numbers) {
       const of = await homes("value", numbers);
-      return (number, hasArrays = false) => {
-        const value = valueIn(of(number), number);
-        return hasArrays ? revived(of(number), value) : value;
-      };
+      return (number) => valueIn(of(number), number);
     },
     /**
      * Functions that make the messages of pictures.

@@ -1,7 +1,6 @@
 // Stands in for the server of a page that was exported: answers from the recorded run what a viewer
 // would, and refuses the rest.
 
-import { isTile, nodeNamed } from "../scene/picking/things.js";
 import { clock } from "./clock.js";
 import { player } from "./player.js";
 import { boxOf } from "./bounds.js";
@@ -87,11 +86,6 @@ export function connection(about, feed, fail) {
     (display) => run.value("displays", display),
     (display, node) => run.read(`values:${display}`, node),
     () => `${run.ros().toFixed(3)} s`,
-    (group, key) =>
-      run.picture((name) => {
-        const node = isTile(name) ? nodeNamed(name) : null;
-        return node?.group === group && node.key === key;
-      }),
   );
 
   /** @param {number} at */

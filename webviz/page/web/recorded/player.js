@@ -1,7 +1,6 @@
 // Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
 
 import { archive } from "./archive.js";
-import { COLUMNS } from "./columns.js";
 import { frameAt, shownAt, within } from "./moments.js";
 import { changesBetween } from "./scene_changes.js";
 import { switches } from "./switches.js";
@@ -153,27 +152,7 @@ export function player(about, sinks) {
     async read(store, start) {
       const all = [...(shown.stores.get(store) ?? [])].filter(([key]) => key.startsWith(start));
       const value = await run.values(all.map(([, number]) => number));
-      return new Map(
-        all.map(([key, number]) => {
-          const what = key.slice(start.length);
-          return [what, value(number, what === COLUMNS)];
-        }),
-      );
-    },
-    /**
-     * The picture that was sent last for a node, of those whose name is wanted; null for none.
-     *
-     * @param {(name: string) => boolean} isWanted
-     * @returns {Promise<Uint8Array | null>}
-     */
-    async picture(isWanted) {
-      const sent = [...known.values()].filter((one) => isWanted(one.node));
-      const messages = await run.messages(sent.map(({ number }) => number));
-      for (const message of messages.reverse()) {
-        const data = message.updates?._data ?? message.props?._data;
-        if (data) return data;
-      }
-      return null;
+      return new Map(all.map(([key, number]) => [key.slice(start.length), value(number)]));
     },
     /**
      * The ids of a display and of those in it, if it is a group.

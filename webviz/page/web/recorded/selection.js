@@ -1,8 +1,5 @@
 // The selection of a page that was exported: the recorded details of things, and what the scene has.
 
-import { cellAt, cellDetails, indexAt } from "./cells.js";
-import { COLUMNS, columnDetails } from "./columns.js";
-
 /** @import {DisplayRow} from "../contents.js" */
 /** @import {Column, NodeValues} from "./types.js" */
 
@@ -26,57 +23,39 @@ function cell(column, number) {
  * @param {(display: string) => DisplayRow | undefined} rowOf
  * @param {(display: string, node: string) => Promise<NodeValues>} valuesOf of a node now
  * @param {() => string} stamp the time that is shown
- * @param {(group: string, key: string) => Promise<Uint8Array | null>} pictureOf a node, as PNG
  */
-export function selection(rowOf, valuesOf, stamp, pictureOf) {
+export function selection(rowOf, valuesOf, stamp) {
   /** @type {Map<number, {display: string, thing: object}>} */
   let things = new Map(); // by id
   let total = 0;
 
   /**
    * @param {any} picks
-   * @param {number[]} at
-   * @param {NodeValues} values
-   */
-  async function cellOf({ group, key }, at, values) {
-    const grid = values.get("#cells");
-    const png = grid && (await pictureOf(group, key));
-    if (!png) return null;
-    const place = cellAt(grid, at);
-    const index = await indexAt(png, place.x, place.y);
-    return index === null ? null : cellDetails(grid, place, index);
-  }
-
-  /**
-   * @param {any} picks
    * @param {any} item
    * @param {NodeValues} values
    */
-  async function made({ group, key }, [, number, at, color], values) {
+  function made({ group, key }, [, number, at, color], values) {
     const display = group.split("/", 1)[0];
     const row = rowOf(display);
     const name = row?.name ?? display;
     /** @type {Record<string, any>} */
     const fields = {};
-    const mapCell = await cellOf({ group, key }, at, values);
-    Object.assign(fields, mapCell?.fields);
+    const isKnown = values.has("#titles");
     for (const [field, column] of values) {
       const value = field.startsWith(".") ? cell(column, number ?? 0) : null;
       if (value !== undefined && value !== null) fields[field.slice(1)] = value;
     }
-    const columns = values.get(COLUMNS) && columnDetails(values.get(COLUMNS), number ?? 0, at);
-    if (columns) Object.assign(fields, Object.fromEntries(columns.fields));
-    else
+    // Large clouds and maps are moved: places in them mean nothing without their values.
+    if (isKnown)
       fields.Position = `${at.map((/** @type {number} */ each) => each.toFixed(4)).join(", ")} m`;
     if (values.get("#frame")) fields.Frame = values.get("#frame");
     if (color) fields.Color = color.join(", ");
     if (row?.topics.length) fields.Topic = row.topics.join(", ");
     if (values.get("#stamp")) fields.Stamp = values.get("#stamp");
     fields.Time = stamp();
-    if (!values.size || columns === null) fields.Values = MISSING;
+    if (!isKnown) fields.Values = MISSING;
     const plain = number === null ? key || name : `${key || "Item"} ${number}`.trim();
-    const title =
-      mapCell?.title ?? columns?.title ?? cell(values.get("#titles"), number ?? 0) ?? plain;
+    const title = cell(values.get("#titles"), number ?? 0) ?? plain;
     const thing = { display, name, title, tree: { fields }, note: "" };
     return { display, thing };
   }
@@ -88,7 +67,7 @@ export function selection(rowOf, valuesOf, stamp, pictureOf) {
       for (const each of picks) {
         const display = each.group.split("/", 1)[0];
         const values = await valuesOf(display, `${each.group}\n${each.key}\n`);
-        for (const item of each.items) next.set(item[0], await made(each, item, values));
+        for (const item of each.items) next.set(item[0], made(each, item, values));
       }
       things = next;
       total = Math.max(count, things.size);

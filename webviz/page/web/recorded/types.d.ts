@@ -96,34 +96,5 @@ export type ViewCamera = [position: Vec3, lookAt: Vec3];
 export type ViewRig = { origin: Vec3; yaw: number };
 /** A value of each item of a node, or the one that all have. */
 export type Column = { all: unknown } | { each: unknown[] } | { numbers: number[]; unit: string };
-/** The numbers of a column. */
-export type Numbers =
-  | Float32Array
-  | Float64Array
-  | Uint8Array
-  | Uint16Array
-  | Uint32Array
-  | Int8Array
-  | Int16Array
-  | Int32Array;
-/** Details of all items of a large node; see webviz/shell/export/columns.py. */
-export interface ItemColumns {
-  title: string;
-  values: [name: string, value: string | { array: Numbers; text: string }][];
-  ids: Numbers | null;
-  position: string;
-  origin: Vec3;
-}
-/** How the cells of the picture of a map are read; see webviz/api/picking.py. */
-export interface CellGrid {
-  corner: [row: number, column: number];
-  columns: number;
-  resolution: number;
-  origin: Vec3;
-  /** Directions of columns and rows, of length 1. */
-  axes: [Vec3, Vec3];
-  frame: string;
-  told: (string | number)[];
-}
 /** The details of what is drawn as one node; see webviz/engine/pipeline/selectable.py. */
 export type NodeValues = Map<string, any>;
