@@ -373,6 +373,39 @@ def test_a_recording_that_replaces_topics_on_the_way_back_to_now_waits_for_displ
     player.close()
 
 
+def test_ages_go_on_when_a_recording_replaces_topics_and_when_it_is_closed(
+    tmp_path: Path,
+) -> None:
+    player = Player(MemoryHistory(HandFedSource()))
+    begun_s, clock_s = time.monotonic(), player.clock()
+    player.show(BagHistory(strings(0, 100).write(tmp_path / "run")))
+    player.jump(player.history.start_ns + ns(30))
+    player.play_until(player.history.start_ns + ns(30))
+    passed_s = time.monotonic() - begun_s
+    assert clock_s + 30 <= player.clock() <= clock_s + 30 + passed_s + 0.001
+    player.return_to_live()
+    passed_s = time.monotonic() - begun_s
+    assert clock_s + 30 <= player.clock() <= clock_s + 30 + passed_s + 0.001
+    player.close()
+
+
+def test_a_moment_is_forgotten_once_a_recording_replaces_it(tmp_path: Path) -> None:
+    source = HandFedSource()
+    memory = MemoryHistory(source)
+    memory.recent.seconds, memory.recent.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: memory.recent.put)
+    player = Player(memory)
+    player.want({"/path": Subscription(PATH, Topic("/path"))})
+    begun_ns = memory.end_ns
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 50))
+    player.jump(begun_ns - ns(20))
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() + 59))  # forgets the other
+    assert memory.start_ns < begun_ns - ns(40)
+    player.show(BagHistory(strings(0, 100).write(tmp_path / "run")))
+    assert memory.start_ns > begun_ns
+    player.close()
+
+
 def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
     source = HandFedSource()
     latched = Publisher("/planner", PATH, "reliable", "transient_local")
