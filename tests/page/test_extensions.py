@@ -105,6 +105,18 @@ def test_a_module_that_fails_is_reported_and_the_page_goes_on(
         registry.register(str(path), {})
 
 
+def test_a_module_that_is_too_large_with_those_that_it_imports_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "large.py"
+    path.write_text("from webviz import Display\nclass Large(Display):\n    module = 'large.js'\n")
+    (tmp_path / "large.js").write_text('import "./more.js";'.ljust(600_000))
+    (tmp_path / "more.js").write_text(" " * 400_001)
+    with pytest.raises(PluginError, match=r"its module .*large\.js has more than 1 MB"):
+        load(path)
+    (tmp_path / "more.js").write_text(" " * 400_000)
+    load(path)
+    registry.register(str(path), {})
+
+
 def test_a_module_imports_others_beside_it(tab: Tab, tmp_path: Path) -> None:
     path = tmp_path / "split.py"
     path.write_text("from webviz import Display\nclass Split(Display):\n    module = 'split.js'\n")
