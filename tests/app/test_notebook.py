@@ -24,6 +24,19 @@ from webviz.shell.app.notebook import OF_NOTEBOOKS, embedders, html
 from webviz.shell.testing.source import HandFedSource
 
 SIZE: playwright.ViewportSize = {"width": 400, "height": 300}
+REACH = """() => {
+  const inside = document.querySelector("iframe").contentWindow;
+  for (const type of ["Do", "connect", "message"])
+    for (let i = 0; i < 100; i++) inside.postMessage({ type, command: "Load", data: "x" }, "*");
+  return ["webviz", "document", "localStorage", "eval"].filter((name) => {
+    try {
+      return inside[name];
+    } catch {
+      return false;
+    }
+  });
+}"""
+"""Sends messages to an embedded page, and returns the parts of its window that can be reached."""
 Refused = Callable[[Callable[[], object]], str]
 
 
@@ -58,6 +71,8 @@ def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
         inside = frame.content_frame()
         assert inside is not None
         inside.wait_for_function("window.webviz?.hasView()", timeout=60_000)
+        assert page.evaluate(REACH) == []
+        inside.wait_for_function("window.webviz.hasView()")
         page.goto(f"{origin}/closed.html")
         page.wait_for_function("window.length === 1")
         assert all("chrome-error" in each.url for each in page.frames[1:])

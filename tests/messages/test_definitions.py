@@ -24,7 +24,7 @@ from webviz.data.messages import (
     type_hash,
 )
 from webviz.data.messages.decoders import decoder
-from webviz.data.messages.typestore import are_same
+from webviz.data.messages.typestore import agree
 from webviz.sources.bridge.definitions import Definitions
 
 CDR = b"\x00\x01\x00\x00"
@@ -146,9 +146,9 @@ def test_a_type_that_loses_its_header_has_none_from_then_on() -> None:
 
 def test_definitions_are_the_same_if_they_mean_the_same() -> None:
     name, plain = "test_msgs/msg/Same", "int32 a\nfloat64 b\n"
-    assert are_same(name, plain, "# of two\nint32  a\nfloat64 b # in m\n")
+    assert agree(name, (name, plain), (name, "# of two\nint32  a\nfloat64 b # in m\n"))
     for text, other in ((plain, "int32 a\nfloat32 b\n"), ("int32 = (", "int32 = (")):
-        assert not are_same(name, text, other)
+        assert not agree(name, (name, text), (name, other))
 
 
 def test_what_follows_from_a_definition_stays_until_it_is_replaced() -> None:

@@ -33,6 +33,15 @@ TESTS = {
         "tests/sources tests/pipeline/test_recording.py tests/pipeline/test_rights.py "
         "tests/playback"
     ),
+    "webviz/sources/player.py": (
+        "tests/playback/test_playing.py tests/playback/test_bags.py tests/playback/test_opening.py "
+        "tests/playback/test_rewinding.py"
+    ),
+    "webviz/sources/history": (
+        "tests/sources/test_bag_past.py tests/playback/test_rewinding.py "
+        "tests/playback/test_seeks_and_transforms.py tests/playback/test_seeking.py"
+    ),
+    "webviz/shell/report": "tests/report/test_tests.py tests/report",
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
         "tests/pipeline/test_kept_sessions.py"

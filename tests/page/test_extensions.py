@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import playwright.sync_api as playwright
@@ -15,10 +15,16 @@ from webviz.api.declared import make
 from webviz.api.panel import Panel
 from webviz.engine.commands import UseTool
 from webviz.engine.pipeline.plugins import PluginError, load
-from webviz.engine.state import PanelTab, ToolButton
+from webviz.engine.state import PanelTab, Row, ToolButton
 from webviz.page.widgets import MAX_HTML, MAX_TEXT, CustomWidget
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
+
+DRAW = """async () => {
+  const { afterRender, requestRender } = await import("/webviz/viser_page.js");
+  await new Promise((resolve) => (afterRender(resolve), requestRender()));
+}"""
+"""Returns when the scene was drawn once more."""
 
 
 @pytest.fixture(autouse=True)
@@ -99,6 +105,18 @@ def test_a_module_that_fails_is_reported_and_the_page_goes_on(
         registry.register(str(path), {})
 
 
+def test_a_module_that_is_too_large_with_those_that_it_imports_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "large.py"
+    path.write_text("from webviz import Display\nclass Large(Display):\n    module = 'large.js'\n")
+    (tmp_path / "large.js").write_text('import "./more.js";'.ljust(600_000))
+    (tmp_path / "more.js").write_text(" " * 400_001)
+    with pytest.raises(PluginError, match=r"its module .*large\.js has more than 1 MB"):
+        load(path)
+    (tmp_path / "more.js").write_text(" " * 400_000)
+    load(path)
+    registry.register(str(path), {})
+
+
 def test_a_module_imports_others_beside_it(tab: Tab, tmp_path: Path) -> None:
     path = tmp_path / "split.py"
     path.write_text("from webviz import Display\nclass Split(Display):\n    module = 'split.js'\n")
@@ -137,3 +155,60 @@ def test_what_a_page_sends_of_a_widget_is_json_of_limited_size(sent: object) -> 
     assert entered == []
     widget.use('{"share": 0.5}', 1)
     assert entered == [{"share": 0.5}]
+
+
+FAULTS = """\
+import "./log.js";
+export default ({ beforeRender, el, gesture, panel, style, toast, watch, widget }) => {
+  const fail = (where) => { throw new Error(`no luck in ${where}`); };
+  beforeRender(() => fail("render"));
+  gesture("keep", () => fail("gesture"));
+  watch("panels", () => fail("watch"));
+  style("mine", "}}} * { colr");
+  for (const title of ["Once", "Twice"])
+    panel({ name: "fails", title, open: () => fail("open") });
+  panel({ name: "answers", title: "Answers", open: (element) => (element.textContent = "fine") });
+  for (const wrong of [() => panel({}), () => watch("tree"), () => beforeRender(0)])
+    try { wrong(); } catch (error) { log.push(String(error)); }
+  widget("dial", () => fail("widget"));
+  toast("Started");
+  throw Symbol("the end");
+};
+"""
+
+
+def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
+    open_tab: Callable[..., Tab], shared_loop: Loop, make_row: Callable[..., Row], tmp_path: Path
+) -> None:
+    tab, loop = open_tab(), shared_loop
+    path = tmp_path / "faulty.py"
+    path.write_text(
+        "from webviz import Display\nclass Faulty(Display):\n    module = 'faulty.js'\n"
+    )
+    (tmp_path / "log.js").write_text("globalThis.log = [];")
+    (tmp_path / "faulty.js").write_text(FAULTS)
+    tools = ToolButton("keep", "Keep Out", "Draw an area.", "", "keep", ""), *loop.state.tools
+    dial = make(load(EXAMPLES / "battery_dial.py")["BatteryDial"], {})
+    assert isinstance(dial, Panel)
+    loop.show(make_row("before"), tools=tools)
+    tab.wait_for(lambda: "before" in tab.text())
+    load(path)
+    try:
+        tab.wait_for(lambda: tab.page.get_by_role("tab", name="Twice").count() == 1)
+        assert tab.page.get_by_role("tab", name="Once").count() == 0
+        assert tab.page.evaluate("log.length") == 3
+        for title in ("Twice", "Answers", "Twice", "Displays"):
+            tab.show_tab(title)
+        tab.page.evaluate(DRAW)
+        loop.show(
+            make_row("after"), tools=tools, panels=(PanelTab("battery", "BatteryDial", dial),)
+        )
+        tab.wait_for(lambda: "after" in tab.text())
+        tab.wait_for(lambda: tab.button("Keep Out").count())
+        tab.show_tab("Battery")
+        tab.wait_for(lambda: "This widget failed." in tab.text())
+        assert "The module of the display Faulty failed: " in tab.text()
+    finally:
+        for each in (path, EXAMPLES / "battery_dial.py"):
+            registry.register(str(each), {})
+        loop.show(tools=(), panels=())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -129,3 +130,10 @@ def test_what_cannot_be_is_refused(b: Any) -> None:
         assert "Unknown saved layout `nowhere`" in b.refused(command)
     assert "name" in b.refused(SaveLayout(""))
     assert layouts(b) == (SHOWN, {"lab": LAB})
+
+
+@pytest.mark.parametrize(("key", "saved"), [("layouts", {}), ("views", {}), ("bookmarks", 0.0)])
+def test_what_is_saved_by_name_is_bounded(key: str, saved: object) -> None:
+    entries = {f"{number}": saved for number in range(1001)}
+    with pytest.raises(ConfigError, match=f"`?{key}`?: expected at most"):
+        read(f"version: 1\n{key}: {json.dumps(entries)}\n", "x.yaml")

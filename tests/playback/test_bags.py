@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,11 +16,13 @@ from waiting import until
 
 import webviz
 from tests.scene.conftest import Peer
+from webviz.api.declared import Topic
 from webviz.api.views import Orbit
-from webviz.data.messages import encode
+from webviz.data.messages import decode, encode
 from webviz.shell.app.bag_config import config_of, fixed_frame_of, robot_frame_of
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import header
+from webviz.sources import Subscription
 from webviz.sources.bag.history import BagHistory
 
 
@@ -133,6 +136,35 @@ def test_bags_that_lie_far_apart_are_reported(tmp_path: Path, theater: Callable)
         "late begins 100 days after early ends, with nothing in between: play them one by one, or "
         "select a span of the timeline."
     )
+
+
+@pytest.mark.parametrize("is_last", [False, True])
+def test_a_definition_changes_no_type_of_another_topic(tmp_path: Path, is_last: bool) -> None:
+    """A type that no class of webviz has is what the topics of that type say, in either order."""
+    apple, basket = "fruit_of_topics/msg/Apple", "fruit_of_topics/msg/Basket"
+    part = f"{'=' * 80}\nMSG: fruit_of_topics/Apple\n"
+    topics = {
+        "/apple": (apple, "int32 weight\n"),
+        "/basket": (basket, f"Apple apple\n{part}int32  weight  # in g\n"),
+        "/liar": ("fruit_of_topics/msg/Liar", f"Apple apple\n{part}float64 weight\n"),
+    }
+    bag = Bag()
+    for topic, (type_name, definition) in sorted(topics.items(), reverse=is_last):
+        bag.add(topic, type_name, definition=definition)
+        bag.put(0, topic, struct.pack("<4xi4x", 7))
+    history = BagHistory(bag.write(tmp_path / "run"))
+    wanted = {name: Subscription(type, Topic(name)) for name, (type, _) in topics.items()}
+    for topic in ("/liar", "/basket", "/apple", "/liar"):
+        history.offers({topic: wanted[topic]})
+    problems = {topic: offer.problem for topic, offer in history.offers(wanted).items()}
+    assert problems == {
+        "/apple": "",
+        "/basket": "",
+        "/liar": f"its definition of {apple} is not that of /apple in run",
+    }
+    cdr = struct.pack("<BBBBi", 0, 1, 0, 0, 7)
+    assert decode(apple, cdr).weight == decode(basket, cdr).apple.weight == 7
+    history.close()
 
 
 def test_definitions_that_differ_between_bags_are_not_mixed(

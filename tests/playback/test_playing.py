@@ -143,6 +143,22 @@ def test_a_loop_over_a_moment_ends(theater: Callable) -> None:
     assert viewer.source.reached_ns == viewer.source.history.end_ns
 
 
+def test_a_loop_over_a_moment_pauses_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    player = Player(BagHistory(strings(1.0).write(tmp_path / "run")))
+    now_s = 50.0
+    monkeypatch.setattr("time.monotonic", lambda: now_s)
+    player.loop = True
+    player.play()
+    for _ in range(10):
+        now_s += 0.1
+        player.advance()
+    assert (player.is_playing, player.is_seeking) == (False, False)
+    assert player.position_ns == player.history.end_ns
+    player.close()
+
+
 @pytest.mark.parametrize("topic", ["/words", "words"])
 def test_steps_go_from_message_to_message(theater: Callable, bag: Bag, topic: str) -> None:
     viewer = theater(bag, CONFIG)

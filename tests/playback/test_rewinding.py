@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bags import START_NS, Bag, ns
+from bags import START_NS, Bag, ns, strings
 from bench import Bench, Benches, benches
 from drives import CONFIG, recorded
 
@@ -39,9 +39,10 @@ from webviz.shell.testing import BagViewer
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Offer, Publisher, Raw, Subscription
+from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.player import Player
+from webviz.sources.player import NEARLY_NS, Player
 from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
 from webviz.sources.recording.wall_clock import WallClock
 from webviz.tools.teleop import Teleop
@@ -297,6 +298,18 @@ def test_a_driven_vehicle_stops_first(make: Benches) -> None:
     assert not controllers.halt(), "it stands still"
 
 
+def remembering() -> tuple[HandFedSource, MemoryHistory, Player]:
+    """A source whose topic /path is remembered for a minute, the memory, and its player."""
+    source = HandFedSource()
+    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    memory = MemoryHistory(source)
+    memory.recent.seconds, memory.recent.max_bytes = 60, 10**6
+    source.inbox.read_along(lambda: memory.recent.put)
+    player = Player(memory)
+    player.want({"/path": Subscription(PATH, Topic("/path"))})
+    return source, memory, player
+
+
 def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     source = HandFedSource()
     source.known["/path"] = Offer((PUBLISHER,), type=PATH)
@@ -313,6 +326,89 @@ def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     player.jump(at_ns)
     player.play_until(at_ns)
     assert len(source.inbox.drain()["/path"]) == 3
+
+
+@pytest.mark.parametrize(("ago_s", "is_live"), [(0.3, True), (0.31, False)])
+def test_what_plays_is_live_once_it_is_as_good_as_now(ago_s: float, is_live: bool) -> None:
+    source, memory, player = remembering()
+    for back_s in (50, 40):
+        source.inbox.put("/path", Raw(b"", 1, time.monotonic() - back_s))
+    now_ns = memory.end_ns
+    player.jump(now_ns - ns(20))
+    player.play_until(now_ns - ns(20))
+    player.play()
+    player.advance()
+    assert not player.is_live
+    now_ns = memory.end_ns
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(type(memory), "end_ns", now_ns)
+        player.play_until(now_ns - ns(ago_s))
+        player.advance()
+        assert player.is_live is is_live
+
+
+def test_what_may_not_be_in_memory_yet_is_not_passed_over() -> None:
+    source, memory, player = remembering()
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 50))
+    player.jump(memory.end_ns - ns(20))
+    now_ns = memory.end_ns
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(type(memory), "end_ns", now_ns)
+        player.play_until(now_ns)
+        assert player.reached_ns == now_ns - NEARLY_NS
+
+
+def test_a_recording_that_replaces_topics_on_the_way_back_to_now_waits_for_displays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the way to now they are waited for a while only; in a recording however long it takes."""
+    now_s = time.monotonic()
+    monkeypatch.setattr("time.monotonic", lambda: now_s)
+    source, memory, player = remembering()
+    source.inbox.put("/path", Raw(b"", 1, now_s - 5))
+    player.seek(memory.end_ns - ns(3))
+    player.advance()
+    player.return_to_live()
+    assert player.is_seeking
+    bag = BagHistory(strings(0, 100).write(tmp_path / "run"))
+    player.show(bag)
+    now_s += 10
+    player.play()
+    now_s += 0.1
+    player.advance(is_busy=True)
+    assert player.position_ns == bag.start_ns
+    now_s += 0.1
+    player.advance()
+    assert player.position_ns == pytest.approx(bag.start_ns + ns(0.1), abs=2)
+    player.close()
+
+
+def test_ages_go_on_when_a_recording_replaces_topics_and_when_it_is_closed(
+    tmp_path: Path,
+) -> None:
+    player = Player(MemoryHistory(HandFedSource()))
+    begun_s, clock_s = time.monotonic(), player.clock()
+    player.show(BagHistory(strings(0, 100).write(tmp_path / "run")))
+    player.jump(player.history.start_ns + ns(30))
+    player.play_until(player.history.start_ns + ns(30))
+    passed_s = time.monotonic() - begun_s
+    assert clock_s + 30 <= player.clock() <= clock_s + 30 + passed_s + 0.001
+    player.return_to_live()
+    passed_s = time.monotonic() - begun_s
+    assert clock_s + 30 <= player.clock() <= clock_s + 30 + passed_s + 0.001
+    player.close()
+
+
+def test_a_moment_is_forgotten_once_a_recording_replaces_it(tmp_path: Path) -> None:
+    source, memory, player = remembering()
+    begun_ns = memory.end_ns
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 50))
+    player.jump(begun_ns - ns(20))
+    source.inbox.put("/path", Raw(b"", 1, time.monotonic() + 59))  # forgets the other
+    assert memory.start_ns < begun_ns - ns(40)
+    player.show(BagHistory(strings(0, 100).write(tmp_path / "run")))
+    assert memory.start_ns > begun_ns
+    player.close()
 
 
 def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:

@@ -18,6 +18,7 @@ from webviz.files.report import UnpackedReport, read_report
 from webviz.shell.cli import main as cli
 from webviz.shell.doctor.examination import examine_bag
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
+from webviz.shell.pictures.times import TimeError
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
 from webviz.shell.testing import BagViewer, header
@@ -138,6 +139,29 @@ def test_a_slice_has_no_finding_that_the_bag_lacks(tmp_path: Path, ahead_s: floa
 def test_the_browser_of_the_picture_is_nobodys(browser: playwright.Browser) -> None:
     with contextlib.closing(HeadlessRenderer(browser, 200, 150)) as renderer:
         assert not renderer.scene.browsers.seen()
+
+
+@pytest.mark.parametrize(
+    ("span", "at", "sentence"),
+    [
+        ((3.0, 3.0), None, "--from 3 s must be before --to 3 s."),
+        ((2.0, 4.0), 1.9, "--at 1.9 s must be between --from 2 s and --to 4 s."),
+        ((2.0, 4.0), 4.1, "--at 4.1 s must be between --from 2 s and --to 4 s."),
+        ((2.0, 2.5), 2.0, ""),
+        ((2.0, 2.5), 2.5, ""),
+    ],
+)
+def test_the_shown_moment_is_in_the_span(
+    bag: Path, span: tuple[float, float], at: float | None, sentence: str
+) -> None:
+    config, said = parse("{displays: []}", "it"), ""
+    with opened(bag) as source:
+        try:
+            listed = make_report(config, source, Pictured(None), None, span=span, at=at)
+            assert "slice.mcap: 0.5 s of " in listed
+        except TimeError as error:
+            said = str(error)
+    assert said == sentence
 
 
 @pytest.mark.parametrize(

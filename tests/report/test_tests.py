@@ -6,17 +6,20 @@ import ast
 import contextlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
 import stories
 
+from webviz.api.errors import Error
 from webviz.files.opening import parse
 from webviz.files.report import BugReport, write_report
 from webviz.files.report.content import FindingEntry, StatusEntry
 from webviz.shell.cli import main as cli
 from webviz.shell.report.making import make_report
 from webviz.shell.report.scenes import Pictured
+from webviz.shell.report.writing import write_test
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
 
@@ -84,24 +87,69 @@ def failure(function: Callable[[], None]) -> str:
 
 def test_strings_of_strangers_do_not_become_code(tmp_path: Path) -> None:
     evil = '"""\nimport os; os.system("touch evil")\n"""'
-    report = BugReport(
-        source="live",
-        made=1.0,
-        at_ns=1,
-        first_ns=1,
-        last_ns=2,
+    path = zipped(
+        tmp_path / "bug.zip",
         statuses=(StatusEntry(evil, evil, "error", evil),),
         findings=(FindingEntry(evil, "error", evil, evil, evil),),
     )
-    path = tmp_path / "bug.zip"
-    content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
-    write_report(path, content)
     for check in ("finding", "status"):
         test = tmp_path / "new" / check / f"test_{check}.py"  # folders are made
         assert cli(["test", str(path), "-o", str(test), "--check", check]) == 0
         tree = ast.parse(test.read_text())
         calls = {ast.unparse(n.func) for n in ast.walk(tree) if isinstance(n, ast.Call)}
         assert calls <= {"Path", "os.environ.get", "replay", "replay(BAG, CONFIG, AT_S).problem"}
+
+
+def zipped(path: Path, **found: Any) -> Path:
+    """A report with these statuses and findings."""
+    report = BugReport(source="live", made=1.0, at_ns=1, first_ns=1, last_ns=2, **found)
+    content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
+    write_report(path, content)
+    return path
+
+
+STATUSES = tuple(
+    StatusEntry(display, status, level, "")
+    for display, status, level in (
+        ("", "Clocks", "error"),
+        ("Scan", "Topic", "ok"),
+        ("Scan", "Map", "warn"),
+        ("Plan A", "!", "error"),
+        ("é", "-", "error"),
+        ("x" * 70, "y", "warn"),
+    )
+)
+OF_STATUSES = ["test_1_scan_map", "test_2_plan_a", "test_3_it", f"test_4_{'x' * 60}"]
+
+
+@pytest.mark.parametrize(
+    ("severities", "names"),
+    [
+        ({"B": "error", "A 1": "warn", "C": "info"}, ["test_b", "test_a_1"]),
+        ({"C": "info"}, OF_STATUSES),
+        ({}, OF_STATUSES),
+        ({f"F{number}": "warn" for number in range(21)}, [f"test_f{n}" for n in range(20)]),
+    ],
+)
+def test_findings_are_tested_or_else_statuses(
+    tmp_path: Path, severities: dict[str, str], names: list[str]
+) -> None:
+    found = [FindingEntry(id, severity, "", "", "") for id, severity in severities.items()]
+    report = zipped(tmp_path / "bug.zip", statuses=STATUSES, findings=(*found, *found))
+    test = tmp_path / "test_bug.py"
+    part = "statuses" if names == OF_STATUSES else "findings"
+    assert write_test(report, test, None) == f"wrote {test}, {len(names)} tests of {part}."
+    tree = ast.parse(test.read_text())
+    assert [each.name for each in tree.body if isinstance(each, ast.FunctionDef)] == names
+
+
+def test_one_test_is_of_one_finding_and_none_of_another_part(tmp_path: Path) -> None:
+    found = (FindingEntry("TF001", "error", "", "", ""),)
+    report, test = zipped(tmp_path / "bug.zip", findings=found), tmp_path / "test_bug.py"
+    with pytest.raises(Error, match="has no status to test"):
+        write_test(report, test, "status")
+    assert not test.exists()
+    assert write_test(report, test, "finding") == f"wrote {test}, 1 test of a finding."
 
 
 def test_nothing_is_overwritten(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -114,16 +162,6 @@ def test_a_folder_that_cannot_be_made_is_one_sentence(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").touch()
-    report = BugReport(
-        source="live",
-        made=1.0,
-        at_ns=1,
-        first_ns=1,
-        last_ns=2,
-        findings=(FindingEntry("TF001", "error", "", "", ""),),
-    )
-    path = tmp_path / "bug.zip"
-    content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
-    write_report(path, content)
+    path = zipped(tmp_path / "bug.zip", findings=(FindingEntry("TF001", "error", "", "", ""),))
     assert cli(["test", str(path), "-o", str(tmp_path / "file" / "test_bug.py")]) == 1
     assert f"Cannot write {tmp_path / 'file' / 'test_bug.py'}: " in capfd.readouterr().err

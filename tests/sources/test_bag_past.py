@@ -14,6 +14,7 @@ from webviz.api.lookback import Lookback
 from webviz.sources import Subscription
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.history.needed import NeededMessages
+from webviz.sources.history.playhead import MAX_BATCH, Playhead
 from webviz.sources.player import Player
 
 STRING, POSE = "std_msgs/msg/String", "geometry_msgs/msg/PoseStamped"
@@ -104,3 +105,23 @@ def test_a_step_goes_an_eighth_of_the_way_within_bounds(
     source.play_step(source.history.start_ns + ns(left_s))
     assert source.reached_ns == source.history.start_ns + ns(step_s)
     source.close()
+
+
+def test_a_lookback_of_seconds_begins_to_the_nanosecond(tmp_path: Path) -> None:
+    path = strings(1.999999999, 2, 3).write(tmp_path / "run")
+    wanted = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(seconds=2.0),))}
+    with opened(path) as history:
+        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(4))
+        assert [each.stamp_ns - START_NS for each in past.messages()] == [ns(2), ns(3)]
+
+
+def test_as_many_messages_are_played_at_once_as_an_inbox_holds(tmp_path: Path) -> None:
+    path = strings(*(number / 1000 for number in range(MAX_BATCH + 20))).write(tmp_path / "run")
+    delivered: list[str] = []
+    with opened(path) as history:
+        playhead = Playhead(history, lambda topic, raw: delivered.append(topic))
+        playhead.subscribe({"/words": Subscription(STRING, Topic("/words"))})
+        playhead.play(history.end_ns)
+        assert (len(delivered), playhead.position_ns < history.end_ns) == (MAX_BATCH, True)
+        playhead.play(history.end_ns)
+        assert (len(delivered), playhead.position_ns) == (MAX_BATCH + 20, history.end_ns)

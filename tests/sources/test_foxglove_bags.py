@@ -13,7 +13,7 @@ from mcap.writer import Writer
 
 from webviz.data.foxglove import schemas
 from webviz.data.messages import decode, encode, register
-from webviz.data.messages.typestore import are_same
+from webviz.data.messages.typestore import agree
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.sources.bag.file import BagFile
 
@@ -132,6 +132,10 @@ def test_definitions_in_idl_are_read(tmp_path: Path) -> None:
 
 def test_types_in_idl_are_compared() -> None:
     register(CUSTOM, BATTERY_IDL)
-    assert are_same(CUSTOM, BATTERY_IDL, BATTERY_IDL.replace("A battery.", "The battery."))
-    assert not are_same(CUSTOM, BATTERY_IDL, BATTERY_IDL.replace("voltage", "volts"))
-    assert not are_same(CUSTOM, BATTERY_IDL, "float32 voltage")
+    assert agree(
+        CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, BATTERY_IDL.replace("A battery.", "The battery."))
+    )
+    assert not agree(
+        CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, BATTERY_IDL.replace("voltage", "volts"))
+    )
+    assert not agree(CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, "float32 voltage"))

@@ -7,6 +7,7 @@ from itertools import pairwise
 import pytest
 
 from webviz.data.transforms import Explanation, Kind, TransformBuffer, explain
+from webviz.data.transforms.diagnosis import STALE_PERIODS
 from webviz.data.transforms.geometry import REACH_M, is_within_reach
 from webviz.data.transforms.reasons import distinct, in_words, listed
 
@@ -229,6 +230,26 @@ def test_transforms_refused_long_ago_are_not_the_reason_now(
     for stamp in range(101, 121):
         put("map", "odom", float(stamp))
     assert why(buffer, "odom", 105.0, 120.0).kind == Kind.BEHIND
+
+
+def test_a_refused_transform_explains_only_its_frames(buffer: TransformBuffer, put: Put) -> None:
+    put("map", "base", 1.0)
+    put("arm", "hand", 1.0)
+    put("base", "laser", 1.0, x=math.nan)
+    put("torso", "arm", 1.0, x=math.nan)
+    for frame, cause in (("laser", "laser"), ("arm", "arm"), ("torso", "arm")):
+        found = why(buffer, frame, 1.0)
+        assert (found.kind, found.cause) == (Kind.REFUSED, cause)
+    put("lone", "wheel", 1.0)
+    assert why(buffer, "wheel", 1.0).kind is Kind.NOT_CONNECTED
+
+
+def test_a_link_has_stopped_after_some_of_its_periods(buffer: TransformBuffer, put: Put) -> None:
+    for second in range(3):
+        put("map", "base", 2.0 * second)
+    age_s = STALE_PERIODS * 2.0
+    assert "stopped" not in why(buffer, "base", 5.0, 4.0 + age_s - 0.5).sentence
+    assert "stopped" in why(buffer, "base", 5.0, 4.0 + age_s + 0.5).sentence
 
 
 @pytest.mark.parametrize(("data_s", "tf_s"), [(12.0, 1.7e9), (1.7e9, 12.0)])

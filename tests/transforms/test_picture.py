@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -63,6 +64,22 @@ def test_every_frame_has_a_place_of_its_own(links: list[tuple[str, str]]) -> Non
         assert edge.is_extra or child.column == parent.column + 1
     drawn = ElementTree.fromstring(draw_tree(diagnosis, "Frames").svg)
     assert len([*drawn.iter(f"{SVG}path")]) == len(layout.edges) >= len(diagnosis.frames)
+
+
+def test_edges_lead_from_the_right_of_a_parent_to_the_left_of_its_child(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    put("map", "base", is_static=True)
+    for child in ("arm", "laser", "camera"):
+        put("base", child, is_static=True)
+    root = ElementTree.fromstring(draw_tree(diagnose(buffer), "Frames").svg)
+    boxes = [each.attrib for each in root.iter(f"{SVG}rect") if "x" in each.attrib]
+    sides = [(float(box["x"]), float(box["y"]) + float(box["height"]) / 2) for box in boxes]
+    rights = {(x + float(box["width"]), y) for (x, y), box in zip(sides, boxes, strict=True)}
+    for path in root.iter(f"{SVG}path"):
+        numbers = [float(number) for number in re.findall(r"[-\d.]+", path.attrib["d"])]
+        assert (*numbers[:2],) in rights
+        assert (*numbers[-2:],) in sides
 
 
 def test_a_tree_without_faults_has_nothing_red(buffer: TransformBuffer, put: Put) -> None:

@@ -334,7 +334,7 @@ class Player:
             self.history.close()
         self.history = history
         history.wake = self.inbox.arrived.set
-        self._is_returning = self._has_to_jump = False
+        self._is_returning = False
         self._end_replay()
 
     def _jump(self, at_ns: int) -> None:

@@ -277,3 +277,29 @@ def test_the_rate_never_falls_below_the_least() -> None:
         pacer.note_bytes(5000, i / 20)
         pacer.step(i / 20)
     assert pacer.rate == MIN_RATE
+
+
+@pytest.mark.parametrize(("type", "is_large"), [(SCAN, True), (MARKERS, True), (TF, False)])
+def test_a_large_message_makes_its_topic_large_unless_it_has_transforms(
+    type: str, is_large: bool
+) -> None:
+    pacer = Pacer()
+    assert not pacer.note_small("/t", type, LARGE - 1, 0.0, 1.0)
+    assert pacer.note_small("/t", type, LARGE, 0.0, 1.1) is is_large
+    wishes = {"/t": Subscription(type, Topic("/t"))}
+    assert ("/t" in pacer.large(wishes)) is is_large
+
+
+@pytest.mark.parametrize(("bytes_per_s", "is_moved"), [(7000, True), (9000, False)])
+def test_small_topics_move_if_they_are_late_although_large_ones_bring_little(
+    bytes_per_s: int, is_moved: bool
+) -> None:
+    types = {"/pose": "geometry_msgs/msg/PoseStamped", "/points": CLOUD}
+    wishes = {topic: Subscription(type, Topic(topic)) for topic, type in types.items()}
+    pacer = Pacer()
+    pacer.large(wishes)
+    for i in range(60):
+        pacer.note_small("/pose", types["/pose"], 100, 5.0, i / 20)
+        pacer.note_bytes(bytes_per_s // 20, i / 20)
+        pacer.step(i / 20)
+    assert ("/pose" in pacer.large(wishes)) is is_moved

@@ -73,7 +73,7 @@ def types_in_msg(text: str, name: str) -> Types:
     """
     constants: list[tuple[str, str, Value]] = []
     fields: list[tuple[str, Description]] = []
-    current = _full(name)
+    current = name_in_text(name)
     found: Types = {current: (constants, fields)}
     is_head = False
     for number, raw in enumerate(text.split("\n"), 1):
@@ -81,7 +81,7 @@ def types_in_msg(text: str, name: str) -> Types:
         if is_head:
             if (head := _HEAD.fullmatch(line)) is None or len(head[1]) > MAX_NAME:
                 raise TextError(f"line {number} does not name a type")
-            constants, fields, current = [], [], _full(head[1])
+            constants, fields, current = [], [], name_in_text(head[1])
             found[current] = constants, fields
             is_head = False
         elif line == _SEPARATOR:
@@ -103,7 +103,7 @@ def types_in_msg(text: str, name: str) -> Types:
     return found
 
 
-def _full(name: str) -> str:
+def name_in_text(name: str) -> str:
     """Return the name of a type with its folder."""
     package, slash, short = name.rpartition("/")
     is_full = package.rpartition("/")[2] in ("msg", "action")
@@ -132,7 +132,7 @@ def _referred(owner: str, name: str) -> str:
     """Return the full name of a type that a field of another one has."""
     if "/" not in name:
         return f"{owner.rpartition('/')[0]}/{name}"
-    return name if "/msg/" in name or "/action/" in name else _full(name)
+    return name if "/msg/" in name or "/action/" in name else name_in_text(name)
 
 
 def _sized(digits: str, least: int, line: int) -> int:

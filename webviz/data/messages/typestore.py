@@ -19,7 +19,13 @@ from webviz.data.messages import definitions
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 from webviz.data.messages.extents import Extent, extent
 from webviz.data.messages.idl_text import types_in_idl
-from webviz.data.messages.msg_text import Description, TextError, Types, types_in_msg
+from webviz.data.messages.msg_text import (
+    Description,
+    TextError,
+    Types,
+    name_in_text,
+    types_in_msg,
+)
 
 MAX_TEXT = 1 << 20
 """Characters of a definition with all its nested types; the longest of ROS have a tenth of it.
@@ -36,6 +42,8 @@ PLACEHOLDER: tuple[str, Description] = (
 """The field of messages without fields: IDL has no empty structure, so rosidl adds it."""
 _IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
 """Precedes each IDL file of a definition."""
+_PART = re.compile(r"^={80}\r?\n(?:MSG|IDL): (\S+)[ \t]*\r?$", re.MULTILINE)
+"""Precedes each type of a definition but the first."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
@@ -187,11 +195,22 @@ def is_idl(text: str) -> bool:
     return bool(_IDL.search(text))
 
 
-def are_same(type_name: str, text: str, other: str) -> bool:
-    """Return whether two definitions are of the same type; those that are invalid are not."""
-    name = full_name(type_name)
+def parts_of(type_name: str, text: str) -> dict[str, str]:
+    """Return the part of a definition for each type in it, unread; it may be invalid."""
+    first, *others = _PART.split(text)
+    names, texts = map(name_in_text, others[::2]), map(str.strip, others[1::2])
+    return {type_name: first.strip(), **dict(zip(names, texts, strict=True))}
+
+
+def agree(name: str, one: tuple[str, str], other: tuple[str, str]) -> bool:
+    """Return whether two definitions define a type in them alike; those that are invalid do not.
+
+    Args:
+        name: of the type.
+        one, other: type that a definition defines, and its text; see `types_in`.
+    """
     try:
-        return types_in(name, text) == types_in(name, other)
+        return types_in(*one).get(name) == types_in(*other).get(name)
     except DefinitionError:
         return False
 

@@ -66,7 +66,11 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
         Prop(help="Namespaces of robots that publish /tf with frames of the same names."),
     ] = ()
     view: Annotated[View, Prop(help="The view new browsers start with.")] = Orbit()
-    views: Annotated[dict[str, View], Prop(help="Saved views by name.")] = {}
+    views: Annotated[
+        dict[str, View],
+        msgspec.Meta(max_length=1000),
+        Prop(help="Saved views by name."),
+    ] = {}
     layout: Annotated[Layout, Prop(help="Panels beside, below and over the scene.")] = Layout()
     layouts: Annotated[
         dict[str, Layout],

@@ -8,6 +8,7 @@ import { copy, copyAndTell } from "./clipboard.js";
 import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
 import { searchField } from "./controls/fields.js";
 import { el, set, setChildren, setText, showText, svgElement } from "./dom.js";
+import { guarded, textOf } from "./guarded.js";
 import { icon, iconButton, textButton } from "./icons.js";
 import { overlay } from "./overlay/overlay.js";
 import { foldByKey } from "./panels/folds.js";
@@ -26,6 +27,7 @@ import { tellLive } from "./tools/hint.js";
 import { makeLayer } from "./tools/layer.js";
 import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 
+/** @import {Panel} from "./types.js" */
 /** @import {MakeWidget} from "./panels/plugin_widgets.js" */
 
 /**
@@ -62,7 +64,7 @@ const page = Object.freeze({
   needs,
   onCanvas,
   overlay,
-  panel,
+  panel: (/** @type {Panel} */ added) => panel(ownPanel(added)),
   planeAt,
   requestRender,
   rowList,
@@ -84,6 +86,53 @@ const page = Object.freeze({
     widget(`own ${kind}`, ownWidget(make)),
 });
 
+/** Functions of the page that call those of a module; such is the last argument of the first. */
+const LISTENING = /** @type {const} */ (["beforeRender", "gesture", "watch", "widget"]);
+const CALLING = /** @type {const} */ ([...LISTENING, "listenToPanning", "panel", "toast"]);
+
+/**
+ * The page for a module, of which no function that throws stops the page.
+ *
+ * @param {(error: unknown) => void} report
+ * @returns {Page}
+ */
+function pageFor(report) {
+  /** @param {typeof CALLING[number]} name */
+  const guard =
+    (name) =>
+    (/** @type {unknown[]} */ ...args) => {
+      const isFunction = typeof args.at(-1) === "function";
+      if (!isFunction && LISTENING.some((each) => each === name))
+        throw new TypeError(`${name} expects a function`);
+      return Reflect.apply(
+        page[name],
+        page,
+        args.map((each) => guarded(each, report)),
+      );
+    };
+  const guards = Object.fromEntries(CALLING.map((name) => [name, guard(name)]));
+  return Object.freeze({ ...page, ...guards });
+}
+
+/**
+ * A panel of a module, complete; what its `open` returns counts only if it can be called.
+ *
+ * @param {Panel} panel
+ * @returns {Panel}
+ */
+function ownPanel({ name, title, isOnDemand = false, open }) {
+  if (!name || !title || !open) throw new TypeError("a panel needs a name, a title and open()");
+  return {
+    name: String(name),
+    title: String(title),
+    isOnDemand,
+    open(element) {
+      const end = open(element);
+      return typeof end === "function" ? end : undefined;
+    },
+  };
+}
+
 /**
  * The values of a widget are one value of JSON in either direction.
  *
@@ -92,11 +141,17 @@ const page = Object.freeze({
  */
 const ownWidget = (make) => (values, send) => {
   const made = make(values.values, (value) => send(JSON.stringify(value)));
+  if (!(made?.element instanceof Element && made.update)) return failed();
   return {
     ...made,
     update: (now, store, id) => made.update(now.values, (key) => store.get(`${id}/${key}`)),
   };
 };
+
+const failed = () => ({
+  element: el("div", { class: "wv-quiet" }, "This widget failed."),
+  update() {},
+});
 
 /** @type {Map<string, CSSStyleSheet>} */
 const sheets = new Map();
@@ -114,6 +169,7 @@ function style(name, rules) {
   sheets.set(name, sheet);
 }
 
+const MAX_REPORTS = 3; // of a module: a fault may occur in every frame
 const IMPORT = /^(import\b[^"';(]*)["']\.\/([^"'/]+)["']/gm; // as in webviz/api/modules.py
 
 export function install() {
@@ -133,6 +189,14 @@ async function add(name, files) {
   const folder = new URL(`webviz/plugin/${encodeURIComponent(name)}/`, location.href);
   /** @type {Map<string, string>} */
   const addresses = new Map();
+  const reported = new Set();
+  const report = (/** @type {unknown} */ error) => {
+    const text = textOf(error);
+    if (reported.has(text) || reported.size === MAX_REPORTS) return;
+    reported.add(text);
+    console.info(error);
+    toast(`The module of the ${name} failed: ${text}`, { level: "error" });
+  };
   for (const [file, source] of files) {
     const text = source.replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`);
     const parts = [text, `\n//# sourceURL=${new URL(file, folder)}`];
@@ -140,10 +204,9 @@ async function add(name, files) {
   }
   try {
     const { default: start } = await import([...addresses.values()].at(-1) ?? "");
-    await start(page);
+    await start(pageFor(report));
   } catch (error) {
-    console.info(error);
-    toast(`The module of the ${name} failed: ${error}`, { level: "error" });
+    report(error);
   } finally {
     for (const address of addresses.values()) URL.revokeObjectURL(address);
   }

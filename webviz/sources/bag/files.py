@@ -9,7 +9,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from webviz.data.messages.typestore import are_same
+from webviz.data.messages.classes import WRITTEN
+from webviz.data.messages.typestore import agree, parts_of
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.words import counted
 from webviz.sources.bag.extras import Extra, extras_file
@@ -170,22 +171,31 @@ class BagFiles:
         """Close all files."""
         self._stack.close()
 
-    def _agreeing(self) -> Iterator[BagChannel]:
-        """Yield the channels but for those whose type another bag before defined differently.
+    def _agreeing(self) -> Sequence[BagChannel]:
+        """Return the channels but for those that define a type otherwise than another before.
 
         A type has one definition at a time; with the wrong one, messages may turn into nonsense.
+        That of a topic's own type comes before those within others. Types with a class are fixed.
         """
-        first: dict[str, tuple[str, str]] = {}
-        for file in self._files:
-            name = file.name
-            for channel in file.channels:
-                text = channel.recorded.definition
-                known, where = first.setdefault(channel.type, (text, name)) if text else (text, "")
-                if known == text or are_same(channel.type, known, text):
-                    yield channel
+        first: dict[str, tuple[BagChannel, str, str]] = {}
+        agreeing = [(channel, file.name) for file in self._files for channel in file.channels]
+        for is_nested in (False, True):
+            offered, agreeing = agreeing, []
+            for channel, where in offered:
+                own, parts = channel.type, _parts(channel)
+                named = parts.keys() - WRITTEN.keys() - {own} if is_nested else parts.keys() & {own}
+                for name in sorted(named):
+                    other, part, there = first.setdefault(name, (channel, parts[name], where))
+                    if part != parts[name] and not _agree(name, channel, other):
+                        self._redefined[channel.topic] = (
+                            f"its definition of {name} is not that of {other.topic} in {there}"
+                            if is_nested
+                            else f"{name} is not defined in {where} as it is in {there}"
+                        )
+                        break
                 else:
-                    why = f"{channel.type} is not defined in {name} as it is in {where}"
-                    self._redefined[channel.topic] = why
+                    agreeing.append((channel, where))
+        return [channel for channel, _ in agreeing]
 
     def _gap_between(self) -> str:
         """Return a sentence on bags that lie far apart, "" without any."""
@@ -222,3 +232,13 @@ def _name(file: MergedFile) -> str:
 
 def _stamp(recorded: Recorded) -> int:
     return recorded.stamp_ns
+
+
+def _parts(channel: BagChannel) -> Mapping[str, str]:
+    text = channel.recorded.definition
+    return parts_of(channel.type, text) if text else {}
+
+
+def _agree(name: str, *channels: BagChannel) -> bool:
+    one, other = ((each.type, each.recorded.definition) for each in channels)
+    return agree(name, one, other)
