@@ -9,10 +9,12 @@ from types import MappingProxyType
 from webviz.api.browser import BrowserSeen
 from webviz.api.display import Display
 from webviz.api.environment import Environment
+from webviz.api.finding import Symptom
 from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.nodes import Pose
 from webviz.api.observation import DisplaySeen, Observation
+from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
@@ -79,6 +81,18 @@ def observe(
         cameras=cameras,
         load=load if browsers else 0.0,
     )
+
+
+def problems(state: State) -> Mapping[Symptom, Status]:
+    """Return the warnings and errors of the viewer and of its displays, without groups."""
+    owners = [("", state.statuses)]
+    owners += [(row.id, row.statuses) for row in state.rows if not _is_group(row)]
+    return {
+        Symptom(id, key): status
+        for id, statuses in owners
+        for key, status in statuses.items()
+        if status.level >= Level.WARN
+    }
 
 
 def _camera(browser: BrowserSeen, frames: Frames) -> Camera | None:
