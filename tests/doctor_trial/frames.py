@@ -131,7 +131,7 @@ ALL = [
     Provocation(
         "odometry transform at 1 Hz", "TF019", "rate", _changed(ODOM, rate_hz=1.0), seconds=12.0
     ),
-    Provocation("base at UTM coordinates", "TF022", "", _moved("localisation", x=4.5e8, y=5.4e9)),
+    Provocation("base at UTM coordinates", "TF022", "", _moved("localisation", x=4.5e5, y=5.4e6)),
     Provocation("zeros as the laser's quaternion", "TF023", "", _rotated("mount", **NULL)),
     Provocation("zeros as the odometry's quaternion", "TF023", "", _rotated(ODOM, **NULL)),
     Provocation("NaN as the odometry's quaternion", "TF023", "", _rotated(ODOM, w=math.nan)),
@@ -159,5 +159,5 @@ ALL = [
         options=["-d", "c.yaml"],
         files={"c.yaml": "fixed_frame: earth\ndisplays: [{type: LaserScan, topic: /scan}]"},
     ),
-    Provocation("laser in a frame of its own prefix", "TF017", "", _framed(LASER, "robot1/laser")),
+    Provocation("laser in a frame of its own prefix", "TF016", "", _framed(LASER, "robot1/laser")),
 ]
