@@ -104,9 +104,9 @@ class Doctor:
         self.rounds = 0
         """Number of completed rounds."""
         self._is_confirmed = True
-        """Whether the last round found nothing above a note for the first time."""
+        """False if the last round found something above a note for the first time."""
         self._examined_problems: Sequence[Set[Symptom]] = ()
-        """What was wrong when each of the last two rounds began."""
+        """Warnings and errors when each of the last two rounds began."""
         self._noted: dict[Key, Event] = {}
         self.events: Sequence[Event] = ()
         """When findings began, as far as the recording was shown; each is noted once."""

@@ -39,12 +39,12 @@ let aimed = null;
 
 /** The type of the view, "" before there is one. */
 export const type = () => (view === null ? "" : view.view);
-/** Whether the view looks around from a position, without a focal point. */
+/** True for views that look around from a position, without a focal point. */
 export const isFPS = () => type() === "FPS" || type() === "FrameAligned";
 /** The target frame of the view. */
 export const targetFrame = () => options().target_frame ?? "";
 /**
- * What the view keeps when its camera moves.
+ * The options of the view, which stay when its camera moves.
  *
  * @returns {Record<string, any>}
  */
