@@ -56,7 +56,7 @@ class Stream:
         rate_hz: of the messages; 0 for one at the start.
         is_latched, is_reliable: QoS.
         begins_s: seconds since the start.
-        ends_s: seconds since webviz is there, or in the bag; 0 for never a message.
+        ends_s: seconds since webviz subscribed, or in the bag; 0 for never a message.
         ahead_s: of its stamps.
     """
 
@@ -102,7 +102,7 @@ class Robot:
     streams: dict[str, Stream] = field(default_factory=lambda: dict(_streams()))
     readers: list[Reader] = field(default_factory=list)
     actions: list[tuple[float, Callable[[], object]]] = field(default_factory=list)
-    """At seconds since webviz is there."""
+    """At seconds since webviz subscribed."""
     time_ns: Callable[[float], int] | None = None
     """Time of the stamps, from seconds since the start; None is that of this computer."""
     parameters: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -196,11 +196,11 @@ class Robot:
                     message_class(each.type), each.topic, qos(each.is_reliable, each.is_latched)
                 )
         began, sent = time.monotonic(), dict.fromkeys(self.streams, 0)
-        first, found_s = next(iter(nodes.values())), math.inf
+        found_s = math.inf
         while True:
             at_s = time.monotonic() - began
-            if found_s == math.inf and "webviz" in first.get_node_names():
-                found_s = at_s
+            if any(each.get_subscription_count() for each in publishers.values()):
+                found_s = min(found_s, at_s)
             watched_s = max(0.0, at_s - found_s)
             now_ns = time.time_ns() if self.time_ns is None else self.time_ns(at_s)
             for name, each in self.streams.items():
