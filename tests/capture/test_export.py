@@ -29,7 +29,8 @@ from playwright.sync_api import expect
 
 import webviz
 from webviz.api.nodes import Pane
-from webviz.api.views import VIEW_TYPES, Rig, View, mimic, type_of
+from webviz.api.views import VIEW_TYPES, Rig, View, like, mimic, type_of
+from webviz.data.rotations import from_rpy
 from webviz.engine.commands import Seek
 from webviz.shell.cli import main as cli
 from webviz.shell.cli.options import MESH_ROOT
@@ -48,9 +49,9 @@ TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 420}
 
 MIMIC = """async (cases) => {
-  const { mimic } = await import(new URL("webviz/recorded/view_math.js", location.href));
+  const { like, mimic } = await import(new URL("webviz/recorded/view_math.js", location.href));
   return cases.map(([view, rig, type, newRig]) =>
-    mimic(view, rig, type, "base", newRig, 480));
+    mimic(view, rig, like(type, view), newRig, 480));
 }"""
 
 BOX = """async () => {
@@ -218,8 +219,13 @@ def test_views_change_as_in_a_viewer(file: OpenFile) -> None:
     cases: list[list[Any]] = []
     for name, cls in itertools.product(VIEW_TYPES, VIEW_TYPES.values()):
         view = msgspec.convert({"type": name, "target_frame": "base"}, View)
-        rigs = [Rig((chance.uniform(-9, 9), 2.0, 0.5), chance.uniform(-3, 3)) for _ in range(2)]
-        wanted = mimic(view, rigs[0], cls, "base", rigs[1], 480.0)
+        if hasattr(view, "invert_z_axis"):
+            view = msgspec.structs.replace(view, invert_z_axis=chance.random() < 0.5)
+        rigs = [
+            Rig((chance.uniform(-9, 9), 2.0, 0.5), from_rpy(0.0, 0.0, chance.uniform(-3, 3)))
+            for _ in range(2)
+        ]
+        wanted = mimic(view, rigs[0], like(cls, view), rigs[1], 480.0)
         told = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(wanted), asdict(rigs[1])]
         cases.append([told, msgspec.to_builtins(wanted)])
     made = file.page.evaluate(MIMIC, [told for told, _ in cases])
@@ -227,7 +233,7 @@ def test_views_change_as_in_a_viewer(file: OpenFile) -> None:
         assert view.keys() == wanted.keys()
         for key, value in wanted.items():
             assert view[key] == (
-                value if isinstance(value, str) else pytest.approx(value, abs=2e-6)
+                value if isinstance(value, str | bool) else pytest.approx(value, abs=2e-6)
             )
 
 

@@ -453,3 +453,18 @@ def test_a_queue_too_short_for_its_transform(webviz_harness: Make, size: int, id
         scan(stage)
 
     assert [*examined(stage, 0.1, publish)] == ([id] if id else [])
+
+
+@pytest.mark.parametrize(("fixed_frame", "is_found"), [("map", True), ("utm", False)])
+def test_a_robot_at_utm_coordinates(
+    webviz_harness: Callable[..., Harness], fixed_frame: str, is_found: bool
+) -> None:
+    stage = webviz_harness(LaserScan(), fixed_frame=fixed_frame)
+    mount(stage)
+    stage.transform(fixed_frame, "odom", (4.5e5, 5.4e6, 0.0))
+    stage.transform("odom", "base_link")
+    scan(stage)
+    found = {each.id: each for each in examined(stage).values()}
+    assert ("TF022" in found) is is_found
+    if is_found:
+        assert found["TF022"].subject == "odom"

@@ -406,6 +406,24 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
 
 
+def test_topics_that_stop_together_are_one_finding(webviz_harness: Callable[..., Harness]) -> None:
+    stage = webviz_harness(scan("/front"), scan("/rear"), fixed_frame="map")
+    for topic in ("/front", "/rear"):
+        offered = Publisher(f"{topic}_lidar", SCAN, "reliable", "volatile")
+        stage.source.known[topic] = Offer((offered,), None)
+
+    def publish(*topics: str) -> None:
+        for topic in topics:
+            stage.publish(topic, SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
+
+    assert examined(stage, CauseLevel.GRAPH, 0.2, partial(publish, "/front", "/rear")) == {}
+    (found,) = [each for each in stage.findings(0.2) if each.level is CauseLevel.GRAPH]
+    assert found.cause.startswith(
+        "Nothing has arrived on /front, /rear from /front_lidar, /rear_lidar for "
+    )
+    assert len(found.explains) == 2
+
+
 def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[..., Harness]) -> None:
     stage = webviz_harness(PoseWithCovariance(topic=webviz.Topic("/amcl_pose")), fixed_frame="map")
     offered = Publisher("/amcl", POSE, "reliable", "volatile")

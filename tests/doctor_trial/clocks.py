@@ -34,8 +34,8 @@ def _paused(robot: Robot) -> None:
     """Simulated nodes fall silent, and /clock is still published."""
     _simulated(0.5)(robot)
     for name, stream in robot.streams.items():
-        if name != "clock":
-            stream.ends_s = 0.5 if stream.rate_hz else stream.ends_s
+        if name != "clock" and stream.rate_hz:
+            stream.ends_s = 0.0
 
 
 def _without_clock(robot: Robot) -> None:
@@ -50,7 +50,7 @@ def _one_waits(robot: Robot) -> None:
 
 
 def _clock_ends(robot: Robot) -> None:
-    _simulated(6.0)(robot)
+    _simulated()(robot)
     for stream in robot.streams.values():
         if stream.rate_hz:
             stream.ends_s = 6.0

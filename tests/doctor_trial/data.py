@@ -211,8 +211,8 @@ ALL = [
     ),
     Provocation(
         "image with an unknown encoding",
-        "DATA015",
-        "",
+        "DATA019",
+        "encoding",
         lambda r: _image(r, encoding="rgb10"),
         **IMAGES,
     ),

@@ -27,7 +27,8 @@ STRING = "std_msgs/msg/String"
 
 TURN, SPEED = 0.5, 0.3
 """Of the circle that the robot drives, in rad/s and m/s."""
-START = Pose2D(-2.0, 0.0)
+START = Pose2D(-3.5, 1.5)
+"""From which the circle keeps 0.6 m from all walls."""
 LASER_M = 0.1
 """Of the laser before the robot's middle."""
 URDF = """<robot name="cart">
@@ -54,7 +55,8 @@ class Stream:
         make: makes one.
         rate_hz: of the messages; 0 for one at the start.
         is_latched, is_reliable: QoS.
-        begins_s, ends_s: seconds since the start.
+        begins_s: seconds since the start.
+        ends_s: seconds since webviz subscribed, or in the bag; 0 for never a message.
         ahead_s: of its stamps.
     """
 
@@ -100,7 +102,7 @@ class Robot:
     streams: dict[str, Stream] = field(default_factory=lambda: dict(_streams()))
     readers: list[Reader] = field(default_factory=list)
     actions: list[tuple[float, Callable[[], object]]] = field(default_factory=list)
-    """At seconds since the start."""
+    """At seconds since webviz subscribed."""
     time_ns: Callable[[float], int] | None = None
     """Time of the stamps, from seconds since the start; None is that of this computer."""
     parameters: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -194,19 +196,23 @@ class Robot:
                     message_class(each.type), each.topic, qos(each.is_reliable, each.is_latched)
                 )
         began, sent = time.monotonic(), dict.fromkeys(self.streams, 0)
+        found_s = math.inf
         while True:
             at_s = time.monotonic() - began
+            if any(each.get_subscription_count() for each in publishers.values()):
+                found_s = min(found_s, at_s)
+            watched_s = max(0.0, at_s - found_s)
             now_ns = time.time_ns() if self.time_ns is None else self.time_ns(at_s)
             for name, each in self.streams.items():
                 if each.node in self.lifecycle or each.node not in nodes:
                     continue
-                if not _is_due(each, at_s, sent[name]):
+                if watched_s >= each.ends_s or not _is_due(each, at_s, sent[name]):
                     continue
                 sent[name] += 1
                 values = each.make(at_s, now_ns + round(each.ahead_s * 1e9))
                 publishers[each.node, each.topic, each.type].publish(encode(each.type, values))
             started.touch()
-            for due_s, act in [each for each in self.actions if each[0] <= at_s]:
+            for due_s, act in [each for each in self.actions if each[0] <= watched_s]:
                 self.actions.remove((due_s, act))
                 act()
             for node in self._leaving & nodes.keys():
@@ -229,7 +235,7 @@ class Robot:
 
 
 def _is_due(stream: Stream, at_s: float, sent: int) -> bool:
-    if not stream.begins_s <= at_s < stream.ends_s:
+    if at_s < stream.begins_s:
         return False
     return sent == 0 if not stream.rate_hz else (at_s - stream.begins_s) * stream.rate_hz >= sent
 

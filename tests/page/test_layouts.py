@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from urllib.parse import quote
 
 import playwright.sync_api as playwright
 import pytest
+from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.engine.commands import RemoveLayout, SaveLayout, SetLayout
@@ -175,6 +177,11 @@ def test_a_window_shows_one_panel_or_a_layout(
     other.page.goto(other.page.url.replace("panel=topics", "layout=driving"))
     other.wait_for(lambda: docked(other) == {"doctor": "wv-beside"})
     assert docked(tab) == {}
+
+
+def test_a_window_for_an_unknown_panel_says_so(open_tab: Callable[..., Tab]) -> None:
+    other = open_tab(query="&panel=" + quote(HOSTILE))
+    expect(other.page.get_by_text(f"Unknown panel `{HOSTILE}`.")).to_be_visible()
 
 
 def test_a_phone_keeps_its_collapsed_panel(loop: Loop, tab: Tab) -> None:

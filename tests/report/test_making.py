@@ -136,6 +136,27 @@ def test_a_slice_has_no_finding_that_the_bag_lacks(tmp_path: Path, ahead_s: floa
     assert not found[1] - found[0]
 
 
+def test_a_slice_that_ends_in_a_gap_does_not_say_that_a_topic_stops(tmp_path: Path) -> None:
+    bag = Bag()
+    bag.add("/odom", "nav_msgs/msg/Odometry")
+    for step in range(400):
+        at_s = step / 20
+        bag.topics.setdefault("/tf", Topic(TF))
+        bag.put(at_s, "/tf", {"transforms": [stamped("odom", "base", START_NS + ns(at_s), at_s)]})
+        if not 15.2 < at_s < 18.3:  # too short for a finding in the bag
+            values = {"header": header("odom", START_NS + ns(at_s)), "child_frame_id": "base"}
+            bag.put(at_s, "/odom", values | {"pose": {"covariance": COVARIANCE}})
+    path = bag.write_file(tmp_path / "run.mcap")
+    text = "{fixed_frame: odom, displays: [{type: Odometry, topic: /odom}]}"
+    config, zipped = parse(text, "the config"), tmp_path / "bug.zip"
+    with opened(path) as source:
+        make_report(config, source, Pictured(None), zipped, span=(10.0, 18.2), name="run")
+    for each in (path, read_report(zipped, tmp_path).bag):
+        with opened(each) as source:
+            report = examine_bag(source, config, each.name, lambda what, share: None)
+        assert "GRAPH009" not in {finding.id for finding in report.findings}
+
+
 def test_the_browser_of_the_picture_is_nobodys(browser: playwright.Browser) -> None:
     with contextlib.closing(HeadlessRenderer(browser, 200, 150)) as renderer:
         assert not renderer.scene.browsers.seen()

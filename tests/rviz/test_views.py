@@ -10,7 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from webviz.api.views import FPS, Orbit, ThirdPersonFollower, TopDownOrtho, View, XYOrbit
+from webviz.api.views import (
+    FPS,
+    FrameAligned,
+    Orbit,
+    ThirdPersonFollower,
+    TopDownOrtho,
+    View,
+    XYOrbit,
+)
 from webviz.files import rviz
 from webviz.files.config import Config, Settings
 
@@ -29,6 +37,7 @@ def around(cls: Any) -> st.SearchStrategy[View]:
         yaw=NUMBERS,
         pitch=PITCHES,
         focal_point=POINTS,
+        invert_z_axis=st.booleans(),
     )
 
 
@@ -37,6 +46,16 @@ VIEWS = st.one_of(
     around(XYOrbit),
     around(ThirdPersonFollower),
     st.builds(FPS, target_frame=FRAMES, yaw=NUMBERS, pitch=PITCHES, position=POINTS),
+    st.builds(
+        FrameAligned,
+        target_frame=FRAMES,
+        yaw=NUMBERS,
+        pitch=PITCHES,
+        position=POINTS,
+        point_towards=st.sampled_from(["arbitrary", "-z axis", "+y axis"]),
+        lock_camera=st.booleans(),
+        invert_z_axis=st.booleans(),
+    ),
     st.builds(
         TopDownOrtho, target_frame=FRAMES, scale=DISTANCES, angle=NUMBERS, x=NUMBERS, y=NUMBERS
     ),
@@ -83,6 +102,24 @@ def exported(config: Config) -> dict[str, Any]:
             "{Class: rviz_default_plugins/TopDownOrtho, Scale: -40, X: 5, Y: -1, Angle: 0.5}",
             TopDownOrtho(scale=40.0, x=5.0, y=-1.0, angle=0.5),
         ),
+        ("{Distance: 3.5, Invert Z Axis: true}", Orbit(distance=3.5, invert_z_axis=True)),
+        (
+            "{Class: rviz_default_plugins/FrameAligned, Target Frame: camera, Yaw: 1.5, Pitch: -1, "
+            "Position: {X: 1, Y: 2, Z: 3}, Point towards: -z axis, Lock Camera: true, "
+            "Invert Z Axis: true}",
+            FrameAligned(
+                target_frame="camera",
+                yaw=1.5,
+                pitch=-1.0,
+                position=(1.0, 2.0, 3.0),
+                point_towards="-z axis",
+                lock_camera=True,
+                invert_z_axis=True,
+            ),
+        ),
+        # RViz hides the switch in these views, which ignore it.
+        ("{Class: rviz_default_plugins/FPS, Invert Z Axis: true}", FPS()),
+        ("{Class: rviz_default_plugins/TopDownOrtho, Invert Z Axis: true}", TopDownOrtho()),
     ],
 )
 def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
@@ -93,15 +130,18 @@ def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
     ("text", "sentence"),
     [
         (
-            "{Class: rviz_default_plugins/FrameAligned, Target Frame: base_link}",
-            "rviz_default_plugins/FrameAligned: unsupported view type",
+            "{Class: some_plugins/Spiral, Target Frame: base_link}",
+            "some_plugins/Spiral: unsupported view type",
         ),
         (
             "{Distance: far}",
             "current view: Distance: expected a number, got `far`; using the default",
         ),
         ("{Focal Point: 1}", "Focal Point: it needs X, Y, Z; using the default"),
-        ("{Invert Z Axis: true}", "Invert Z Axis: the camera is always upright"),
+        (
+            "{Invert Z Axis: perhaps}",
+            "Invert Z Axis: expected true or false, got `perhaps`; using the default",
+        ),
     ],
 )
 def test_what_a_view_has_that_cannot_be_shown_is_told(text: str, sentence: str) -> None:
@@ -114,7 +154,7 @@ SAVED = """\
 Current: {Class: rviz_default_plugins/Orbit, Focal Shape Size: 0.1}
 Saved:
   - {Class: rviz_default_plugins/Orbit, Name: Corner, Distance: 2.5, Near Clip Distance: 0.1}
-  - {Class: rviz_default_plugins/FrameAligned, Name: Odd, Yaw: 1}
+  - {Class: some_plugins/Spiral, Name: Odd, Yaw: 1}
   - {Class: rviz_default_plugins/TopDownOrtho, Name: Corner, Scale: 30}
 """
 
@@ -126,7 +166,7 @@ def test_saved_views_are_carried_over_by_name() -> None:
         "Corner 2": TopDownOrtho(scale=30.0),
     }
     assert (report.carried["views"], report.total["views"]) == (3, 4)
-    assert "saved view Odd: rviz_default_plugins/FrameAligned" in "\n".join(report.sentences())
+    assert "saved view Odd: some_plugins/Spiral" in "\n".join(report.sentences())
 
 
 def test_saved_views_that_nobody_changed_are_written_as_they_were() -> None:
@@ -156,7 +196,7 @@ def test_a_view_of_another_type_keeps_nothing_of_the_one_before() -> None:
 
 
 def test_a_view_without_counterpart_is_kept_until_another_is_chosen() -> None:
-    text = "Current: {Class: rviz_default_plugins/FrameAligned, Name: Current View, Yaw: 1}\n"
+    text = "Current: {Class: some_plugins/Spiral, Name: Current View, Yaw: 1}\n"
     config, _ = opened(text)
     assert exported(config)["Current"] == YAML(typ="safe").load(text)["Current"]
     config.settings.view = Orbit(distance=3.0)

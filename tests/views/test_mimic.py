@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from views import FLAT_VIEWS, FPS_VIEWS, ORBITS, PITCHES
+from views import ALIGNED_VIEWS, FLAT_VIEWS, FPS_VIEWS, ORBITS, PITCHES
 
 from webviz.api.nodes import Pose
 from webviz.api.views import (
     FIELD_OF_VIEW,
-    FIXED_FRAME,
     FPS,
     Camera,
+    FrameAligned,
     Orbit,
     Rig,
     ThirdPersonFollower,
@@ -25,21 +26,30 @@ from webviz.api.views import (
     XYOrbit,
     camera_of,
     focus,
+    like,
     mimic,
     rig_of,
+    zero,
 )
+from webviz.data.rotations import from_rpy, matrices
 
 HOME = Rig()
 HEIGHT, WIDTH = 600.0, 800.0
 RIGS = st.builds(
     Rig,
     st.tuples(st.floats(-100, 100), st.floats(-100, 100), st.floats(-5, 5)),
-    st.floats(-3.0, 3.0),
+    st.floats(-3.0, 3.0).map(lambda yaw: from_rpy(0.0, 0.0, yaw)),
 )
 
 
 def seen_as(view: View, cls: type[Any]) -> Any:
-    return mimic(view, HOME, cls, FIXED_FRAME, HOME, HEIGHT)
+    other = like(cls, view)
+    return mimic(view, rig_of(view, None), other, rig_of(other, None), HEIGHT)
+
+
+def seen(view: View) -> Camera:
+    """Return the camera of a view in the fixed frame."""
+    return rig_of(view, None).outward(camera_of(view, HEIGHT))
 
 
 def same_picture(a: Camera, b: Camera) -> bool:
@@ -52,7 +62,7 @@ def same_picture(a: Camera, b: Camera) -> bool:
 def test_orbit_and_fps_show_the_same_picture(view: Orbit) -> None:
     fps = seen_as(view, FPS)
     assert isinstance(fps, FPS)
-    assert same_picture(camera_of(fps, HEIGHT), camera_of(view, HEIGHT))
+    assert same_picture(seen(fps), seen(view))
 
 
 @given(st.floats(1, 500), st.floats(0.1, 1.5), st.floats(-9, 9))
@@ -67,7 +77,7 @@ def test_a_view_of_the_ground_comes_back_from_fps(distance: float, pitch: float,
 def test_xy_orbit_shows_the_same_picture_with_its_focal_point_on_the_ground(view: Orbit) -> None:
     xy = seen_as(view, XYOrbit)
     assert isinstance(xy, XYOrbit)
-    assert same_picture(camera_of(xy, HEIGHT), camera_of(view, HEIGHT))
+    assert same_picture(seen(xy), seen(view))
 
 
 def test_the_focal_point_of_xy_orbit_is_on_the_ground() -> None:
@@ -98,20 +108,64 @@ def test_up_in_the_picture_stays_up_from_above() -> None:
 
 @given(st.one_of(ORBITS, FPS_VIEWS), RIGS, RIGS)
 def test_another_target_frame_leaves_the_camera_where_it_is(view: View, a: Rig, b: Rig) -> None:
-    moved = mimic(view, a, type(view), "other", b, HEIGHT)
+    moved = mimic(view, a, like(type(view), view, "other"), b, HEIGHT)
     assert moved.target_frame == "other"
     before, after = a.outward(camera_of(view, HEIGHT)), b.outward(camera_of(moved, HEIGHT))
     assert same_picture(before, after)
 
 
-def test_only_a_third_person_follower_turns_with_its_frame() -> None:
-    half = 0.3
-    pose = Pose((1.0, 2.0, 3.0), (math.cos(half), 0.0, 0.0, math.sin(half)))
-    assert rig_of(ThirdPersonFollower, pose).yaw == pytest.approx(2 * half)
-    assert rig_of(Orbit, pose) == Rig((1.0, 2.0, 3.0))
-    assert rig_of(Orbit, None) == Rig()
-    rolled = Pose(wxyz=(math.cos(half), math.sin(half), 0.0, 0.0))
-    assert rig_of(ThirdPersonFollower, rolled).yaw == pytest.approx(0.0)
+def test_views_rotate_with_their_frame_as_in_rviz() -> None:
+    pose = Pose((1.0, 2.0, 3.0), from_rpy(0.0, 0.0, 0.6))
+    assert rig_of(ThirdPersonFollower(), pose).wxyz == pytest.approx(pose.wxyz)
+    assert rig_of(Orbit(), pose) == Rig((1.0, 2.0, 3.0))
+    assert rig_of(Orbit(), None) == Rig()
+    rolled = Pose(wxyz=from_rpy(0.6, 0.0, 0.0))
+    assert rig_of(ThirdPersonFollower(), rolled).wxyz == pytest.approx((1.0, 0.0, 0.0, 0.0))
+    assert rig_of(FrameAligned(), rolled).wxyz == rolled.wxyz
+
+
+@given(ORBITS)
+def test_an_inverted_orbit_is_where_rviz_puts_it(view: Orbit) -> None:
+    """RViz negates yaw and pitch and keeps the focal point."""
+    inverted = msgspec.structs.replace(view, invert_z_axis=True)
+    mirrored = msgspec.structs.replace(view, yaw=-view.yaw, pitch=-view.pitch, invert_z_axis=False)
+    assert same_picture(seen(inverted), seen(mirrored))
+
+
+@given(ALIGNED_VIEWS, st.floats(-3.0, 3.0), st.floats(-1.5, 1.5))
+def test_an_aligned_view_is_fixed_in_its_frame(
+    view: FrameAligned, roll: float, pitch: float
+) -> None:
+    pose = Pose((1.0, 2.0, 3.0), from_rpy(roll, pitch, 0.5))
+    at = rig_of(view, pose).outward(camera_of(view, HEIGHT)).position
+    inside = matrices(pose.wxyz).T @ (at - pose.position)
+    sign = -1.0 if view.invert_z_axis else 1.0
+    assert inside == pytest.approx(np.array(view.position) * (1.0, sign, sign), abs=1e-6)
+
+
+@pytest.mark.parametrize("is_inverted", [False, True])
+@pytest.mark.parametrize(
+    ("axis", "forward"),
+    [
+        ("+x", (1, 0, 0)),
+        ("-x", (-1, 0, 0)),
+        ("+y", (0, 1, 0)),
+        ("-y", (0, -1, 0)),
+        ("+z", (0, 0, 1)),
+        ("-z", (0, 0, -1)),
+    ],
+)
+def test_an_aligned_view_begins_5_m_behind_its_frame_along_an_axis(
+    axis: str, forward: tuple[float, ...], is_inverted: bool
+) -> None:
+    given = {"type": "FrameAligned", "point_towards": f"{axis} axis", "invert_z_axis": is_inverted}
+    view = zero(msgspec.convert(given | {"position": (1, 2, 3), "lock_camera": True}, View))
+    assert isinstance(view, FrameAligned)
+    assert (view.lock_camera, view.invert_z_axis) == (True, is_inverted)
+    camera = seen(view)
+    assert camera.position == pytest.approx(-5.0 * np.array(forward), abs=1e-5)
+    line = (camera.look_at - camera.position) / camera.distance
+    assert line == pytest.approx(np.array(forward), abs=2e-3)
 
 
 BOXES = st.tuples(

@@ -286,6 +286,10 @@ class Observation:
         for kind in kinds:
             yield from self._lost.get(kind, ())
 
+    def outlived(self, display: DisplaySeen) -> tuple[Symptom, ...]:
+        """Return the statuses of a display whose last data is older than the transforms by now."""
+        return tuple(s for s, _ in self.lost(Kind.BEHIND) if s.display == display.id)
+
     def symptom(self, key: str) -> tuple[Symptom, ...]:
         """Return a warning or error of the viewer as a symptom, None for other statuses."""
         status = self.statuses.get(key)

@@ -40,7 +40,8 @@ def spaced(count: int) -> str:
 
 
 def listed(names: Sequence[str], most: int) -> str:
-    """Return the first names, and how many more there are, such as "a, b and 3 more"."""
+    """Return the first names, each once, and how many more there are: "a, b and 3 more"."""
+    names = [*dict.fromkeys(names)]
     rest = len(names) - most
     return ", ".join(names[:most]) + (f" and {rest} more" if rest > 0 else "")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import threading
 from collections.abc import Mapping
@@ -12,13 +13,13 @@ import numpy as np
 import viser
 
 from webviz.api.views import (
+    ASSUMED_PX,
     FIXED_FRAME,
-    VIEW_TYPES,
     Camera,
     Orbit,
-    ThirdPersonFollower,
     View,
     camera_of,
+    options_of,
     target_group,
     type_of,
     view_of,
@@ -28,9 +29,6 @@ from webviz.scene.names import node_path
 from webviz.server.channel.messages import PlaceCamera, SaveCanvas, StartView, ViewReport
 
 M = TypeVar("M", bound=PlaceCamera)
-
-ASSUMED_PX = 800.0
-"""Height of a picture before the page reports it; the page corrects the distance."""
 
 
 class _Browser(msgspec.Struct):
@@ -123,14 +121,15 @@ class ViserCameras:
         for id_ in self._browsers.keys() - clients.keys():
             del self._browsers[id_]
         for id_, report in heard.items():
-            if id_ not in clients or report.view not in VIEW_TYPES:
-                continue  # not a report of webviz's page
+            if id_ not in clients:
+                continue
             size = (max(report.width, 1.0), max(report.height, 1.0))
             if known := self._browsers.get(id_):
                 known.obeyed, known.size = report.number, size
             else:
-                view = VIEW_TYPES[report.view](target_frame=report.target_frame)
-                self._browsers[id_] = _Browser(view, report.number, report.number, size)
+                with contextlib.suppress(msgspec.ValidationError):  # not webviz's page
+                    view = msgspec.convert({"type": report.view} | report.options, View)
+                    self._browsers[id_] = _Browser(view, report.number, report.number, size)
         return clients
 
     def _view(self, known: _Browser, client: viser.ClientHandle) -> View:
@@ -139,7 +138,7 @@ class ViserCameras:
         position, (w, x, y, z), pivot = self._link.camera(client)
         forward = np.array((2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
         camera = Camera(position, position + forward * np.linalg.norm(pivot - position))
-        return view_of(type(known.view), known.view.target_frame, camera, known.size[1])
+        return view_of(known.view, camera, known.size[1])
 
     # Called on viser's event loop
 
@@ -168,9 +167,8 @@ def placed(kind: type[M], view: View, number: int) -> M:
     return kind(
         number=number,
         view=type_of(view),
-        target_frame=frame,
+        options=options_of(view),
         frame="" if frame == FIXED_FRAME else node_path(target_group(frame)),
-        turns=isinstance(view, ThirdPersonFollower),
         position=camera.position.tolist(),
         look_at=camera.look_at.tolist(),
         scale=getattr(view, "scale", None),

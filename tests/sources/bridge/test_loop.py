@@ -28,10 +28,14 @@ def test_the_doctor_examines_a_robot_behind_a_bridge(capsys: pytest.CaptureFixtu
     assert not any(id.startswith(("ENV", "SHM", "NET")) for id in ids)
 
 
-def test_the_doctor_finds_that_a_bridge_is_not_there(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("seconds", ["2.5", "1.0"])
+def test_the_doctor_finds_that_a_bridge_is_not_there(
+    seconds: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also in less than the two rounds that a finding takes, as on a busy machine."""
     with foxglove_server() as server:
         url = server.url
-    assert main(["doctor", "--connect", url, "--json", "--seconds", "2.5"]) == 3
+    assert main(["doctor", "--connect", url, "--json", "--seconds", seconds]) == 3
     report = json.loads(capsys.readouterr().out)
     (finding,) = [each for each in report["findings"] if each["id"] == BROKEN]
     assert finding["cause"].startswith(f"{url} is not connected. Nothing listens on 127.0.0.1:")

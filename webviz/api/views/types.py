@@ -1,13 +1,14 @@
 """The types of views, as in RViz. Lengths in metres, angles in radians.
 
 The coordinates of a view have their origin at the target frame and the axes of the fixed frame; for
-a ThirdPersonFollower they also rotate with the yaw of the target frame.
+a ThirdPersonFollower they also rotate with the yaw of the target frame, and for a FrameAligned view
+they are those of the target frame.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, TypeVar
 
 import msgspec
 
@@ -22,6 +23,8 @@ Yaw = Annotated[Angle, Prop(unit="rad", help="Direction of the camera.")]
 Pitch = Annotated[float, Prop(ge=-1.5698, le=1.5698, unit="rad", help="Positive looks down.")]
 Middle = Annotated[Length, Prop(unit="m", help="Centre of the picture.")]
 Point = tuple[Length, Length, Length]
+Inverted = Annotated[bool, Prop(help="Turn the picture upside down, for z axes that point down.")]
+Axis = Literal["arbitrary", "+x axis", "-x axis", "+y axis", "-y axis", "+z axis", "-z axis"]
 
 
 class _View(
@@ -37,6 +40,7 @@ class _AroundAPoint(_View, frozen=True, kw_only=True):
     yaw: Yaw = 0.785398
     pitch: Pitch = 0.785398
     focal_point: Annotated[Point, Prop(unit="m", help="Centre of rotation.")] = (0.0, 0.0, 0.0)
+    invert_z_axis: Inverted = False
 
 
 class Orbit(_AroundAPoint, frozen=True, kw_only=True, tag="Orbit"):
@@ -59,6 +63,17 @@ class FPS(_View, frozen=True, kw_only=True, tag="FPS"):
     position: Annotated[Point, Prop(unit="m", help="Position of the camera.")] = (5.0, 5.0, 10.0)
 
 
+class FrameAligned(FPS, frozen=True, kw_only=True, tag="FrameAligned"):
+    """FPS that also rotates with its target frame; at first along an axis of that frame."""
+
+    position: Annotated[Point, Prop(unit="m", help="Position of the camera.")] = (-5.0, 0.0, 0.0)
+    point_towards: Annotated[
+        Axis, Prop(rviz="Point towards", help="Axis of the target frame along which to look.")
+    ] = "+x axis"
+    lock_camera: Annotated[bool, Prop(help="Keep the camera where it is in the frame.")] = False
+    invert_z_axis: Inverted = False
+
+
 class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
     """Looks straight down without perspective; centred on `x`, `y`, `scale` in px/m."""
 
@@ -68,12 +83,16 @@ class TopDownOrtho(_View, frozen=True, kw_only=True, tag="TopDownOrtho"):
     y: Middle = 0.0
 
 
-View = Orbit | XYOrbit | ThirdPersonFollower | FPS | TopDownOrtho
+View = Orbit | XYOrbit | ThirdPersonFollower | FPS | FrameAligned | TopDownOrtho
+V = TypeVar("V", bound=View)
 
 VIEW_TYPES: dict[str, type[View]] = {
-    cls.__name__: cls for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, TopDownOrtho)
+    cls.__name__: cls
+    for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, FrameAligned, TopDownOrtho)
 }
 """By their names in RViz and config files."""
+OPTIONS = "target_frame", "invert_z_axis", "point_towards", "lock_camera"
+"""Fields that moving the camera leaves."""
 
 
 def with_type(values: Any) -> Any:
@@ -84,6 +103,25 @@ def with_type(values: Any) -> Any:
 def type_of(view: View) -> str:
     """Return the name of the type of a view."""
     return type(view).__name__
+
+
+def options_of(view: View) -> dict[str, str | bool]:
+    """Return the fields of a view that moving its camera leaves."""
+    return {name: getattr(view, name) for name in view.__struct_fields__ if name in OPTIONS}
+
+
+def like(cls: type[V], view: View, target_frame: str | None = None) -> V:
+    """Return the initial view of a type, with the options of another view.
+
+    Args:
+        cls: the type.
+        view: with the options.
+        target_frame: in place of the view's.
+    """
+    kept: dict[str, Any] = {**options_of(view)}
+    if target_frame is not None:
+        kept["target_frame"] = target_frame
+    return cls(**{name: value for name, value in kept.items() if name in cls.__struct_fields__})
 
 
 def target_group(frame: str) -> str:

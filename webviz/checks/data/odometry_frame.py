@@ -11,6 +11,7 @@ from webviz.api.observation import NO_OFFER, Observation
 from webviz.checks.data.motion import ODOMETRY
 from webviz.data.rotations import angle_between, w_first
 from webviz.data.transforms import TransformException
+from webviz.data.transforms.clocks import is_off
 
 APART_M, APART_RAD = 0.1, 0.1
 """Differences that neither rounding nor interpolation explains."""
@@ -40,7 +41,9 @@ class OdometryFrame(Check):
         """Yield a finding for each such topic."""
         if seen.is_recorded:
             return  # a recording does not tell which node sent what
-        jumping = {each.subject for each in seen.findings if each.id == "TF026"}
+        # Transforms whose own fault has another name differ from anything.
+        faulty = {each.subject for each in seen.findings if each.id == "TF026"}
+        faulty |= {frame for frame, _ in seen.buffer.conflicts.all()}
         transforms = seen.offers.get("/tf", NO_OFFER).publishers
         senders = {each.node for each in transforms if each.node}
         for _, each in seen.samples(ODOMETRY):
@@ -48,7 +51,9 @@ class OdometryFrame(Check):
             parent, child = odometry.header.frame_id, odometry.child_frame_id
             nodes = {p.node for p in seen.offers.get(each.topic, NO_OFFER).publishers}
             link = seen.buffer.link(child)
-            if not nodes & senders or link is None or link.parent != parent or child in jumping:
+            if not nodes & senders or link is None or link.parent != parent or child in faulty:
+                continue
+            if is_off(seen.buffer, child, seen.now_ns):
                 continue
             stamp = odometry.header.stamp
             try:

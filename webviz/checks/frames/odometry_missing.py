@@ -33,21 +33,9 @@ class OdometryMissing(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the base is the root of a tree besides that of odom."""
-        tree, explains = seen.buffer.tree, list[Symptom]()
-        base, odom = "", "odom"
-        for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
-            root, fixed_root = reason.roots or ("", "")
-            if (found := BASE.fullmatch(root)) is None:
-                continue
-            own = f"{found[1] or ''}odom"
-            if own in tree.names and tree.root(own) == fixed_root:
-                explains.append(symptom)
-                base, odom = root, own
-        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
-            if is_named(reason.frame, "odom"):
-                explains.append(symptom)
-                base, odom = seen.fixed_frame, reason.frame
-        if explains:
+        lost = list(unconnected(seen))
+        if lost:
+            _, base, odom = lost[-1]
             yield self.found(
                 f'Nothing publishes the transform from "{odom}" to "{base}".',
                 "Start the odometry of the robot, or let it publish its transform.",
@@ -55,5 +43,25 @@ class OdometryMissing(Check):
                 severity=Severity.ERROR,
                 evidence={"base": base, "publishers": seen.nodes_of("/odom")},
                 command="ros2 topic info /odom --verbose",
-                explains=tuple(explains),
+                explains=odometry_lost(seen),
             )
+
+
+def odometry_lost(seen: Observation) -> tuple[Symptom, ...]:
+    """Return the statuses of frames that lack the transform of the odometry."""
+    return tuple(symptom for symptom, _, _ in unconnected(seen))
+
+
+def unconnected(seen: Observation) -> Iterator[tuple[Symptom, str, str]]:
+    """Yield these statuses, each with the frames of the base and of the odometry."""
+    tree = seen.buffer.tree
+    for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
+        root, fixed_root = reason.roots or ("", "")
+        if (found := BASE.fullmatch(root)) is None:
+            continue
+        own = f"{found[1] or ''}odom"
+        if own in tree.names and tree.root(own) == fixed_root:
+            yield symptom, root, own
+    for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+        if is_named(reason.frame, "odom"):
+            yield symptom, seen.fixed_frame, reason.frame

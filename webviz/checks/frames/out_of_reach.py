@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
+from webviz.checks.frames.names import is_named
+from webviz.data.transforms.geometry import REACH_M
 from webviz.data.transforms.reasons import Kind
+from webviz.data.transforms.tree import ancestors
+
+FAR_M = 1e5
+"""Beyond any site that a robot maps; below the northing of UTM nearly everywhere on land."""
 
 
 class OutOfReach(Check):
     """Transform that leads too far away.
 
-    A transform places a frame so far away that nothing can be drawn there.
+    A transform places a frame so far away that nothing can be drawn there, or the data of a display
+    more than 100 km from the fixed frame.
 
     Why:
         Usually a value in UTM coordinates or in millimetres, or an estimate that has diverged.
@@ -35,3 +43,21 @@ class OutOfReach(Check):
                 evidence={"frame": reason.frame},
                 explains=(symptom,),
             )
+        if is_named(seen.fixed_frame, "earth", "utm"):
+            return  # whose coordinates are that large
+        frames = {each.frame for _, each in seen.inputs() if each.frame}
+        chains = (ancestors(seen.buffer.tree, frame) for frame in sorted(frames))
+        fixed = {*ancestors(seen.buffer.tree, seen.fixed_frame)}
+        for frame in dict.fromkeys(frame for chain in chains for frame in chain):
+            link = None if frame in fixed else seen.buffer.link(frame)
+            distance_m = math.hypot(*link.transform.translation) if link else 0.0
+            if link and FAR_M < distance_m < REACH_M:
+                yield self.found(
+                    f'"{frame}" is {distance_m / 1e3:.0f} km from "{link.parent}", which is usual '
+                    "of UTM coordinates only.",
+                    "Correct the publisher of the transform, or let it subtract the place of the "
+                    "map.",
+                    subject=frame,
+                    evidence={"frame": frame, "distance_m": round(distance_m)},
+                    command=f"ros2 run tf2_ros tf2_echo {link.parent} {frame}",
+                )

@@ -9,7 +9,9 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 from webviz.api.offer import Endpoint
-from webviz.checks.graph.names import named
+from webviz.data.words import listed
+
+NAMED = 4
 
 
 class DeadlineMismatch(Check):
@@ -43,7 +45,7 @@ class DeadlineMismatch(Check):
             best = min(offered for _, offered in waiting)
             promise = f"{best:g} s" if best < math.inf else "none"
             asked_s = min(reader.deadline_s for reader, _ in waiting)
-            readers = named([reader for reader, _ in waiting])
+            readers = listed([reader.label for reader, _ in waiting], NAMED)
             is_one = len(waiting) == 1
             yield self.found(
                 f"{readers} {'receives' if is_one else 'receive'} nothing on {topic}: "

@@ -60,5 +60,9 @@ class EndedPublisher(Check):
                     "received": sum(each.received for _, each in lost),
                 },
                 command="ros2 node list",
-                explains=tuple(s for display, each in lost for s in display.symptom(each.status)),
+                explains=tuple(
+                    s
+                    for display, each in lost
+                    for s in (*display.symptom(each.status), *seen.outlived(display))
+                ),
             )

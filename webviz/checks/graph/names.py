@@ -1,18 +1,14 @@
-"""Similarity of topic names, and names of nodes for sentences."""
+"""Similarity of topic names."""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
 
 from webviz.api.observation import DisplaySeen, InputSeen
-from webviz.api.offer import Endpoint
 from webviz.api.status import Remedy
 
 SIMILAR = 0.8
 """Ratio of difflib from which a name is a misspelling of another."""
-MAX_NAMED = 5
-"""Nodes that are named."""
 
 
 def suggested(display: DisplaySeen, port: InputSeen) -> Remedy | None:
@@ -33,11 +29,3 @@ def is_elsewhere(topic: str, other: str) -> bool:
 def is_similar(topic: str, other: str) -> bool:
     """Return whether one of the names is probably a misspelling of the other."""
     return difflib.SequenceMatcher(None, topic, other).ratio() >= SIMILAR
-
-
-def named(ends: Sequence[Endpoint]) -> str:
-    """Return the nodes of endpoints, at least one, for sentences."""
-    names = [*dict.fromkeys(each.label for each in ends)]
-    more = [f"{len(names) - MAX_NAMED} more"] if len(names) > MAX_NAMED else []
-    *first, last = [*names[:MAX_NAMED], *more]
-    return f"{', '.join(first)} and {last}" if first else last

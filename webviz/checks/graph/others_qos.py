@@ -8,9 +8,10 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 from webviz.api.offer import Endpoint, Offer, Publisher
-from webviz.checks.graph.names import named
+from webviz.data.words import listed
 from webviz.sources.names import is_own
 
+NAMED = 4
 Policies = tuple[str, ...]
 REMEDIES = {
     "reliable": "subscribe with best effort (qos_profile_sensor_data)",
@@ -48,8 +49,8 @@ class OthersQos(Check):
             pairs = _mismatches(offer)
             for lacking in dict.fromkeys(lacking for _, _, lacking in pairs):
                 alike = [pair for pair in pairs if pair[2] == lacking]
-                readers = named([reader for reader, _, _ in alike])
-                writers = named([writer for _, writer, _ in alike])
+                readers = listed([reader.label for reader, _, _ in alike], NAMED)
+                writers = listed([writer.label for _, writer, _ in alike], NAMED)
                 starving = [reader for reader, _, _ in alike if not _is_served(reader, offer)]
                 asked = " and ".join(lacking).replace("_", " ")
                 offered = " and ".join(OFFERED[policy] for policy in lacking)

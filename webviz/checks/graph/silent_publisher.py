@@ -6,13 +6,15 @@ from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
-from webviz.api.observation import Observation
+from webviz.api.observation import NO_OFFER, Observation
+from webviz.checks.frames.odometry_missing import odometry_lost
 from webviz.checks.graph.inactive_node import lifecycle_nodes
 from webviz.checks.graph.silence import is_nameless, is_silent
 from webviz.data.words import joined
 from webviz.sources.names import is_own
 
 MAP = "nav_msgs/msg/OccupancyGrid"
+ODOMETRY = "nav_msgs/msg/Odometry"
 STREAMS = {
     *(
         f"sensor_msgs/msg/{name}"
@@ -36,7 +38,7 @@ STREAMS = {
         )
     ),
     MAP,
-    "nav_msgs/msg/Odometry",
+    ODOMETRY,
     "tf2_msgs/msg/TFMessage",
 }
 """Types that a node sends by itself; others, such as goals, wait for an event."""
@@ -63,6 +65,7 @@ class SilentPublisher(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is published, matches, and is silent."""
+        senders = {p.node for p in seen.offers.get("/tf", NO_OFFER).publishers if p.node}
         for display, each, offer in seen.starved():
             if not is_silent(seen, display, each, offer) or is_nameless(offer):
                 continue
@@ -72,6 +75,7 @@ class SilentPublisher(Check):
             if all(is_own(p.node) for p in publishers):
                 continue
             node = publishers[0].label
+            is_sender = any(p.node in senders for p in publishers)
             is_repeated = any(p.durability == "transient_local" for p in publishers)
             is_single = each.types[0] not in STREAMS or each.types[0] == MAP
             earlier = "Let it publish as transient local if it sent a message earlier."
@@ -90,5 +94,8 @@ class SilentPublisher(Check):
                     "silent_s": round(each.silent_s, 1),
                 },
                 command=f"ros2 node info {node}" if publishers[0].node else "",
-                explains=display.symptom(each.status),
+                explains=(
+                    *display.symptom(each.status),
+                    *(odometry_lost(seen) if is_sender and ODOMETRY in each.types else ()),
+                ),
             )

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
-from webviz.api.observation import Observation
+from webviz.api.observation import DisplaySeen, InputSeen, Observation
 from webviz.checks.graph.silent_publisher import MAP, STREAMS
+from webviz.data.words import listed
 
+NAMED = 4
+TOGETHER_S = 1.0
 ON_CHANGE = MAP
 """Some mappers publish only while the robot moves."""
 
@@ -31,27 +34,52 @@ class StoppedPublisher(Check):
     id = "GRAPH009"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each topic that fell silent."""
-        for display, each, offer in seen.starved():
-            if not each.received or not offer.publishers or offer.problem:
-                continue
-            who = seen.nodes_of(each.topic)
-            rate = f"{each.rate_hz:.1f} Hz"
+        """Yield a finding for each topic that fell silent; those that did so together are one."""
+        stopped = [
+            (display, each)
+            for display, each, offer in seen.starved()
+            if each.received and offer.publishers and not offer.problem
+        ]
+        for together in [[one] for one in stopped] if seen.is_recorded else _together(stopped):
+            _, each = together[0]
+            topics = list(dict.fromkeys(each.topic for _, each in together))
+            named = listed(topics, NAMED)
+            who = listed([*dict.fromkeys(map(seen.nodes_of, topics))], NAMED)
+            rate = f", previously at {each.rate_hz:.1f} Hz" if len(topics) == 1 else ""
             yield self.found(
-                f"{each.topic} stops in the bag; its rate was {rate}."
+                f"{each.topic} stops in the bag; its rate was {each.rate_hz:.1f} Hz."
                 if seen.is_recorded
-                else f"Nothing has arrived on {each.topic} from {who} for {each.silence}, "
-                f"previously at {rate}.",
+                else f"Nothing has arrived on {named} from {who} for {each.silence}{rate}.",
                 "Look at the log of the node and at its sensor."
                 if seen.is_recorded
                 else "Check the log of the node, its sensor, and the link to its machine.",
                 subject=each.topic,
-                severity=Severity.WARNING if each.type in STREAMS - {ON_CHANGE} else Severity.NOTE,
+                severity=Severity.WARNING
+                if any(one.type in STREAMS - {ON_CHANGE} for _, one in together)
+                else Severity.NOTE,
                 evidence={
-                    "topic": each.topic,
+                    "topics": tuple(topics),
                     "rate_hz": round(each.rate_hz, 3),
                     "received": each.received,
                 },
                 command=f"ros2 topic hz {each.topic}",
-                explains=display.symptom(each.status),
+                explains=tuple(
+                    symptom
+                    for display, one in together
+                    for symptom in (*display.symptom(one.status), *seen.outlived(display))
+                ),
             )
+
+
+def _together(
+    stopped: Sequence[tuple[DisplaySeen, InputSeen]],
+) -> Iterator[list[tuple[DisplaySeen, InputSeen]]]:
+    """Yield topics that stopped at the same time, such as those of a machine that was lost."""
+    group: list[tuple[DisplaySeen, InputSeen]] = []
+    for each in sorted(stopped, key=lambda each: each[1].silent_s):
+        if group and each[1].silent_s - group[0][1].silent_s > TOGETHER_S:
+            yield group
+            group = []
+        group.append(each)
+    if group:
+        yield group

@@ -9,7 +9,8 @@ from webviz.api.finding import CauseLevel, Finding, Severity
 from webviz.api.observation import Observation
 from webviz.data.transforms.reasons import in_words
 
-STILL_S = 2.0
+STILL_S = 1.0
+"""Shorter than a topic is silent before that is a warning, which this explains."""
 
 
 class ClockStands(Check):

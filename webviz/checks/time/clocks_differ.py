@@ -8,7 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 from webviz.data.transforms.clocks import clock_problem, is_off
-from webviz.data.transforms.reasons import Kind
+from webviz.data.transforms.reasons import YEAR_NS, Kind
 
 OF_LINKS = Kind.AHEAD, Kind.BEHIND, Kind.NO_DATA, Kind.CLOCKS
 """Reasons why a frame behind such a transform has no pose."""
@@ -34,7 +34,10 @@ class ClocksDiffer(Check):
         """Yield a finding if so."""
         explains = seen.symptom("Clocks")
         problem = clock_problem(seen.buffer, seen.now_ns, seen.is_recorded)
-        if problem and explains:
+        # Where data has the time of this computer, webviz need not follow another: TIME011.
+        links = [seen.buffer.tree.caches.get(reason.link) for _, reason in seen.lost(Kind.CLOCKS)]
+        is_mixed = any(link is not None and link.newest_stamp < YEAR_NS for link in links)
+        if problem and explains and not is_mixed:
             lost = [
                 symptom
                 for symptom, reason in seen.lost(*OF_LINKS)
@@ -45,5 +48,5 @@ class ClocksDiffer(Check):
                 problem.remedy,
                 evidence={"status": str(problem)},
                 command="chronyc tracking",
-                explains=(*explains, *lost),
+                explains=(*explains, *lost, *seen.off_map()),
             )

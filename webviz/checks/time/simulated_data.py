@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding
-from webviz.api.observation import Observation
+from webviz.api.observation import NO_OFFER, Observation
+from webviz.checks.time.clock_stands import STILL_S
 from webviz.data.transforms.reasons import WALL_NS, YEAR_NS
 
 
@@ -30,6 +31,10 @@ class SimulatedData(Check):
         """Yield a finding for each such topic."""
         if seen.is_simulated or seen.is_recorded or seen.now_ns < WALL_NS:
             return
+        if len(seen.offers.get("/clock", NO_OFFER).publishers) > 1:
+            return  # following one of two clocks would not help: TIME003
+        if seen.clock is not None and seen.clock.still_s >= STILL_S:
+            return  # nor one that stands: TIME013
         for display, each in seen.inputs():
             stamp_ns = each.stamps[-1][0] if each.stamps else 0
             if 0 < stamp_ns < YEAR_NS:

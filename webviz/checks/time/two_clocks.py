@@ -34,6 +34,6 @@ class TwoClocks(Check):
                 "Stop all but one of them.",
                 evidence={"nodes": nodes},
                 command="ros2 topic info /clock --verbose",
-                explains=seen.stalled(),
+                explains=(*seen.stalled(), *seen.symptom("Clocks")),
                 causes=CauseLevel.GRAPH,
             )

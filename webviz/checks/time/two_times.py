@@ -26,8 +26,9 @@ class TwoTimes(Check):
     id = "TIME011"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each such link."""
-        for symptom, reason in seen.lost(Kind.CLOCKS):
+        """Yield one finding for all such links."""
+        lost = list(seen.lost(Kind.CLOCKS))
+        for _, reason in lost[:1]:
             yield self.found(
                 f'Data in "{reason.frame}" and the transform of "{reason.link}" are stamped by '
                 "different clocks.",
@@ -36,5 +37,9 @@ class TwoTimes(Check):
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "link": reason.link},
                 command="for n in $(ros2 node list); do ros2 param get $n use_sim_time; done",
-                explains=(symptom,),
+                explains=(
+                    *(symptom for symptom, _ in lost),
+                    *seen.symptom("Clocks"),
+                    *(other for other, _ in seen.lost(Kind.AHEAD, Kind.NO_DATA)),
+                ),
             )

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from concurrent.futures import Future
 from dataclasses import replace
 
 from webviz.api.check import Check
 from webviz.api.check_registry import known_checks
 from webviz.api.environment import Environment
-from webviz.api.finding import Finding, Severity
+from webviz.api.finding import Finding, Severity, Symptom
 from webviz.api.observation import DISCOVERED_S
 from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
@@ -19,7 +19,7 @@ from webviz.data.disk import DiskThreads
 from webviz.engine.doctor.environment import look_around, lost_so_far
 from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.load import LoadMeter
-from webviz.engine.doctor.observing import observe
+from webviz.engine.doctor.observing import observe, problems
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.doctor.sim_time import SimTime
 from webviz.engine.parts.clock_watch import ClockWatchPart
@@ -103,6 +103,10 @@ class Doctor:
         """Of all rules, in the last round."""
         self.rounds = 0
         """Number of completed rounds."""
+        self._is_confirmed = True
+        """False if the last round found something above a note for the first time."""
+        self._examined_problems: Sequence[Set[Symptom]] = ()
+        """Warnings and errors when each of the last two rounds began."""
         self._noted: dict[Key, Event] = {}
         self.events: Sequence[Event] = ()
         """When findings began, as far as the recording was shown; each is noted once."""
@@ -116,6 +120,16 @@ class Doctor:
         """Return whether other nodes were found, or had the time to be."""
         is_early = time.monotonic() - self.listening_since_s < DISCOVERED_S
         return not is_early or len(self._core.gate.nodes()) > 1
+
+    def is_settled(self, state: State) -> bool:
+        """Return whether two rounds have examined all that is wrong, and agree on it.
+
+        Args:
+            state: of this turn.
+        """
+        if len(self._examined_problems) < 2 or not self._is_confirmed:
+            return False
+        return all(problems(state).keys() <= each for each in self._examined_problems)
 
     def ask(self) -> None:
         """Examine for some seconds even if no browser is connected; thread-safe."""
@@ -178,6 +192,7 @@ class Doctor:
     def _examined(self, state: State) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
         core = self._core
+        wrong = problems(state).keys()
         load, cores = self._load.measure()
         seen = observe(core, self._displays, state, self._environment(state), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
@@ -199,6 +214,10 @@ class Doctor:
         now = now_ns, state.playback.position_s if state.playback else None
         self._since = {key: before.get(key, now) for key in map(_key, found)}
         steady = [each for each in found if _key(each) in before]
+        self._is_confirmed = all(
+            _key(each) in before for each in found if each.severity > Severity.NOTE
+        )
+        self._examined_problems = *self._examined_problems[-1:], wrong
         self.findings = tuple(
             replace(
                 each,

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from functools import partial
 from types import MappingProxyType
 
-import numpy as np
-
 from webviz.api.browser import BrowserSeen
 from webviz.api.display import Display
 from webviz.api.environment import Environment
+from webviz.api.finding import Symptom
 from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
+from webviz.api.nodes import Pose
 from webviz.api.observation import DisplaySeen, Observation
-from webviz.api.views import FIXED_FRAME, Camera, ThirdPersonFollower, camera_of
+from webviz.api.status import Level, Status
+from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import Row, State
@@ -83,22 +83,26 @@ def observe(
     )
 
 
+def problems(state: State) -> Mapping[Symptom, Status]:
+    """Return the warnings and errors of the viewer and of its displays, without groups."""
+    owners = [("", state.statuses)]
+    owners += [(row.id, row.statuses) for row in state.rows if not _is_group(row)]
+    return {
+        Symptom(id, key): status
+        for id, statuses in owners
+        for key, status in statuses.items()
+        if status.level >= Level.WARN
+    }
+
+
 def _camera(browser: BrowserSeen, frames: Frames) -> Camera | None:
     """Return the camera of a browser in the fixed frame, None if it is unknown."""
     view = browser.view
     if view is None or browser.size[1] <= 0.0:
         return None
-    camera = camera_of(view, browser.size[1])
-    if view.target_frame == FIXED_FRAME:
-        return camera
-    if (target := frames.latest(view.target_frame)) is None:
-        return None
-    w, x, y, z = target.wxyz
-    is_turned = isinstance(view, ThirdPersonFollower)
-    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) if is_turned else 0.0
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    turn = np.array(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1)))
-    return Camera(turn @ camera.position + target.position, turn @ camera.look_at + target.position)
+    is_fixed = view.target_frame == FIXED_FRAME
+    target = Pose() if is_fixed else frames.latest(view.target_frame)
+    return target and rig_of(view, target).outward(camera_of(view, browser.size[1]))
 
 
 def _is_group(row: Row) -> bool:

@@ -14,13 +14,16 @@ from webviz.api.status import Level, Status
 from webviz.api.views import (
     FIXED_FRAME,
     VIEW_TYPES,
+    FrameAligned,
     Rig,
     View,
     focus,
+    like,
     mimic,
     rig_of,
     target_group,
     type_of,
+    zero,
 )
 from webviz.data.names import file_problem_of, problem_of
 from webviz.data.words import joined
@@ -134,7 +137,7 @@ class ViewsPart(Part):
 
     def _zero(self, command: ResetView, sender: Sender) -> None:
         for id, view in self._seen(_browser(command, sender)).items():
-            self._cameras.show(type(view)(target_frame=view.target_frame), id)
+            self._cameras.show(zero(view), id)
 
     def _focus(self, command: FocusDisplay, sender: Sender) -> None:
         ids = self._displays.list.within(command.display)
@@ -154,7 +157,7 @@ class ViewsPart(Part):
 
     def _look_at(self, box: Box, browser: int | None) -> None:
         for id, view in self._seen(browser).items():
-            rig = self._rig(type(view), view.target_frame)
+            rig = self._rig(view)
             size = self._cameras.size(id)
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
 
@@ -210,27 +213,28 @@ class ViewsPart(Part):
         return views[max(views)]
 
     def _changed(self, view: View, key: str, value: Any, browser: int) -> View:
-        rig = self._rig(type(view), view.target_frame)
+        rig = self._rig(view)
         height = self._cameras.size(browser)[1]
         if key == "type":
             if value not in VIEW_TYPES:
                 raise ConfigError(f"Unknown view type `{value}`: {nearest(str(value), VIEW_TYPES)}")
-            cls = VIEW_TYPES[value]
-            new_rig = self._rig(cls, view.target_frame)
-            return mimic(view, rig, cls, view.target_frame, new_rig, height)
-        if key == "target_frame":
-            frame = str(value)
-            return mimic(view, rig, type(view), frame, self._rig(type(view), frame), height)
+            other = like(VIEW_TYPES[value], view)
+            return mimic(view, rig, other, self._rig(other), height)
+        if key == "target_frame" and not isinstance(view, FrameAligned):  # as RViz, which jumps
+            other = like(type(view), view, target_frame=str(value))
+            return mimic(view, rig, other, self._rig(other), height)
         values = msgspec.to_builtins(view)
         if key not in values:
             raise ConfigError(f"{type_of(view)} has no `{key}`: {nearest(key, values)}")
         try:
-            return msgspec.convert(values | {key: value}, type(view))
+            changed = msgspec.convert(values | {key: value}, type(view))
         except msgspec.ValidationError as error:
             raise not_changed(error, type(view), key, value) from error
+        return zero(changed) if key == "point_towards" else changed
 
-    def _rig(self, cls: type[View], frame: str) -> Rig:
-        return Rig() if frame == FIXED_FRAME else rig_of(cls, self.core.frames.latest(frame))
+    def _rig(self, view: View) -> Rig:
+        frame = view.target_frame
+        return rig_of(view, None if frame == FIXED_FRAME else self.core.frames.latest(frame))
 
     def _saved(self) -> Mapping[str, View]:
         return self._settings.settings.views

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import msgspec
-
-from webviz.api.properties import properties_of
+from webviz.api.properties import Property, properties_of
 from webviz.api.views import FIXED_FRAME, VIEW_TYPES, Orbit, View, type_of
 from webviz.files.rviz import values
 from webviz.files.rviz.report import Report
@@ -26,7 +24,6 @@ KEYS = {
 """RViz's keys for the fields of views."""
 UNUSED: Mapping[str, tuple[Any, str]] = {
     "Near Clip Distance": (NEAR_CLIP_DISTANCE, "the near plane follows from the distance"),
-    "Invert Z Axis": (False, "the camera is always upright"),
     "Enable Stereo Rendering": (False, "stereo is unsupported"),
     "Focal Shape Size": (0.05, "nothing marks the focal point"),
     "Focal Shape Fixed Size": (True, "nothing marks the focal point"),
@@ -69,9 +66,9 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
             report.note(place, key, f"{reason}; kept for export")
             report.count("properties", 0, int(key not in AIDS))
     given = {
-        field.name: _read_field(field, tree[KEYS[field.name]], report, place)
-        for field in msgspec.structs.fields(cls)
-        if KEYS[field.name] in tree
+        field.path: _read_field(field, tree[KEYS[field.path]], report, place)
+        for field in properties_of(cls)
+        if KEYS[field.path] in tree
     }
     return cls(**given)
 
@@ -105,8 +102,8 @@ def write(view: View, name: str = "Current View") -> Tree:
         "Value": f"{type_of(view)} (rviz_default_plugins)",
         "Near Clip Distance": NEAR_CLIP_DISTANCE,
     }
-    for field in msgspec.structs.fields(type(view)):
-        tree[KEYS[field.name]] = values.write(getattr(view, field.name), _kind(field))
+    for field in properties_of(type(view)):
+        tree[KEYS[field.path]] = values.write(field.of(view), _kind(field))
     return tree
 
 
@@ -154,24 +151,26 @@ def _others(tree: Mapping[str, Any], view: View) -> Tree:
     return {key: value for key, value in tree.items() if key not in KEYS.values()}
 
 
-def _read_field(field: msgspec.structs.FieldInfo, given: Any, report: Report, place: str) -> Any:
+def _read_field(field: Property, given: Any, report: Report, place: str) -> Any:
     """Return the value of a field in RViz's tree, clamped to its bounds."""
-    key = KEYS[field.name]
+    key = KEYS[field.path]
     try:
         value = values.read(given, _kind(field))
     except Unfit as error:
         report.note(place, key, f"{error}; using the default")
         return field.default
-    if field.name == "scale":
+    if field.path == "scale":
         value = abs(value)  # RViz flips the picture
+    if isinstance(value, bool):
+        return value
     if isinstance(value, str):
         return value or FIXED_FRAME
     if isinstance(value, tuple):
         return tuple(min(max(part, -FARTHEST), FARTHEST) for part in value)
-    low, high = BOUNDS.get(field.name, (-FARTHEST, FARTHEST))
+    low, high = BOUNDS.get(field.path, (-FARTHEST, FARTHEST))
     return min(max(value, low), high)
 
 
-def _kind(field: msgspec.structs.FieldInfo) -> Any:
+def _kind(field: Property) -> Any:
     is_point = isinstance(field.default, tuple)
-    return tuple[float, float, float] if is_point else type(field.default)
+    return tuple[float, float, float] if is_point else field.hint

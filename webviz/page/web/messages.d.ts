@@ -50,9 +50,8 @@ export interface PlaceCamera {
   type: "PlaceCamera";
   number: number;
   view: string;
-  target_frame: string;
+  options: Record<string, string | boolean>;
   frame: string;
-  turns: boolean;
   position: Array<number>;
   look_at: Array<number>;
   scale: number | null;
@@ -89,9 +88,8 @@ export interface StartView {
   type: "StartView";
   number: number;
   view: string;
-  target_frame: string;
+  options: Record<string, string | boolean>;
   frame: string;
-  turns: boolean;
   position: Array<number>;
   look_at: Array<number>;
   scale: number | null;
@@ -176,7 +174,7 @@ export interface ViewReport {
   type: "ViewReport";
   number: number;
   view: string;
-  target_frame: string;
+  options: Record<string, string | boolean>;
   width: number;
   height: number;
 }
@@ -239,7 +237,7 @@ export interface Commands {
   SaveLayout: { name: string };
   SaveMemory: { seconds?: number | null; path?: string };
   SaveReport: { picture?: string; selection?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; with_names?: boolean; path?: string };
-  SaveView: { name: string; view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | null };
+  SaveView: { name: string; view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "FrameAligned"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number]; point_towards?: "+x axis" | "+y axis" | "+z axis" | "-x axis" | "-y axis" | "-z axis" | "arbitrary"; lock_camera?: boolean; invert_z_axis?: boolean } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | null };
   Seek: { at_s: number };
   Select: { picks?: Array<{ group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> }>; keep?: Array<number>; total?: number };
   SelectSpan: { first_s?: number | null; last_s?: number | null };
@@ -253,9 +251,9 @@ export interface Commands {
   SetRate: { rate: number };
   SetToolProperty: { tool: string; path: string; value: unknown };
   ShareMoment: { path?: string };
-  ShowView: { view: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string };
+  ShowView: { view: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "FrameAligned"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number]; point_towards?: "+x axis" | "+y axis" | "+z axis" | "-x axis" | "-y axis" | "-z axis" | "arbitrary"; lock_camera?: boolean; invert_z_axis?: boolean } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string };
   StartRecording: { path?: string };
-  StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number] } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
+  StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "FrameAligned"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number]; point_towards?: "+x axis" | "+y axis" | "+z axis" | "-x axis" | "-y axis" | "-z axis" | "arbitrary"; lock_camera?: boolean; invert_z_axis?: boolean } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
   StepMessage: { topic?: string; is_forward?: boolean };
   StopRecording: Record<string, never>;
   StopSharing: Record<string, never>;

@@ -85,19 +85,18 @@ class PlaceCamera(ToPage, frozen=True):
 
     Args:
         number: of this request; see `ViewReport`.
-        view, target_frame: type and target frame of the view.
+        view: its type.
+        options: fields of the view that its camera does not show, by name.
         frame: name of the node that is followed, "" for none.
-        turns: whether the camera turns with it about z.
         position, look_at: of the camera and of what it looks at, in metres, in the coordinates of
-            that node.
+            the view.
         scale: pixels per metre of a view without perspective.
     """
 
     number: int
     view: str
-    target_frame: str
+    options: dict[str, str | bool]
     frame: str
-    turns: bool
     position: list[float]
     look_at: list[float]
     scale: float | None
@@ -112,13 +111,13 @@ class ViewReport(FromPage, frozen=True):
 
     Args:
         number: of the last request it obeyed.
-        view, target_frame: type and target frame of the view.
+        view, options: of the last view that it obeyed.
         width, height: of its picture in CSS pixels.
     """
 
     number: int
     view: str
-    target_frame: str
+    options: dict[str, str | bool]
     width: float
     height: float
 

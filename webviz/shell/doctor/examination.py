@@ -21,6 +21,7 @@ from webviz.api.finding import CauseLevel, Finding
 from webviz.api.observation import Observation
 from webviz.api.registry import type_name
 from webviz.api.two_ends import TwoEnds
+from webviz.checks.graph.stopped_publisher import StoppedPublisher
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import AddDisplay, SetFixedFrame
 from webviz.engine.doctor.ordering import ordered
@@ -43,8 +44,9 @@ DISCOVERY_SHARE = 0.5
 REST_S = 0.05
 SLICE_S = 0.1
 """Time for checks in one turn of a live examination, so that it ends in time."""
-LOADING_S = 6.0
-"""Time beyond that for displays that load a robot or meshes, whose faults would be missed."""
+MORE_S = 6.0
+"""Time beyond that for displays that load a robot or meshes, and for what is still to be confirmed,
+as when it began lately or the machine is busy."""
 GRACE_S = 0.2
 """Time for the last turn of a live examination."""
 ROUNDS = 2
@@ -59,6 +61,8 @@ STEP_NS = 100_000_000
 """Recording time between two turns in a bag: as quick as the processor, and the same on any."""
 LASTING_S = 3.0
 """Findings in a bag that are gone after less, before its end, are left out."""
+OF_SILENCE = {StoppedPublisher.id}
+"""Those of what has not come yet, which the end of a bag does not show, such as that of a slice."""
 
 OF_MACHINE = {CauseLevel.MACHINE, CauseLevel.NETWORK, CauseLevel.MIDDLEWARE}
 """Levels of causes that can be told without a source of messages."""
@@ -104,7 +108,7 @@ class Examination:
             self._loop.doctor.listening_since_s = since_s
         self._seen: dict[tuple[str, str], Finding] = {}
         self._state: State | None = None
-        self._is_loading = False
+        self._is_open = True
         self._offers: Mapping[str, Offer] = {}
         self._shown = [subject for subject, _ in _added(config)]
 
@@ -130,25 +134,27 @@ class Examination:
                 ended.set_exception(error)
 
         threading.Thread(target=run, name="webviz-examination", daemon=True).start()
-        for extra_s in (GRACE_S, LOADING_S):
+        for extra_s in (GRACE_S, MORE_S + GRACE_S):
             with contextlib.suppress(TimeoutError):
                 ended.result(max(0.0, until_s + extra_s - time.monotonic()))
-            if not self._is_loading:
+            if not self._is_open:
                 break
         state = self._state
         report = report_of("live", state, state.findings if state else (), len(known_checks()))
         doctor = self._loop.doctor
-        report.unfinished = doctor.rounds < ROUNDS or not doctor.is_graph_found
+        report.unfinished = (
+            doctor.rounds < ROUNDS
+            or not doctor.is_graph_found
+            or (self._is_open and not report.findings)
+        )
         return report
 
     def _watch(self, until_s: float, is_given: bool) -> None:
         began = time.monotonic()
         is_frame_given = is_given
-        while (now := time.monotonic()) < until_s or (
-            self._is_loading and now < until_s + LOADING_S
-        ):
+        while (now := time.monotonic()) < until_s or (self._is_open and now < until_s + MORE_S):
             self._state = self._turn()
-            self._is_loading = self._loop.is_busy()
+            self._is_open = self._loop.is_busy() or not self._loop.doctor.is_settled(self._state)
             passed = now - began
             self._progress("examining", min(1.0, passed / (until_s - began)))
             if not is_frame_given and passed > FRAME_S:
@@ -177,7 +183,8 @@ class Examination:
         lasting = [
             each
             for key, each in self._seen.items()
-            if key in ending or each.last_ns - each.first_ns >= LASTING_S * 1e9
+            if (key in ending and each.id not in OF_SILENCE)
+            or each.last_ns - each.first_ns >= LASTING_S * 1e9
         ]
         return report_of(name, state, ordered(lasting), len(known_checks()))
 

@@ -12,6 +12,7 @@ from webviz.api.finding import Fact, Finding, Severity
 from webviz.api.status import Level, Measurement
 from webviz.data.names import readable
 from webviz.data.words import counted
+from webviz.engine.doctor.observing import problems
 from webviz.engine.state import State
 
 WIDTH = 90
@@ -109,6 +110,7 @@ def report_of(
     names = {row.id: row.name for row in rows}
     statuses = {("", key): status for key, status in (state.statuses if state else {}).items()}
     statuses |= {(row.id, key): status for row in rows for key, status in row.statuses.items()}
+    bad = problems(state) if state else {}
 
     def reported(place: tuple[str, str]) -> ReportedStatus:
         status = statuses.get(place)
@@ -125,7 +127,6 @@ def report_of(
         for finding in reversed(findings)
         for symptom in finding.explains
     }
-    bad = [place for place, status in statuses.items() if status.level >= Level.WARN]
     return DoctorReport(
         source=source,
         checks=checks,

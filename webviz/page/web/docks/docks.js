@@ -50,6 +50,7 @@ const changes = listeners();
 const beside = el("div", { class: "wv-beside", hidden: true });
 const below = el("div", { class: "wv-below", hidden: true });
 const floats = el("div", { class: "wv-floats" });
+const unknown = el("p", { class: "wv-empty", hidden: true }, `Unknown panel \`${alone}\`.`);
 const besideBorder = border("x", "width", "Width of the panels beside the scene");
 const belowBorder = border("y", "height", "Height of the panels below the scene");
 
@@ -204,12 +205,13 @@ function draw() {
   const over = names.size ? layout.over.filter(({ panel }) => frames.has(panel)) : [];
   const isOut =
     full && frames.has(full) && (placeOf(layout, full) === "tabs" || narrow.matches || alone);
-  setChildren(
-    floats,
-    [...over.map(({ panel }) => panel), ...(isOut ? [full] : [])].flatMap(
+  unknown.hidden = !alone || panels.length === 0 || known.has(alone);
+  setChildren(floats, [
+    unknown,
+    ...[...over.map(({ panel }) => panel), ...(isOut ? [full] : [])].flatMap(
       (name) => frames.get(name)?.element ?? [],
     ),
-  );
+  ]);
   for (const { panel, ...box } of over) position(panel, box);
   beside.hidden = beside.childElementCount < 2;
   below.hidden = below.childElementCount < 2;

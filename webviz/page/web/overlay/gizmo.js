@@ -31,7 +31,8 @@ export function build() {
     /** @type {Vec3} */
     const xyz = [0, 0, 0];
     xyz[axis] = sign;
-    const look = () => views.type() !== "TopDownOrtho" && views.lookFrom(xyz);
+    const look = () =>
+      views.type() !== "TopDownOrtho" && !views.options().lock_camera && views.lookFrom(xyz);
     /** @param {KeyboardEvent} event */
     const onKey = (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;

@@ -14,12 +14,15 @@ import * as viser from "../viser_page.js";
 const REST_MS = 150;
 const AGAIN_MS = 2000; // what is named may move on below a mouse that rests
 const SHARE = 20; // at most one part of the time goes to looking again
-/** @type {Record<string, string>} */
-const HINTS = {
-  FPS: "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at",
-  TopDownOrtho: "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: centre",
-};
-const HINT = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: look at";
+const LOCKED = "Camera locked · Unlock it in the view's settings";
+const LOOKS = "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at";
+const TURNS = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: ";
+
+function hintOf() {
+  if (views.options().lock_camera) return LOCKED;
+  if (views.isFPS()) return LOOKS;
+  return TURNS + (views.type() === "TopDownOrtho" ? "centre" : "look at");
+}
 
 export function build() {
   const text = el("div", { class: "wv-card wv-pointer" });
@@ -34,7 +37,7 @@ export function build() {
   watch("displays", (rows) => (names = rows));
   watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
 
-  const hint = () => setText(text, HINTS[views.type()] ?? HINT);
+  const hint = () => setText(text, hintOf());
 
   /** @param {PointerEvent} event */
   function move(event) {

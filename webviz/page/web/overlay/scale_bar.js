@@ -15,7 +15,7 @@ export function build() {
   viser.beforeRender(() => {
     const perPixel = views.metersPerPixel();
     const length = rounded(WIDEST * perPixel);
-    bar.hidden = !(Number.isFinite(length) && length > 0) || views.type() === "FPS";
+    bar.hidden = !(Number.isFinite(length) && length > 0) || views.isFPS();
     if (bar.hidden) return;
     const width = `${Math.round(length / perPixel)}px`;
     if (line.style.width !== width) line.style.width = width;

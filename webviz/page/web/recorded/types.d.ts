@@ -2,7 +2,7 @@
 
 import type { DeclaredProperty } from "../contents.js";
 import type { ToPage } from "../messages.js";
-import type { Vec3 } from "../types.js";
+import type { Vec3, Wxyz } from "../types.js";
 
 /** Its key, node, phase, and the message itself. */
 export type SceneItem = [key: string, node: string, phase: "create" | "remove" | "", message: any];
@@ -80,6 +80,9 @@ export interface Playing {
 export interface View {
   type: string;
   target_frame: string;
+  invert_z_axis?: boolean;
+  point_towards?: string;
+  lock_camera?: boolean;
   distance?: number;
   yaw?: number;
   pitch?: number;
@@ -93,7 +96,7 @@ export interface View {
 /** Where a camera is and what it looks at. */
 export type ViewCamera = [position: Vec3, lookAt: Vec3];
 /** Where the coordinates of a view are in the fixed frame. */
-export type ViewRig = { origin: Vec3; yaw: number };
+export type ViewRig = { origin: Vec3; wxyz: Wxyz };
 /** A value of each item of a node, or the one that all have. */
 export type Column = { all: unknown } | { each: unknown[] } | { numbers: number[]; unit: string };
 /** The details of what is drawn as one node; see webviz/engine/pipeline/selectable.py. */

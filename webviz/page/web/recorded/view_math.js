@@ -3,7 +3,7 @@
 // A camera is `[position, lookAt]` in the coordinates of a target frame, whose z points up.
 
 import constants from "../constants.js";
-import { add, norm, scaled, sub } from "../vectors.js";
+import { add, inverse, norm, rotate, scaled, sub } from "../vectors.js";
 
 /** @import {Vec3} from "../types.js" */
 /** @import {View, ViewCamera, ViewRig} from "./types.js" */
@@ -17,6 +17,7 @@ const FARTHEST = 1000;
 const MARGIN = 1.15;
 const SMALLEST = 0.05;
 const HALF = Math.PI / 2;
+const AXIS_M = 5;
 
 /** @param {number} yaw @param {number} pitch @returns {Vec3} */
 const direction = (yaw, pitch) => [
@@ -34,22 +35,67 @@ const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 /** @type {Record<string, Partial<View>>} */
 const DEFAULTS = {
   FPS: { yaw: 0, pitch: 0, position: [5, 5, 10] },
+  FrameAligned: {
+    yaw: 0,
+    pitch: 0,
+    position: [-AXIS_M, 0, 0],
+    point_towards: "+x axis",
+    lock_camera: false,
+    invert_z_axis: false,
+  },
   TopDownOrtho: { scale: 10, angle: 0, x: 0, y: 0 },
 };
-const AROUND = { distance: 10, yaw: 0.785398, pitch: 0.785398, focal_point: [0, 0, 0] };
+const AROUND = {
+  distance: 10,
+  yaw: 0.785398,
+  pitch: 0.785398,
+  focal_point: [0, 0, 0],
+  invert_z_axis: false,
+};
+const OPTIONS = ["target_frame", "invert_z_axis", "point_towards", "lock_camera"];
 
 /**
- * The defaults of a type.
+ * The fields of a view that moving its camera leaves, as far as a type has them.
  *
  * @param {string} type
- * @param {string} target_frame
+ * @param {View} view
+ * @returns {Record<string, string | boolean>}
+ */
+export const optionsOf = (type, view) => {
+  const own = ["target_frame", ...Object.keys(DEFAULTS[type] ?? AROUND)];
+  const kept = Object.entries(view).filter(([key]) => OPTIONS.includes(key) && own.includes(key));
+  return Object.fromEntries(kept);
+};
+
+/**
+ * The initial view of a type, with the options of another view.
+ *
+ * @param {string} type
+ * @param {View} view
  * @returns {View}
  */
-export const zeroView = (type, target_frame) => ({
-  type,
-  target_frame,
-  .../** @type {Partial<View>} */ (DEFAULTS[type] ?? AROUND),
-});
+export const like = (type, view) =>
+  /** @type {View} */ ({ ...(DEFAULTS[type] ?? AROUND), ...optionsOf(type, view), type });
+
+/** @param {View} view @param {Vec3} xyz @returns {Vec3} */
+const flipped = ({ invert_z_axis }, [x, y, z]) => (invert_z_axis ? [x, -y, -z] : [x, y, z]);
+/** @param {string} type */
+const isFPS = (type) => type === "FPS" || type === "FrameAligned";
+
+/**
+ * The initial view of the type of a view, with its options.
+ *
+ * @param {View} view
+ * @returns {View}
+ */
+export function zeroView(view) {
+  const blank = like(view.type, view);
+  const [sign, name] = blank.point_towards ?? "";
+  if (!"xyz".includes(name ?? "none")) return blank;
+  const unit = [..."xyz"].map((each) => (each !== name ? 0 : sign === "-" ? -1 : 1));
+  const axis = flipped(blank, /** @type {Vec3} */ (unit));
+  return viewOf(blank, [scaled(axis, -AXIS_M), scaled(axis, EYE - AXIS_M)], 1);
+}
 
 /**
  * @param {View} view
@@ -58,7 +104,7 @@ export const zeroView = (type, target_frame) => ({
  */
 export function cameraOf(view, height) {
   const { yaw = 0, pitch = 0 } = view;
-  if (view.type === "FPS") {
+  if (isFPS(view.type)) {
     const position = view.position ?? [0, 0, 0];
     return [position, sub(position, scaled(direction(yaw + Math.PI, pitch), EYE))];
   }
@@ -71,58 +117,45 @@ export function cameraOf(view, height) {
   }
   const distance = view.distance ?? 10;
   const raised = view.type === "Orbit" ? 0 : RAISED * distance;
-  const at = add(view.focal_point ?? [0, 0, 0], scaled(up(yaw, pitch), raised));
+  const focal = flipped(view, view.focal_point ?? [0, 0, 0]);
+  const at = add(focal, scaled(up(yaw, pitch), raised));
   return [add(at, scaled(direction(yaw, pitch), distance)), at];
 }
 
 /**
- * The view of a type that a camera shows.
+ * A view as a camera shows it now.
  *
- * @param {string} type
- * @param {string} target_frame
+ * @param {View} view has the type and the options
  * @param {ViewCamera} camera
  * @param {number} height
  * @returns {View}
  */
-export function viewOf(type, target_frame, [position, lookAt], height) {
+export function viewOf(view, [position, lookAt], height) {
   const offset = sub(position, lookAt);
   const distance = Math.max(norm(offset), 1e-9);
   const yaw = Math.atan2(offset[1], offset[0]);
   const slope = Math.asin(clamp(offset[2] / distance, -1, 1));
   const pitch = clamp(slope, -STEEPEST, STEEPEST);
-  if (type === "FPS") return { type, target_frame, yaw: wrapped(yaw + Math.PI), pitch, position };
-  if (type === "TopDownOrtho") {
+  if (isFPS(view.type)) return { ...view, yaw: wrapped(yaw + Math.PI), pitch, position };
+  if (view.type === "TopDownOrtho") {
     const scale = height / 2 / Math.tan(FLAT_FIELD_OF_VIEW / 2) / distance;
     const angle = wrapped(yaw + HALF);
-    return {
-      type,
-      target_frame,
-      scale: clamp(scale, 1e-5, 1e6),
-      angle,
-      x: lookAt[0],
-      y: lookAt[1],
-    };
+    return { ...view, scale: clamp(scale, 1e-5, 1e6), angle, x: lookAt[0], y: lookAt[1] };
   }
-  const raised = type === "Orbit" ? 0 : RAISED * distance;
-  const focal_point = sub(lookAt, scaled(up(yaw, pitch), raised));
-  return { type, target_frame, distance, yaw, pitch, focal_point };
+  const raised = view.type === "Orbit" ? 0 : RAISED * distance;
+  const focal_point = flipped(view, sub(lookAt, scaled(up(yaw, pitch), raised)));
+  return { ...view, distance, yaw, pitch, focal_point };
 }
 
-/** @param {Vec3} point @param {number} yaw @returns {Vec3} */
-const turned = ([x, y, z], yaw) => [
-  Math.cos(yaw) * x - Math.sin(yaw) * y,
-  Math.sin(yaw) * x + Math.cos(yaw) * y,
-  z,
+/** @param {ViewRig} rig @param {ViewCamera} camera @returns {ViewCamera} */
+const outward = ({ origin, wxyz }, [a, b]) => [
+  add(rotate(wxyz, a), origin),
+  add(rotate(wxyz, b), origin),
 ];
 /** @param {ViewRig} rig @param {ViewCamera} camera @returns {ViewCamera} */
-const outward = ({ origin, yaw }, [a, b]) => [
-  add(turned(a, yaw), origin),
-  add(turned(b, yaw), origin),
-];
-/** @param {ViewRig} rig @param {ViewCamera} camera @returns {ViewCamera} */
-const inward = ({ origin, yaw }, [a, b]) => [
-  turned(sub(a, origin), -yaw),
-  turned(sub(b, origin), -yaw),
+const inward = ({ origin, wxyz }, [a, b]) => [
+  rotate(inverse(wxyz), sub(a, origin)),
+  rotate(inverse(wxyz), sub(b, origin)),
 ];
 
 /**
@@ -141,7 +174,7 @@ function eyeOf(view, height) {
     const back = direction((view.angle ?? 0) - HALF, STEEPEST);
     return [add(lookAt, scaled(back, length * flatter)), lookAt];
   }
-  if (view.type === "FPS") {
+  if (isFPS(view.type)) {
     const forward = scaled(offset, -1 / length);
     const reach = Math.abs(forward[2]) > 1e-3 ? -position[2] / forward[2] : -1;
     return [
@@ -153,39 +186,31 @@ function eyeOf(view, height) {
 }
 
 /**
- * The view of a type that shows the same as a perspective camera.
+ * The view of the same type and options that shows the same as a perspective camera.
  *
- * @param {string} type
- * @param {string} frame
+ * @param {View} view
  * @param {ViewCamera} eye
  * @param {number} height
  */
-function fitted(type, frame, [position, lookAt], height) {
+function fitted(view, [position, lookAt], height) {
   const offset = sub(position, lookAt);
   const distance = norm(offset);
   const back = scaled(offset, 1 / distance);
   const level = Math.hypot(back[0], back[1]);
-  if (type === "TopDownOrtho") {
+  if (view.type === "TopDownOrtho") {
     const yaw = level > 1e-6 ? Math.atan2(back[1], back[0]) : -HALF;
     const scale = height / 2 / Math.tan(FIELD_OF_VIEW / 2) / distance;
     const [x, y] = lookAt;
-    return {
-      type,
-      target_frame: frame,
-      scale: clamp(scale, 1e-5, 1e6),
-      angle: wrapped(yaw + HALF),
-      x,
-      y,
-    };
+    return { ...view, scale: clamp(scale, 1e-5, 1e6), angle: wrapped(yaw + HALF), x, y };
   }
   const raised = RAISED * level;
-  if (type !== "FPS" && type !== "Orbit" && back[2] > 0.05 - raised) {
+  if (!isFPS(view.type) && view.type !== "Orbit" && back[2] > 0.05 - raised) {
     // Along the line of projection to where the focal point lies on the ground.
     const step = (lookAt[2] - raised * distance) / (back[2] + raised);
     if (NEAREST * distance < distance + step && distance + step < FARTHEST)
-      return viewOf(type, frame, [position, sub(lookAt, scaled(back, step))], height);
+      return viewOf(view, [position, sub(lookAt, scaled(back, step))], height);
   }
-  return viewOf(type, frame, [position, lookAt], height);
+  return viewOf(view, [position, lookAt], height);
 }
 
 /**
@@ -193,16 +218,15 @@ function fitted(type, frame, [position, lookAt], height) {
  *
  * @param {View} view
  * @param {ViewRig} rig of its target frame
- * @param {string} type
- * @param {string} frame
+ * @param {View} other has the new type, target frame and options
  * @param {ViewRig} newRig
  * @param {number} height
  * @returns {View}
  */
-export function mimic(view, rig, type, frame, newRig, height) {
-  if (view.type === type)
-    return viewOf(type, frame, inward(newRig, outward(rig, cameraOf(view, height))), height);
-  return fitted(type, frame, inward(newRig, outward(rig, eyeOf(view, height))), height);
+export function mimic(view, rig, other, newRig, height) {
+  if (view.type === other.type)
+    return viewOf(other, inward(newRig, outward(rig, cameraOf(view, height))), height);
+  return fitted(other, inward(newRig, outward(rig, eyeOf(view, height))), height);
 }
 
 /**
@@ -222,5 +246,5 @@ export function focus(view, rig, { low, high }, { width, height }) {
   const at = scaled(add(low, high), 0.5);
   const distance = (MARGIN * radius) / Math.sin(narrow);
   const eye = add(at, scaled(offset, distance / norm(offset)));
-  return fitted(view.type, view.target_frame, inward(rig, [eye, at]), height);
+  return fitted(view, inward(rig, [eye, at]), height);
 }

@@ -4,7 +4,8 @@ import * as placing from "../scene/view.js";
 import { toThree } from "../scene/fixed_frame.js";
 import { VIEW_TYPES } from "../shell/view_menus.js";
 import * as viser from "../viser_page.js";
-import { cameraOf, focus, mimic, viewOf, zeroView } from "./view_math.js";
+import { about as turn, turnedBy } from "../vectors.js";
+import { cameraOf, focus, like, mimic, optionsOf, viewOf, zeroView } from "./view_math.js";
 
 /** @import {PlaceCamera} from "../messages.js" */
 /** @import {Three, Vec3} from "../types.js" */
@@ -32,18 +33,17 @@ function rounded(value) {
  * @param {() => void} changed
  */
 export function views(about, place, changed) {
-  let frame = ""; // the target frame
   let number = 0;
 
-  placing.onShow(() => {
-    frame = placing.targetFrame();
-    changed();
-  });
+  placing.onShow(changed);
 
   const size = () => ({
     width: viser.canvas().clientWidth,
     height: viser.canvas().clientHeight,
   });
+
+  /** The type and the options of the view. @returns {View} */
+  const blank = () => /** @type {View} */ ({ type: placing.type(), ...placing.options() });
 
   /** The view as the camera has it now. @returns {View} */
   function now() {
@@ -54,21 +54,30 @@ export function views(about, place, changed) {
     const xyz = (point) => /** @type {Vec3} */ (point.applyMatrix4(inverse).toArray());
     const position = xyz(controls.getPosition(at.clone()));
     const lookAt = xyz(controls.getTarget(at.clone()));
-    return viewOf(placing.type(), frame, [position, lookAt], size().height);
+    return viewOf(blank(), [position, lookAt], size().height);
   }
 
   /**
-   * @param {string} type
-   * @param {string} target
+   * @param {View} view
    * @returns {ViewRig}
    */
-  function rigOf(type, target) {
-    const node = target === FIXED ? undefined : viser.node(about.frame_nodes[target]);
-    if (!node) return { origin: [0, 0, 0], yaw: 0 };
-    node.updateWorldMatrix(true, false);
-    const m = toThree().clone().invert().multiply(node.matrixWorld).elements;
-    const yaw = type === "ThirdPersonFollower" ? Math.atan2(m[1], m[0]) : 0;
-    return { origin: [m[12], m[13], m[14]], yaw };
+  function rigOf({ type, target_frame, invert_z_axis }) {
+    const node = target_frame === FIXED ? undefined : viser.node(about.frame_nodes[target_frame]);
+    /** @type {ViewRig} */
+    const rig = { origin: [0, 0, 0], wxyz: [1, 0, 0, 0] };
+    if (node) {
+      node.updateWorldMatrix(true, false);
+      const pose = toThree().clone().invert().multiply(node.matrixWorld);
+      const m = pose.elements;
+      rig.origin = [m[12], m[13], m[14]];
+      if (type === "FrameAligned") {
+        const { x, y, z, w } = node.quaternion.clone().setFromRotationMatrix(pose);
+        rig.wxyz = [w, x, y, z];
+      }
+      if (type === "ThirdPersonFollower") rig.wxyz = turn([0, 0, 1], Math.atan2(m[1], m[0]));
+    }
+    if (invert_z_axis) rig.wxyz = turnedBy(rig.wxyz, [0, 1, 0, 0]);
+    return rig;
   }
 
   /** @param {View} view */
@@ -82,9 +91,8 @@ export function views(about, place, changed) {
       type: "PlaceCamera",
       number,
       view: view.type,
-      target_frame: target,
+      options: optionsOf(view.type, view),
       frame: node,
-      turns: view.type === "ThirdPersonFollower",
       position,
       look_at,
       scale: view.scale ?? null,
@@ -94,30 +102,34 @@ export function views(about, place, changed) {
   /** @param {{low: Vec3, high: Vec3}} box */
   function lookAt(box) {
     const view = now();
-    show(focus(view, rigOf(view.type, frame), box, size()));
+    show(focus(view, rigOf(view), box, size()));
   }
 
   const acts = {
     /** @param {{view: string | View}} fields */
     ShowView: ({ view }) => show(typeof view === "string" ? about.views[view] : view),
-    ResetView: () => show(zeroView(placing.type(), frame)),
+    ResetView: () => show(zeroView(blank())),
     /** @param {{key: string, value: any}} fields */
     ChangeView({ key, value }) {
       const view = now();
       const { height } = size();
       if (key === "type") {
         if (!VIEW_TYPES.includes(value)) throw new Error(`Unknown view type \`${value}\`.`);
-        show(mimic(view, rigOf(view.type, frame), value, frame, rigOf(value, frame), height));
-      } else if (key === "target_frame") {
-        const { type } = view;
-        show(mimic(view, rigOf(type, frame), type, value, rigOf(type, value), height));
-      } else show({ ...view, [key]: value });
+        const other = like(value, view);
+        show(mimic(view, rigOf(view), other, rigOf(other), height));
+      } else if (key === "target_frame" && view.type !== "FrameAligned") {
+        const other = { ...blank(), target_frame: value };
+        show(mimic(view, rigOf(view), other, rigOf(other), height));
+      } else {
+        const other = { ...view, [key]: value };
+        show(key === "point_towards" ? zeroView(other) : other);
+      }
     },
     /** @param {{frame: string}} fields */
     FocusFrame({ frame: wanted }) {
       if (!(wanted in about.frame_nodes))
         throw new Error(`The poses of ${wanted} are not in this file.`);
-      const [x, y, z] = rigOf("Orbit", wanted).origin;
+      const [x, y, z] = rigOf({ type: "Orbit", target_frame: wanted }).origin;
       lookAt({
         low: [x - FRAME_M, y - FRAME_M, z - FRAME_M],
         high: [x + FRAME_M, y + FRAME_M, z + FRAME_M],
@@ -128,7 +140,8 @@ export function views(about, place, changed) {
   return {
     acts,
     lookAt,
-    type: () => (placing.type() === "" ? {} : { type: placing.type(), target_frame: frame }),
+    type: () =>
+      placing.type() === "" ? {} : { type: placing.type(), target_frame: placing.targetFrame() },
     view() {
       if (placing.type() === "") return {};
       const { type, ...values } = now();

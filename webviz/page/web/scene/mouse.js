@@ -14,7 +14,7 @@ import * as viser from "../viser_page.js";
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
 
-const isFPS = () => views.type() === "FPS";
+const isLocked = () => Boolean(views.options().lock_camera);
 const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
 /** @type {Vec2 | null} */
 let mouse = null;
@@ -30,10 +30,11 @@ export function arm(event) {
   buttons.middle = move;
   buttons.right = buttons.wheel = ACTION.NONE;
   isSliding = slides() && (event?.button === 1 || (event?.button === 0 && event.shiftKey));
+  controls.enabled = !isLocked();
   // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
   const tall = viser.canvas().clientHeight;
   controls.azimuthRotateSpeed = controls.polarRotateSpeed = (0.005 * tall) / (2 * Math.PI);
-  controls.truckSpeed = isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
+  controls.truckSpeed = views.isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
 }
 
 // RViz's XYOrbit keeps the point of the ground under the mouse, but moves at most a metre for an
@@ -122,12 +123,13 @@ export function focusOn(xy) {
  * @param {Three} point
  */
 export function focus(point) {
+  if (isLocked()) return;
   const controls = viser.controls();
   const at = point.applyMatrix4(views.followed().clone().invert());
   if (slides() || views.type() === "TopDownOrtho") {
     at.add(views.raised());
     controls.moveTo(at.x, at.y, at.z, slides());
-  } else if (isFPS()) {
+  } else if (views.isFPS()) {
     const eye = controls.getPosition(at.clone());
     at.sub(eye).setLength(EYE).add(eye);
     controls.setLookAt(eye.x, eye.y, eye.z, at.x, at.y, at.z, true);
@@ -143,8 +145,9 @@ export function install() {
     "wheel",
     (event) => {
       event.preventDefault(); // else the browser enlarges its page with Ctrl, or by a pinch
+      if (isLocked()) return;
       const steps = notches(event);
-      if (isFPS()) walk(-1.2 * steps);
+      if (views.isFPS()) walk(-1.2 * steps);
       else zoom(Math.pow(steps > 0 ? 1.12 : 1 / 0.88, steps));
     },
     { passive: false },
@@ -154,8 +157,8 @@ export function install() {
     mouse = [event.clientX, event.clientY];
     if (event.buttons === 0) isSliding = false;
     if (isSliding && before) slide(before, mouse);
-    if (event.buttons !== 2 || event.pointerType === "touch") return;
-    if (isFPS()) walk(-0.1 * event.movementY);
+    if (isLocked() || event.buttons !== 2 || event.pointerType === "touch") return;
+    if (views.isFPS()) walk(-0.1 * event.movementY);
     else zoom(Math.pow(1.01, event.movementY));
   });
   events.addEventListener("pointerleave", () => (mouse = null));

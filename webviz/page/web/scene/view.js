@@ -39,8 +39,16 @@ let aimed = null;
 
 /** The type of the view, "" before there is one. */
 export const type = () => (view === null ? "" : view.view);
+/** True for views that look around from a position, without a focal point. */
+export const isFPS = () => type() === "FPS" || type() === "FrameAligned";
 /** The target frame of the view. */
-export const targetFrame = () => view?.target_frame ?? "";
+export const targetFrame = () => options().target_frame ?? "";
+/**
+ * The options of the view, which stay when its camera moves.
+ *
+ * @returns {Record<string, any>}
+ */
+export const options = () => view?.options ?? {};
 /** The transform before the camera's own pose. */
 export const followed = () => (rig === null ? matrix() : rig);
 /** The offset of the point that the camera looks at from the focal point of the view. */
@@ -94,15 +102,24 @@ const vector = (xyz) => camera.position.clone().fromArray(xyz);
 const matrix = () => camera.matrixWorld.clone().identity();
 const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
-// Where the target frame is: its position, and its yaw for a view that turns with it.
+// Where the target frame is: its position, with its rotation or yaw for a view that turns with it;
+// and upside down for one whose z axis is inverted.
 function follow() {
   const node = view?.frame && viser.node(view.frame);
-  if (view === null || !node) return;
+  const isInverted = options().invert_z_axis;
+  if (view === null || (view.frame ? !node : !isInverted)) return;
   const up = toThree();
-  const m = up.clone().invert().multiply(node.matrixWorld).elements;
-  const yaw = view.turns ? Math.atan2(m[1], m[0]) : 0;
-  rig = matrix().makeRotationZ(yaw).setPosition(m[12], m[13], m[14]);
-  rig.premultiply(up).multiply(up.clone().invert());
+  const down = up.clone().invert();
+  rig = matrix();
+  if (node) {
+    const pose = down.clone().multiply(node.matrixWorld);
+    const m = pose.elements;
+    if (view.view === "FrameAligned") rig.extractRotation(pose);
+    if (view.view === "ThirdPersonFollower") rig.makeRotationZ(Math.atan2(m[1], m[0]));
+    rig.setPosition(m[12], m[13], m[14]);
+  }
+  if (isInverted) rig.multiply(matrix().makeRotationX(Math.PI));
+  rig.premultiply(up).multiply(down);
 }
 
 // A parallel projection as large as the camera's own is where it looks at.
@@ -188,7 +205,7 @@ function report() {
     type: "ViewReport",
     number: view.number,
     view: view.view,
-    target_frame: view.target_frame,
+    options: view.options,
     width: canvas.clientWidth,
     height: canvas.clientHeight,
   });
@@ -196,8 +213,9 @@ function report() {
 
 /** @param {PlaceCamera | StartView} wanted */
 function show(wanted) {
-  if (view === null || view.frame !== wanted.frame) rig = null;
+  if (view?.frame !== wanted.frame || !wanted.frame) rig = null;
   view = wanted;
+  follow();
   height = canvas.clientHeight;
   const controls = viser.controls();
   const up = toThree();
@@ -207,7 +225,7 @@ function show(wanted) {
   if (isFlat()) offset.setLength(height / Number(wanted.scale) / 2 / Math.tan(fov / 2));
   const position = target.clone().add(offset).applyMatrix4(up);
   target.applyMatrix4(up);
-  controls.minDistance = view.view === "FPS" ? EYE : 0.01;
+  controls.minDistance = isFPS() ? EYE : 0.01;
   controls.maxDistance = Infinity;
   viser.setMaxOrbitDistance(1e7);
   controls.minPolarAngle = 0;

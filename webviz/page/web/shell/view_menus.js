@@ -5,7 +5,14 @@ import { ask, askName } from "./dialog.js";
 
 /** @import {MenuItem} from "./menu.js" */
 
-export const VIEW_TYPES = ["Orbit", "XYOrbit", "ThirdPersonFollower", "FPS", "TopDownOrtho"];
+export const VIEW_TYPES = [
+  "Orbit",
+  "XYOrbit",
+  "ThirdPersonFollower",
+  "FPS",
+  "FrameAligned",
+  "TopDownOrtho",
+];
 
 /** @param {string} value */
 export const setType = (value) => act("ChangeView", { key: "type", value });

@@ -21,7 +21,7 @@ import { fillHelp } from "./statuses.js";
  */
 
 /** @type {Record<Item["level"], string>} */
-const LEVELS = { idle: "Not shown", ok: "OK", warn: "Warning", error: "Error" };
+const LEVELS = { idle: "Idle", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
 
 /**
