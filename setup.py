@@ -12,8 +12,8 @@ FOLDERS = {
     "webviz_sim": "sim/webviz_sim",
 }
 DATA = """
-    py.typed *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.d.ts *.css *.txt *.html
-    *.msg *.srv *.action"""
+    py.typed *.pyi *.yaml *.pgm *.urdf *.stl *.dae *.png *.webp *.json *.js *.d.ts *.css *.txt
+    *.html *.msg *.srv *.action"""
 
 
 def files(folder: str, *patterns: str) -> list[str]:
@@ -128,6 +128,7 @@ setup(
         ],
         "webviz.features": [
             "black_box = webviz.features.black_box:BlackBoxFeature",
+            "latency = webviz.features.latency:LatencyFeature",
             "recording = webviz.features.recording:RecordingFeature",
             "sharing = webviz.features.sharing:SharingFeature",
             "what_if = webviz.features.what_if:WhatIfFeature",

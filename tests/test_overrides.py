@@ -139,7 +139,8 @@ def test_a_value_can_make_a_display_readable(config: Config) -> None:
         ("view.distanc=1", "unknown key, did you mean `distance`?"),
         (
             "view.type=Orbitt",
-            "expected Orbit, XYOrbit, ThirdPersonFollower, FPS or TopDownOrtho, got `Orbitt`.",
+            "expected Orbit, XYOrbit, ThirdPersonFollower, FPS, FrameAligned or TopDownOrtho, "
+            "got `Orbitt`.",
         ),
         ("fixed_frame", "write it as "),
         ("=1", "write it as "),

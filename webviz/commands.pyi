@@ -12,6 +12,11 @@ class EndTrial(Command, frozen=True):
 class FindFrame(Command, frozen=True):
     """Move the tried frame to where its laser scan fits the map best."""
 
+class InspectLatency(Command, frozen=True):
+    """Trace samples of all displays while a page shows their latencies."""
+
+    is_wanted: bool = ...
+
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 

@@ -283,7 +283,8 @@ def test_a_view_is_assigned_by_value_and_by_name(viewer: webviz.Viewer, refused:
     )
     assert refused(look({"type": "TopDown"})) == (
         "Invalid view: type: "
-        "expected Orbit, XYOrbit, ThirdPersonFollower, FPS or TopDownOrtho, got `TopDown`."
+        "expected Orbit, XYOrbit, ThirdPersonFollower, FPS, FrameAligned or TopDownOrtho, "
+        "got `TopDown`."
     )
     viewer.remove_view("Above")
     assert viewer.views == {}

@@ -58,7 +58,12 @@ DOORS: Mapping[str, Door] = {
     "images and videos": Door(("media", "weights"), ("webviz/data/images/*",)),
     "bags": Door(
         ("files", "bombs", "disks", "clocks"),
-        ("webviz/data/recordings/*", "webviz/sources/player.py", "webviz/sources/bag/*"),
+        (
+            "webviz/data/recordings/*",
+            "webviz/sources/player.py",
+            "webviz/sources/bag/*",
+            "webviz/features/black_box/*",
+        ),
     ),
     "bug reports": Door(("reports",), ("webviz/files/report/*", "webviz/shell/report/*")),
     "bridges": Door(("bridges",), ("webviz/sources/bridge/*", "webviz/sources/fleet/*")),
@@ -93,7 +98,7 @@ DOORS: Mapping[str, Door] = {
         ("webviz/server/channel/*", "webviz/server/http/*", "webviz/page/*", "webviz/panels/*"),
     ),
     "agents": Door(("agents",), ("webviz/shell/agents/*",)),
-    "exported files": Door(("exported",), ("webviz/shell/export/*",)),
+    "exported files": Door(("exported",), ("webviz/shell/export/*", "webviz/features/sharing/*")),
     "the simulator's topics": Door(("simulator",), ("sim/webviz_sim/*",)),
     "other machines": Door(
         (),

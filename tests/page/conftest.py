@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import queue
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Set
 from concurrent.futures import Future
 from contextlib import contextmanager
 from typing import Annotated, Any, Literal
@@ -31,6 +31,7 @@ from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import Feature, store
 from webviz.engine.state import Row, State
 from webviz.features.black_box.saved import BlackBoxStore, black_box_store
+from webviz.features.latency import LatencyStore
 from webviz.features.recording import RecordingStore, recording_store
 from webviz.page.pages import Pages
 from webviz.scene import open_server
@@ -103,6 +104,8 @@ class Loop:
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
         self.of_features: dict[str, Any] = {}
         """Public fields of features."""
+        self.watched: Set[str] = set()
+        """Stores of features that pages watch."""
         features = [ShownFeatures(self)]
         self.pages = Pages(server.channel, self._enqueue, self._steer, access, features=features)
 
@@ -155,6 +158,13 @@ class ShownFeatures(Feature):
 
     def __init__(self, loop: Loop) -> None:
         self._loop = loop
+
+    def watched(self, stores: Set[str]) -> None:
+        self._loop.watched = stores
+
+    @store()
+    def latency(self, argument: str) -> LatencyStore:
+        return LatencyStore(self._loop.of_features.get("latencies", ()))
 
     @store()
     def recording(self, argument: str) -> RecordingStore | None:

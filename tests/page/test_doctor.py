@@ -12,9 +12,9 @@ from playwright.sync_api import expect
 from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
 from webviz.api.status import Level, Status
-from webviz.engine.commands import InspectLatency, Seek, SetFixedFrame
+from webviz.engine.commands import Seek, SetFixedFrame
 from webviz.engine.state import Row, State
-from webviz.engine.state.latency import BrowserLatency, Latency, Stage
+from webviz.features.latency.stages import BrowserLatency, Latency, Stage
 from webviz.page.content.doctor import findings
 from webviz_displays.grid import Grid
 
@@ -134,11 +134,13 @@ def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab)
     stages = (Stage("received", 0.0, 0.002, 0.004), Stage("ready", 0.002, 0.031, 0.06))
     painted = Stage("acknowledged", 0.0, 0.017, 0.02), Stage("painted", 0.017, 0.05, 0.06)
     to = BrowserLatency(7, HOSTILE, painted, 0.1, 0.2, 34_400.0)
-    found = Latency("3", 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123, (to,))
+    found = Latency(
+        "3", HOSTILE, 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123, (to,)
+    )
     scan = Row("3", "Grid", Grid(name=HOSTILE), HOSTILE, {})
     section = panel.page.locator(".wv-latency")
     section.get_by_text("Stamp to screen").click()
-    panel.wait_for_command(InspectLatency())
+    panel.wait_for(lambda: "latency" in panel.loop.watched)
     panel.wait_for(lambda: "No display has drawn a message" in section.inner_text())
     panel.loop.show(scan, latencies=(found,))
     panel.wait_for(lambda: "33 ms, p99 64 ms" in section.inner_text())
@@ -152,5 +154,5 @@ def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab)
     )
     assert widths == [2, 31, 17, 50]
     section.get_by_text("Stamp to screen").click()
-    panel.wait_for_command(InspectLatency(is_wanted=False))
+    panel.wait_for(lambda: "latency" not in panel.loop.watched)
     panel.loop.show(latencies=())

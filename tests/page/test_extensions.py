@@ -178,7 +178,11 @@ export default ({ beforeRender, el, gesture, panel, style, toast, watch, widget 
 
 
 def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
-    open_tab: Callable[..., Tab], shared_loop: Loop, make_row: Callable[..., Row], tmp_path: Path
+    open_tab: Callable[..., Tab],
+    lasting: Tab,
+    shared_loop: Loop,
+    make_row: Callable[..., Row],
+    tmp_path: Path,
 ) -> None:
     tab, loop = open_tab(), shared_loop
     path = tmp_path / "faulty.py"
@@ -212,3 +216,5 @@ def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
         for each in (path, EXAMPLES / "battery_dial.py"):
             registry.register(str(each), {})
         loop.show(tools=(), panels=())
+        lasting.page.reload()  # its panels stay
+        lasting.wait_for(lambda: lasting.page.get_by_role("tab", name="Tools").count())

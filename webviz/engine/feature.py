@@ -21,7 +21,7 @@ from __future__ import annotations
 import functools
 import inspect
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, get_type_hints
 
@@ -117,6 +117,13 @@ class Feature(Part):
             return method(**fields, sender=sender) if declared.has_sender else method(**fields)
 
         return obey
+
+    def watched(self, stores: Set[str]) -> None:
+        """Note that pages have begun or ceased to watch some of its stores.
+
+        Args:
+            stores: the names of those that are watched, with what stands behind the colon.
+        """
 
     def version(self, store: str) -> object:
         """Return what a store depends on; as long as it is equal, the store is not made anew.

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from webviz.engine.commands import (
     PROGRAM,
     Command,
-    InspectLatency,
     InspectSelections,
     InspectTopics,
     InspectTransforms,
@@ -40,7 +39,6 @@ def _derived(stores: set[str]) -> set[Command]:
     """Return the commands that these stores need."""
     pairs = map(pair_of, _arguments("between", stores))
     return {
-        InspectLatency("latency" in stores),
         InspectTopics(frozenset(_arguments("message", stores))),
         InspectSelections(
             _browsers("selected", stores), _browsers("selection", stores), "picking" in stores

@@ -86,6 +86,8 @@ class Pages:
         }
         self._features = {name: each for each in features for name in stores_of(type(each))}
         """Those with stores, by the name of each store."""
+        self._watched: dict[Feature, set[str]] = {}
+        """The stores of each that are watched."""
         self._versions: dict[str, object] = {}
         """Of the stores of features that are kept."""
         self._read: dict[str, DependencyTracker] = {}
@@ -109,10 +111,22 @@ class Pages:
         self._panels.update(state, watched)
         self._derived.update(watched)
         self._forget(watched)
+        self._note_watched(watched)
         for store in watched:
             read = self._read.get(store)
             if read is None or not read.is_as_in(state):
                 self._guard(store, self._fill, store, state)
+
+    def _note_watched(self, watched: set[str]) -> None:
+        """Tell features which of their stores are watched, if these are others than before."""
+        now: dict[Feature, set[str]] = {feature: set() for feature in self._features.values()}
+        for store in watched:
+            if (feature := self._features.get(store.partition(":")[0])) is not None:
+                now[feature].add(store)
+        before, self._watched = self._watched, now
+        for feature, own in now.items():
+            if own != before.get(feature, set()):
+                self._guard(feature.name, feature.watched, own)
 
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")

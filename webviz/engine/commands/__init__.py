@@ -58,7 +58,6 @@ from webviz.engine.commands.tools import (
     UseTool,
 )
 from webviz.engine.commands.topics import (
-    InspectLatency,
     InspectTopic,
     InspectTopics,
     InspectTransforms,
@@ -105,7 +104,6 @@ __all__ = [
     "FocusDisplay",
     "FocusFrame",
     "Identify",
-    "InspectLatency",
     "InspectSelections",
     "InspectTopic",
     "InspectTopics",

@@ -20,12 +20,6 @@ class InspectTopics(Command, frozen=True):
     topics: frozenset[str]
 
 
-class InspectLatency(Command, frozen=True):
-    """Trace samples of all displays while a page shows their latencies."""
-
-    is_wanted: bool = True
-
-
 class InspectTransforms(Command, frozen=True):
     """Report on the transforms while they are shown.
 

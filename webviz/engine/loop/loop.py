@@ -32,7 +32,6 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
-from webviz.engine.parts.latency import LatencyPart
 from webviz.engine.parts.layouts import LayoutsPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
@@ -223,7 +222,6 @@ class FrameLoop:
             history,
             BridgesPart(core, self._robots, player.live),
             TopicsPart(core),
-            LatencyPart(core, self._tracer, displays.list.active),
             SelectionPart(core, displays),
             HandlesPart(core, displays),
             PluginsPart(core, displays, [tools.list, panels.list], settings),

@@ -19,7 +19,6 @@ from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
 from webviz.engine.state.config_file import ConfigFile
-from webviz.engine.state.latency import Latency
 from webviz.files.config import Settings
 from webviz.files.report import ReportedPick
 from webviz.sources import Offer
@@ -283,7 +282,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         inspected: the inspected topics, by name.
         transforms: the tree of transforms, None while no page shows it.
         between: requested transforms, by target and source frame.
-        latencies: of the displays, while a page shows them.
         views: what each browser shows, by its id.
         tools, panels: of the toolbar, and of plug-ins, in their order.
         goals: that tools sent to actions, oldest first.
@@ -318,7 +316,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     inspected: Mapping[str, Inspected] = msgspec.field(default_factory=dict)
     transforms: Diagnosis | None = None
     between: Mapping[tuple[str, str], Between] = msgspec.field(default_factory=dict)
-    latencies: tuple[Latency, ...] = ()
     views: Mapping[int, View] = msgspec.field(default_factory=dict)
     tools: tuple[ToolButton, ...] = ()
     panels: tuple[PanelTab, ...] = ()

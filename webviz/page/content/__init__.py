@@ -18,7 +18,6 @@ from webviz.page.content.doctor import findings
 from webviz.page.content.goals import goals, routes
 from webviz.page.content.handles import handles
 from webviz.page.content.history import history
-from webviz.page.content.latency import latency
 from webviz.page.content.layouts import layout
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
@@ -49,7 +48,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "graph": graph,
     "handles": handles,
     "history": history,
-    "latency": latency,
     "layout": layout,
     "legend": legend,
     "bridges": bridges,

@@ -11,7 +11,7 @@ import { watch } from "../stores.js";
 import { GLOBAL } from "./displays/model.js";
 import * as selection from "./displays/selection.js";
 import { remedyButton } from "./displays/statuses.js";
-import { stampToScreen } from "./latency.js";
+import { doctorSections } from "./doctor_sections.js";
 import { isSevere, keyOf, takeWanted } from "./findings.js";
 
 const WELL = "All is well: no check found a problem.";
@@ -28,7 +28,7 @@ export const doctor = {
     const list = el("ol", { class: "wv-findings", "aria-label": "Findings" });
     const empty = el("p", { class: "wv-empty", role: "status" }, EXAMINING);
     const examined = el("p", { class: "wv-quiet wv-finding-examined" });
-    const latency = stampToScreen();
+    const sections = doctorSections.map((make) => make());
     element.append(
       el(
         "section",
@@ -36,7 +36,7 @@ export const doctor = {
         empty,
         examined,
         list,
-        latency.element,
+        sections.map(({ element: section }) => section),
       ),
     );
     /** @type {Set<string>} */
@@ -60,7 +60,7 @@ export const doctor = {
     });
     return () => {
       end();
-      latency.close();
+      for (const { close } of sections) close();
     };
   },
 };

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import msgspec
 
 
 class Stage(msgspec.Struct, frozen=True):
-    """One step of samples on their way, in seconds.
+    """One step of samples on their way, in seconds to a hundredth of a millisecond.
 
     Args:
         name: such as "decoded", a time of `Trace`.
@@ -45,7 +47,7 @@ class Latency(msgspec.Struct, frozen=True):
     """The last samples of a display.
 
     Args:
-        display: its id.
+        id, name: of the display.
         samples: number of traced samples.
         stages: in order; those of messages without a stamp begin with their arrival.
         p50, p99: median and 99th percentile of the time from the stamp to sending, in seconds.
@@ -54,11 +56,20 @@ class Latency(msgspec.Struct, frozen=True):
         browsers: the rest of the way, for each browser.
     """
 
-    display: str
+    id: str
+    name: str
     samples: int
     stages: tuple[Stage, ...]
     p50: float
     p99: float
     waits_for: str
     core: float
-    browsers: tuple[BrowserLatency, ...] = ()
+    browsers: tuple[BrowserLatency, ...]
+
+
+def stages_of(
+    names: Iterable[str], begins: Iterable[float], p50: Iterable[float], p99: Iterable[float]
+) -> tuple[Stage, ...]:
+    """Return the stages of these names, begins and percentiles, in seconds."""
+    rows = zip(names, begins, p50, p99, strict=True)
+    return tuple(Stage(name, *(round(each, 5) for each in times)) for name, *times in rows)

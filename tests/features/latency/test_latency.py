@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from bench import Bench, Benches
 
-from webviz.engine.commands import InspectLatency
-from webviz.engine.parts import latency
-from webviz.engine.parts.latency import percentiles, slowest_link
-from webviz.engine.state.latency import Latency
+from webviz.commands import InspectLatency
+from webviz.features import latency
+from webviz.features.latency import percentiles, slowest_link
+from webviz.features.latency.stages import Latency
 from webviz_displays.poses import Pose
 
 S = 1_000_000_000

@@ -1,9 +1,10 @@
 // "Stamp to screen": for each display, where the time from a stamp to the browsers goes.
 
-import { el } from "../dom.js";
-import { watch } from "../stores.js";
+import { el } from "../../dom.js";
+import { doctorSection } from "../../panels/doctor_sections.js";
+import { watch } from "../../stores.js";
 
-/** @import {ShownBrowserLatency, ShownLatency, ShownStage} from "../contents.js" */
+/** @import {BrowserLatency, Latency, Stage} from "../../contents.js" */
 
 /** @type {Record<string, string>} */
 const NAMES = {
@@ -17,8 +18,10 @@ const NAMES = {
 };
 const NOTHING = "No display has drawn a message since this was opened.";
 
+export const install = () => doctorSection(stampToScreen);
+
 /** The section; nothing is measured while it is folded. */
-export function stampToScreen() {
+function stampToScreen() {
   const list = el("div", { class: "wv-latencies", role: "status" }, NOTHING);
   const section = el(
     "details",
@@ -32,7 +35,7 @@ export function stampToScreen() {
     end = section.open ? watch("latency", show) : () => {};
   });
 
-  /** @param {{get(key: "all"): ShownLatency[] | undefined}} values */
+  /** @param {{get(key: "all"): Latency[] | undefined}} values */
   function show(values) {
     const all = values.get("all") ?? [];
     list.replaceChildren(...(all.length ? all.map(waterfall) : [NOTHING]));
@@ -41,7 +44,7 @@ export function stampToScreen() {
   return { element: section, close: () => end() };
 }
 
-/** @param {ShownLatency} latency */
+/** @param {Latency} latency */
 function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers }) {
   const sent = end(stages);
   const whole = Math.max(sent, ...browsers.map((to) => sent + end(to.stages)), 1e-6);
@@ -69,14 +72,14 @@ function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers
 /**
  * When the last of some stages ends.
  *
- * @param {readonly ShownStage[]} stages
+ * @param {readonly Stage[]} stages
  */
 const end = (stages) => Math.max(0, ...stages.map(({ begin, p50 }) => begin + Math.max(p50, 0)));
 
 /**
  * The rows of the way to a browser.
  *
- * @param {ShownBrowserLatency} to
+ * @param {BrowserLatency} to
  * @param {number} sent when that begins, in seconds
  * @param {number} whole
  */
@@ -94,7 +97,7 @@ function browser({ name, stages, p50, p99 }, sent, whole) {
 }
 
 /**
- * @param {ShownStage} stage
+ * @param {Stage} stage
  * @param {number} from when the first of its stages begins
  * @param {number} whole
  */
@@ -115,7 +118,7 @@ function row({ name, begin, p50, p99 }, from, whole) {
   );
 }
 
-/** @param {ShownBrowserLatency} to */
+/** @param {BrowserLatency} to */
 const link = ({ name, bytes_per_s: rate }) => `, ${perSecond(rate)} to ${name}`;
 
 /** @param {number} seconds */

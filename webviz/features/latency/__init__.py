@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from concurrent.futures import Future
 from typing import Any
 
@@ -14,12 +14,14 @@ from numpy.typing import NDArray
 from webviz.api.errors import Error
 from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.tree import ancestors
-from webviz.engine.commands import Command, InspectLatency, Sender
-from webviz.engine.parts.painting import Painting
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.part import Core
 from webviz.engine.pipeline.runner import Runner
-from webviz.engine.state.latency import Latency, Stage
 from webviz.engine.state.trace import Trace, Tracer
+from webviz.engine.store import PageStore
+from webviz.features.latency.painting import Painting
+from webviz.features.latency.stages import Latency, stages_of
 
 SAMPLES = 200
 """Last samples of a display."""
@@ -36,41 +38,42 @@ Times = tuple[int, int, int, int, int, int]
 """Of a sample in ns: its stamp, and the end of each step."""
 
 
-class LatencyPart(Part):
-    """Traces one sample of each display at a time, and nothing while no page shows it.
+class LatencyStore(PageStore, frozen=True):
+    """The latencies of all displays that have drawn a sample while they were watched."""
 
-    Args:
-        core: shared by all parts.
-        tracer: of the displays.
-        runners: of the enabled displays.
-    """
+    all: Sequence[Latency]
+
+
+class LatencyFeature(Feature):
+    """Traces one sample of each display at a time, and nothing while no page shows it."""
 
     name = "Latency"
+    module = "latency.js"
 
-    def __init__(self, core: Core, tracer: Tracer, runners: Callable[[], Sequence[Runner]]) -> None:
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._tracer = tracer
-        self._runners = runners
         self._is_wanted = False
         self._asked: dict[str, Future[Trace]] = {}
         self._traces: dict[str, deque[Times]] = {}
         self._cores: dict[str, float] = {}
         self._busy: Mapping[str, float] = {}
         self._painting = Painting(core.scene.browsers)
-        tracer.on_sent = self._sent
         self._shown: tuple[Latency, ...] = ()
         self._shown_at = 0.0
 
     @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """Return the handler of its command."""
-        return {InspectLatency: self._inspect}
+    def _tracer(self) -> Tracer:
+        return self.core.get(DisplaysPart).tracer
+
+    def watched(self, stores: Set[str]) -> None:
+        """Measure while a page shows the latencies."""
+        self.inspect_latency(bool(stores))
 
     def state(self) -> Mapping[str, Any]:
         """Return the latencies, none while no page shows them."""
         if not self._is_wanted:
             return {"latencies": ()}
-        runners = list(self._runners())[:MAX_DISPLAYS]
+        runners = list(self.core.get(DisplaysPart).list.active())[:MAX_DISPLAYS]
         self._collect([runner.id for runner in runners])
         self.core.guard("Scene", self._painting.take)
         now = time.monotonic()
@@ -81,19 +84,30 @@ class LatencyPart(Part):
             self._shown = tuple(self._latency(each) for each in runners if each.id in self._traces)
         return {"latencies": self._shown}
 
+    @store()
+    def latency(self, argument: str) -> LatencyStore:
+        """Return the latencies, those of the slowest display first."""
+        return LatencyStore(sorted(self._shown, key=lambda each: -each.p50))
+
     def reset(self) -> None:
         """Forget all traces: time has jumped."""
         self._traces.clear()
         self._painting.clear()
         self._shown = ()
 
-    def _inspect(self, command: InspectLatency, sender: Sender) -> None:
-        self._is_wanted = command.is_wanted
-        self._tracer.time(self.name, command.is_wanted)
+    @command(None)
+    def inspect_latency(self, is_wanted: bool = True) -> None:
+        """Trace samples of all displays while a page shows their latencies."""
+        if is_wanted == self._is_wanted:
+            return
+        self._is_wanted = is_wanted
+        tracer = self._tracer
+        tracer.on_sent = self._sent
+        tracer.time(self.name, is_wanted)
         self._shown_at = time.monotonic()
-        self._busy = dict(self._tracer.busy_s)
-        self.core.guard("Scene", self._painting.begin, command.is_wanted)
-        if not command.is_wanted:
+        self._busy = dict(tracer.busy_s)
+        self.core.guard("Scene", self._painting.begin, is_wanted)
+        if not is_wanted:
             for answer in self._asked.values():
                 answer.cancel()
             self._asked.clear()
@@ -141,7 +155,7 @@ class LatencyPart(Part):
         p50, p99 = percentiles(spans)
         begins = np.cumsum(p50) - p50
         names = STEPS[-spans.shape[1] :]
-        stages = [Stage(*values) for values in zip(names, begins.tolist(), p50, p99, strict=True)]
+        stages = stages_of(names, begins.tolist(), p50, p99)
         (whole_p50,), (whole_p99,) = percentiles(np.sum(spans, axis=1, keepdims=True))
         waited = next((stage.p50 for stage in stages if stage.name == "ready"), 0.0)
         frames = [each.frame for each in runner.observed() if each.frame]
@@ -151,12 +165,13 @@ class LatencyPart(Part):
             waits_for = f"Waits {1000 * waited:.0f} ms for {found}." if found else ""
         return Latency(
             runner.id,
+            runner.display.name or type(runner.display).__name__,
             len(times),
-            tuple(stages),
-            whole_p50,
-            whole_p99,
+            stages,
+            round(whole_p50, 4),
+            round(whole_p99, 4),
             waits_for,
-            self._cores.get(runner.id, 0.0),
+            round(self._cores.get(runner.id, 0.0), 4),
             self._painting.of(runner.id),
         )
 

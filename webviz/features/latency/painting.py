@@ -8,7 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from webviz.engine.pipeline.browsers import Browsers, Painted
-from webviz.engine.state.latency import BrowserLatency, Stage
+from webviz.features.latency.stages import BrowserLatency, stages_of
+from webviz.page.content.forms import brief
 
 SAMPLES = 200
 """Last samples of a display in a browser."""
@@ -71,7 +72,7 @@ class Painting:
 
     def measure(self, passed_s: float) -> None:
         """Measure the bytes of each display on each link since the last call."""
-        self._names = {each.id: each.name for each in self._browsers.seen()}
+        self._names = {each.id: brief(each.name) for each in self._browsers.seen()}
         sent = self._browsers.bytes_sent()
         self._rates = {
             (display, browser): (size - self._bytes.get(browser, {}).get(display, 0)) / passed_s
@@ -103,14 +104,12 @@ class Painting:
             known.append((way_s, acknowledged_s, painted_s))
 
     def _latency(self, display: str, browser: int, name: str) -> BrowserLatency:
-        rate = self._rates.get((display, browser), 0.0)
+        rate = round(self._rates.get((display, browser), 0.0))
         spans = np.array(self._spans.get((display, browser), ()), dtype=np.float64)
         if not len(spans):
             return BrowserLatency(browser, name, (), 0.0, 0.0, rate)
         values = np.column_stack((spans[:, 1:], spans.sum(axis=1)))
         p50, p99 = np.percentile(values, (50, 99), axis=0, method="inverted_cdf").tolist()
-        stages = (
-            Stage("acknowledged", 0.0, p50[0], p99[0]),
-            Stage("painted", p50[0], p50[1], p99[1]),
-        )
-        return BrowserLatency(browser, name, stages, p50[2], p99[2], rate)
+        names = "acknowledged", "painted"
+        stages = stages_of(names, (0.0, p50[0]), p50[:2], p99[:2])
+        return BrowserLatency(browser, name, stages, round(p50[2], 4), round(p99[2], 4), rate)
