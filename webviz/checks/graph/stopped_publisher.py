@@ -74,12 +74,16 @@ class StoppedPublisher(Check):
 def _together(
     stopped: Sequence[tuple[DisplaySeen, InputSeen]],
 ) -> Iterator[list[tuple[DisplaySeen, InputSeen]]]:
-    """Yield topics that stopped at the same time, such as those of a machine that was lost."""
+    """Yield topics that stopped at the same time, by name, as those of a machine that was lost."""
     group: list[tuple[DisplaySeen, InputSeen]] = []
     for each in sorted(stopped, key=lambda each: each[1].silent_s):
         if group and each[1].silent_s - group[0][1].silent_s > TOGETHER_S:
-            yield group
+            yield sorted(group, key=_topic)
             group = []
         group.append(each)
     if group:
-        yield group
+        yield sorted(group, key=_topic)
+
+
+def _topic(each: tuple[DisplaySeen, InputSeen]) -> str:
+    return each[1].topic
