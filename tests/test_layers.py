@@ -148,7 +148,7 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
 
 
 GENERATED = {"constants.js", "contents.js", "messages.js", "types.js"}
-"""Modules of the page that are no files, or only types."""
+"""Modules of the page that are generated, or contain only types."""
 
 
 def modules_of_the_page() -> dict[str, set[str]]:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
+from bench import Benches
 
 import webviz
 from webviz.api.roles import Role
 from webviz.engine import feature
 from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import Feature, command, commands_of, store, stores_of
+from webviz.engine.parts import Core
 from webviz.engine.store import PageStore
 from webviz.server.access import rules
 
@@ -88,6 +91,48 @@ def test_a_command_without_a_role_is_refused_to_everybody(monkeypatch: pytest.Mo
     assert names["CountUp"] is Role.OPERATOR
     assert "StartOver" not in names
     assert rules.role_to_watch("counted") is Role.OWNER
+
+
+class Seeking(Feature):
+    """Takes the name of a command that there is."""
+
+    @command(Role.WATCHER)
+    def seek(self) -> None:
+        """Seek."""
+
+
+class Failing(Feature):
+    """Cannot be made."""
+
+    name = "Failing"
+
+    def __init__(self, core: Core) -> None:
+        raise RuntimeError("no luck")
+
+
+def entry_points(*names: str) -> list[EntryPoint]:
+    """Declare classes of this module as features."""
+    return [EntryPoint(name, f"{__name__}:{name}", feature.GROUP) for name in names]
+
+
+def test_one_that_is_not_sound_leaves_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, __name__, sys.modules[Counting.__module__])
+    points = entry_points("Counting", "Seeking", "Missing")
+    monkeypatch.setattr(feature, "installed", lambda group: points)
+    found, broken = feature._loaded.__wrapped__()
+    assert found == {"Counting": Counting}
+    assert broken["Seeking"].endswith("does not load: ValueError: Seek exists already")
+    assert "AttributeError" in broken["Missing"]
+
+
+def test_one_that_cannot_be_made_leaves_the_others(
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    known = {"failing": Failing, **feature.features()}
+    monkeypatch.setattr("webviz.engine.loop.loop.features", lambda: known)
+    b = bench(strict=False)
+    assert len(b.viewer.features) == len(known) - 1
+    assert "no luck" in b.viewer.state().statuses["Failing"].text
 
 
 @pytest.mark.parametrize("name", FOLDERS)

@@ -29,13 +29,14 @@ import msgspec
 
 from webviz.api.entry_points import installed
 from webviz.api.roles import Role
+from webviz.engine import commands as engine_commands
 from webviz.engine.commands import Command, Sender
 from webviz.engine.parts.part import Handler, Part
 from webviz.engine.store import PageStore
 
 GROUP = "webviz.features"
 SENDER = "sender"
-"""The parameter of a command that gets who sends it, and is no field."""
+"""The parameter of a command that receives its sender; it is not a field."""
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -125,17 +126,6 @@ class Feature(Part):
             stores: the names of those that are watched, with what stands behind the colon.
         """
 
-    def version(self, store: str) -> object:
-        """Return what a store depends on; as long as it is equal, the store is not made anew.
-
-        Args:
-            store: name of the store, with what stands behind the colon.
-
-        Returns:
-            None to make it with each state.
-        """
-        return None
-
 
 @functools.cache
 def commands_of(feature: type[Feature]) -> Mapping[str, DeclaredCommand]:
@@ -153,7 +143,6 @@ def stores_of(feature: type[Feature]) -> Mapping[str, DeclaredStore]:
     return _marked(feature, "store")
 
 
-@functools.cache
 def features() -> Mapping[str, type[Feature]]:
     """Return all features by name."""
     return _loaded()[0]
@@ -176,30 +165,41 @@ def stores() -> Mapping[str, DeclaredStore]:
     return _united(stores_of)
 
 
-def folder_of(feature: type[Feature]) -> Path:
-    """Return the folder with the files of a feature for the page."""
-    return Path(str(sys.modules[feature.__module__].__file__)).parent
+@functools.cache
+def texts_of(feature: type[Feature]) -> Mapping[str, str]:
+    """Return the modules and style sheets of a feature for the page, by file name.
+
+    Raises:
+        OSError, UnicodeDecodeError: one cannot be read.
+    """
+    if not feature.module:
+        return {}
+    folder = Path(str(sys.modules[feature.__module__].__file__)).parent
+    files = [file for suffix in (".js", ".css") for file in sorted(folder.glob(f"*{suffix}"))]
+    return {file.name: file.read_text("utf-8") for file in files}
 
 
 @functools.cache
 def _loaded() -> tuple[dict[str, type[Feature]], dict[str, str]]:
     found: dict[str, type[Feature]] = {}
     broken: dict[str, str] = {}
+    taken = {*engine_commands.__all__}
     for point in sorted(installed(GROUP), key=lambda point: point.name):
         try:
-            found[point.name] = point.load()
+            feature = point.load()
+            names = {*commands_of(feature), *stores_of(feature)}
+            if both := taken & names:
+                raise ValueError(f"{', '.join(sorted(both))} exists already")
+            texts_of(feature)
+            taken |= names
+            found[point.name] = feature
         except Exception as error:  # those of other packages may raise anything
             broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
     return found, broken
 
 
 def _united(of: Callable[[type[Feature]], Mapping[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for feature in features().values():
-        if both := found.keys() & (own := of(feature)).keys():
-            raise ValueError(f"{feature.__name__} repeats {', '.join(sorted(both))}")
-        found |= own
-    return found
+    return {name: each for feature in features().values() for name, each in of(feature).items()}
 
 
 def _marked(feature: type[Feature], mark: str) -> dict[str, Any]:

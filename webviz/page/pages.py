@@ -88,8 +88,6 @@ class Pages:
         """Those with stores, by the name of each store."""
         self._watched: dict[Feature, set[str]] = {}
         """The stores of each that are watched."""
-        self._versions: dict[str, object] = {}
-        """Of the stores of features that are kept."""
         self._read: dict[str, DependencyTracker] = {}
         """Dependencies of the stores that are kept."""
         self._types = display_types()
@@ -131,20 +129,13 @@ class Pages:
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")
         if (feature := self._features.get(name)) is not None:
-            self._ask(feature, store, name, argument)
+            self._show(store, stores_of(type(feature))[name].make(feature, argument))
         elif (make := self._of_parts.get(name)) is not None:
             self._show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
             reading = DependencyTracker(state)
             self._show(store, make(reading.state, argument))
             self._read[store] = reading
-
-    def _ask(self, feature: Feature, store: str, name: str, argument: str) -> None:
-        """Let a feature make a store, unless it depends on what it did before."""
-        version = feature.version(store)
-        if version is None or self._versions.get(store) != version:
-            self._show(store, stores_of(type(feature))[name].make(feature, argument))
-            self._versions[store] = version
 
     def _show(self, store: str, made: PageStore | None) -> None:
         self._channel.show(store, {} if made is None else made.by_key())
@@ -154,10 +145,8 @@ class Pages:
         if (types := display_types()) != self._types:
             self._types = types
             self._read.clear()
-            self._versions.clear()
-        for kept in self._read, self._versions:
-            for store in kept.keys() - watched:
-                del kept[store]
+        for store in self._read.keys() - watched:
+            del self._read[store]
 
 
 def _ranked(channel: Channel, sender: Sender) -> Sender:

@@ -173,6 +173,6 @@ class NvbloxVoxelBlockLayer(NvbloxDisplay):
         )
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
-        """Where a voxel is, and its edge."""
+        """Return the length of the edges of a voxel."""
         layer: Layer = hit.sample.message
         return Details("Voxel", {"Edge": f"{layer.voxel_m:g} m"})

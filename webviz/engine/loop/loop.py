@@ -155,7 +155,9 @@ class FrameLoop:
         first += [views, LayoutsPart(core, self._settings)]
         others, history, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
-        self.features = [make(core) for make in features().values()]
+        attempt = self._guard.attempt
+        made = (attempt(each.name, None, each, core) for each in features().values())
+        self.features = [feature for feature in made if feature is not None]
         last = [
             ReportsPart(core, self._files, player, self._examined, lambda: core.shown),
             *(make(core) for make in parts),

@@ -10,12 +10,12 @@ import functools
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from webviz.engine.feature import features, folder_of
+from webviz.engine.feature import features, texts_of
 
 CHANNEL = "/webviz/channel"
 """Where the websocket of the channel is, below the page."""
@@ -60,11 +60,13 @@ class Modules:
 @functools.cache
 def _built(constants: str) -> tuple[str, bytes]:
     """Return the version and the head of a page with these constants, as JSON."""
-    files = _texts(_FOLDER, _FOLDER.rglob("*"))
+    files = {
+        file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
+        for file in _FOLDER.rglob("*")
+        if file.suffix in (".js", ".css", ".html")
+    }
     for name, feature in features().items():
-        folder = folder_of(feature)
-        texts = _texts(folder, folder.glob("*") if feature.module else ())
-        files |= {f"features/{name}/{file}": text for file, text in texts.items()}
+        files |= {f"features/{name}/{file}": text for file, text in texts_of(feature).items()}
     content = repr((constants, sorted(files.items()))).encode()
     version = hashlib.sha256(content).hexdigest()[:16]
     shared = json.dumps({**json.loads(constants), "VERSION": version})
@@ -76,15 +78,6 @@ def _built(constants: str) -> tuple[str, bytes]:
     )
     # Nothing in a module may end the element that it is in.
     return version, head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
-
-
-def _texts(folder: Path, files: Iterable[Path]) -> dict[str, str]:
-    """Return the texts of the modules and style sheets among files, by their paths in a folder."""
-    return {
-        file.relative_to(folder).as_posix(): file.read_text("utf-8")
-        for file in files
-        if file.suffix in (".js", ".css", ".html")
-    }
 
 
 def _style(rules: str) -> str:

@@ -127,10 +127,10 @@ export const actions = {
 /** Actions of features, which the menu has, too. @type {Command[]} */
 export const added = [];
 
-/** @param {Command} action */
-export function action(action) {
-  added.push(action);
-  command(action);
+/** @param {Command} wanted */
+export function action(wanted) {
+  added.push(wanted);
+  command(wanted);
 }
 
 export function install() {
