@@ -109,6 +109,7 @@ DOORS: Mapping[str, Door] = {
         (),
         (
             "webviz/api/modules.py",
+            "webviz/engine/feature.py",
             "webviz/server/access/*",
             "webviz/shell/docs.py",
             "webviz/shell/new/*",
