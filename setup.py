@@ -129,7 +129,9 @@ setup(
         "webviz.features": [
             "black_box = webviz.features.black_box:BlackBoxFeature",
             "latency = webviz.features.latency:LatencyFeature",
+            "layouts = webviz.features.layouts:LayoutsFeature",
             "recording = webviz.features.recording:RecordingFeature",
+            "reports = webviz.features.reports:ReportsFeature",
             "sharing = webviz.features.sharing:SharingFeature",
             "what_if = webviz.features.what_if:WhatIfFeature",
         ],

@@ -36,7 +36,12 @@ ROOMS = (
 """Each may import itself and those before it."""
 FACES = ("webviz", "webviz.__main__", "webviz.commands", "webviz.testing", "webviz.transforms")
 """Public names, under which nothing inside webviz is imported."""
-CALLERS = ("webviz.ros.control", "webviz.shell.app.time_controls")
+CALLERS = (
+    "webviz.ros.control",
+    "webviz.shell.app.time_controls",
+    "webviz.shell.report.making",
+    "webviz.shell.report.opening",
+)
 """The others that know commands of features by name."""
 FOLDERS = {
     "webviz.engine": (

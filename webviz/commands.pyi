@@ -3,6 +3,9 @@
 from webviz.engine.commands import *  # noqa: F403
 from webviz.engine.commands.command import Command
 from webviz.engine.commands.files import FileCommand
+from webviz.engine.commands.selection import Picks
+from webviz.files.config.layout import Layout
+from webviz.files.report.content import ReportedPick
 
 __all__: list[str]
 
@@ -20,6 +23,15 @@ class InspectLatency(Command, frozen=True):
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 
+class ListReport(FileCommand, frozen=True):
+    """Answer with what a bug report would contain, one member per line.
+
+    Args:
+        with_names: whether names of hosts, users and home folders would be in it.
+    """
+
+    with_names: bool = ...
+
 class OpenRecording(FileCommand, frozen=True):
     """Play a recording in the place of live topics, until `ReturnToLive`.
 
@@ -28,6 +40,21 @@ class OpenRecording(FileCommand, frozen=True):
     """
 
     path: str
+
+class RemoveLayout(Command, frozen=True):
+    """Remove a saved layout."""
+
+    name: str
+
+class RestoreSelection(Command, frozen=True):
+    """Let pages that join select what was selected when a report was made."""
+
+    picks: tuple[ReportedPick, ...]
+
+class SaveLayout(Command, frozen=True):
+    """Save the layout under a name; replaces a saved layout of that name."""
+
+    name: str
 
 class SaveMemory(FileCommand, frozen=True):
     """Write the last seconds of what was subscribed to, with the latched messages before them.
@@ -39,6 +66,33 @@ class SaveMemory(FileCommand, frozen=True):
 
     seconds: float | None = ...
     path: str = ...
+
+class SaveReport(FileCommand, frozen=True):
+    """Write a bug report of the moment that is shown.
+
+    Args:
+        picture: PNG or JPEG in base64, "" for none.
+        selection: of the page that sends this.
+        with_names: keep names of hosts, users and home folders.
+        path: of the file, only for programs; "" is one in the working folder, named by the
+            time.
+    """
+
+    picture: str = ...
+    selection: tuple[Picks, ...] = ...
+    with_names: bool = ...
+    path: str = ...
+
+class SetLayout(Command, frozen=True):
+    """Arrange the panels in all browsers.
+
+    Args:
+        layout: a layout, or the name of a saved one.
+        name: of the saved layout to change instead, "" for the one that browsers show.
+    """
+
+    layout: Layout | str
+    name: str = ...
 
 class ShareMoment(Command, frozen=True):
     """Begin to write the moment that is shown, and the time around it, as one HTML file.

@@ -115,7 +115,7 @@ DOORS: Mapping[str, Door] = {
             "webviz/shell/new/*",
             "webviz/shell/testing/*",
             "webviz/shell/reference.py",
-            "webviz/engine/parts/reports.py",
+            "webviz/features/reports/writing.py",
         ),
         "Tokens, certificates, plug-ins and templates of the user who starts webviz.",
     ),

@@ -32,6 +32,7 @@ from webviz.engine.feature import Feature, store
 from webviz.engine.state import Row, State
 from webviz.features.black_box.saved import BlackBoxStore, black_box_store
 from webviz.features.latency import LatencyStore
+from webviz.features.layouts import LayoutStore, layout_store
 from webviz.features.recording import RecordingStore, recording_store
 from webviz.page.pages import Pages
 from webviz.scene import open_server
@@ -165,6 +166,10 @@ class ShownFeatures(Feature):
     @store()
     def latency(self, argument: str) -> LatencyStore:
         return LatencyStore(self._loop.of_features.get("latencies", ()))
+
+    @store()
+    def layout(self, argument: str) -> LayoutStore:
+        return layout_store(self._loop.state.settings, argument)
 
     @store()
     def recording(self, argument: str) -> RecordingStore | None:

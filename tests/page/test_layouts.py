@@ -10,9 +10,9 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
-from webviz.engine.commands import RemoveLayout, SaveLayout, SetLayout
+from webviz.commands import RemoveLayout, SaveLayout, SetLayout
+from webviz.features.layouts import layout_store
 from webviz.files.config import DockedPanel, FloatingPanel, Layout, Settings
-from webviz.page.content.layouts import layout
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 BESIDE = Layout(beside=(DockedPanel(panel="doctor"),))
@@ -197,5 +197,7 @@ def test_a_phone_keeps_its_collapsed_panel(loop: Loop, tab: Tab) -> None:
 
 def test_a_store_has_the_saved_layout_of_a_window(loop: Loop) -> None:
     loop.show(settings=Settings(layouts={"driving": BESIDE}))
-    assert [each.panel for each in layout(loop.state, "driving").beside] == ["doctor"]
-    assert not layout(loop.state, "unknown").beside
+    assert [each.panel for each in layout_store(loop.state.settings, "driving").beside] == [
+        "doctor"
+    ]
+    assert not layout_store(loop.state.settings, "unknown").beside

@@ -91,7 +91,7 @@ def test_names_are_left_out_of_messages_and_log(made: Path, report: UnpackedRepo
 def test_a_report_that_is_too_large_says_so(
     bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("webviz.engine.parts.reports.MAX_BYTES", 1000)
+    monkeypatch.setattr("webviz.features.reports.writing.MAX_BYTES", 1000)
     path = tmp_path / "bug.zip"
     with opened(bag) as source, pytest.raises(Error, match="larger than 0 MB"):
         make_report(parse(stories.CONFIG, "it"), source, Pictured(None), path)

@@ -27,7 +27,6 @@ from webviz.engine.commands.files import (
     Save,
     WriteDisplays,
 )
-from webviz.engine.commands.layouts import RemoveLayout, SaveLayout, SetLayout
 from webviz.engine.commands.panel import (
     AddPanel,
     OpenPanels,
@@ -46,7 +45,6 @@ from webviz.engine.commands.playback import (
     SetRate,
     StepMessage,
 )
-from webviz.engine.commands.reports import ListReport, RestoreSelection, SaveReport
 from webviz.engine.commands.selection import Identify, InspectSelections, Pick, Picks, Select
 from webviz.engine.commands.tools import (
     CallService,
@@ -108,7 +106,6 @@ __all__ = [
     "InspectTopic",
     "InspectTopics",
     "InspectTransforms",
-    "ListReport",
     "Load",
     "LookUpTransform",
     "MoveDisplay",
@@ -124,7 +121,6 @@ __all__ = [
     "ReloadPlugin",
     "RemoveBookmark",
     "RemoveDisplay",
-    "RemoveLayout",
     "RemovePanel",
     "RemoveView",
     "RenameView",
@@ -132,13 +128,10 @@ __all__ = [
     "ResetDisplay",
     "ResetView",
     "Restore",
-    "RestoreSelection",
     "ReturnToLive",
     "Save",
     "SaveBookmark",
     "SaveImage",
-    "SaveLayout",
-    "SaveReport",
     "SaveView",
     "Seek",
     "Select",
@@ -148,7 +141,6 @@ __all__ = [
     "SetBackground",
     "SetFixedFrame",
     "SetFrameRate",
-    "SetLayout",
     "SetLoop",
     "SetPanelProperty",
     "SetProperty",

@@ -24,7 +24,7 @@ from webviz.engine.doctor.ordering import ordered
 from webviz.engine.doctor.sim_time import SimTime
 from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.state import State
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
@@ -53,7 +53,7 @@ _looks = DiskThreads(8)
 """For looks at the machine, which may wait for its network: files have threads of their own."""
 
 
-class Doctor:
+class Doctor(Part):
     """Examines the viewer in rounds, each of all checks on one observation.
 
     A finding counts once two rounds in a row have made it: what lasts shorter repairs itself.
@@ -66,6 +66,8 @@ class Doctor:
         waiting: monotonic time in seconds, which goes on while a recording is paused.
     """
 
+    name = "Doctor"
+
     def __init__(
         self,
         core: Core,
@@ -74,7 +76,7 @@ class Doctor:
         clock: ClockWatchPart,
         waiting: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._core = core
+        super().__init__(core)
         self._waiting = waiting
         self._displays = displays
         self._numbers = numbers
@@ -119,7 +121,7 @@ class Doctor:
     def is_graph_found(self) -> bool:
         """Return whether other nodes were found, or had the time to be."""
         is_early = time.monotonic() - self.listening_since_s < DISCOVERED_S
-        return not is_early or len(self._core.gate.nodes()) > 1
+        return not is_early or len(self.core.gate.nodes()) > 1
 
     def is_settled(self, state: State) -> bool:
         """Return whether two rounds have examined all that is wrong, and agree on it.
@@ -146,7 +148,7 @@ class Doctor:
             state: of this turn.
         """
         is_asked = time.monotonic() < self._asked_until_s or any(self._rules(state))
-        if not (self._core.is_watched() or is_asked):
+        if not (self.core.is_watched() or is_asked):
             self._round = None
             self._clock.is_wanted = False
         elif self._round is not None or self._is_due():
@@ -176,7 +178,7 @@ class Doctor:
 
     def _is_due(self) -> bool:
         """Return whether a second has passed, of a recording or, while it is paused, of waiting."""
-        now = self._core.clock(), self._waiting()
+        now = self.core.clock(), self._waiting()
         if all(0.0 <= at - before < EVERY_S for at, before in zip(now, self._began, strict=True)):
             return False
         self._began = now
@@ -191,7 +193,7 @@ class Doctor:
 
     def _examined(self, state: State) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
-        core = self._core
+        core = self.core
         wrong = problems(state).keys()
         load, cores = self._load.measure()
         seen = observe(core, self._displays, state, self._environment(state), load, cores)

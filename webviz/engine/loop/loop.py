@@ -32,12 +32,10 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.goals import GoalsPart
 from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
-from webviz.engine.parts.layouts import LayoutsPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.plugins import PluginsPart
-from webviz.engine.parts.reports import ReportsPart
 from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
@@ -152,22 +150,19 @@ class FrameLoop:
         )
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings]
-        first += [views, LayoutsPart(core, self._settings)]
+        first.append(views)
         others, history, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         attempt = self._guard.attempt
         made = (attempt(each.name, None, each, core) for each in features().values())
         self.features = [feature for feature in made if feature is not None]
-        last = [
-            ReportsPart(core, self._files, player, self._examined, lambda: core.shown),
-            *(make(core) for make in parts),
-            *self.features,
-        ]
-        core.parts = [*first, *others, numbers, clock_watch := ClockWatchPart(core), *last]
-        self._parts = Parts(core.parts, self._guard)
-        self._do = history.noting(self._parts.do)
+        clock_watch = ClockWatchPart(core)
         self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
         """Finds the causes behind the statuses."""
+        core.parts = [*first, *others, numbers, clock_watch, self.doctor]
+        core.parts += [*(make(core) for make in parts), *self.features]
+        self._parts = Parts(core.parts, self._guard)
+        self._do = history.noting(self._parts.do)
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
@@ -375,11 +370,6 @@ class FrameLoop:
 
     def _points_held(self) -> int:
         return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
-
-    def _examined(self) -> int:
-        """Ask the doctor to examine; the number of rounds so far."""
-        self.doctor.ask()
-        return self.doctor.rounds
 
     def _robots(self) -> tuple[NamespacedRobot, ...]:
         entries = self.settings.robots

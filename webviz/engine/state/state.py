@@ -20,7 +20,6 @@ from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
 from webviz.engine.state.config_file import ConfigFile
 from webviz.files.config import Settings
-from webviz.files.report import ReportedPick
 from webviz.sources import Offer
 from webviz.sources.past_state import (
     Event,
@@ -297,7 +296,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         found: when findings began, as far as a recording was shown, by time.
         selected: by browser, ids of things with those of their displays, and whether they move.
         selections: what is known of it, for the browsers that show it.
-        reported: the selection of the bug report that is shown.
         more: fields of features, by name; they can be read as those of the state, too.
     """
 
@@ -334,7 +332,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     found: Sequence[Event] = ()
     selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
     selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
-    reported: tuple[ReportedPick, ...] = ()
     more: Mapping[str, Any] = msgspec.field(default_factory=dict)
 
     def __getattr__(self, name: str) -> Any:

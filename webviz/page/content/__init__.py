@@ -18,12 +18,11 @@ from webviz.page.content.doctor import findings
 from webviz.page.content.goals import goals, routes
 from webviz.page.content.handles import handles
 from webviz.page.content.history import history
-from webviz.page.content.layouts import layout
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.scene import attributions, legend, watchers
-from webviz.page.content.selection import picking, reported, selected, selection
+from webviz.page.content.selection import picking, selected, selection
 from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
 from webviz.page.content.transforms import between, frame_tree, transforms
@@ -48,7 +47,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "graph": graph,
     "handles": handles,
     "history": history,
-    "layout": layout,
     "legend": legend,
     "bridges": bridges,
     "message": message,
@@ -58,7 +56,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "properties": properties,
     "rate": rate,
     "recorded": recorded,
-    "reported": reported,
     "routes": routes,
     "selected": selected,
     "selection": selection,

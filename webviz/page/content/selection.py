@@ -111,36 +111,3 @@ def picking(state: State, _: str) -> PickingStore:
 
 def _of(browser: str, known: Mapping[int, Mapping[Any, _T]]) -> Mapping[Any, _T]:
     return known.get(int(browser), {}) if browser.isdecimal() else {}
-
-
-class ReportedThing(msgspec.Struct, frozen=True):
-    """A thing that was selected when a bug report was made; see `Pick`.
-
-    Args:
-        display: id of its display.
-        key: of its node.
-        number: in the node, None for meshes and images.
-        at: coordinates in the frame of the node, in metres.
-    """
-
-    display: str
-    key: str
-    number: int | None
-    at: tuple[float, float, float]
-
-
-class ReportedStore(PageStore, frozen=True):
-    """The selection of the bug report that is shown."""
-
-    things: Sequence[ReportedThing]
-
-
-def reported(state: State, _: str) -> ReportedStore | None:
-    """Return the selection of the bug report that is shown, None without one."""
-    rows = state.rows
-    things = [
-        ReportedThing(rows[each.display].id, each.key, each.number, each.at)
-        for each in state.reported
-        if 0 <= each.display < len(rows)
-    ]
-    return ReportedStore(things) if things else None

@@ -9,17 +9,9 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from webviz import commands
 from webviz.api.status import LOADING
-from webviz.engine.commands import (
-    Command,
-    ListReport,
-    Play,
-    Refresh,
-    SaveReport,
-    Seek,
-    SelectSpan,
-    SetRate,
-)
+from webviz.engine.commands import Command, Play, Refresh, Seek, SelectSpan, SetRate
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config
@@ -80,9 +72,9 @@ def make_report(
         else:
             maker.listen(seconds)
         if path is None:
-            return maker.do(ListReport(with_names))
+            return maker.do(commands.ListReport(with_names))
         picture = base64.b64encode(pictured.png()).decode()
-        return maker.do(SaveReport(picture, (), with_names, str(path.absolute())))
+        return maker.do(commands.SaveReport(picture, (), with_names, str(path.absolute())))
 
 
 def play_through(config: Config, bag: Player, at_s: float) -> State:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from webviz.engine.commands import RestoreSelection
+from webviz import commands
 from webviz.files.report import BugReport
 from webviz.shell.app.viewer import Viewer
 
@@ -17,4 +17,4 @@ def show(viewer: Viewer, report: BugReport) -> None:
     span = viewer.span
     end_s = span[1] - span[0]
     viewer.seek(min(max(report.at_s, 0.0), end_s))
-    viewer.do(RestoreSelection(tuple(report.selection)))
+    viewer.do(commands.RestoreSelection(tuple(report.selection)))

@@ -9,7 +9,6 @@ import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
 import { fold, openPanel } from "./layout.js";
 import { openPeople } from "./people.js";
-import { openReport } from "./report.js";
 import { setTheme } from "./theme.js";
 import { toggle } from "./video.js";
 
@@ -56,13 +55,6 @@ export const actions = {
     icon: "record",
     group: "View",
     run: () => toggle(),
-  },
-  report: {
-    name: "Report a bug…",
-    icon: "file",
-    group: "Time",
-    needs: "SaveReport",
-    run: () => openReport(),
   },
   undo: {
     name: "Undo",
@@ -132,6 +124,22 @@ export function action(wanted) {
   added.push(wanted);
   command(wanted);
 }
+
+/** Further menus of the menu, of features. @type {{label: string, icon: string, make: () => (MenuItem | null)[]}[]} */
+const submenus = [];
+
+/**
+ * Adds a menu to the menu.
+ *
+ * @param {string} label
+ * @param {string} icon
+ * @param {() => (MenuItem | null)[]} make its entries, whenever it opens
+ */
+export const submenu = (label, icon, make) => submenus.push({ label, icon, make });
+
+/** @returns {MenuItem[]} */
+export const submenuItems = () =>
+  submenus.map(({ label, icon, make }) => ({ label, icon, items: make() }));
 
 export function install() {
   for (const action of Object.values(actions))

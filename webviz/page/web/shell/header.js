@@ -1,10 +1,9 @@
 // The head of the side: the config file, and what is done with it.
 
 import { needs, why } from "../access.js";
-import { layoutMenu } from "../docks/layout_menu.js";
 import { el, set, setText } from "../dom.js";
 import { iconButton } from "../icons.js";
-import { actions, added, item } from "./actions.js";
+import { actions, added, item, submenuItems } from "./actions.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
 import { fold, openPanel } from "./layout.js";
@@ -145,10 +144,9 @@ function menu(owner) {
     item(actions.image),
     item(actions.video),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
-    { label: "Layout", icon: "sidebar", items: layoutMenu() },
+    ...submenuItems(),
     item(actions.people),
     item(actions.doctor),
-    item(actions.report),
     ...added.map((action) => item(action)),
     { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,

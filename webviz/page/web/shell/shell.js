@@ -3,7 +3,6 @@
 import * as channel from "../channel.js";
 import { el } from "../dom.js";
 import * as docks from "../docks/docks.js";
-import * as layoutMenu from "../docks/layout_menu.js";
 import * as dock from "../images/dock.js";
 import * as actions from "./actions.js";
 import { keepKeysFree } from "./click_focus.js";
@@ -57,7 +56,6 @@ function build() {
   const shade = el("div", { class: "wv-shade", onclick: () => layout.fold(true) });
   const page = el("div", { id: "webviz" }, scene, shade, side, places.time);
   docks.install(page);
-  layoutMenu.install();
   dock.install(page);
   document.body.append(page);
   document.body.classList.add("wv-on");

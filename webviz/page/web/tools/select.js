@@ -12,7 +12,6 @@ import { canvas } from "../viser_page.js";
 import { install as installHighlight, middle } from "./highlight.js";
 import { tell } from "./hint.js";
 import { makeLayer } from "./layer.js";
-import { install as installReported } from "./reported.js";
 import * as selection from "./selection.js";
 
 /** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../types.js" */
@@ -55,7 +54,6 @@ export const select = {
 export function install() {
   selection.install();
   installHighlight();
-  installReported();
 }
 
 /** Looks at the middle of what is selected. */

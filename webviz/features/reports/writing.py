@@ -1,4 +1,4 @@
-"""Bug reports of the moment that is shown."""
+"""The content of a bug report of the moment that is shown, and its file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import io
 import os
 import platform
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,22 +18,9 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.offer import Offer
-from webviz.data.names import new_path
-from webviz.data.transforms import diagnose, tree_text
 from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
-from webviz.engine.commands import (
-    Command,
-    ListReport,
-    Picks,
-    RestoreSelection,
-    SaveReport,
-    Sender,
-)
-from webviz.engine.commands.requests import Job
-from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.part import Core, Handler, Part
-from webviz.engine.parts.shown_moment import as_seen, slice_around
+from webviz.engine.commands import Picks
 from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files.config import Config
@@ -48,7 +35,6 @@ from webviz.files.report import (
 )
 from webviz.files.report.archive import CONFIG, PICTURES, REPORT, SLICE
 from webviz.sources.past_state import Event
-from webviz.sources.player import Player
 from webviz.sources.slices import Slice, WrittenSlice, write_slice
 
 MAX_BYTES = 500_000_000
@@ -56,15 +42,12 @@ MAX_BYTES = 500_000_000
 MAX_MOMENTS = 500
 MAX_PICTURE = 16 << 20
 MAX_PIXELS = 50_000_000
-ROUNDS, ROUNDS_S = 3, 6.0
-"""Of the doctor, that a report waits for, and for how long."""
-REST_S = 0.05
 FRAMES, GRAPH, LOG = "frames.txt", "graph.json", "log.txt"
 PACKAGES = ("ros-webviz", "viser", "numpy", "mcap", "msgspec", "rosbags")
 VARIABLES = ("ROS_DISTRO", "RMW_IMPLEMENTATION")
 
 
-class _Moment(msgspec.Struct, frozen=True):
+class ReportMoment(msgspec.Struct, frozen=True):
     """All that a report is made of, as it was when it was asked for."""
 
     part: Slice
@@ -77,91 +60,7 @@ class _Moment(msgspec.Struct, frozen=True):
     with_names: bool
 
 
-class ReportsPart(Part):
-    """Writes bug reports.
-
-    Args:
-        core: shared by all parts.
-        files: have the config.
-        player: of what is shown.
-        examined: lets the doctor examine, and returns how many rounds it has completed.
-        state: the last state, from any thread.
-    """
-
-    name = "Report"
-
-    def __init__(
-        self,
-        core: Core,
-        files: FilesPart,
-        player: Player,
-        examined: Callable[[], int],
-        state: Callable[[], State],
-    ) -> None:
-        super().__init__(core)
-        self._files = files
-        self._player = player
-        self._examined = examined
-        self._state = state
-        self._reported: tuple[ReportedPick, ...] = ()
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {
-            ListReport: self._list,
-            SaveReport: self._save,
-            RestoreSelection: self._restore,
-        }
-
-    def state(self) -> Mapping[str, Any]:
-        """Return the selection of the report that is shown."""
-        return {"reported": self._reported}
-
-    def _restore(self, command: RestoreSelection, sender: Sender) -> None:
-        self._reported = command.picks
-
-    def _list(self, command: ListReport, sender: Sender) -> Job[str]:
-        moment = self._moment(sender, (), command.with_names)
-        self._examined()  # so that there are findings once it is written
-        return Job(lambda: "\n".join(_listing(moment)), lambda text: text)
-
-    def _save(self, command: SaveReport, sender: Sender) -> Job[str]:
-        if command.path and sender.browser is not None:
-            raise Error("Pages cannot choose the file of a report.")
-        picture = _picture(command.picture)
-        moment = self._moment(sender, command.selection, command.with_names)
-
-        def work() -> str:
-            until_s = time.monotonic() + ROUNDS_S
-            while self._examined() < ROUNDS and time.monotonic() < until_s:
-                time.sleep(REST_S)
-            path = Path(command.path) if command.path else new_path("webviz_report", ".zip")
-            size = _write(path, moment, self._state(), picture)
-            return f"Saved {path.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
-
-        return Job(work, lambda answer: answer)
-
-    def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> _Moment:
-        state, core = self._state(), self.core
-        config = as_seen(self._files.config(), state, sender)
-        part, source = slice_around(self._player)
-        tree = tree_text(core.buffer, core.now_ns)
-        problems = diagnose(core.buffer, core.now_ns).problems
-        public = {*state.offers, *state.frames, *_namespaces(state.offers)}
-        return _Moment(
-            part,
-            source,
-            state,
-            config,
-            "\n".join([tree or "There are no transforms.", *problems, ""]),
-            _picked(picks, state),
-            PrivateNames(public, () if with_names else None),
-            with_names,
-        )
-
-
-def _listing(moment: _Moment) -> list[str]:
+def listing(moment: ReportMoment) -> list[str]:
     """Return the content of a report, a line per member."""
     state, part, names = moment.state, moment.part, moment.names
     topics = counted(part.topics, "topic")
@@ -183,7 +82,7 @@ def _listing(moment: _Moment) -> list[str]:
     return [*lines, f"Names of hosts, users and home folders are left out{kept}."]
 
 
-def _write(path: Path, moment: _Moment, later: State, picture: tuple[str, bytes] | None) -> int:
+def write(path: Path, moment: ReportMoment, later: State, picture: tuple[str, bytes] | None) -> int:
     """Write a report; its size in bytes.
 
     Raises:
@@ -220,7 +119,7 @@ def _private(names: PrivateNames, data: bytes) -> bytes:
     return names.text(data.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
 
 
-def _report(moment: _Moment, written: WrittenSlice, later: State) -> BugReport:
+def _report(moment: ReportMoment, written: WrittenSlice, later: State) -> BugReport:
     state = moment.state
     began = {(event.name, event.text): event.at_ns / 1e9 for event in reversed(state.warned)}
     rows = [row for row in state.rows if row.type != "Group"]
@@ -270,7 +169,7 @@ def _time(event: Event) -> int:
     return event.at_ns
 
 
-def _picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
+def picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
     """Return a selection, with the numbers of displays instead of their ids, which differ later."""
     places = {row.id: number for number, row in enumerate(state.rows)}
     found: list[ReportedPick] = []
@@ -318,7 +217,7 @@ def _versions() -> dict[str, str]:
     return found | {name: os.environ[name] for name in VARIABLES if name in os.environ}
 
 
-def _namespaces(offers: Mapping[str, Offer]) -> set[str]:
+def namespaces(offers: Mapping[str, Offer]) -> set[str]:
     """Full names of nodes, of which namespaces may be a part of topics."""
     return {p.node.rpartition("/")[0] for offer in offers.values() for p in offer.publishers}
 
@@ -327,7 +226,7 @@ def _encoded(value: Any) -> bytes:
     return msgspec.json.format(msgspec.json.encode(value), indent=1)
 
 
-def _picture(text: str) -> tuple[str, bytes] | None:
+def read_picture(text: str) -> tuple[str, bytes] | None:
     """Return the name and content of the member with a picture that was sent, None without one.
 
     Raises:

@@ -1,15 +1,16 @@
 // The saved layouts in the menu and in the list of commands.
 
-import { act } from "../act.js";
-import { provide } from "../shell/commands.js";
-import { askName } from "../shell/dialog.js";
-import { clear, savedLayouts } from "./docks.js";
-import { openWindow } from "./windows.js";
+import { act } from "../../act.js";
+import { clear, savedLayouts } from "../../docks/docks.js";
+import { openWindow } from "../../docks/windows.js";
+import { submenu } from "../../shell/actions.js";
+import { provide } from "../../shell/commands.js";
+import { askName } from "../../shell/dialog.js";
 
-/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {MenuItem} from "../../shell/menu.js" */
 
 /** @returns {(MenuItem | null)[]} */
-export function layoutMenu() {
+function menu() {
   const all = savedLayouts();
   const more = all.length
     ? [
@@ -45,6 +46,7 @@ export function layoutMenu() {
 }
 
 export function install() {
+  submenu("Layout", "sidebar", menu);
   provide(() => [
     { name: "Save this layout…", group: "View", needs: "SaveLayout", run: save },
     { name: "All panels in the tabs", group: "View", run: clear },

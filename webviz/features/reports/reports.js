@@ -1,17 +1,30 @@
 // Bug reports: a preview of what goes in, and the picture and selection of this page.
 
-import { act } from "../act.js";
-import { el, setText } from "../dom.js";
-import * as selection from "../tools/selection.js";
-import { canvas } from "../viser_page.js";
-import { openDialog } from "./dialog.js";
-import { toast } from "./toasts.js";
+import { act } from "../../act.js";
+import { el, setText } from "../../dom.js";
+import { action } from "../../shell/actions.js";
+import { openDialog } from "../../shell/dialog.js";
+import { toast } from "../../shell/toasts.js";
+import * as selection from "../../tools/selection.js";
+import { canvas } from "../../viser_page.js";
+import { restore } from "./reported.js";
 
 const QUALITY = 0.9;
 const MAX_CHARACTERS = 2 << 20; // of the picture, in a message of 4 MB
 
+export function install() {
+  action({
+    name: "Report a bug…",
+    icon: "file",
+    group: "Time",
+    needs: "SaveReport",
+    run: openReport,
+  });
+  restore();
+}
+
 /** Shows what a report would contain; saves it once that is confirmed. */
-export function openReport() {
+function openReport() {
   const list = el("ul", { class: "wv-report" });
   const names = el("input", { type: "checkbox", class: "wv-check", onchange: show });
   const problem = el("p", { class: "wv-problem", role: "alert" });

@@ -1,19 +1,20 @@
 // Selects what was selected when the bug report that is shown was made.
 
-import { described } from "../scene/picking/pick.js";
-import { things } from "../scene/picking/things.js";
-import { watch } from "../stores.js";
-import * as viser from "../viser_page.js";
-import * as selection from "./selection.js";
+import { described } from "../../scene/picking/pick.js";
+import { things } from "../../scene/picking/things.js";
+import { watch } from "../../stores.js";
+import * as selection from "../../tools/selection.js";
+import * as viser from "../../viser_page.js";
 
-/** @import {Picked} from "../types.js" */
-/** @import {ReportedThing} from "../contents.js" */
+/** @import {Picked} from "../../types.js" */
+/** @import {ReportedThing} from "../../contents.js" */
 
 const TRY_MS = 500;
 const TRIES = 60; // the displays are drawn within half a minute
 const NEAR = 1e-4; // in metres, as single precision has it
 
-export function install() {
+/** Lets this page select it once it is drawn. */
+export function restore() {
   let isDone = false;
   watch("reported", (values) => {
     const wanted = values.get("things") ?? [];

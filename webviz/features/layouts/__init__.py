@@ -1,0 +1,126 @@
+"""The layout of the panels, and the saved ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from webviz.api.roles import Role
+from webviz.data.names import problem_of
+from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.store import PageStore
+from webviz.files.config import ConfigError, Layout, Settings, nearest
+from webviz.page.content.forms import sendable
+
+
+class SavedLayout(msgspec.Struct, frozen=True):
+    """A saved layout: its name, and whether browsers show it."""
+
+    name: str
+    is_shown: bool
+
+
+class DockedOnPage(msgspec.Struct, frozen=True):
+    """A panel beside or below the scene."""
+
+    panel: str
+    weight: float
+
+
+class FloatingOnPage(msgspec.Struct, frozen=True):
+    """A panel over the scene."""
+
+    panel: str
+    left: float
+    top: float
+    width: float
+    height: float
+
+
+class LayoutStore(PageStore, frozen=True):
+    """A layout, complete; see `webviz.files.config.layout`.
+
+    Args:
+        saved: the saved layouts.
+        beside, below, over: the panels of each place.
+        width, height: of the first two, in pixels.
+    """
+
+    saved: Sequence[SavedLayout]
+    beside: Sequence[DockedOnPage]
+    below: Sequence[DockedOnPage]
+    over: Sequence[FloatingOnPage]
+    width: float
+    height: float
+
+
+class LayoutsFeature(Feature):
+    """The layouts, which all browsers share."""
+
+    name = "Layouts"
+    module = "layouts.js"
+
+    @command(Role.OPERATOR)
+    def set_layout(self, layout: Layout | str, name: str = "") -> None:
+        """Arrange the panels in all browsers.
+
+        Args:
+            layout: a layout, or the name of a saved one.
+            name: of the saved layout to change instead, "" for the one that browsers show.
+        """
+        if isinstance(layout, str):
+            layout = self._named(layout)
+        if name:
+            self._named(name)
+            self._part.set("layouts", {**self._part.settings.layouts, name: layout})
+        else:
+            self._part.set("layout", layout)
+
+    @command(Role.OPERATOR)
+    def save_layout(self, name: str) -> None:
+        """Save the layout under a name; replaces a saved layout of that name."""
+        if problem := problem_of(name):
+            raise ConfigError(problem)
+        settings = self._part.settings
+        self._part.set("layouts", {**settings.layouts, name: settings.layout})
+
+    @command(Role.OPERATOR)
+    def remove_layout(self, name: str) -> None:
+        """Remove a saved layout."""
+        self._named(name)
+        saved = self._part.settings.layouts
+        self._part.set("layouts", {key: each for key, each in saved.items() if key != name})
+
+    @store()
+    def layout(self, argument: str) -> LayoutStore:
+        """Return the layout that browsers show, or the saved one of this name if there is one."""
+        return layout_store(self._part.settings, argument)
+
+    @property
+    def _part(self) -> SettingsPart:
+        return self.core.get(SettingsPart)
+
+    def _named(self, name: str) -> Layout:
+        saved = self._part.settings.layouts
+        if name not in saved:
+            raise ConfigError(f"Unknown saved layout `{name}`: {nearest(name, saved)}")
+        return saved[name]
+
+
+def layout_store(settings: Settings, name: str) -> LayoutStore:
+    """Return the layout that browsers show, or the saved one of this name if there is one."""
+    shown = settings.layouts.get(name, settings.layout)
+    saved = [
+        SavedLayout(str(sendable(each)), layout == settings.layout)
+        for each, layout in settings.layouts.items()
+    ]
+    return LayoutStore(
+        saved=saved,
+        beside=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.beside],
+        below=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.below],
+        over=[msgspec.convert(each, FloatingOnPage, from_attributes=True) for each in shown.over],
+        width=shown.width,
+        height=shown.height,
+    )
