@@ -28,7 +28,6 @@ NOT_OF_PAGES = {
     "SendGoal": "panels of the viewer send it",
     "Command": "base class",
     "FileCommand": "base class",
-    "ViewCommand": "base class",
     "InspectLatency": "follows from the stores that pages watch",
     "InspectSelections": "follows from the stores that pages watch",
     "InspectTopic": "of programs",

@@ -14,7 +14,8 @@ import pytest
 
 import webviz
 from tests.page.test_whole_page import FONT, HAS_FONT
-from webviz.engine.commands import SetToolProperty, ShowView
+from webviz.commands import ShowView
+from webviz.engine.commands import SetToolProperty
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page

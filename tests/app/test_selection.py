@@ -17,8 +17,8 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 import webviz
+from webviz.commands import RemoveDisplay, SetFixedFrame, SetProperty, ShowView
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import RemoveDisplay, SetFixedFrame, SetProperty, ShowView
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page

@@ -11,7 +11,8 @@ import pytest
 from pages import open_pages
 
 import webviz
-from webviz.engine.commands import SetToolProperty, ShowView
+from webviz.commands import ShowView
+from webviz.engine.commands import SetToolProperty
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page

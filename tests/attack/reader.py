@@ -21,13 +21,13 @@ from tests.attack.tile_addresses import read_address
 from tests.attack.tiles import read_tiles
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
+from webviz.commands import Seek
 from webviz.data.images import ImageError
 from webviz.data.map_file import MapFileError, read_map
 from webviz.data.messages import MessageError
 from webviz.data.names import readable
 from webviz.data.tiles import TileError
 from webviz.data.transforms.picture import draw_tree
-from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files import opening
 from webviz.files.config import WatchRule

@@ -25,8 +25,8 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
+from webviz.commands import Seek
 from webviz.data.recordings import open_recording
-from webviz.engine.commands import Seek
 from webviz.shell.testing import BagViewer
 
 NEAR_S = 3.0

@@ -30,8 +30,8 @@ from playwright.sync_api import expect
 import webviz
 from webviz.api.nodes import Pane
 from webviz.api.views import VIEW_TYPES, Rig, View, like, mimic, type_of
+from webviz.commands import Seek
 from webviz.data.rotations import from_rpy
-from webviz.engine.commands import Seek
 from webviz.shell.cli import main as cli
 from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.export.file import RunFile

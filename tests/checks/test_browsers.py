@@ -17,9 +17,8 @@ from webviz.api import registry
 from webviz.api.finding import CauseLevel, Finding, Severity
 from webviz.api.views import Orbit, View
 from webviz.checks.browser import no_webgl, throttled_tab, viewer_behind
-from webviz.commands import InspectLatency
+from webviz.commands import AddDisplay, InspectLatency, SetProperty, ShowView
 from webviz.data.messages import encode
-from webviz.engine.commands import AddDisplay, SetProperty, ShowView
 from webviz.engine.doctor import doctor
 from webviz.features.latency.stages import BrowserLatency
 from webviz.files.config import Config

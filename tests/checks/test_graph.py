@@ -24,7 +24,7 @@ import webviz
 import webviz.ros.node
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
-from webviz.engine.commands import SetProperty
+from webviz.commands import SetProperty
 from webviz.shell.doctor.examination import examine_live, live_config
 from webviz.shell.ros_source import ros_source
 from webviz.shell.testing.harness import Harness

@@ -17,7 +17,7 @@ from sensor_msgs.msg import LaserScan as LaserScanMessage
 from webviz import Finding, Severity, Topic
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
-from webviz.engine.commands import Reset
+from webviz.commands import Reset
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header

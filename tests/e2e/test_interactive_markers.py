@@ -12,7 +12,7 @@ import pytest
 from pages import open_pages
 
 import webviz
-from webviz.engine.commands import ShowView
+from webviz.commands import ShowView
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view

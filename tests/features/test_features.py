@@ -14,8 +14,9 @@ import webviz
 from webviz.api.roles import Role
 from webviz.engine import feature
 from webviz.engine.commands import Command, Sender
-from webviz.engine.feature import Feature, command, commands_of, store, stores_of
+from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts import Core
+from webviz.engine.parts.declaring import commands_of, stores_of
 from webviz.engine.store import PageStore
 from webviz.server.access import rules
 

@@ -18,15 +18,8 @@ from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
-from webviz.engine.commands import (
-    AddDisplay,
-    Command,
-    DuplicateDisplay,
-    InspectSelections,
-    Refresh,
-    Sender,
-    SetProperty,
-)
+from webviz.commands import AddDisplay, DuplicateDisplay, InspectSelections, SetProperty
+from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import Feature, store
 from webviz.engine.state import Row, State

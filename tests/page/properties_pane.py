@@ -7,7 +7,7 @@ from typing import Any
 import playwright.sync_api as playwright
 
 from tests.page.conftest import Tab
-from webviz.engine.commands import SetProperty
+from webviz.commands import SetProperty
 
 MOUNT = """async (id) => {
   const { properties } = await import("/webviz/panels/displays/properties.js");

@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
 from webviz.api.status import Level, Status
-from webviz.engine.commands import Seek, SetFixedFrame
+from webviz.commands import Seek, SetFixedFrame
 from webviz.engine.state import Row, State
 from webviz.features.latency.stages import BrowserLatency, Latency, Stage
 from webviz.page.content.doctor import findings

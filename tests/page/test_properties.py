@@ -14,7 +14,7 @@ from tests.page.trees import Tree
 from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
-from webviz.engine.commands import SetBackground, SetFixedFrame, SetFrameRate
+from webviz.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
 from webviz.page.content.forms import values_of

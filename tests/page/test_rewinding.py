@@ -12,8 +12,7 @@ from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.api.status import Level
-from webviz.commands import OpenRecording
-from webviz.engine.commands import ReturnToLive, Seek
+from webviz.commands import OpenRecording, ReturnToLive, Seek
 from webviz.engine.state import PanelTimes
 from webviz.features.black_box.saved import BlackBoxState, SavedMoment
 from webviz.features.recording import MemoryState, RecordingState

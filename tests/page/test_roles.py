@@ -14,8 +14,8 @@ from pages import COARSE
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab, open_page
+from webviz import commands
 from webviz.api.roles import Role
-from webviz.engine import commands
 from webviz.engine.state import Row, ToolButton
 from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import open_server

@@ -12,7 +12,7 @@ from tests.page.conftest import Tab
 from tests.page.trees import Tree
 from webviz.api.declared import Color, Prop, Topic
 from webviz.api.display import Display, Input
-from webviz.engine.commands import SetProperty
+from webviz.commands import SetProperty
 from webviz.engine.state import Row
 
 MakeRow = Callable[..., Row]

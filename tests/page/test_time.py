@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from tests.page.conftest import Loop, Tab
-from webviz.engine.commands import Pause, Reset
+from webviz.commands import Pause, Reset
 from webviz.engine.state import ClockRate, PanelTimes
 
 CHANGES = """() => {

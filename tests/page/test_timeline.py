@@ -13,16 +13,18 @@ from playwright.sync_api import Locator, Position, expect
 from tests.page.conftest import Loop, Tab
 from webviz.api.errors import Error
 from webviz.api.status import Level
-from webviz.commands import SaveMemory, StartRecording, StopRecording
-from webviz.engine.commands import (
+from webviz.commands import (
     Pause,
     RemoveBookmark,
     SaveBookmark,
+    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
+    StartRecording,
     StepMessage,
+    StopRecording,
 )
 from webviz.engine.state import ClockRate, PanelTimes
 from webviz.features.recording import MemoryState, RecordingState

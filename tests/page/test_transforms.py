@@ -8,8 +8,9 @@ import pytest
 from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
+from webviz.commands import FocusFrame
 from webviz.data.transforms import Diagnosis, FrameReport
-from webviz.engine.commands import FocusFrame, InspectTransforms
+from webviz.engine.commands import InspectTransforms
 from webviz.engine.state import Between, State
 from webviz.page.content.transforms import between, pair_of
 

@@ -14,8 +14,7 @@ from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group
 from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame, Status
-from webviz.data.transforms.reasons import Explanation, Kind
-from webviz.engine.commands import (
+from webviz.commands import (
     AddDisplay,
     DuplicateDisplay,
     FocusDisplay,
@@ -26,6 +25,7 @@ from webviz.engine.commands import (
     SetProperty,
     WriteDisplays,
 )
+from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, Traffic
 from webviz.scene.server import Server
 

@@ -10,7 +10,8 @@ from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group
-from webviz.engine.commands import Command, MoveDisplay, RemoveDisplay, SetProperty
+from webviz.commands import MoveDisplay, RemoveDisplay, SetProperty
+from webviz.engine.commands import Command
 from webviz.engine.state import Row
 
 MakeRow = Callable[..., Row]

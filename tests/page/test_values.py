@@ -12,8 +12,8 @@ import pytest
 from webviz.api.declared import Topic
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Readout
+from webviz.commands import SetPanelProperty
 from webviz.data.messages import Header, JointState, String, Time, message_class
-from webviz.engine.commands import SetPanelProperty
 from webviz.engine.state import PanelTab, PanelTimes, Row, Traffic
 from webviz.panels.plot import Plot
 from webviz.server.images.pictures import Pictures

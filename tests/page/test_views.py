@@ -10,17 +10,17 @@ import pytest
 
 from tests.page.conftest import Tab
 from webviz.api.views import FPS, Orbit, TopDownOrtho
-from webviz.engine.commands import (
+from webviz.commands import (
     ChangeView,
     FocusDisplay,
     RemoveView,
     RenameView,
     ResetView,
     SaveView,
-    Sender,
     ShowView,
     StartWithView,
 )
+from webviz.engine.commands import Sender
 from webviz.engine.state import Row
 from webviz.files.config import Settings
 from webviz.scene.server import Server

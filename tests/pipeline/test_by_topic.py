@@ -8,7 +8,6 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, Input, inputs_of
 from webviz.api.ports import ANY, Namespace
 from webviz.api.registry import display_types
-from webviz.engine.commands import AddDisplay
 from webviz.engine.commands.by_topic import Pick, no_display, picks
 
 GRID = "nav_msgs/msg/OccupancyGrid"
@@ -76,13 +75,13 @@ def test_a_display_of_topics_of_one_name_leaves_the_others_to_those_of_any_type(
 
 def test_a_pick_adds_the_display_with_its_topic() -> None:
     pick = Pick("/map", "Outline", "source", GRID)
-    assert pick.command() == AddDisplay("Outline", {"source": "/map"})
+    assert (pick.display, pick.values) == ("Outline", {"source": "/map"})
 
 
 def test_a_display_of_a_namespace_is_offered_for_its_topic() -> None:
     topics = {"/a/b/update": ("a/msg/Update",), "/odd": ("a/msg/Update",)}
     (pick,) = picks(topics, {"Handles": Handles})
-    assert pick.command() == AddDisplay("Handles", {"of": "/a/b"})
+    assert (pick.display, pick.values) == ("Handles", {"of": "/a/b"})
 
 
 def test_a_topic_without_a_display_says_why() -> None:

@@ -10,7 +10,7 @@ import pytest
 from bench import Benches
 
 from webviz import Context, Display, Input, Prop, Sample, Topic
-from webviz.engine.commands import SetFixedFrame, SetProperty
+from webviz.commands import SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -33,7 +33,8 @@ from webviz.api.connection import GraphConnection
 from webviz.api.handles import Control, Drag, Handle
 from webviz.api.nodes import Pose
 from webviz.api.status import Level
-from webviz.engine.commands import DragHandle, Identify, Picks, Refresh, SetBackground, SetProperty
+from webviz.commands import Identify, SetBackground, SetProperty
+from webviz.engine.commands import DragHandle, Picks, Refresh
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

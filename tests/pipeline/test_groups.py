@@ -8,7 +8,7 @@ import pytest
 from bench import Benches
 
 from webviz.api.group import DisplayGroup
-from webviz.engine.commands import AddDisplay, RemoveDisplay, SetProperty
+from webviz.commands import AddDisplay, RemoveDisplay, SetProperty
 from webviz.files.config import Branch, ConfigError, Unreadable, dump
 from webviz.files.opening import parse
 from webviz_displays.axes import Axes

@@ -8,7 +8,7 @@ import pytest
 from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
-from webviz.engine.commands import RemoveDisplay, SetProperty
+from webviz.commands import RemoveDisplay, SetProperty
 from webviz.engine.pipeline import history
 
 SECOND = 1_000_000_000

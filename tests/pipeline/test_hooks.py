@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated, Any
 
 from webviz import Context, Display, Input, Sample, Topic
-from webviz.engine.commands import SetFixedFrame, SetProperty
+from webviz.commands import SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -10,8 +10,8 @@ from bench import Benches
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.api.status import OtherFixedFrame, Remedy
+from webviz.commands import SetFixedFrame, SetProperty
 from webviz.data.transforms import filter as transform_filter
-from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.engine.pipeline.input_subscription import DROPS_S, Drops
 from webviz.engine.pipeline.topic_statistics import TopicStatistics
 from webviz.shell.testing.messages import header

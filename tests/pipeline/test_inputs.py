@@ -10,7 +10,7 @@ from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Sample, Sync, Topic
 from webviz.api.display import inputs_of
-from webviz.engine.commands import Reset, SetFixedFrame
+from webviz.commands import Reset, SetFixedFrame
 from webviz.engine.pipeline import synchronizer
 
 SECOND = 1_000_000_000

@@ -10,14 +10,8 @@ from bench import Benches
 
 from webviz.api.declared import Topic
 from webviz.api.status import Level
-from webviz.engine.commands import (
-    Command,
-    InspectTopic,
-    InspectTopics,
-    InspectTransforms,
-    Pause,
-    Reset,
-)
+from webviz.commands import Pause, Reset
+from webviz.engine.commands import Command, InspectTopic, InspectTopics, InspectTransforms
 from webviz.engine.parts.topics import MAX_INSPECTED
 from webviz.engine.state import State
 from webviz.shell.testing.messages import header

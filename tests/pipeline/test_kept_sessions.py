@@ -11,27 +11,25 @@ import pytest
 from bench import Benches
 
 from webviz.api.roles import Role
-from webviz.engine.commands import (
+from webviz.commands import (
     ChangeView,
     Export,
     FocusDisplay,
     FocusFrame,
     Identify,
     Load,
-    LookUpTransform,
-    Picks,
     RemoveDisplay,
     ResetView,
     Save,
     SaveImage,
     Select,
-    Sender,
     SetFixedFrame,
     SetProperty,
     ShowView,
     Undo,
     WriteDisplays,
 )
+from webviz.engine.commands import LookUpTransform, Picks, Sender
 from webviz.files.opening import load
 from webviz.files.sessions import MAX_VIEWERS, Sessions
 from webviz.server.access import rules

@@ -11,8 +11,8 @@ import pytest
 from waiting import until
 
 from webviz import Context, Display, Input, Sample, Topic
+from webviz.commands import SetFixedFrame, SetProperty
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.engine.pipeline import folding
 from webviz.engine.pipeline.folding import MAX_BYTES
 from webviz.shell.testing.messages import header

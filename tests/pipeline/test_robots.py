@@ -16,9 +16,9 @@ from webviz.api.context import Context
 from webviz.api.declared import Topic
 from webviz.api.frames import Frames
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
+from webviz.commands import Open, Save, SetProperty, Undo
 from webviz.data.messages.transform_layout import MIN_TRANSFORMS
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands import Open, Save, SetProperty, Undo
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import parse
 from webviz.shell.cli.demo import standard_config

@@ -23,7 +23,7 @@ from webviz import (
     Topic,
 )
 from webviz.api.status import LOADING
-from webviz.engine.commands import Reset, SetFixedFrame, SetProperty
+from webviz.commands import Reset, SetFixedFrame, SetProperty
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

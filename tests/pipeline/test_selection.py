@@ -10,15 +10,8 @@ import numpy as np
 import pytest
 
 from webviz import Context, Details, Display, Hit, Input, Quantity, Sample, Topic
-from webviz.engine.commands import (
-    Identify,
-    InspectSelections,
-    Picks,
-    RemoveDisplay,
-    Select,
-    Sender,
-    SetProperty,
-)
+from webviz.commands import Identify, InspectSelections, RemoveDisplay, Select, SetProperty
+from webviz.engine.commands import Picks, Sender
 from webviz.engine.parts.selection import MAX_PAST, MAX_SELECTED
 
 SECOND = 1_000_000_000

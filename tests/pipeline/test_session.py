@@ -14,27 +14,24 @@ from bench import Benches
 from webviz.api.declared import Topic, to_values
 from webviz.api.group import DisplayGroup
 from webviz.api.views import Orbit
-from webviz.engine.commands import (
+from webviz.commands import (
     AddDisplay,
     AddPanel,
-    Command,
     DuplicateDisplay,
     Export,
     Load,
     MoveDisplay,
     Open,
-    Refresh,
     ResetDisplay,
     Save,
     SaveImage,
     SaveView,
-    Sender,
     SetBackground,
     SetFrameRate,
     SetProperty,
-    SetToolProperty,
     WriteDisplays,
 )
+from webviz.engine.commands import Command, Refresh, Sender, SetToolProperty
 from webviz.engine.commands.requests import MAX_FILES, MAX_REQUESTS
 from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document

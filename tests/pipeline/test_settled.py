@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from bench import Benches
 
-from webviz.engine.commands import Pause, Refresh, RemoveDisplay, SetProperty, Undo
+from webviz.commands import Pause, RemoveDisplay, SetProperty, Undo
+from webviz.engine.commands import Refresh
 from webviz_displays.grid import Grid
 
 

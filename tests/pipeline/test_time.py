@@ -8,7 +8,7 @@ import pytest
 from bench import Benches
 
 from webviz import Context, Display, Input, Keep, Sample, Topic
-from webviz.engine.commands import DuplicateDisplay, Pause, Reset
+from webviz.commands import DuplicateDisplay, Pause, Reset
 from webviz.sources import Offer, Publisher
 
 SECOND = 1_000_000_000

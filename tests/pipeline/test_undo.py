@@ -10,29 +10,26 @@ import pytest
 from bench import Benches
 
 from webviz.api.views import Orbit
-from webviz.engine.commands import (
+from webviz.commands import (
     AddDisplay,
-    Command,
     DuplicateDisplay,
     Load,
     MoveDisplay,
     Open,
     Pause,
     Redo,
-    Refresh,
     RemoveDisplay,
     RemoveView,
     RenameView,
     SaveView,
-    Sender,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
     SetProperty,
-    SetToolProperty,
     StartWithView,
     Undo,
 )
+from webviz.engine.commands import Command, Refresh, Sender, SetToolProperty
 from webviz.engine.parts.history import MAX_STEPS, SAME_S
 from webviz.files.config import dump
 

@@ -19,10 +19,8 @@ from webviz.api.views import (
     XYOrbit,
     target_group,
 )
-from webviz.engine.commands import (
-    PROGRAM,
+from webviz.commands import (
     ChangeView,
-    Command,
     FocusDisplay,
     FocusFrame,
     Load,
@@ -31,10 +29,10 @@ from webviz.engine.commands import (
     ResetView,
     SaveImage,
     SaveView,
-    Sender,
     ShowView,
     StartWithView,
 )
+from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.state import State
 from webviz.files.config import dump
 from webviz.files.opening import parse

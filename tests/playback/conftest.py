@@ -12,7 +12,8 @@ import pytest
 from bags import START_NS, Bag, ns
 from drives import CONFIG
 
-from webviz.engine.commands import Command, Refresh, Seek
+from webviz.commands import Seek
+from webviz.engine.commands import Command, Refresh
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene

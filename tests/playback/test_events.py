@@ -12,8 +12,8 @@ from rosbags.rosbag2 import StoragePlugin
 from shown_stores import shown_by
 
 from webviz.api.status import LOADING, Level, Status
+from webviz.commands import RemoveDisplay, Seek
 from webviz.data.messages import encode
-from webviz.engine.commands import RemoveDisplay, Seek
 from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.state import Row
 from webviz.sources.bag.log import MAX_EVENTS, MAX_NAME, MAX_TEXT, read_log

@@ -14,7 +14,7 @@ import pytest
 from bags import START_NS, Bag, ns
 
 from webviz.api.declared import Topic
-from webviz.engine.commands import Seek
+from webviz.commands import Seek
 from webviz.files.config import WatchRule
 from webviz.shell.app.reading import read_config
 from webviz.shell.doctor.examination import examine_bag

@@ -10,7 +10,7 @@ import pytest
 from bags import START_NS, TF, Bag, Topic, files, ns, stamped, strings
 from rosbags.rosbag2 import StoragePlugin
 
-from webviz.engine.commands import Play, Seek, StepMessage
+from webviz.commands import Play, Seek, StepMessage
 from webviz.shell.testing import check_seeks, header
 
 CONFIG = """\

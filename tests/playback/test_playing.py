@@ -10,20 +10,21 @@ import pytest
 from bags import START_NS, Bag, ns, strings
 from shown_stores import shown_by
 
-from webviz.commands import SaveMemory, StartRecording
-from webviz.engine.commands import (
-    Command,
+from webviz.commands import (
     Pause,
     Play,
     RemoveBookmark,
     SaveBookmark,
+    SaveMemory,
     Seek,
     SelectSpan,
     SetLoop,
     SetRate,
+    StartRecording,
     StepMessage,
     Undo,
 )
+from webviz.engine.commands import Command
 from webviz.engine.commands.requests import Refused
 from webviz.files.config import dump
 from webviz.files.opening import parse

@@ -19,18 +19,20 @@ from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.nodes import Lines
 from webviz.api.vehicle import Velocity
-from webviz.commands import SaveMemory, StartRecording, StopRecording
-from webviz.data.messages import encode
-from webviz.engine.commands import (
+from webviz.commands import (
     Pause,
     Play,
-    Refresh,
     ReturnToLive,
+    SaveMemory,
     Seek,
     SetProperty,
     SetRate,
+    StartRecording,
     StepMessage,
+    StopRecording,
 )
+from webviz.data.messages import encode
+from webviz.engine.commands import Refresh
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
 from webviz.engine.state import State

@@ -16,7 +16,7 @@ from rosbags.rosbag2 import StoragePlugin
 
 from webviz import Context, Display, Input, Lookback, Sample, Topic
 from webviz.api.display import inputs
-from webviz.engine.commands import OpenPanels, Play, Seek, SelectSpan, SetRate, StepMessage
+from webviz.commands import OpenPanels, Play, Seek, SelectSpan, SetRate, StepMessage
 from webviz.engine.loop import loop
 from webviz.files.config import Config
 from webviz.page.recorded_ui import RecordedUi

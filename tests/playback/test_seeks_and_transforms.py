@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from bags import START_NS, TF, Bag, Topic, ns, stamped
 
-from webviz.engine.commands import Reset, Seek, SetFixedFrame
+from webviz.commands import Reset, Seek, SetFixedFrame
 from webviz.shell.testing import BagViewer, check_seeks, header
 
 

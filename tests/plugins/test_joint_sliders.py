@@ -9,7 +9,8 @@ import pytest
 from bench import Benches
 from waiting import until
 
-from webviz.engine.commands import AddPanel, OpenPanels, Sender
+from webviz.commands import AddPanel, OpenPanels
+from webviz.engine.commands import Sender
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels import joints as module
 from webviz.panels.joints import Joints

@@ -12,8 +12,8 @@ from bench import Benches
 from msgspec.structs import replace
 
 from webviz.api.errors import Error
+from webviz.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
 from webviz.data.messages import Header, JointState, String, Time
-from webviz.engine.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
 from webviz.engine.state import PanelTab, PanelTimes, State
 from webviz.page.chart import ChartWidget
 from webviz.page.recorded_ui import RecordedUi

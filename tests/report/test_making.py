@@ -12,7 +12,7 @@ import stories
 from bags import START_NS, TF, Bag, Topic, ns, stamped
 
 from webviz.api.errors import Error
-from webviz.engine.commands import Seek
+from webviz.commands import Seek
 from webviz.files.opening import load, parse
 from webviz.files.report import UnpackedReport, read_report
 from webviz.shell.cli import main as cli

@@ -16,7 +16,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 import webviz
-from webviz.engine.commands import AddPanel, OpenPanels
+from webviz.commands import AddPanel, OpenPanels
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels import selector
 from webviz.panels.selector import Selector

@@ -9,7 +9,7 @@ import pytest
 from bags import START_NS, Bag, ns
 
 from webviz.api.status import Level
-from webviz.engine.commands import Seek
+from webviz.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer, header

@@ -13,9 +13,9 @@ import pytest
 from bags import START_NS, Bag, ns
 
 from webviz.api.nodes import Points
+from webviz.commands import Seek
 from webviz.data.messages import TFMessage, decode, encode
 from webviz.data.messages.stamps import shifted
-from webviz.engine.commands import Seek
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.shown_moment import slice_around
 from webviz.files.config import Config

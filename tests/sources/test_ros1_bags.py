@@ -11,11 +11,11 @@ import pytest
 from ros1_bags import SECOND, STORE, T, head, written
 from rosbags.rosbag1 import Writer
 
+from webviz.commands import Seek
 from webviz.data.messages import decode
 from webviz.data.messages.ros1 import Ros1Type
 from webviz.data.recordings import RecordingError, open_recording
 from webviz.data.recordings.ros1 import Ros1Recording
-from webviz.engine.commands import Seek
 from webviz.shell.testing import BagViewer, check_seeks
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import read_log

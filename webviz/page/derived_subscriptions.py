@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from webviz.engine.commands import (
-    PROGRAM,
-    Command,
-    InspectSelections,
-    InspectTopics,
-    InspectTransforms,
-    OpenPanels,
-    Sender,
-)
+from webviz.commands import InspectSelections, OpenPanels
+from webviz.engine.commands import PROGRAM, Command, InspectTopics, InspectTransforms, Sender
 from webviz.page.content.transforms import pair_of
 
 

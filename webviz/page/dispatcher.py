@@ -11,7 +11,8 @@ from typing import Any
 
 import msgspec
 
-from webviz.engine.commands import Command, DragHandle, Load, Open, Save, Sender, UseTool
+from webviz.commands import Load, Open, Save
+from webviz.engine.commands import Command, DragHandle, Sender, UseTool
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
 from webviz.page.content.forms import MAX_TEXT

@@ -12,7 +12,8 @@ from webviz.api.registry import display_types
 from webviz.api.roles import Role
 from webviz.engine.commands import Command, DragHandle, Refresh, Sender, UseTool
 from webviz.engine.commands.guard import Guard
-from webviz.engine.feature import Feature, stores, stores_of
+from webviz.engine.feature import Feature, stores
+from webviz.engine.parts.declaring import stores_of
 from webviz.engine.state import State
 from webviz.engine.store import PageStore
 from webviz.page.content import MAKERS

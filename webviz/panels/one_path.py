@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from webviz.api.declared import Prop
 from webviz.api.panel import Panel, Send, Ui
-from webviz.engine.commands import SetPanelProperty
+from webviz.commands import SetPanelProperty
 from webviz.panels.reading import PathReading, subscribed, types_of
 
 NOTHING = ""

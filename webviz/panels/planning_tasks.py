@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from webviz.api.panel import Panel, Send, Ui
-from webviz.engine.commands import SetProperty
+from webviz.commands import SetProperty
 
 DISPLAY = "MotionPlanningTasks"
 NEWEST = "Newest"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from webviz.api.errors import Error
-from webviz.engine.commands import Seek
+from webviz.commands import Seek
 
 NS_PER_S = 1e9
 

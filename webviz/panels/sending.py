@@ -14,10 +14,10 @@ from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
 from webviz.api.status import Level, Status
+from webviz.commands import SetPanelProperty
 from webviz.data.messages import MessageError, encode, message_class, typestore
 from webviz.data.messages.classes import attribute
 from webviz.data.names import readable
-from webviz.engine.commands import SetPanelProperty
 from webviz.panels.yaml_text import inline, read_yaml, write_yaml
 
 MAX_DEPTH = 8

@@ -11,9 +11,9 @@ import msgspec
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel, Send, Ui
+from webviz.commands import SetPanelProperty
 from webviz.data.messages.paths import as_number, leaf_paths
 from webviz.data.names import readable
-from webviz.engine.commands import SetPanelProperty
 from webviz.panels.field_chooser import FieldChooser
 from webviz.panels.reading import PathReading, subscribed, types_of
 from webviz.panels.seeking import seek_to

@@ -18,15 +18,8 @@ from rclpy.parameter import Parameter
 from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
-from webviz.engine.commands import (
-    Command,
-    Open,
-    Reset,
-    Save,
-    SetFixedFrame,
-    ShowView,
-    StartWithView,
-)
+from webviz.commands import Open, Reset, Save, SetFixedFrame, ShowView, StartWithView
+from webviz.engine.commands import Command
 from webviz.engine.state import State
 from webviz.files.config.files import SUFFIXES
 

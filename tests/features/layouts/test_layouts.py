@@ -8,8 +8,16 @@ from typing import Any
 import pytest
 from bench import Benches
 
-from webviz.commands import RemoveLayout, SaveLayout, SetLayout
-from webviz.engine.commands import AddPanel, Load, Redo, RemovePanel, Undo
+from webviz.commands import (
+    AddPanel,
+    Load,
+    Redo,
+    RemoveLayout,
+    RemovePanel,
+    SaveLayout,
+    SetLayout,
+    Undo,
+)
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
 

@@ -13,7 +13,7 @@ from waiting import until
 
 import webviz
 from webviz.api.status import Level
-from webviz.engine.commands import Open
+from webviz.commands import Open
 from webviz.shell import live_source
 from webviz.shell.app import running
 from webviz.shell.cli import main

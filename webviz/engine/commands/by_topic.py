@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY, Namespace
-from webviz.engine.commands import AddDisplay
 
 
 @dataclass(frozen=True, order=True)
@@ -32,10 +31,6 @@ class Pick:
     def values(self) -> dict[str, str]:
         """The property of the display, and its value."""
         return {self.input: self.namespace or self.topic}
-
-    def command(self) -> AddDisplay:
-        """Add this display with this topic."""
-        return AddDisplay(self.display, self.values)
 
 
 def picks(

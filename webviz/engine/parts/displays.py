@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from typing import Any
 
 import msgspec
@@ -10,23 +11,16 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.display import Display
 from webviz.api.registry import display_types
+from webviz.api.roles import Role
 from webviz.api.status import Level, Status
-from webviz.engine.commands import (
-    AddDisplay,
-    Command,
-    DuplicateDisplay,
-    MoveDisplay,
-    RemoveDisplay,
-    ResetDisplay,
-    Sender,
-    SetProperty,
-    TraceDisplay,
-)
+from webviz.engine.commands.command import ignore
 from webviz.engine.parts.consistency import ConsistencyCheck
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.display_rows import rows
-from webviz.engine.parts.part import Batches, Core, Handler, Part
+from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.pipeline import Runner, Services
+from webviz.engine.state.trace import Trace
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
 from webviz.sources import Advertisement, Subscription, merged
 
@@ -53,19 +47,6 @@ class DisplaysPart(Part):
         self.tracer = services.tracer
         self.points = services.points
         self.consistency = ConsistencyCheck(core, self.list)
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {
-            SetProperty: self._set,
-            AddDisplay: self._add,
-            RemoveDisplay: self._remove,
-            DuplicateDisplay: self._duplicate,
-            MoveDisplay: self._move,
-            ResetDisplay: self._reset_properties,
-            TraceDisplay: self._trace,
-        }
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the displays' subscriptions. The first decides on type and QoS of a topic."""
@@ -111,29 +92,72 @@ class DisplaysPart(Part):
 
     # Commands
 
-    def _set(self, command: SetProperty, sender: Sender) -> None:
-        self.list.set(command.display, command.path, command.value)
+    @command(Role.OPERATOR)
+    def set_property(self, display: str, path: str, value: Any) -> None:
+        """Change a property of a display; nested ones have a dotted path, such as `topic.name`."""
+        self.list.set(display, path, value)
 
-    def _add(self, command: AddDisplay, sender: Sender) -> None:
-        new = _new(command.type, command.values)
-        (entry,) = self.list.add([new], self.list.group(command.group))
-        command.made(entry.id)
+    @command(Role.OPERATOR)
+    def add_display(
+        self,
+        type: str,
+        values: dict[str, Any] | None = None,
+        group: str = "",
+        made: Callable[[str], None] = ignore,
+    ) -> None:
+        """Add a display at the end of the list, or of a group.
 
-    def _remove(self, command: RemoveDisplay, sender: Sender) -> None:
-        self.list.remove(command.display)
+        Args:
+            type: name of the display type.
+            values: its properties, as in a config file.
+            group: id of the group; "" is the list itself.
+            made: called by the frame loop with the id of the new display; must not block.
+        """
+        new = _new(type, values or {})
+        (entry,) = self.list.add([new], self.list.group(group))
+        made(entry.id)
 
-    def _duplicate(self, command: DuplicateDisplay, sender: Sender) -> None:
-        if copied := self.list.duplicate(command.display):
-            command.made(copied.id)
+    @command(Role.OPERATOR)
+    def remove_display(self, display: str) -> None:
+        """Remove a display, or a group with its contents."""
+        self.list.remove(display)
 
-    def _move(self, command: MoveDisplay, sender: Sender) -> None:
-        self.list.move(command.display, command.group, command.before)
+    @command(Role.OPERATOR)
+    def duplicate_display(self, display: str, made: Callable[[str], None] = ignore) -> None:
+        """Add a copy of a display, or of a group with its contents, after it.
 
-    def _reset_properties(self, command: ResetDisplay, sender: Sender) -> None:
-        self.list.reset(command.display)
+        Args:
+            display: id of the display or group.
+            made: called by the frame loop with the id of the copy; must not block.
+        """
+        if copied := self.list.duplicate(display):
+            made(copied.id)
 
-    def _trace(self, command: TraceDisplay, sender: Sender) -> None:
-        self.tracer.ask(command.display, command.answer)
+    @command(Role.OPERATOR)
+    def move_display(self, display: str, group: str = "", before: str = "") -> None:
+        """Move a display or a group in the list.
+
+        Args:
+            display: id of the display or group.
+            group: id of the group; "" is the list itself.
+            before: id of the entry of that group that follows it; "" is the end.
+        """
+        self.list.move(display, group, before)
+
+    @command(Role.OPERATOR)
+    def reset_display(self, display: str) -> None:
+        """Give the properties of a display their defaults, but for its name, switch and topics."""
+        self.list.reset(display)
+
+    @command(None)
+    def trace_display(self, display: str, answer: Future[Trace]) -> None:
+        """Trace the next sample that a display draws.
+
+        Args:
+            display: id of the display.
+            answer: gets the times; cancel it to stop waiting.
+        """
+        self.tracer.ask(display, answer)
 
 
 def _new(type_name: str, values: dict[str, Any]) -> Display:

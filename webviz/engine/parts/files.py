@@ -8,26 +8,19 @@ import os
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any
 
 from webviz.api.panel import Panel
+from webviz.api.roles import Role
 from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.data.names import MAX_FILE_BYTES, MAX_NAME, file_problem_of, readable
 from webviz.data.words import counted, joined
-from webviz.engine.commands import (
-    Command,
-    Export,
-    Load,
-    Open,
-    Restore,
-    Save,
-    Sender,
-    WriteDisplays,
-)
+from webviz.engine.commands import Command, FileCommand, Restore, Sender
 from webviz.engine.commands.requests import Job
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
@@ -94,14 +87,8 @@ class FilesPart(Part):
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {
-            Open: self._open,
-            Restore: self._restore,
-            Load: self._load,
-            Save: self._save,
-            Export: self._export,
-            WriteDisplays: self._write_displays,
-        }
+        own = {Restore: self._restore}
+        return {**super().handles, **own}
 
     @property
     def path(self) -> Path | None:
@@ -177,8 +164,10 @@ class FilesPart(Part):
         is_free = sender.browser is None or file == self._path
         return (lambda: None) if is_free else functools.partial(_refuse_elsewhere, file)
 
-    def _open(self, command: Open, sender: Sender) -> Job[Config]:
-        wanted = self._in_folder(command.path, sender)
+    @command(Role.OWNER, FileCommand, label=lambda each: f"Open {PurePath(each.path).name}")
+    def open(self, sender: Sender, path: str) -> Job[Config]:
+        """Replace the current config by that of a file."""
+        wanted = self._in_folder(path, sender)
         check = self._check(wanted, sender)
 
         def work() -> Config:
@@ -201,8 +190,15 @@ class FilesPart(Part):
         self.views.open(command.config.settings.view)
         return f"Restored {counted(len(command.config.displays), 'display')} of the last session."
 
-    def _load(self, command: Load, sender: Sender) -> Job[Config]:
-        text, name = command.text, readable(command.name[-MAX_NAME:])  # with its ending
+    @command(Role.OWNER, FileCommand, label=lambda each: f"Open {each.name}")
+    def load(self, text: str, name: str) -> Job[Config]:
+        """Replace the current config by that of a text.
+
+        Args:
+            text: YAML, or RViz's format if the name ends with .rviz.
+            name: of the file it came from, which is not accessed.
+        """
+        text, name = text, readable(name[-MAX_NAME:])  # with its ending
         refuse_too_large(len(text), name)
 
         def then(config: Config) -> str:
@@ -214,10 +210,12 @@ class FilesPart(Part):
 
         return Job(lambda: opening.parse(text, name), then)
 
-    def _save(self, command: Save, sender: Sender) -> Job[list[str]]:
-        target = self._in_folder(command.path, sender) if command.path else self._path
-        is_named = bool(command.path) and sender.browser is not None
-        if is_named and (problem := file_problem_of(command.path)):
+    @command(Role.OWNER, FileCommand, label=lambda each: f"Save as {PurePath(each.path).name}")
+    def save(self, sender: Sender, path: str = "") -> Job[list[str]]:
+        """Save the current config to a file; "" is the file it came from."""
+        target = self._in_folder(path, sender) if path else self._path
+        is_named = bool(path) and sender.browser is not None
+        if is_named and (problem := file_problem_of(path)):
             raise ConfigError(problem)
         if target is None:
             raise ConfigError("This config has no file yet. Choose a name.")
@@ -235,18 +233,27 @@ class FilesPart(Part):
 
         return Job(work, then)
 
-    def _export(self, command: Export, sender: Sender) -> Job[tuple[str, list[str]]]:
+    @command(Role.WATCHER, FileCommand)
+    def export(self, deliver: Callable[[str], None], name: str = "") -> Job[tuple[str, list[str]]]:
+        """Pass on the current config as text, such as for a download.
+
+        Args:
+            deliver: called by the frame loop with the text; must not block.
+            name: of the file it is for; RViz's format if it ends with .rviz, else YAML.
+        """
         config = self.config()
 
         def then(written: tuple[str, list[str]]) -> str:
             text, left_out = written
-            command.deliver(text)
+            deliver(text)
             return joined(*left_out)
 
-        return Job(lambda: opening.text_of(config, command.name), then)
+        return Job(lambda: opening.text_of(config, name), then)
 
-    def _write_displays(self, command: WriteDisplays, sender: Sender) -> Job[str]:
-        items = self.displays.list.written(command.displays)
+    @command(Role.WATCHER, FileCommand)
+    def write_displays(self, displays: tuple[str, ...]) -> Job[str]:
+        """Answer with the text that a config file has of displays, and of all that is in groups."""
+        items = self.displays.list.written(displays)
         return Job(lambda: config_file.dump_displays(items), lambda text: text)
 
     def _show(self, config: Config, path: Path | None) -> None:

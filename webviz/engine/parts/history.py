@@ -9,10 +9,12 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from webviz.engine.commands import Command, Redo, Restore, Sender, Undo
+from webviz.api.roles import Role
+from webviz.engine.commands import Command, Restore, Sender
 from webviz.engine.commands.requests import Job
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.rebasing import rebased
 from webviz.engine.parts.steps import Difference, Moment, difference
 from webviz.engine.state import Step, UndoHistory
@@ -52,11 +54,6 @@ class HistoryPart(Part):
         self._last: tuple[float, Sender, tuple[str, str] | None] = (-SAME_S, Sender(), None)
         self._now = Moment()
         self._now = self._moment()
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {Undo: self._take_back, Redo: self._do_again}
 
     def state(self) -> Mapping[str, Any]:
         """Return the steps."""
@@ -111,27 +108,41 @@ class HistoryPart(Part):
         is_soon = now - then < SAME_S
         return is_soon and done.property is not None and same == [sender, done.property]
 
-    def _take_back(self, command: Undo, sender: Sender) -> str:
-        return self._travel(command, sender, self._undo, self._redo, "undo", "Undone")
+    @command(Role.OPERATOR)
+    def undo(self, sender: Sender, steps: int = 1, own: bool = False) -> str:
+        """Take back the newest steps that changed displays, tools, settings or saved views.
 
-    def _do_again(self, command: Redo, sender: Sender) -> str:
-        return self._travel(command, sender, self._redo, self._undo, "redo", "Redone")
+        Args:
+            steps: how many.
+            own: prefer those of the sender; what others have done since stays.
+        """
+        return self._travel((steps, own), sender, self._undo, self._redo, ("undo", "Undone"))
+
+    @command(Role.OPERATOR)
+    def redo(self, sender: Sender, steps: int = 1, own: bool = False) -> str:
+        """Do again what was taken back.
+
+        Args:
+            steps: how many.
+            own: prefer what the sender has taken back.
+        """
+        return self._travel((steps, own), sender, self._redo, self._undo, ("redo", "Redone"))
 
     def _travel(
         self,
-        command: Undo | Redo,
+        wanted: tuple[int, bool],
         sender: Sender,
         back: deque[_Done],
         forth: deque[_Done],
-        verb: str,
-        participle: str,
+        words: tuple[str, str],
     ) -> str:
+        (most, own), (verb, participle) = wanted, words
         if not back:
             raise ConfigError(f"There is nothing to {verb}.")
         labels = []
         moment = self._now
-        for _ in range(max(1, min(command.steps, len(back)))):
-            done = _newest(back, sender if command.own else None)
+        for _ in range(max(1, min(most, len(back)))):
+            done = _newest(back, sender if own else None)
             self._count += 1
             step = replace(done.step, number=self._count, browser=sender.browser)
             forth.append(_Done(step, done.after, done.before))

@@ -11,19 +11,12 @@ from webviz.api.declared import Topic, make
 from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types, type_name
+from webviz.api.roles import Role
 from webviz.api.status import Status
 from webviz.data.messages import MessageError, decode, encode, interfaces
-from webviz.engine.commands import (
-    AddPanel,
-    CallService,
-    Command,
-    OpenPanels,
-    Publish,
-    RemovePanel,
-    Sender,
-    SetPanelProperty,
-)
+from webviz.engine.commands import CallService, Command, Publish, Sender
 from webviz.engine.parts.advertisements import advertisement_of, publish
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.part import Batches, Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
@@ -58,14 +51,8 @@ class PanelsPart(Part):
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {
-            AddPanel: self._add,
-            RemovePanel: self._remove,
-            SetPanelProperty: self._set,
-            OpenPanels: self._attend,
-            Publish: self._publish,
-            CallService: self._call,
-        }
+        own = {Publish: self._publish, CallService: self._call}
+        return {**super().handles, **own}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the subscriptions of the open panels."""
@@ -144,24 +131,33 @@ class PanelsPart(Part):
         """Return the topics a panel names; empty if its hook fails."""
         return self.core.guard.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
 
-    def _add(self, command: AddPanel, sender: Sender) -> str:
-        types = plugin_types(Panel)
-        if (cls := types.get(command.type)) is None:
-            hint = nearest(command.type, types)
-            raise ConfigError(f"Unknown panel type `{command.type[:80]}`: {hint}")
+    @command(Role.OPERATOR)
+    def add_panel(self, type: str, values: dict[str, Any] | None = None) -> str:
+        """Add a panel of a plug-in behind the others.
+
+        Args:
+            type: name of the panel type.
+            values: its properties, as in a config file.
+        """
+        types, values = plugin_types(Panel), values or {}
+        if (cls := types.get(type)) is None:
+            hint = nearest(type, types)
+            raise ConfigError(f"Unknown panel type `{type[:80]}`: {hint}")
         if len(self.list.items()) >= MAX_PLUGINS:
             raise ConfigError(f"There are {MAX_PLUGINS} panels. Remove one first.")
         try:
-            panel = make(cls, command.values)
+            panel = make(cls, values)
         except msgspec.ValidationError as error:
-            problems = mistakes(cls, command.values, error, ())
+            problems = mistakes(cls, values, error, ())
             raise ConfigError(f"Not added: {sentences(problems)}") from error
         self.list.add(panel)
         return f"Added {panel.name}."
 
-    def _remove(self, command: RemovePanel, sender: Sender) -> str:
+    @command(Role.OPERATOR)
+    def remove_panel(self, panel: str) -> str:
+        """Remove a panel of a plug-in, by its id or name."""
         before = {tab.id: tab.tab for tab in self._tabs()}
-        name = self.list.remove(command.panel)
+        name = self.list.remove(panel)
         after = {tab.id: tab.tab for tab in self._tabs()}
         # The second of a type is the first now.
         names = {old: after.get(id, "") for id, old in before.items()}
@@ -171,11 +167,25 @@ class PanelsPart(Part):
         self._settings.set("layouts", layouts)
         return f"Removed {name}."
 
-    def _set(self, command: SetPanelProperty, sender: Sender) -> None:
-        self.list.set(command.panel, command.path, command.value)
+    @command(Role.OPERATOR)
+    def set_panel_property(self, panel: str, path: str, value: Any) -> None:
+        """Change a property of a panel of a plug-in; nested ones have a dotted path.
 
-    def _attend(self, command: OpenPanels, sender: Sender) -> None:
-        self._open = command.panels
+        Args:
+            panel: its id or name.
+            path: of the property.
+            value: as in a config file.
+        """
+        self.list.set(panel, path, value)
+
+    @command(None)
+    def open_panels(self, panels: frozenset[str]) -> None:
+        """Say which panels of plug-ins are open in any browser; the others rest.
+
+        Args:
+            panels: names of their tabs.
+        """
+        self._open = panels
 
     def _publish(self, command: Publish, sender: Sender) -> None:
         try:

@@ -15,6 +15,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Job
+from webviz.engine.parts.declaring import DeclaredCommand, commands_of
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.state import State
 from webviz.sources import Gate, Offer, Raw, Subscription
@@ -125,7 +126,16 @@ class Part:
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
         """The handler of each command."""
-        return {}
+        return {each.type: self._handler(each) for each in commands_of(type(self)).values()}
+
+    def _handler(self, declared: DeclaredCommand) -> Handler:
+        method = getattr(self, declared.method)
+
+        def obey(command: Command, sender: Sender) -> Any:
+            fields = {name: getattr(command, name) for name in command.__struct_fields__}
+            return method(**fields, sender=sender) if declared.has_sender else method(**fields)
+
+        return obey
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Its subscriptions by topic."""

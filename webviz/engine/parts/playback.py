@@ -8,25 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from webviz.api.errors import Error
+from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.names import problem_of
 from webviz.data.words import joined
-from webviz.engine.commands import (
-    Command,
-    Play,
-    RemoveBookmark,
-    ReturnToLive,
-    SaveBookmark,
-    Seek,
-    SelectSpan,
-    Sender,
-    SetLoop,
-    SetRate,
-    StepMessage,
-)
 from webviz.engine.commands.requests import Job
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.display_events import DisplayEvents
-from webviz.engine.parts.part import Batches, Core, Handler, Part
+from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import Row
 from webviz.files.config import nearest
@@ -73,21 +62,6 @@ class PlaybackPart(Part):
         self._start_over = start_over
         self._stop = stop
         self._first_events = self._display_events = DisplayEvents()
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {
-            Play: self._play,
-            ReturnToLive: self._return_to_live,
-            Seek: self._seek,
-            SetRate: self._set_rate,
-            SetLoop: self._set_loop,
-            SelectSpan: self._select,
-            StepMessage: self._step,
-            SaveBookmark: self._save_bookmark,
-            RemoveBookmark: self._remove_bookmark,
-        }
 
     @property
     def is_seeking(self) -> bool:
@@ -157,24 +131,32 @@ class PlaybackPart(Part):
 
     # Commands
 
-    def _play(self, command: Play, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def play(self) -> None:
+        """Play from the position, at the end of the span from its start; `Pause` stops it."""
         player = self._known()
         if player.is_live:
             raise Error(LIVE)
         player.play()
 
-    def _seek(self, command: Seek, sender: Sender) -> str:
+    @command(Role.OPERATOR)
+    def seek(self, at_s: float) -> str:
+        """Show the recording at a time; answered when the scene shows it."""
         player = self._known()
-        player.seek(self._at_ns(command.at_s))
+        player.seek(self._at_ns(at_s))
         return self._stopped(player)
 
-    def _return_to_live(self, command: ReturnToLive, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def return_to_live(self) -> None:
+        """Show what arrives again, instead of the past of live topics or a recording."""
         if self._known().return_to_live():
             self._display_events = self._first_events
             self._start_over()
 
-    def _set_rate(self, command: SetRate, sender: Sender) -> None:
-        player, rate = self._known(), command.rate
+    @command(Role.OPERATOR)
+    def set_rate(self, rate: float) -> None:
+        """Set how fast to play: seconds of the recording per second, 0 is as fast as possible."""
+        player = self._known()
         if rate and not MIN_RATE <= rate <= MAX_RATE:
             raise Error(
                 f"The rate {rate:g} is out of range. Give {MIN_RATE:g} to {MAX_RATE:g}, or 0 for "
@@ -182,31 +164,46 @@ class PlaybackPart(Part):
             )
         player.rate = rate or math.inf
 
-    def _set_loop(self, command: SetLoop, sender: Sender) -> None:
-        self._known().loop = command.loop
+    @command(Role.OPERATOR)
+    def set_loop(self, loop: bool = True) -> None:
+        """Choose whether the span starts over at its end."""
+        self._known().loop = loop
 
-    def _select(self, command: SelectSpan, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def select_span(self, first_s: float | None = None, last_s: float | None = None) -> None:
+        """Choose the part of the recording to play; without times, all of it.
+
+        Args:
+            first_s: its start, None for that of the recording.
+            last_s: its end, None for that of the recording.
+        """
         player = self._known()
         history = player.history
-        if command.first_s is None and command.last_s is None:
+        if first_s is None and last_s is None:
             player.selected = None
             return
-        first, last = command.first_s, command.last_s
+        first, last = first_s, last_s
         first_ns = history.start_ns if first is None else self._at_ns(first)
         last_ns = history.end_ns if last is None else min(self._at_ns(last), history.end_ns)
         if first_ns >= last_ns:
             raise Error("The selected span is empty. Choose an end later than its start.")
         player.selected = first_ns, last_ns
 
-    def _step(self, command: StepMessage, sender: Sender) -> str:
+    @command(Role.OPERATOR)
+    def step_message(self, topic: str = "", is_forward: bool = True) -> str:
+        """Pause, and show the recording at the next or previous message of a topic.
+
+        Args:
+            topic: its name; "" is every displayed topic.
+            is_forward: whether to the next message.
+        """
         player = self._known()
-        topic = command.topic
         try:
             topic = self.core.player.resolve(topic) if topic else ""
         except ValueError as error:
             raise Error(f"{error}.") from error
-        if not player.step(topic, command.is_forward):
-            where = "next" if command.is_forward else "previous"
+        if not player.step(topic, is_forward):
+            where = "next" if is_forward else "previous"
             what = f"message on {topic}" if topic else "message of a displayed topic"
             raise Error(f"There is no {where} {what}. Step in the other direction.")
         return self._stopped(player)
@@ -215,19 +212,28 @@ class PlaybackPart(Part):
         """Stop vehicles, whose drivers see the past from now on; a sentence if any moved."""
         return STOPPED if not player.is_live and self._stop() else ""
 
-    def _save_bookmark(self, command: SaveBookmark, sender: Sender) -> None:
-        player, at_s = self._known(), command.at_s
-        if problem := problem_of(command.name):
+    @command(Role.OPERATOR)
+    def save_bookmark(self, name: str, at_s: float | None = None) -> None:
+        """Give a moment of the recording a name, in place of a moment of that name.
+
+        Args:
+            name: of the bookmark.
+            at_s: the moment, None for the position.
+        """
+        player = self._known()
+        if problem := problem_of(name):
             raise Error(problem)
         end_ns = player.history.end_ns
         at_ns = player.position_ns if at_s is None else min(self._at_ns(at_s), end_ns)
-        bookmarks = {**self._settings.settings.bookmarks, command.name: at_ns / 1e9}
+        bookmarks = {**self._settings.settings.bookmarks, name: at_ns / 1e9}
         self._settings.set("bookmarks", bookmarks)
 
-    def _remove_bookmark(self, command: RemoveBookmark, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def remove_bookmark(self, name: str) -> None:
+        """Remove a bookmark."""
         bookmarks = dict(self._settings.settings.bookmarks)
-        if bookmarks.pop(command.name, None) is None:
-            raise Error(f"Unknown bookmark `{command.name}`: {nearest(command.name, bookmarks)}")
+        if bookmarks.pop(name, None) is None:
+            raise Error(f"Unknown bookmark `{name}`: {nearest(name, bookmarks)}")
         self._settings.set("bookmarks", bookmarks)
 
     def _known(self) -> Player:

@@ -9,10 +9,12 @@ import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.picking import Details
+from webviz.api.roles import Role
 from webviz.data.transforms.errors import format_stamp
-from webviz.engine.commands import Command, Identify, InspectSelections, Picks, Select, Sender
+from webviz.engine.commands import Picks, Sender
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
 from webviz.engine.pipeline.picking import Found
@@ -72,19 +74,16 @@ class SelectionPart(Part):
     def __init__(self, core: Core, displays: DisplaysPart) -> None:
         super().__init__(core)
         self._displays = displays
-        self._wanted = InspectSelections()
+        self._holders: frozenset[int] = frozenset()
+        self._viewers: frozenset[int] = frozenset()
+        self._is_picking = False
         self._selections: dict[int, _Selection] = {}
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {Select: self._select, Identify: self._identify, InspectSelections: self._inspect}
 
     def keep_up(self, commanded: bool) -> None:
         """Forget what belongs to removed displays, and renew what is looked at."""
         runners = self._displays.list.runners()
         for runner in runners:
-            runner.remember(self._wanted.is_picking)
+            runner.remember(self._is_picking)
         known, now = set(runners), self.core.clock()
         for browser, selection in self._selections.items():
             if not known.issuperset(each.runner for each in selection.things.values()):
@@ -93,14 +92,14 @@ class SelectionPart(Part):
                 selection.told_at = None
             is_few = len(selection.things) <= MAX_LIVE
             is_old = selection.told_at is None or (is_few and now >= selection.told_at + EVERY_S)
-            if browser in self._wanted.viewers and is_old:
+            if browser in self._viewers and is_old:
                 selection.told_at = now
                 told = self._told(selection)
                 selection.told = selection.told if told == selection.told else told
 
     def state(self) -> Mapping[str, Any]:
         """Return the selections of all browsers."""
-        viewers = self._wanted.viewers
+        viewers = self._viewers
         held, told = {}, {}
         for browser, selection in self._selections.items():
             things = selection.things.items()
@@ -108,36 +107,65 @@ class SelectionPart(Part):
             told[browser] = selection.told if browser in viewers else {}
         return {"selected": held, "selections": told}
 
-    def _inspect(self, command: InspectSelections, sender: Sender) -> None:
-        for browser in self._wanted.holders - command.holders:
+    @command(None)
+    def inspect_selections(
+        self,
+        holders: frozenset[int] = frozenset(),
+        viewers: frozenset[int] = frozenset(),
+        is_picking: bool = False,
+    ) -> None:
+        """Report on what browsers have selected.
+
+        Args:
+            holders: ids of the browsers that may have a selection.
+            viewers: those that show its values.
+            is_picking: whether any browser is about to select.
+        """
+        for browser in self._holders - holders:
             self._selections.pop(browser, None)
-        for browser in command.viewers - self._wanted.viewers:
+        for browser in viewers - self._viewers:
             if browser in self._selections:
                 self._selections[browser].told_at = None
-        self._wanted = command
+        self._holders, self._viewers, self._is_picking = holders, viewers, is_picking
 
-    def _select(self, command: Select, sender: Sender) -> str:
-        count = sum(len(picks.items) for picks in command.picks)
+    @command(Role.WATCHER)
+    def select(
+        self,
+        sender: Sender,
+        picks: tuple[Picks, ...] = (),
+        keep: tuple[int, ...] = (),
+        total: int = 0,
+    ) -> str:
+        """Select things for the browser that sends this, in place of its previous selection.
+
+        Args:
+            picks: what is selected anew.
+            keep: ids of what was selected before and remains so.
+            total: how many things there were to select.
+        """
+        count = sum(len(each.items) for each in picks)
         if sender.browser is None:
             raise Error("Only a browser can select.")
-        if count + len(command.keep) > MAX_SELECTED:
+        if count + len(keep) > MAX_SELECTED:
             raise Error(f"Select at most {MAX_SELECTED} things at once.")
         before = self._selections.get(sender.browser, _Selection()).things
-        things = _affordable({id: before[id] for id in command.keep if id in before})
+        things = _affordable({id: before[id] for id in keep if id in before})
         new: dict[int, _Selected] = {}
-        for picks in command.picks:
-            new |= self._find(picks)
-        if not (things or command.picks):
+        for each in picks:
+            new |= self._find(each)
+        if not (things or picks):
             self._selections.pop(sender.browser, None)
             return ""
         if count and not new:
             raise Error(GONE)
-        selection = _Selection(things | new, command.total)
+        selection = _Selection(things | new, total)
         self._selections[sender.browser] = selection
         return self._line(next(iter(new.values()))) if len(new) == 1 else ""
 
-    def _identify(self, command: Identify, sender: Sender) -> str:
-        found = self._find(command.picks)
+    @command(Role.WATCHER)
+    def identify(self, picks: Picks) -> str:
+        """Answer with one line about a thing, "" if it does not exist any more."""
+        found = self._find(picks)
         return self._line(next(iter(found.values()))) if found else ""
 
     def _find(self, picks: Picks) -> dict[int, _Selected]:

@@ -7,8 +7,10 @@ from typing import Any
 
 import msgspec
 
-from webviz.engine.commands import Command, Sender, SetBackground, SetFixedFrame, SetFrameRate
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.api.declared import Color
+from webviz.api.roles import Role
+from webviz.engine.parts.declaring import command
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.files.config import ConfigError, Settings
 
@@ -22,15 +24,6 @@ class SettingsPart(Part):
         super().__init__(core)
         self.settings = Settings()
         """Everything in the config except displays and tools."""
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {
-            SetFixedFrame: self._set_fixed_frame,
-            SetBackground: self._set_background,
-            SetFrameRate: self._set_frame_rate,
-        }
 
     def set(self, key: str, value: Any) -> None:
         """Change a setting.
@@ -48,13 +41,19 @@ class SettingsPart(Part):
         """All settings."""
         return {"settings": self.settings, "fixed_frame": self.settings.fixed_frame}
 
-    def _set_fixed_frame(self, command: SetFixedFrame, sender: Sender) -> None:
-        if not (name := command.frame.removeprefix("/")):
+    @command(Role.OPERATOR)
+    def set_fixed_frame(self, frame: str) -> None:
+        """Set the frame that everything is drawn in."""
+        if not (name := frame.removeprefix("/")):
             raise ConfigError("The fixed frame needs a name.")
         self.set("fixed_frame", name)
 
-    def _set_background(self, command: SetBackground, sender: Sender) -> None:
-        self.set("background", command.color)
+    @command(Role.OPERATOR)
+    def set_background(self, color: Color | None) -> None:
+        """Set the background colour; None follows the theme of each page."""
+        self.set("background", color)
 
-    def _set_frame_rate(self, command: SetFrameRate, sender: Sender) -> None:
-        self.set("frame_rate", command.hz)
+    @command(Role.OPERATOR)
+    def set_frame_rate(self, hz: float) -> None:
+        """Set the maximum number of scene updates per second."""
+        self.set("frame_rate", hz)

@@ -6,10 +6,11 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.words import counted
-from webviz.engine.commands import Command, Pause, Reset, Sender
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.declaring import command
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
 from webviz.engine.state import PanelTimes
@@ -39,11 +40,6 @@ class TimePart(Part):
         """Number of messages dropped while paused."""
         self.ros = RosTime(core.clock)
         """Detects that time went back."""
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {Reset: self._reset, Pause: self._pause}
 
     @property
     def is_paused(self) -> bool:
@@ -98,14 +94,18 @@ class TimePart(Part):
         self._began_ns = 0  # set when ROS time is known
         self._began_s = time.time()
 
-    def _reset(self, command: Reset, sender: Sender) -> None:
+    @command(Role.OPERATOR, name="Reset")
+    def reset_viewer(self) -> None:
+        """Discard transforms and messages, as RViz's Reset does."""
         self._reset_all()
 
-    def _pause(self, command: Pause, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def pause(self, paused: bool = True) -> None:
+        """Pause or resume; messages wait while paused."""
         player = self._player
         if player.is_live:
-            self._paused_ns = self.core.frames.now_ns if command.paused else None
-        elif command.paused:
+            self._paused_ns = self.core.frames.now_ns if paused else None
+        elif paused:
             player.pause()
         else:
             player.play()

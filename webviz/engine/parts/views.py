@@ -10,6 +10,7 @@ import numpy as np
 
 from webviz.api.bounds import Box, union
 from webviz.api.frames import Frames
+from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.api.views import (
     FIXED_FRAME,
@@ -27,22 +28,10 @@ from webviz.api.views import (
 )
 from webviz.data.names import file_problem_of, problem_of
 from webviz.data.words import joined
-from webviz.engine.commands import (
-    ChangeView,
-    Command,
-    FocusDisplay,
-    FocusFrame,
-    RemoveView,
-    RenameView,
-    ResetView,
-    SaveImage,
-    SaveView,
-    Sender,
-    ShowView,
-    StartWithView,
-)
+from webviz.engine.commands import Sender
+from webviz.engine.parts.declaring import command
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
 from webviz.files.config import ConfigError, nearest
@@ -70,22 +59,6 @@ class ViewsPart(Part):
         self._cameras = core.scene.cameras
         self._start: View | None = None
         self._placed: set[str] = set()
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {
-            ShowView: self._show,
-            ChangeView: self._change,
-            ResetView: self._zero,
-            FocusDisplay: self._focus,
-            FocusFrame: self._focus_frame,
-            SaveView: self._save,
-            RenameView: self._rename,
-            RemoveView: self._remove,
-            StartWithView: self._begin_with,
-            SaveImage: self._save_image,
-        }
 
     def start_with(self, view: View) -> None:
         """Choose the view that browsers start with."""
@@ -127,33 +100,64 @@ class ViewsPart(Part):
 
     # Commands
 
-    def _show(self, command: ShowView, sender: Sender) -> None:
-        view = _named(command.view, self._saved())
-        self._cameras.show(view, _browser(command, sender))
+    @command(Role.WATCHER)
+    def show_view(self, sender: Sender, view: View | str, browser: int | None = None) -> None:
+        """Show a view.
 
-    def _change(self, command: ChangeView, sender: Sender) -> None:
-        for id, view in self._seen(_browser(command, sender)).items():
-            self._cameras.show(self._changed(view, command.key, command.value, id), id)
+        Args:
+            view: a view, or the name of a saved one.
+            browser: on which it acts; by default the one that sends this, or all for a program.
+        """
+        view = _named(view, self._saved())
+        self._cameras.show(view, _browser(browser, sender))
 
-    def _zero(self, command: ResetView, sender: Sender) -> None:
-        for id, view in self._seen(_browser(command, sender)).items():
+    @command(Role.WATCHER)
+    def change_view(self, sender: Sender, key: str, value: Any, browser: int | None = None) -> None:
+        """Change a property of the current view, with as little camera movement as possible.
+
+        Args:
+            key: name of the property: "type", "target_frame", "distance" and so on.
+            value: its new value; a name of `VIEW_TYPES` for "type".
+            browser: on which it acts; by default the one that sends this, or all for a program.
+        """
+        for id, view in self._seen(_browser(browser, sender)).items():
+            self._cameras.show(self._changed(view, key, value, id), id)
+
+    @command(Role.WATCHER)
+    def reset_view(self, sender: Sender, browser: int | None = None) -> None:
+        """Reset the view to the defaults of its type, as RViz's Zero does."""
+        for id, view in self._seen(_browser(browser, sender)).items():
             self._cameras.show(zero(view), id)
 
-    def _focus(self, command: FocusDisplay, sender: Sender) -> None:
-        ids = self._displays.list.within(command.display)
+    @command(Role.WATCHER)
+    def focus_display(self, sender: Sender, display: str, browser: int | None = None) -> None:
+        """Fit the view to everything that a display or group draws.
+
+        Args:
+            display: id of the display or group.
+            browser: on which it acts; by default the one that sends this, or all for a program.
+        """
+        ids = self._displays.list.within(display)
         boxes = (self._scene.bounds(f"{id}/") for id in ids)
         box = union(box for box in boxes if box is not None)
         if box is None:
             raise ConfigError("This display draws nothing to focus on. Check its statuses.")
-        self._look_at(box, _browser(command, sender))
+        self._look_at(box, _browser(browser, sender))
 
-    def _focus_frame(self, command: FocusFrame, sender: Sender) -> None:
+    @command(Role.WATCHER)
+    def focus_frame(self, sender: Sender, frame: str, browser: int | None = None) -> None:
+        """Look at the origin of a frame, from the same direction.
+
+        Args:
+            frame: its id.
+            browser: on which it acts; by default the one that sends this, or all for a program.
+        """
         frames = self.core.frames
-        pose = frames.latest(command.frame)
+        pose = frames.latest(frame)
         if pose is None:
-            raise ConfigError(frames.why_not(command.frame))
+            raise ConfigError(frames.why_not(frame))
         origin = np.array(pose.position)
-        self._look_at(Box(origin - FRAME_M, origin + FRAME_M), _browser(command, sender))
+        self._look_at(Box(origin - FRAME_M, origin + FRAME_M), _browser(browser, sender))
 
     def _look_at(self, box: Box, browser: int | None) -> None:
         for id, view in self._seen(browser).items():
@@ -161,13 +165,26 @@ class ViewsPart(Part):
             size = self._cameras.size(id)
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
 
-    def _save(self, command: SaveView, sender: Sender) -> None:
-        _check_name(command.name)
-        view = command.view or self._one(_browser(command, sender))
-        self._keep({**self._saved(), command.name: view})
+    @command(Role.OPERATOR)
+    def save_view(
+        self, sender: Sender, name: str, browser: int | None = None, view: View | None = None
+    ) -> None:
+        """Save the current view under a name.
 
-    def _rename(self, command: RenameView, sender: Sender) -> None:
-        saved, name, new_name = self._saved(), command.name, command.new_name
+        Args:
+            name: of the view; replaces a saved view of that name.
+            browser: on which it acts; by default the one that sends this, or for a program the one
+                that connected last.
+            view: instead of the current view.
+        """
+        _check_name(name)
+        view = view or self._one(_browser(browser, sender))
+        self._keep({**self._saved(), name: view})
+
+    @command(Role.OPERATOR)
+    def rename_view(self, name: str, new_name: str) -> None:
+        """Rename a saved view."""
+        saved, name, new_name = self._saved(), name, new_name
         view = _found(name, saved)
         _check_name(new_name)
         if new_name != name and new_name in saved:
@@ -175,23 +192,39 @@ class ViewsPart(Part):
         names = {key: new_name if key == name else key for key in saved}
         self._keep({names[key]: saved[key] for key in saved} | {new_name: view})
 
-    def _remove(self, command: RemoveView, sender: Sender) -> None:
+    @command(Role.OPERATOR)
+    def remove_view(self, name: str) -> None:
+        """Remove a saved view."""
         saved = self._saved()
-        _found(command.name, saved)
-        self._keep({key: view for key, view in saved.items() if key != command.name})
+        _found(name, saved)
+        self._keep({key: view for key, view in saved.items() if key != name})
 
-    def _begin_with(self, command: StartWithView, sender: Sender) -> None:
-        if command.view is None:
-            view = self._one(_browser(command, sender))
-        else:
-            view = _named(command.view, self._saved())
+    @command(Role.OPERATOR)
+    def start_with_view(
+        self, sender: Sender, browser: int | None = None, view: View | str | None = None
+    ) -> None:
+        """Make the current view the default of browsers and screenshots.
+
+        Args:
+            browser: on which it acts; by default the one that sends this, or for a program the one
+                that connected last.
+            view: instead of the current view; a view or the name of a saved one.
+        """
+        view = self._one(_browser(browser, sender)) if view is None else _named(view, self._saved())
         self._settings.set("view", view)
         self.start_with(view)
 
-    def _save_image(self, command: SaveImage, sender: Sender) -> None:
-        if command.name and (problem := file_problem_of(command.name)):
+    @command(Role.WATCHER)
+    def save_image(self, sender: Sender, browser: int | None = None, name: str = "") -> None:
+        """Let a browser download its picture as a PNG.
+
+        Args:
+            browser: on which it acts; by default the one that sends this, or all for a program.
+            name: of the file; "" is one with date and time.
+        """
+        if name and (problem := file_problem_of(name)):
             raise ConfigError(problem)
-        self._cameras.save_image(command.name, _browser(command, sender))
+        self._cameras.save_image(name, _browser(browser, sender))
 
     def _seen(self, browser: int | None) -> Mapping[int, View]:
         """Return the views of one browser, or of all.
@@ -248,9 +281,9 @@ def _check_name(name: str) -> None:
         raise ConfigError(problem)
 
 
-def _browser(command: Any, sender: Sender) -> int | None:
+def _browser(browser: int | None, sender: Sender) -> int | None:
     """Return the browser that a command acts on, None for all."""
-    return sender.browser if command.browser is None else command.browser
+    return sender.browser if browser is None else browser
 
 
 def _named(view: View | str, saved: Mapping[str, View]) -> View:

@@ -12,8 +12,8 @@ from webviz.api.chart import Curve
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
 from webviz.api.panel import Panel, Send, Ui
+from webviz.commands import SetPanelProperty
 from webviz.data.messages.paths import numeric_paths
-from webviz.engine.commands import SetPanelProperty
 from webviz.panels.field_chooser import FieldChooser
 from webviz.panels.plot.series import Series
 from webviz.panels.seeking import NS_PER_S, seek_to

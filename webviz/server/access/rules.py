@@ -12,64 +12,19 @@ from webviz.engine import feature
 from webviz.server.access import requests
 
 _COMMANDS: Mapping[type[Any], Role] = {
-    # A page's own camera, selection and pictures, and texts of what everybody sees.
-    engine_commands.ChangeView: Role.WATCHER,
-    engine_commands.Export: Role.WATCHER,
-    engine_commands.FocusDisplay: Role.WATCHER,
-    engine_commands.FocusFrame: Role.WATCHER,
-    engine_commands.Identify: Role.WATCHER,
     engine_commands.LookUpTransform: Role.WATCHER,
-    engine_commands.ResetView: Role.WATCHER,
-    engine_commands.SaveImage: Role.WATCHER,
-    engine_commands.Select: Role.WATCHER,
-    engine_commands.ShowView: Role.WATCHER,
-    engine_commands.WriteDisplays: Role.WATCHER,
-    # What everybody sees, and what the robot does.
-    engine_commands.AddDisplay: Role.OPERATOR,
-    engine_commands.AddPanel: Role.OPERATOR,
     engine_commands.CancelGoal: Role.OPERATOR,
     engine_commands.DismissGoal: Role.OPERATOR,
-    engine_commands.DuplicateDisplay: Role.OPERATOR,
     engine_commands.DragHandle: Role.OPERATOR,
-    engine_commands.MoveDisplay: Role.OPERATOR,
-    engine_commands.Pause: Role.OPERATOR,
-    engine_commands.Play: Role.OPERATOR,
-    engine_commands.Redo: Role.OPERATOR,
-    engine_commands.RemoveBookmark: Role.OPERATOR,
-    engine_commands.RemoveDisplay: Role.OPERATOR,
-    engine_commands.RemovePanel: Role.OPERATOR,
-    engine_commands.RemoveView: Role.OPERATOR,
-    engine_commands.RenameView: Role.OPERATOR,
-    engine_commands.Reset: Role.OPERATOR,
-    engine_commands.ResetDisplay: Role.OPERATOR,
-    engine_commands.ReturnToLive: Role.OPERATOR,
-    engine_commands.SaveBookmark: Role.OPERATOR,
-    engine_commands.SaveView: Role.OPERATOR,
-    engine_commands.Seek: Role.OPERATOR,
-    engine_commands.SelectSpan: Role.OPERATOR,
-    engine_commands.SetBackground: Role.OPERATOR,
-    engine_commands.SetFixedFrame: Role.OPERATOR,
-    engine_commands.SetFrameRate: Role.OPERATOR,
-    engine_commands.SetLoop: Role.OPERATOR,
-    engine_commands.SetPanelProperty: Role.OPERATOR,
-    engine_commands.SetProperty: Role.OPERATOR,
-    engine_commands.SetRate: Role.OPERATOR,
     engine_commands.SetToolProperty: Role.OPERATOR,
-    engine_commands.StartWithView: Role.OPERATOR,
-    engine_commands.StepMessage: Role.OPERATOR,
-    engine_commands.Undo: Role.OPERATOR,
     engine_commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
-    # Files of the machine that runs the viewer, and the config as a whole.
-    engine_commands.Load: Role.OWNER,
-    engine_commands.Open: Role.OWNER,
-    engine_commands.Save: Role.OWNER,
     # Who may come.
     requests.Dismiss: Role.OWNER,
     requests.Invite: Role.OWNER,
     requests.Revoke: Role.OWNER,
 }
-"""Of commands that no feature has; see `commands`."""
+"""Of commands that are no methods of parts or features; see `commands`."""
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,

@@ -14,9 +14,7 @@ from msgspec.structs import replace
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.api.status import Status, worst_status
-from webviz.data.words import joined
-from webviz.engine.commands import (
-    Command,
+from webviz.commands import (
     DuplicateDisplay,
     FocusDisplay,
     MoveDisplay,
@@ -24,6 +22,8 @@ from webviz.engine.commands import (
     SetProperty,
     TraceDisplay,
 )
+from webviz.data.words import joined
+from webviz.engine.commands import Command
 from webviz.engine.state import Row
 from webviz.engine.state.trace import Trace
 from webviz.shell.app.adding import NoSuchProperty, no_property

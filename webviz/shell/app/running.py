@@ -16,15 +16,8 @@ from typing import TYPE_CHECKING, Any
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.api.views import View
-from webviz.engine.commands import (
-    PROGRAM,
-    Command,
-    Refresh,
-    Sender,
-    ShowView,
-    StartWithView,
-    wrong_text,
-)
+from webviz.commands import ShowView, StartWithView
+from webviz.engine.commands import PROGRAM, Command, Refresh, Sender, wrong_text
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions

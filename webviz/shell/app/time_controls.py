@@ -10,8 +10,9 @@ from pathlib import Path
 
 from webviz import commands
 from webviz.api.errors import Error
+from webviz.commands import Pause, Play, ReturnToLive, Seek, SetRate
 from webviz.data.names import new_path
-from webviz.engine.commands import Command, Pause, Play, ReturnToLive, Seek, SetRate
+from webviz.engine.commands import Command
 from webviz.engine.state import State
 from webviz.shell.app.arguments import absolute, number
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start

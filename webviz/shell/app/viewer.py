@@ -13,7 +13,7 @@ from webviz.api.declared import Color
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.api.views import View
-from webviz.engine.commands import (
+from webviz.commands import (
     AddDisplay,
     Export,
     Load,

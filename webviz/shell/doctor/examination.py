@@ -22,8 +22,8 @@ from webviz.api.observation import Observation
 from webviz.api.registry import type_name
 from webviz.api.two_ends import TwoEnds
 from webviz.checks.graph.stopped_publisher import StoppedPublisher
+from webviz.commands import AddDisplay, SetFixedFrame
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands import AddDisplay, SetFixedFrame
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
@@ -316,8 +316,8 @@ def _added(config: Config) -> Iterator[tuple[Mapping[str, Any], AddDisplay]]:
     """Yield what each display shows, whatever others there are, and the command that adds it."""
     for each in config.displays:
         if isinstance(each, Display):
-            command = AddDisplay(type_name(type(each)), to_values(each))
-            subject = {"type": command.type} | command.values
+            command = AddDisplay(type_name(type(each)), values := to_values(each))
+            subject = {"type": command.type} | values
             for key in ("name", "enabled"):
                 subject.pop(key, None)
             yield subject, command

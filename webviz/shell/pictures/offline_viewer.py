@@ -13,7 +13,8 @@ from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import LOADING, Level, Status, worst
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
-from webviz.engine.commands import Command, Seek
+from webviz.commands import Seek
+from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config, nearest

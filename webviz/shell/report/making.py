@@ -11,7 +11,8 @@ from pathlib import Path
 
 from webviz import commands
 from webviz.api.status import LOADING
-from webviz.engine.commands import Command, Play, Refresh, Seek, SelectSpan, SetRate
+from webviz.commands import Play, Seek, SelectSpan, SetRate
+from webviz.engine.commands import Command, Refresh
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config

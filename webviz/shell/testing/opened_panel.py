@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from webviz.api.panel import Panel
-from webviz.engine.commands import AddPanel, Command, OpenPanels, Sender
+from webviz.commands import AddPanel, OpenPanels
+from webviz.engine.commands import Command, Sender
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
 

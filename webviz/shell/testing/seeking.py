@@ -14,7 +14,8 @@ import msgspec
 import numpy as np
 
 from webviz.api.pictures import Packet
-from webviz.engine.commands import Command, Seek
+from webviz.commands import Seek
+from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import Row, State
 from webviz.files import opening

@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import Any
 
 from webviz.api.views import View
+from webviz.commands import SetFixedFrame, SetProperty
 from webviz.data.messages import encode
-from webviz.engine.commands import SetFixedFrame, SetProperty
 from webviz.shell.pictures.browser import Pixels
 from webviz.shell.testing.comparing import TOLERANCE, PixelBox
 from webviz.shell.testing.messages import header, stamped_transform

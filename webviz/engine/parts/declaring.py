@@ -1,0 +1,138 @@
+"""Commands and stores that are methods of parts.
+
+The class of `webviz.commands`, its fields, what a page may send, its role and the types of the page
+follow from the signature of a method: `try_frame(self, frame: str, sender: Sender)` is
+`TryFrame(frame)`.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar, get_type_hints
+
+import msgspec
+
+from webviz.api.roles import Role
+from webviz.engine.commands import Command
+from webviz.engine.store import PageStore
+
+SENDER = "sender"
+"""The parameter of a command that receives its sender; it is not a field."""
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class DeclaredCommand(msgspec.Struct, frozen=True):
+    """A method that is a command.
+
+    Args:
+        type: its class, whose instances are sent.
+        role: of pages that may send it; None if none may.
+        method: its name.
+        has_sender: whether it gets its sender.
+    """
+
+    type: type[Command]
+    role: Role | None
+    method: str
+    has_sender: bool
+
+
+class DeclaredStore(msgspec.Struct, frozen=True):
+    """A method that makes a store for pages.
+
+    Args:
+        role: of pages that may watch it.
+        is_private: whether a page may watch only the one with its id behind the colon.
+        make: the function, from a feature and what stands behind the colon.
+    """
+
+    role: Role
+    is_private: bool
+    make: Callable[[Any, str], PageStore | None]
+
+
+class _Mark(msgspec.Struct, frozen=True):
+    """What `command` notes about a method."""
+
+    role: Role | None
+    base: type[Command]
+    label: Callable[[Any], str] | None
+    name: str
+
+
+def command(
+    role: Role | None,
+    base: type[Command] = Command,
+    label: Callable[[Any], str] | None = None,
+    name: str = "",
+) -> Callable[[F], F]:
+    """Make a method a command.
+
+    Args:
+        role: of pages that may send it; None if only programs may.
+        base: `FileCommand` if it may answer with a slow part.
+        label: of the step that undoes it, from the command; None derives it from what has changed.
+        name: of its class; "" is that of the method.
+    """
+
+    def declare(method: F) -> F:
+        vars(method)["command"] = _Mark(role, base, label, name)
+        return method
+
+    return declare
+
+
+def store(role: Role = Role.WATCHER, *, is_private: bool = False) -> Callable[[F], F]:
+    """Make a method a store of its name; see `DeclaredStore`."""
+
+    def declare(method: F) -> F:
+        vars(method)["store"] = DeclaredStore(role, is_private, method)
+        return method
+
+    return declare
+
+
+@functools.cache
+def commands_of(part: type[object]) -> Mapping[str, DeclaredCommand]:
+    """Return the commands of a part by name."""
+    found = {}
+    for name, mark in _marked(part, "command").items():
+        declared = _declared(part, name, mark)
+        found[declared.type.__name__] = declared
+    return found
+
+
+@functools.cache
+def stores_of(part: type[object]) -> Mapping[str, DeclaredStore]:
+    """Return the stores of a part by name."""
+    return _marked(part, "store")
+
+
+def _marked(part: type[object], mark: str) -> dict[str, Any]:
+    """Return what the methods with a mark of `command` or `store` have there, by their names."""
+    methods = {name: getattr(part, name) for name in dir(part)}
+    return {n: vars(m)[mark] for n, m in methods.items() if mark in getattr(m, "__dict__", {})}
+
+
+def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
+    method = getattr(part, name)
+    types = get_type_hints(method, include_extras=True)
+    parameters = list(inspect.signature(method).parameters.values())[1:]
+    fields: list[Any] = []
+    for each in parameters:
+        default = () if each.default is each.empty else (each.default,)
+        if each.name != SENDER:
+            fields.append((each.name, types[each.name], *default))
+    label = {"label": property(mark.label)} if mark.label else {}
+    made: Any = msgspec.defstruct(
+        mark.name or "".join(word.capitalize() for word in name.split("_")),
+        fields,
+        bases=(mark.base,),
+        module="webviz.commands",
+        namespace={"__doc__": method.__doc__, **label},
+        frozen=True,
+    )
+    return DeclaredCommand(made, mark.role, name, any(each.name == SENDER for each in parameters))
