@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.guest import Guest
+from tests.support.stand_ins import stand_ins
 from webviz.api.roles import Role
 from webviz.api.vehicle import Velocity
 from webviz.engine.commands import Command, Sender
@@ -46,7 +47,8 @@ class House:
         self.reached: list[str] = []
         self.priorities: list[int] = []
         self.guests: list[Guest] = []
-        Pages(self.server.channel, self._enqueue, self._steer, self.access)
+        features = stand_ins(lambda name, other: other, self._steer)
+        Pages(self.server.channel, self._enqueue, self.access, features=features)
         self.reached.clear()
 
     def cookie(self, role: Role) -> str:

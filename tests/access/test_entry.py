@@ -20,7 +20,8 @@ from tests.access.conftest import PATIENCE_S, House
 from tests.scene.conftest import Peer
 from tests.support.guest import Guest
 from webviz.api.roles import Role
-from webviz.engine.commands import Command, DragHandle, UseTool
+from webviz.commands import DragHandle, UseTool
+from webviz.engine.commands import Command
 from webviz.engine.parts.selection import MAX_SELECTED
 from webviz.page.dispatcher import NOT_OF_PAGES
 from webviz.scene import open_server

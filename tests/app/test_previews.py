@@ -14,8 +14,7 @@ import pytest
 
 import webviz
 from tests.page.test_whole_page import FONT, HAS_FONT
-from webviz.commands import ShowView
-from webviz.engine.commands import SetToolProperty
+from webviz.commands import SetToolProperty, ShowView
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page

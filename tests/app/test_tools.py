@@ -11,8 +11,7 @@ import pytest
 from pages import open_pages
 
 import webviz
-from webviz.commands import ShowView
-from webviz.engine.commands import SetToolProperty
+from webviz.commands import SetToolProperty, ShowView
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.pictures.browser import Page

@@ -16,7 +16,7 @@ import webviz
 import webviz.checks
 from webviz.api.check_registry import known_checks, register_checks
 from webviz.api.registry import register
-from webviz.engine.commands import ReloadPlugin
+from webviz.commands import ReloadPlugin
 from webviz.shell.cli import main
 from webviz.shell.doctor.report import DoctorReport, schema_text, to_text
 

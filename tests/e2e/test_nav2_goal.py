@@ -12,7 +12,7 @@ from pages import open_pages
 from program import Program
 
 import webviz
-from webviz.engine.parts import goals
+from webviz.features import goals
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.shell.pictures.browser import Page

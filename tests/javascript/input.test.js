@@ -3,7 +3,7 @@ import { afterEach, test } from "node:test";
 
 import { bent, straight } from "../../webviz/page/web/images/undistort.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
-import { disarm, share } from "../../webviz/page/web/tools/teleop_gamepad.js";
+import { disarm, share } from "../../webviz/features/driving/teleop_gamepad.js";
 
 const at = (type, x, more = {}) => ({
   type,

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
 import { keyOf, keyText } from "../../webviz/page/web/shell/keys.js";
-import * as keys from "../../webviz/page/web/tools/teleop_keys.js";
+import * as keys from "../../webviz/features/driving/teleop_keys.js";
 
 const press = (code, more = {}, canGoSideways = true) =>
   keys.press({ code, ...more }, canGoSideways);

@@ -14,6 +14,7 @@ import pytest
 from msgspec.structs import replace
 from pages import COARSE
 
+from tests.support.stand_ins import stand_ins
 from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
@@ -100,8 +101,11 @@ class Loop:
         """Public fields of features."""
         self.watched: Set[str] = set()
         """Stores of features that pages watch."""
-        features = [ShownFeatures(self)]
-        self.pages = Pages(server.channel, self._enqueue, self._steer, access, features=features)
+        self.features = [
+            ShownFeatures(self),
+            *stand_ins(lambda name, other: self.of_features.get(name, other), self._steer),
+        ]
+        self.pages = Pages(server.channel, self._enqueue, access, features=self.features)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
         answer: Future[str] = Future()
@@ -115,13 +119,13 @@ class Loop:
     def show(self, *rows: Row, **changes: Any) -> None:
         """Show these displays."""
         self.change(rows=rows, **changes)
-        self.pages.update(self.state)
+        self._update()
 
     def change(self, **changes: Any) -> None:
         """Change fields of the state, and public ones of features, from the next turn on."""
         own = {name: value for name, value in changes.items() if name in State.__struct_fields__}
         self.of_features |= {name: changes[name] for name in changes.keys() - own.keys()}
-        self.state = replace(self.state, **own)
+        self.state = replace(self.state, **own, more=dict(self.of_features))
 
     def turn(self) -> None:
         """Collect the commands, obey the property changes that are valid, and update the pages."""
@@ -144,6 +148,11 @@ class Loop:
                 answer.set_exception(reply)
             else:
                 answer.set_result(reply)
+        self._update()
+
+    def _update(self) -> None:
+        for feature in self.features:
+            feature.state()
         self.pages.update(self.state)
 
 

@@ -13,9 +13,10 @@ from tests.page.conftest import Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import make
 from webviz.api.panel import Panel
-from webviz.engine.commands import UseTool
+from webviz.commands import UseTool
 from webviz.engine.pipeline.plugins import PluginError, load
-from webviz.engine.state import PanelTab, Row, ToolButton
+from webviz.engine.state import PanelTab, Row
+from webviz.features.tools.toolbar import ToolButton
 from webviz.page.widgets import MAX_HTML, MAX_TEXT, CustomWidget
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
@@ -191,10 +192,10 @@ def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
     )
     (tmp_path / "log.js").write_text("globalThis.log = [];")
     (tmp_path / "faulty.js").write_text(FAULTS)
-    tools = ToolButton("keep", "Keep Out", "Draw an area.", "", "keep", ""), *loop.state.tools
+    keep_out = ToolButton("keep", "Keep Out", "Draw an area.", "", "keep", "")
     dial = make(load(EXAMPLES / "battery_dial.py")["BatteryDial"], {})
     assert isinstance(dial, Panel)
-    loop.show(make_row("before"), tools=tools)
+    loop.show(make_row("before"), tools=(keep_out,))
     tab.wait_for(lambda: "before" in tab.text())
     load(path)
     try:
@@ -205,7 +206,7 @@ def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
             tab.show_tab(title)
         tab.page.evaluate(DRAW)
         loop.show(
-            make_row("after"), tools=tools, panels=(PanelTab("battery", "BatteryDial", dial),)
+            make_row("after"), tools=(keep_out,), panels=(PanelTab("battery", "BatteryDial", dial),)
         )
         tab.wait_for(lambda: "after" in tab.text())
         tab.wait_for(lambda: tab.button("Keep Out").count())

@@ -195,19 +195,17 @@ def test_the_page_names_its_bridge_and_says_when_it_is_not_live(tab: Tab, loop: 
     card = tab.page.locator(".wv-bridge")
     assert card.count() == 0
     up = Bridge("ws://robot:8765", "Foxglove", is_up=True, was_up=True)
-    loop.state = replace(loop.state, bridges=(up,))
+    loop.change(bridges=(up,))
     tab.wait_for(card.is_visible)
     assert card.text_content() == "ws://robot:8765"
     thinned = "The link carries 1.5 Mbit/s, so webviz thins /points to 0.13 Hz."
-    loop.state = replace(loop.state, bridges=(dataclasses.replace(up, remarks=(thinned,)),))
+    loop.change(bridges=(dataclasses.replace(up, remarks=(thinned,)),))
     tab.wait_for(lambda: card.text_content() == f"ws://robot:8765 · {thinned}")
     problem = "Nothing listens on <b>robot</b>:8765."
-    loop.state = replace(
-        loop.state, bridges=(dataclasses.replace(up, is_up=False, problem=problem),)
-    )
+    loop.change(bridges=(dataclasses.replace(up, is_up=False, problem=problem),))
     tab.wait_for(lambda: card.text_content() == "ws://robot:8765 · not live")
     assert card.get_attribute("data-tip") == problem
     fleet = [dataclasses.replace(up, robot=f"r{n}") for n in range(1, 11)]
     fleet[3] = dataclasses.replace(fleet[3], is_up=False, problem=problem)
-    loop.state = replace(loop.state, bridges=tuple(fleet))
+    loop.change(bridges=tuple(fleet))
     tab.wait_for(lambda: card.all_text_contents() == ["9 robots connected", "r4 · not live"])

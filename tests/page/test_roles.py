@@ -9,14 +9,14 @@ from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
-from msgspec.structs import replace
 from pages import COARSE
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab, open_page
 from webviz import commands
 from webviz.api.roles import Role
-from webviz.engine.state import Row, ToolButton
+from webviz.engine.state import Row
+from webviz.features.tools.toolbar import ToolButton
 from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import open_server
 from webviz.server.access import token_file
@@ -56,7 +56,7 @@ def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory)
     url = f"http://127.0.0.1:{server.get_port()}"
     loop = Loop(server, access)
     goal = ToolButton("goal", "Goal", "Sends a goal.", "g", "pose")
-    loop.state = replace(loop.state, tools=(goal,))
+    loop.change(tools=(goal,))
 
     def tab(role: Role) -> Tab:
         page = open_page(browser)

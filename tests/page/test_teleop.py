@@ -10,7 +10,8 @@ import pytest
 from tests.page.conftest import Tab
 from webviz.api.vehicle import STILL, Velocity
 from webviz.engine.driving import DrivingAnswer
-from webviz.engine.state import Driving, ToolButton
+from webviz.features.driving import Driving
+from webviz.features.tools.toolbar import ToolButton
 from webviz.scene.server import Server
 from webviz.tools.teleop import Teleop
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import playwright.sync_api as playwright
 import pytest
-from msgspec.structs import replace
 
 from tests.page.conftest import Tab
 from webviz.api.views import FPS, Orbit
@@ -18,7 +17,8 @@ from webviz.commands import (
     StartWithView,
 )
 from webviz.engine.commands import Command
-from webviz.engine.state import Row, ToolButton
+from webviz.engine.state import Row
+from webviz.features.tools.toolbar import ToolButton
 from webviz.files.config import Settings
 from webviz_displays.image import Image
 
@@ -37,15 +37,13 @@ def wide(tab: Tab) -> Tab:
     wide = tab
     wide.page.set_viewport_size({"width": 1600, "height": 900})
     browser = wide.page.evaluate("window.webviz.browser")
-    state = replace(
-        wide.loop.state,
+    wide.loop.change(
         tools=(GOAL, POINT),
         frames=("base_link", "map", "odom"),
         fixed_frame="map",
         settings=SETTINGS,
         views={browser: FPS(target_frame="base_link")},
     )
-    wide.loop.state = state
     wide.wait_for(lambda: "Point <b>" in toolbar(wide).inner_text())
     wide.wait_for(lambda: "FPS" in toolbar(wide).inner_text())
     return wide

@@ -8,14 +8,14 @@ from tests.page.conftest import Tab
 from webviz.api.declared import make
 from webviz.api.status import Level, Status
 from webviz.api.tool import Tool
-from webviz.engine.commands import SetToolProperty, UseTool
-from webviz.engine.state import ToolButton
+from webviz.commands import SetToolProperty, UseTool
+from webviz.features.tools.toolbar import ToolButton
 from webviz.files.config import Settings
 from webviz.tools.goal_pose import GoalPose
 from webviz.tools.pose_estimate import PoseEstimate
 
 SEND = """async () => {
-  const history = await import("/webviz/tools/history.js");
+  const history = await import("/webviz/features/tools/history.js");
   const goal = { id: "t1", name: "2D Goal Pose", gesture: "pose" };
   history.send(goal, { points: [[1, 2, 0.5]], yaw: Math.PI / 2, keys: [] });
 }"""

@@ -25,8 +25,9 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Image, Points, Pose
 from webviz.api.status import Level, Status
 from webviz.api.views import Orbit
-from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, ToolButton, Traffic
+from webviz.engine.state import ClockRate, ConfigFile, PanelTimes, Row, State, Traffic
 from webviz.features.recording import MemoryState, RecordingState
+from webviz.features.tools.toolbar import ToolButton
 from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter import greeting
@@ -162,7 +163,8 @@ def show(tab: Tab, scan: dict[str, Status] | None = None) -> None:
     browser = tab.page.evaluate("window.webviz.browser")
     offer = Offer((Publisher("/driver", SCAN, "best_effort", "volatile"),))
     tab.loop.of_features.clear()
-    tab.loop.state = State(
+    tab.loop.state = State()
+    tab.loop.change(
         rows=rows(scan),
         views={browser: Orbit()},
         offers={"/scan": offer},

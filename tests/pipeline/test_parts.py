@@ -172,7 +172,8 @@ def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
         assert state.more["turns"] > before + len(part.handles)
         b.viewer.close()
     assert calls == {*hooks, *(["handles"] if part.handles else ())}
-    assert len([record for record in caplog.records if record.exc_info]) == 1
+    failed = [record for record in caplog.records if record.exc_info]
+    assert len(failed) == bool(hooks or part.handles)
 
 
 def test_a_command_that_no_part_owns_is_refused(bench: Benches) -> None:

@@ -29,9 +29,10 @@ from webviz.commands import (
     SetBackground,
     SetFrameRate,
     SetProperty,
+    SetToolProperty,
     WriteDisplays,
 )
-from webviz.engine.commands import Command, Refresh, Sender, SetToolProperty
+from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.commands.requests import MAX_FILES, MAX_REQUESTS
 from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document

@@ -26,10 +26,11 @@ from webviz.commands import (
     SetFixedFrame,
     SetFrameRate,
     SetProperty,
+    SetToolProperty,
     StartWithView,
     Undo,
 )
-from webviz.engine.commands import Command, Refresh, Sender, SetToolProperty
+from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.parts.history import MAX_STEPS, SAME_S
 from webviz.files.config import dump
 

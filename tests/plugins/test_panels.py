@@ -10,9 +10,17 @@ import pytest
 from bench import Benches
 
 from webviz.api import registry
-from webviz.commands import AddPanel, Load, OpenPanels, RemovePanel, SetPanelProperty, Undo
+from webviz.commands import (
+    AddPanel,
+    Load,
+    OpenPanels,
+    ReloadPlugin,
+    RemovePanel,
+    SetPanelProperty,
+    Undo,
+)
 from webviz.data.messages import encode
-from webviz.engine.commands import CallService, Publish, ReloadPlugin
+from webviz.engine.commands import CallService, Publish
 from webviz.engine.pipeline.plugins import load
 from webviz.files.config import ConfigError, Unreadable, document
 from webviz.files.config.overrides import override

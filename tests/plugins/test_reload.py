@@ -10,8 +10,7 @@ from bench import Benches
 
 from webviz import Topic
 from webviz.api.declared import make
-from webviz.commands import AddDisplay, Reset, SetProperty
-from webviz.engine.pipeline.plugins import ReloadPlugin
+from webviz.commands import AddDisplay, ReloadPlugin, Reset, SetProperty
 from webviz.files import rviz
 from webviz.files.config import dump
 from webviz.files.opening import parse

@@ -9,9 +9,9 @@ from bench import Benches
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
-from webviz.commands import AddPanel, OpenPanels, SetPanelProperty
+from webviz.commands import AddPanel, OpenPanels, SendGoal, SetPanelProperty
 from webviz.data.messages import encode
-from webviz.engine.commands import CallService, Publish, SendGoal
+from webviz.engine.commands import CallService, Publish
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import PanelTab, State

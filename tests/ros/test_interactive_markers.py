@@ -12,7 +12,8 @@ import trimesh
 
 from webviz import Level
 from webviz.api.handles import Drag, Handle
-from webviz.engine.commands import DragHandle, Sender
+from webviz.commands import DragHandle
+from webviz.engine.commands import Sender
 from webviz.shell.testing import LiveViewer
 from webviz_displays.interactive_markers import InteractiveMarkers
 

@@ -11,12 +11,11 @@ from typing import Any
 
 import msgspec
 
-from webviz.commands import Load, Open, Save
-from webviz.engine.commands import Command, DragHandle, Sender, UseTool
+from webviz.engine.commands import Command, Sender
+from webviz.engine.feature import Feature
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
 from webviz.page.content.forms import MAX_TEXT
-from webviz.server.access.requests import Dismiss, Invite, Revoke
 from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Download
@@ -24,18 +23,21 @@ from webviz.server.channel.messages import Do, Download
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver", "report", "published"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
-NOTED = (Dismiss, Invite, Load, Open, Revoke, Save, UseTool)
-"""Commands noted for the owner."""
-
-MAX_GESTURES, MAX_DRAGS = 20, 50
-"""Gestures of tools, and drags of handles other than moves, of a browser within a second; people
-make one or two."""
+NOTED = frozenset({"Dismiss", "Invite", "Load", "Open", "Revoke", "Save"})
+"""Commands noted for the owner, besides those of features."""
 
 LARGE = frozenset({"text", "picture"})
 """Fields that have checks of their own; a message is bounded as a whole."""
 
 Handler = Callable[[Asked, Any], object]
 """Carries out a command that a page has asked for, on the event loop."""
+
+
+class PageFeature(Feature):
+    """A feature that takes messages of pages which do not simply wait for the frame loop."""
+
+    def attach(self, dispatcher: Dispatcher) -> None:
+        """Take them; called once, if there are pages."""
 
 
 class Dispatcher:
@@ -57,14 +59,38 @@ class Dispatcher:
         handlers: Mapping[type[Any], Handler],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._channel = channel
-        self._enqueue = enqueue
-        self._note = note
-        self._handlers = handlers
+        self.channel = channel
+        self.enqueue = enqueue
+        self.note = note
+        self._handlers = {kind.__name__: handler for kind, handler in handlers.items()}
+        self._most: dict[str, Callable[[Any], int]] = {}
+        self._noted = set(NOTED)
         self._clock = clock
         self._recent: dict[tuple[int, str], deque[float]] = {}
         """When each browser sent its last commands that are limited."""
         channel.on(Do, self._do)
+
+    def take(
+        self,
+        command: str,
+        handler: Handler,
+        most: Callable[[Any], int] | None = None,
+        *,
+        is_noted: bool = False,
+    ) -> None:
+        """Have a command carried out that does not simply wait for the frame loop.
+
+        Args:
+            command: its name.
+            handler: carries it out.
+            most: how many such commands a browser may send within a second, 0 for no limit.
+            is_noted: whether it is noted for the owner.
+        """
+        self._handlers[command] = handler
+        if most is not None:
+            self._most[command] = most
+        if is_noted:
+            self._noted.add(command)
 
     def _do(self, browser: int, do: Do) -> None:
         made: dict[str, str] = {}
@@ -76,13 +102,14 @@ class Dispatcher:
                 deliver=functools.partial(self._deliver, browser, do),
             )
         except ValueError as error:
-            Asked(self._channel, browser, do).refuse(str(error))
+            Asked(self.channel, browser, do).refuse(str(error))
             return
-        note = functools.partial(self._note, browser) if isinstance(command, NOTED) else None
-        asked = Asked(self._channel, browser, do, note)
-        if (most := _most_per_second(command)) and self._is_flood(browser, do.command, most):
+        note = functools.partial(self.note, browser) if do.command in self._noted else None
+        asked = Asked(self.channel, browser, do, note)
+        limit = self._most.get(do.command)
+        if limit and (most := limit(command)) and self._is_flood(browser, do.command, most):
             asked.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")
-        elif (handler := self._handlers.get(type(command))) is not None:
+        elif (handler := self._handlers.get(do.command)) is not None:
             handler(asked, command)
         elif isinstance(command, Command):
 
@@ -90,10 +117,10 @@ class Dispatcher:
                 if not asked.refused_by(done):
                     asked.answer(done.result(), **made)
 
-            self._enqueue(command, asked.sender).add_done_callback(tell)
+            self.enqueue(command, asked.sender).add_done_callback(tell)
 
     def _deliver(self, browser: int, do: Do, text: str) -> None:
-        self._channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)
+        self.channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)
 
     def _is_flood(self, browser: int, command: str, most: int) -> bool:
         """Return whether a browser is faster than people are; if not, counts this command."""
@@ -105,17 +132,6 @@ class Dispatcher:
         if not is_flood:
             times.append(now)
         return is_flood
-
-
-def _most_per_second(command: Any) -> int:
-    """Return how many such commands a browser may send within a second, 0 for no limit."""
-    match command:
-        case UseTool():
-            return MAX_GESTURES
-        case DragHandle(drag=drag) if drag.kind != "move":  # of moves, only the newest is done
-            return MAX_DRAGS
-        case _:
-            return 0
 
 
 def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:

@@ -10,7 +10,7 @@ from typing import Any
 
 from webviz.api.registry import display_types
 from webviz.api.roles import Role
-from webviz.engine.commands import Command, DragHandle, Refresh, Sender, UseTool
+from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.feature import Feature, stores
 from webviz.engine.parts.declaring import stores_of
@@ -19,12 +19,9 @@ from webviz.engine.store import PageStore
 from webviz.page.content import MAKERS
 from webviz.page.dependency_tracking import DependencyTracker
 from webviz.page.derived_subscriptions import DerivedSubscriptions
-from webviz.page.dispatcher import Dispatcher, Handler
-from webviz.page.dragging import DragMessages
-from webviz.page.driving import DrivingMessages, Steer
+from webviz.page.dispatcher import Dispatcher, Handler, PageFeature
 from webviz.page.people import MAKERS_OF_PEOPLE, People
 from webviz.page.plugin_panels import MAKERS_OF_PANELS, PluginPanels
-from webviz.page.toolbar import Toolbar
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
@@ -41,7 +38,6 @@ class Pages:
     Args:
         channel: to the pages.
         enqueue: takes commands and their senders, from any thread.
-        steer: takes set-points of vehicles, see `webviz.engine.driving.VelocityControllers`.
         access: knows the tokens; None if none are asked for.
         keep: called with each line of the journal, from any thread.
         features: of the viewer, which make their own stores.
@@ -51,7 +47,6 @@ class Pages:
         self,
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
-        steer: Steer,
         access: Access | None = None,
         keep: Callable[[str], object] | None = None,
         features: Sequence[Feature] = (),
@@ -67,19 +62,15 @@ class Pages:
         def request(command: Command, sender: Sender) -> Future[str]:
             return enqueue(command, _ranked(channel, sender))
 
-        self._toolbar = toolbar = Toolbar(channel, request)
         self._panels = panels = PluginPanels(request)
         people = People(channel, journal, access or Access())
         handlers: dict[type[Any], Handler] = {
             Dismiss: people.dismiss,
-            DragHandle: DragMessages(request).drag,
             Invite: people.invite,
             Revoke: people.revoke,
-            UseTool: toolbar.use,
             UseWidget: panels.use,
         }
         self._dispatcher = Dispatcher(channel, request, note, handlers)
-        self._driving = DrivingMessages(channel, steer, note)
         self._derived = DerivedSubscriptions(request)
         self._of_parts: Mapping[str, Callable[[State, str], PageStore | None]] = {
             **{name: partial(make, people) for name, make in MAKERS_OF_PEOPLE.items()},
@@ -91,7 +82,12 @@ class Pages:
         """The stores of each that are watched."""
         self._read: dict[str, DependencyTracker] = {}
         """Dependencies of the stores that are kept."""
+        self._made: dict[str, PageStore | None] = {}
+        """The last of each store of features; the same object is not shown again."""
         self._types = display_types()
+        for feature in features:
+            if isinstance(feature, PageFeature):
+                self._guard(feature.name, feature.attach, self._dispatcher)
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
@@ -105,7 +101,6 @@ class Pages:
 
     def update(self, state: State) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
-        self._toolbar.update(state)
         watched = self._channel.watched()
         self._panels.update(state, watched)
         self._derived.update(watched)
@@ -130,7 +125,10 @@ class Pages:
     def _fill(self, store: str, state: State) -> None:
         name, _, argument = store.partition(":")
         if (feature := self._features.get(name)) is not None:
-            self._show(store, stores_of(type(feature))[name].make(feature, argument))
+            made = stores_of(type(feature))[name].make(feature, argument)
+            if made is None or made is not self._made.get(store):
+                self._show(store, made)
+                self._made[store] = made
         elif (make := self._of_parts.get(name)) is not None:
             self._show(store, make(state, argument))
         elif (make := MAKERS.get(name)) is not None:
@@ -148,6 +146,8 @@ class Pages:
             self._read.clear()
         for store in self._read.keys() - watched:
             del self._read[store]
+        for store in self._made.keys() - watched:
+            del self._made[store]
 
 
 def _ranked(channel: Channel, sender: Sender) -> Sender:

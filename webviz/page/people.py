@@ -119,8 +119,8 @@ class People:
 
     def people(self, state: State, _: str) -> PeopleStore:
         """Return the connected browsers."""
-        names = {button.id: button.name for button in state.tools}
-        driving = {tool: driving.driver for tool, driving in state.driving.items()}
+        names = {button.id: button.name for button in state.more.get("tools", ())}
+        driving = {tool: driving.driver for tool, driving in state.more.get("driving", {}).items()}
         return PeopleStore(
             {
                 str(browser): Person(

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+from webviz import commands
 from webviz.api.declared import Prop
 from webviz.api.goal import goal_request
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, interfaces, to_tree
 from webviz.data.words import joined
-from webviz.engine.commands import CallService, SendGoal
+from webviz.engine.commands import CallService
 from webviz.panels.sending import SendingPanel
 
 TIMEOUT_S = 30.0
@@ -120,7 +121,7 @@ class ActionGoal(SendingPanel):
         """Send the goal."""
         values = self.values()
         request = goal_request(self.action, self.type, values, definition=self.definition)
-        self.send(SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
+        self.send(commands.SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
 
 
 def actions_of(state: Any) -> dict[str, str]:

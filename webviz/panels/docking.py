@@ -6,12 +6,13 @@ import math
 import time
 from typing import Annotated, Any
 
+from webviz import commands
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest, goal_request
 from webviz.api.panel import Panel, Send, Ui
 from webviz.api.status import Level, Status
-from webviz.engine.commands import CallService, SendGoal
+from webviz.engine.commands import CallService
 from webviz.panels.fields import finite, keep
 
 NO_NUMBER = "Enter the pose of the dock, or use an id."
@@ -163,7 +164,9 @@ class Docking(Panel):
         self._send_goal(request, browser)
 
     def _send_goal(self, request: GoalRequest, browser: int | None) -> None:
-        self.send(SendGoal(request, f"panel {self.name}", self.name, self._report), browser)
+        self.send(
+            commands.SendGoal(request, f"panel {self.name}", self.name, self._report), browser
+        )
 
     def _type(self) -> str:
         return "" if self.type == DEFAULT else self.type

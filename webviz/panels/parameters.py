@@ -74,9 +74,10 @@ class Parameters(Panel):
         """Show the parameters, and ask for them if another node was chosen."""
         offer = state.offers.get(EVENTS)
         nodes = {each.node for each in offer.publishers if each.node} if offer else set[str]()
-        nodes.update(node for bridge in state.bridges for node in bridge.parameters.nodes)
+        bridges = state.more.get("bridges", ())
+        nodes.update(node for bridge in bridges for node in bridge.parameters.nodes)
         self.nodes.offer([NOTHING, *sorted(nodes)], self.chosen)
-        changes = [bridge.parameters.changes for bridge in state.bridges]
+        changes = [bridge.parameters.changes for bridge in bridges]
         if self.asked != self.chosen or changes != self.changes:
             self.changes = changes
             self.refresh(None)

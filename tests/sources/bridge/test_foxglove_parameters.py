@@ -90,7 +90,7 @@ def test_the_panel_shows_them_and_every_change(server: FoxgloveServer, reader: R
         future.add_done_callback(lambda f: command.answered(decode(parts.response, f.result())))
 
     def text(name: str) -> str:
-        panel.show(State(bridges=tuple(reader.source.bridges)))
+        panel.show(State(more={"bridges": tuple(reader.source.bridges)}))
         rows = ui.widgets["1"].values["values"]["rows"]
         return next((row["text"] for row in rows if row["name"] == name), "")
 

@@ -18,7 +18,7 @@ from websockets.sync.server import ServerConnection, serve
 from webviz.api.declared import Topic
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages import decode, encode, interfaces
-from webviz.engine.parts.bridges import status_of
+from webviz.features.bridges import status_of
 from webviz.shell.testing.messages import header
 from webviz.sources import Advertisement, NotConnected, Subscription
 from webviz.sources.bridge.address import HEADERS, address, headers_of

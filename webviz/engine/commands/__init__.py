@@ -8,9 +8,6 @@ from webviz.engine.commands.command import (
     mistaken,
     wrong_text,
 )
-from webviz.engine.commands.displays import (
-    DragHandle,
-)
 from webviz.engine.commands.files import (
     FileCommand,
     Restore,
@@ -21,12 +18,7 @@ from webviz.engine.commands.panel import (
 from webviz.engine.commands.selection import Pick, Picks
 from webviz.engine.commands.tools import (
     CallService,
-    CancelGoal,
-    DismissGoal,
     Publish,
-    SendGoal,
-    SetToolProperty,
-    UseTool,
 )
 from webviz.engine.commands.topics import (
     InspectTopic,
@@ -34,18 +26,12 @@ from webviz.engine.commands.topics import (
     InspectTransforms,
     LookUpTransform,
 )
-from webviz.engine.commands.viewer import (
-    ReloadPlugin,
-)
 
 __all__ = [
     "MAX_PRIORITY",
     "PROGRAM",
     "CallService",
-    "CancelGoal",
     "Command",
-    "DismissGoal",
-    "DragHandle",
     "FileCommand",
     "InspectTopic",
     "InspectTopics",
@@ -55,12 +41,8 @@ __all__ = [
     "Picks",
     "Publish",
     "Refresh",
-    "ReloadPlugin",
     "Restore",
-    "SendGoal",
     "Sender",
-    "SetToolProperty",
-    "UseTool",
     "mistaken",
     "wrong_text",
 ]

@@ -162,7 +162,7 @@ class Doctor(Part):
         None with a bag or bridge, for which neither DDS nor ROS of this machine matters.
         """
         is_recorded = state.playback is not None and state.playback.is_live is None
-        if is_recorded or state.bridges:
+        if is_recorded or self.core.player.bridges:
             return None
         looking = self._looking
         if looking is not None and looking.done():

@@ -76,7 +76,7 @@ def observe(
         is_paused=state.clock.is_paused,
         is_recorded=state.playback is not None and state.playback.is_live is None,
         environment=environment,
-        bridges=state.bridges,
+        bridges=core.player.bridges,
         browsers=browsers,
         cameras=cameras,
         load=load if browsers else 0.0,

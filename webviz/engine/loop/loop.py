@@ -24,24 +24,18 @@ from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
-from webviz.engine.parts.bridges import BridgesPart
 from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.driving import DrivingPart
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.goals import GoalsPart
-from webviz.engine.parts.handles import HandlesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
-from webviz.engine.parts.plugins import PluginsPart
 from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
-from webviz.engine.parts.tools import ToolsPart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
@@ -53,7 +47,7 @@ from webviz.engine.state import State
 from webviz.engine.state.memoizing import reuse_unchanged
 from webviz.engine.state.statuses import failures, without
 from webviz.files.config import Config, Settings
-from webviz.sources import Gate, Rights, Source
+from webviz.sources import Advertisement, Gate, Rights, Source
 from webviz.sources.player import Player
 from webviz.sources.recording.memory import MemoryHistory
 
@@ -121,6 +115,7 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._offers: object = None
+        self._advertised: set[Advertisement] = set()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         self._owed: list[Callable[[], None]] = []
         own = own_names(config, self._guard)
@@ -131,15 +126,16 @@ class FrameLoop:
             lambda: self._settings.settings.publish,
             lambda: "" if player.is_live else REWOUND,
         )
-        core = self._core = Core(player, gate, scene, self._guard, clock, host)
+        self.controllers = VelocityControllers(gate, live_ns)
+        """Of the vehicles that tools drive; they do not wait for the loop."""
+        core = Core(player, gate, self.controllers, scene, self._guard, clock, host)
+        self._core = core
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
         self._time = TimePart(core, lambda: self._parts.reset(), player)
         self._displays = DisplaysPart(core, services)
         self._settings = SettingsPart(core)
-        self.controllers = VelocityControllers(gate, live_ns)
-        """Of the vehicles that tools drive; they do not wait for the loop."""
         self._playback = PlaybackPart(
             core,
             self._settings,
@@ -197,31 +193,18 @@ class FrameLoop:
     ) -> tuple[list[Part], HistoryPart, SessionPart | None]:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
         core, displays, settings = self._core, self._displays, self._settings
-        goals = GoalsPart(core)
         panels = PanelsPart(core, settings)
-        tools = ToolsPart(
-            core,
-            goals,
-            self.controllers,
-            lambda: {*displays.advertisements(), *panels.advertisements()},
-        )
         files = self._files = FilesPart(
-            core, displays, settings, views, tools.list, panels.list, config, path
+            core, displays, settings, views, core.tools, panels.list, config, path
         )
         history = HistoryPart(core, files)
         kept = SessionPart(core, files, session) if session else None
         found: list[Part] = [
-            tools,
             panels,
-            goals,
-            DrivingPart(core, self.controllers, tools.odometry),
             files,
             history,
-            BridgesPart(core, self._robots, player.live),
             TopicsPart(core),
             SelectionPart(core, displays),
-            HandlesPart(core, displays),
-            PluginsPart(core, displays, [tools.list, panels.list], settings),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *([kept] if kept else ()),
         ]
@@ -317,11 +300,24 @@ class FrameLoop:
         self._next_panel = time.monotonic() + PANEL_S
         self._subscribe()
         self._parts.keep_up(commanded)
+        self._guard("Publishers", self._advertise)
         self._guard("Panel", self._show_state)
 
     def _subscribe(self) -> None:
         self._offers = self._core.offers
         self._guard("Source", self._source.want, self._parts.subscriptions())
+
+    def _advertise(self) -> None:
+        """Have publishers for all that may be sent, so that first messages arrive.
+
+        Those of vehicles only while browsers attend to them: it is the robot's own topic.
+        """
+        gate, stopping = self._core.gate, self.controllers.stopping()
+        wanted = self._parts.advertisements() | self.controllers.advertisements()
+        wanted = {each for each in wanted if not gate.lasting_refusal(each.topic)} | stopping
+        if wanted != self._advertised:
+            self._advertised = wanted
+            gate.advertise(wanted, stopping)
 
     def _receive(self) -> None:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""

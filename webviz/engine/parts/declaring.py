@@ -44,18 +44,20 @@ class DeclaredStore(msgspec.Struct, frozen=True):
     """A method that makes a store for pages.
 
     Args:
+        name: of the store.
         role: of pages that may watch it.
         is_private: whether a page may watch only the one with its id behind the colon.
         make: the function, from a feature and what stands behind the colon.
     """
 
+    name: str
     role: Role
     is_private: bool
     make: Callable[[Any, str], PageStore | None]
 
 
 class _Mark(msgspec.Struct, frozen=True):
-    """What `command` notes about a method."""
+    """Notes of `command` about a method."""
 
     role: Role | None
     base: type[Command]
@@ -85,11 +87,13 @@ def command(
     return declare
 
 
-def store(role: Role = Role.WATCHER, *, is_private: bool = False) -> Callable[[F], F]:
-    """Make a method a store of its name; see `DeclaredStore`."""
+def store(
+    role: Role = Role.WATCHER, *, is_private: bool = False, name: str = ""
+) -> Callable[[F], F]:
+    """Make a method a store of this name, or of its own; see `DeclaredStore`."""
 
     def declare(method: F) -> F:
-        vars(method)["store"] = DeclaredStore(role, is_private, method)
+        vars(method)["store"] = DeclaredStore(name or method.__name__, role, is_private, method)
         return method
 
     return declare
@@ -108,7 +112,7 @@ def commands_of(part: type[object]) -> Mapping[str, DeclaredCommand]:
 @functools.cache
 def stores_of(part: type[object]) -> Mapping[str, DeclaredStore]:
     """Return the stores of a part by name."""
-    return _marked(part, "store")
+    return {each.name: each for each in _marked(part, "store").values()}
 
 
 def _marked(part: type[object], mark: str) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -11,14 +11,17 @@ import msgspec
 from webviz.api.frames import Frames
 from webviz.api.rule import Verdict
 from webviz.api.status import Status
+from webviz.api.tool import Tool
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Job
+from webviz.engine.driving import VelocityControllers
 from webviz.engine.parts.declaring import DeclaredCommand, commands_of
+from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.state import State
-from webviz.sources import Gate, Offer, Raw, Subscription
+from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
 from webviz.sources.player import Player
 
 Batches = Mapping[str, Iterable[Raw]]
@@ -56,6 +59,7 @@ class Core:
     Args:
         player: where messages come from.
         gate: where messages, requests and goals go to.
+        controllers: of the vehicles that tools drive; they do not wait for the loop.
         scene: where to draw.
         guard: for all calls.
         clock: monotonic time in seconds.
@@ -66,6 +70,7 @@ class Core:
         self,
         player: Player,
         gate: Gate,
+        controllers: VelocityControllers,
         scene: Scene,
         guard: Guard,
         clock: Callable[[], float],
@@ -73,10 +78,13 @@ class Core:
     ) -> None:
         self.player = player
         self.gate = gate
+        self.controllers = controllers
         self.scene = scene
         self.guard = guard
         self.clock = clock
         self.host = host
+        self.tools = PluginList(Tool)
+        """Those of the config."""
         self.buffer = TransformBuffer()
         self.frames = Frames(self.buffer, "", 0)
         """The transforms at the time that is shown."""
@@ -140,6 +148,10 @@ class Part:
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Its subscriptions by topic."""
         return {}
+
+    def advertisements(self) -> Collection[Advertisement]:
+        """Where it publishes, so that its first messages arrive."""
+        return ()
 
     def take(self, batches: Batches) -> None:
         """Take the messages since the last turn."""

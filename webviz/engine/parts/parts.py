@@ -12,10 +12,13 @@ from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Batches, Handler, Part, overrides
 from webviz.engine.state import State
-from webviz.sources import Subscription, merged
+from webviz.sources import Advertisement, Subscription, merged
 
 _FIELDS = set(State.__struct_fields__)
-_HOOKS = ("subscriptions", "take", "reset", "keep_up", "state", "statuses", "close")
+_HOOKS = (
+    *("subscriptions", "advertisements", "take", "reset", "keep_up", "state", "statuses"),
+    "close",
+)
 
 
 class Parts:
@@ -62,6 +65,13 @@ class Parts:
             guard.attempt(part.name, own, part.subscriptions)
             for part in self._overriding["subscriptions"]
         )
+
+    def advertisements(self) -> set[Advertisement]:
+        """Where all of them publish."""
+        found: set[Advertisement] = set()
+        for part in self._overriding["advertisements"]:
+            found.update(self._guard.attempt(part.name, (), part.advertisements))
+        return found
 
     def take(self, batches: Batches) -> None:
         """Pass on the messages since the last turn."""

@@ -27,7 +27,6 @@ from webviz.api.modules import module_texts
 from webviz.api.properties import value_at
 from webviz.api.status import Level, Status
 from webviz.data.words import plain
-from webviz.engine.commands import Command, ReloadPlugin
 
 if TYPE_CHECKING:
     from webviz.engine.pipeline import Runner
@@ -109,10 +108,10 @@ class Watcher:
         self._ended = threading.Event()
         self._thread: threading.Thread | None = None
 
-    def start(self, enqueue: Callable[[Command], object]) -> None:
+    def start(self, reload: Callable[[Path], object]) -> None:
         """Check the files every `POLL_S`, in a thread, until `stop`."""
         if self._known:
-            self._thread = threading.Thread(target=self._watch, args=[enqueue], daemon=True)
+            self._thread = threading.Thread(target=self._watch, args=[reload], daemon=True)
             self._thread.start()
 
     def stop(self) -> None:
@@ -128,10 +127,10 @@ class Watcher:
         self._known = now
         return changed
 
-    def _watch(self, enqueue: Callable[[Command], object]) -> None:
+    def _watch(self, reload: Callable[[Path], object]) -> None:
         while not self._ended.wait(POLL_S):
             for path in self.changed():
-                enqueue(ReloadPlugin(path))
+                reload(path)
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:

@@ -10,7 +10,7 @@ from webviz.engine.state.state import Row, State
 
 _COMPARED = (
     *("frames", "statuses", "file", "traffic", "inspected", "between", "views", "history"),
-    *("transforms", "driving", "playback", "selected", "selections"),
+    *("transforms", "playback", "selected", "selections"),
 )
 """Fields that are made anew for each state, and cannot change within."""
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import msgspec
 
-from webviz.api.bridge import Bridge
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
 from webviz.api.finding import Finding
-from webviz.api.handles import Handle
 from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
-from webviz.api.tool import Tool
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.data.transforms import Diagnosis
@@ -149,38 +146,6 @@ class Between(msgspec.Struct, frozen=True):
     problem: str = ""
 
 
-class ToolButton(msgspec.Struct, frozen=True):
-    """One tool in the toolbar.
-
-    Args:
-        id: for commands.
-        name: as shown.
-        tooltip: one sentence.
-        shortcut: the key that selects it, "" for none.
-        gesture: followed by the page, see `webviz.api.tool.Tool.gesture`.
-        icon: of the page, "" for that of the gesture.
-        surface: whether the gesture starts on a surface.
-        stays: whether it remains active after a gesture.
-        asks: whether pages ask before they send a gesture.
-        refusal: why it cannot be used, a sentence; "" if it can.
-        several: labels of the buttons that send several poses, () if it takes one.
-        tool: read-only.
-    """
-
-    id: str
-    name: str
-    tooltip: str
-    shortcut: str
-    gesture: str
-    icon: str = ""
-    surface: bool = False
-    stays: bool = False
-    asks: bool = False
-    refusal: str = ""
-    several: tuple[str, ...] = ()
-    tool: Tool = msgspec.field(default_factory=Tool)
-
-
 class PanelTab(msgspec.Struct, frozen=True):
     """One panel of a plug-in.
 
@@ -193,48 +158,6 @@ class PanelTab(msgspec.Struct, frozen=True):
     id: str
     tab: str
     panel: Panel
-
-
-class GoalProgress(msgspec.Struct, frozen=True):
-    """A goal that a tool sent to an action.
-
-    Args:
-        id: for commands.
-        title: name of the tool.
-        label: what the goal is, in a few words.
-        frame: the fixed frame when it was sent.
-        poses: x, y, z in metres and yaw in radians in that frame.
-        phase: "sending" until the server accepts it, and "ended" with its outcome.
-        status: what is to be said of it, None for nothing.
-        values: what its feedback says, texts by label.
-        can_dismiss: whether pages may put it away, though the server has not ended it.
-    """
-
-    id: str
-    title: str
-    label: str = ""
-    frame: str = ""
-    poses: Sequence[tuple[float, float, float, float]] = ()
-    phase: Literal["sending", "active", "canceling", "ended"] = "sending"
-    status: Status | None = None
-    values: Mapping[str, str] = msgspec.field(default_factory=dict)
-    can_dismiss: bool = False
-
-
-class Driving(msgspec.Struct, frozen=True):
-    """A vehicle that browsers attend to.
-
-    Args:
-        driver: id of the browser that drives, None if none does.
-        speed: of the robot in m/s, negative while it backs; None if it is unknown.
-        turn_rate: of the robot in rad/s, counter-clockwise; None if it is unknown.
-        problem: why they are unknown, with a remedy; "" if they are not.
-    """
-
-    driver: int | None = None
-    speed: float | None = None
-    turn_rate: float | None = None
-    problem: str = ""
 
 
 class Step(msgspec.Struct, frozen=True):
@@ -276,16 +199,12 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         clock: the time.
         offers: publishers and QoS by topic name.
         services: types of services by name, as far as the source knows them.
-        bridges: to bridges; none without.
         traffic: by topic name, of the topics that are subscribed to.
         inspected: the inspected topics, by name.
         transforms: the tree of transforms, None while no page shows it.
         between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
-        tools, panels: of the toolbar, and of plug-ins, in their order.
-        goals: that tools sent to actions, oldest first.
-        driving: the vehicles that browsers attend to, by id of their tool.
-        handles: what browsers can drag, by id of the display and key, with who holds each.
+        panels: of plug-ins, in their order.
         history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
@@ -309,19 +228,12 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     clock: PanelTimes = PanelTimes()
     offers: Mapping[str, Offer] = msgspec.field(default_factory=dict)
     services: Mapping[str, str] = msgspec.field(default_factory=dict)
-    bridges: tuple[Bridge, ...] = ()
     traffic: Mapping[str, Traffic] = msgspec.field(default_factory=dict)
     inspected: Mapping[str, Inspected] = msgspec.field(default_factory=dict)
     transforms: Diagnosis | None = None
     between: Mapping[tuple[str, str], Between] = msgspec.field(default_factory=dict)
     views: Mapping[int, View] = msgspec.field(default_factory=dict)
-    tools: tuple[ToolButton, ...] = ()
     panels: tuple[PanelTab, ...] = ()
-    goals: tuple[GoalProgress, ...] = ()
-    driving: Mapping[str, Driving] = msgspec.field(default_factory=dict)
-    handles: Mapping[tuple[str, str], tuple[Handle, int | None]] = msgspec.field(
-        default_factory=dict
-    )
     history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
     recorded: Mapping[str, Sequence[int]] = msgspec.field(default_factory=dict)

@@ -11,19 +11,15 @@ from collections.abc import Callable, Mapping
 
 from webviz.engine.state import State
 from webviz.engine.store import PageStore
-from webviz.page.content.bridges import bridges
 from webviz.page.content.clock import clock
 from webviz.page.content.displays import displays, rate
 from webviz.page.content.doctor import findings
-from webviz.page.content.goals import goals, routes
-from webviz.page.content.handles import handles
 from webviz.page.content.history import history
 from webviz.page.content.panes import panes
 from webviz.page.content.playback import bookmarks, density, events, playback, recorded
 from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, selected, selection
-from webviz.page.content.tools import driving, tool
 from webviz.page.content.topics import message, topics, traffic
 from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
@@ -37,18 +33,14 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "clock": clock,
     "density": density,
     "displays": displays,
-    "driving": driving,
     "events": events,
     "file": file,
     "findings": findings,
     "frame_tree": frame_tree,
     "frames": frames,
-    "goals": goals,
     "graph": graph,
-    "handles": handles,
     "history": history,
     "legend": legend,
-    "bridges": bridges,
     "message": message,
     "panes": panes,
     "picking": picking,
@@ -56,11 +48,9 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "properties": properties,
     "rate": rate,
     "recorded": recorded,
-    "routes": routes,
     "selected": selected,
     "selection": selection,
     "settings": settings,
-    "tool": tool,
     "topics": topics,
     "traffic": traffic,
     "statuses": statuses,

@@ -45,6 +45,8 @@ export type End = () => void;
 export interface Panel {
   name: string;
   title: string;
+  /** Its place among the tabs; the last without it. */
+  order?: number;
   /** Fills its tab; returns what ends that. */
   open(element: HTMLElement): End | void;
   /** Its tab is there while it is open only. */

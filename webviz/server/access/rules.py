@@ -13,11 +13,6 @@ from webviz.server.access import requests
 
 _COMMANDS: Mapping[type[Any], Role] = {
     engine_commands.LookUpTransform: Role.WATCHER,
-    engine_commands.CancelGoal: Role.OPERATOR,
-    engine_commands.DismissGoal: Role.OPERATOR,
-    engine_commands.DragHandle: Role.OPERATOR,
-    engine_commands.SetToolProperty: Role.OPERATOR,
-    engine_commands.UseTool: Role.OPERATOR,
     requests.UseWidget: Role.OPERATOR,
     # Who may come.
     requests.Dismiss: Role.OWNER,

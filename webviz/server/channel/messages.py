@@ -173,7 +173,7 @@ class SaveCanvas(ToPage, frozen=True):
 
 
 class ShownTool(msgspec.Struct, frozen=True):
-    """A tool in the toolbar; the fields are those of `webviz.engine.state.ToolButton`."""
+    """A tool in the toolbar; the fields are those of `webviz.features.tools.ToolButton`."""
 
     id: str
     name: str

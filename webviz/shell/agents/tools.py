@@ -10,7 +10,7 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.status import LOADING, Status
-from webviz.engine.commands import Command, InspectTopic, LookUpTransform, Refresh, UseTool
+from webviz.engine.commands import Command, InspectTopic, LookUpTransform, Refresh
 from webviz.engine.state import Inspected
 from webviz.files.config import nearest
 from webviz.page.dispatcher import command_of
@@ -157,7 +157,7 @@ class AgentTools:
             raise Error(refusal)
         self._begin(caller, f"{command} {dict(fields)}")
         answer = self._viewer.do(made, caller.sender())
-        if isinstance(made, UseTool):
+        if command == "UseTool":
             with contextlib.suppress(TimeoutError):
                 return said.result(MESSAGE_S).text
         return answer or "Done."

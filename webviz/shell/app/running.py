@@ -13,6 +13,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.api.views import View
@@ -141,7 +142,7 @@ class Running(PictureControls):
             )
             self._open_pages(server, allow_hosts, keep)
             self._run_loop(source)
-            watcher.start(self._loop.enqueue)
+            watcher.start(lambda path: self._loop.enqueue(commands.ReloadPlugin(path)))
             closing.add("The plug-in watcher", watcher.stop)
             self.do(Refresh())  # so that there is a state
             if node_control is not None:
@@ -205,14 +206,7 @@ class Running(PictureControls):
         from webviz.server.access.announcing import Announcement, reachable
 
         loop = self._loop
-        self._pages = Pages(
-            server.channel,
-            loop.enqueue,
-            loop.controllers.steer,
-            self.access,
-            keep,
-            loop.features,
-        )
+        self._pages = Pages(server.channel, loop.enqueue, self.access, keep, loop.features)
         if self.access.asks:
             page = reachable(self.url, self._host, allow_hosts)
             self._closing.add("The announcement", Announcement(page, self.port).close)

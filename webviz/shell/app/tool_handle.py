@@ -6,9 +6,9 @@ import contextlib
 from concurrent.futures import Future, InvalidStateError
 from typing import TYPE_CHECKING
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
-from webviz.engine.commands import UseTool
 
 if TYPE_CHECKING:
     from webviz.shell.app.running import Running
@@ -43,7 +43,7 @@ class ToolHandle:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
                 first.set_result(status)
 
-        self._viewer.do(UseTool(self.name, ((x, y, z),), yaw, report=report))
+        self._viewer.do(commands.UseTool(self.name, ((x, y, z),), yaw, report=report))
         try:
             status = first.result(PATIENCE_S)
         except TimeoutError:

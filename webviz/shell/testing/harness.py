@@ -7,11 +7,12 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from webviz import commands
 from webviz.api.finding import Finding
 from webviz.api.panel import Panel
 from webviz.api.status import Status
 from webviz.api.tool import Position
-from webviz.engine.commands import PROGRAM, Command, Sender, UseTool
+from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.files.config import Config
 from webviz.shell.testing.opened_panel import OpenedPanel
 from webviz.shell.testing.pictures import SnapshotFixture
@@ -102,7 +103,7 @@ class Harness(Shown):
             What the tool reports.
         """
         reported: list[Status] = []
-        self.do(UseTool(tool, points, yaw, report=reported.append))
+        self.do(commands.UseTool(tool, points, yaw, report=reported.append))
         return reported
 
     def open_panel(self, panel: type[Panel], **values: Any) -> OpenedPanel:

@@ -3,7 +3,6 @@
 import { places } from "../shell/shell.js";
 import { videoButton } from "../shell/video.js";
 import * as attribution from "./attribution.js";
-import * as bridges from "./bridges.js";
 import * as gizmo from "./gizmo.js";
 import * as legend from "./legend.js";
 import * as pointer from "./pointer.js";
@@ -28,7 +27,6 @@ export function overlay(place, name, element) {
 
 export function install() {
   overlay("status", "rates", rates.build());
-  overlay("status", "bridges", bridges.build());
   overlay("status", "slow link", slowLink.build());
   overlay("status", "video", videoButton());
   overlay("status", "gizmo", gizmo.build());

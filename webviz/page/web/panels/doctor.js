@@ -22,6 +22,7 @@ const EXAMINING = "The doctor examines the viewer.";
 export const doctor = {
   name: "doctor",
   title: "Doctor",
+  order: 60,
   isOnDemand: true,
   /** @param {HTMLElement} element */
   open(element) {

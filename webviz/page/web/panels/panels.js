@@ -1,6 +1,6 @@
 // The panels in the order of their tabs.
 //
-// Each has a `name`, a `title`, and `open(element)`, which fills the tab when it is shown and returns
+// Each has a `name`, a `title`, an `order` among the others, and `open(element)`, which fills the tab when it is shown and returns
 // what is to be done when it is not any more. The tab of one that `isOnDemand` is there while it is
 // open only.
 
@@ -8,12 +8,13 @@ import { listeners } from "../listeners.js";
 import { displays } from "./displays/displays.js";
 import { doctor } from "./doctor.js";
 import { selectionPanel } from "./selection.js";
-import { toolsPanel } from "./tools.js";
 import { topics } from "./topics.js";
 import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
 /** @import {Panel} from "../types.js" */
+
+const LAST = 1000;
 
 /** @type {Panel[]} */
 export const panels = [];
@@ -28,11 +29,11 @@ export function panel(added) {
   const index = panels.findIndex(({ name }) => name === added.name);
   if (index < 0) panels.push(added);
   else panels[index] = added;
+  panels.sort((a, b) => (a.order ?? LAST) - (b.order ?? LAST));
   changes.tell();
 }
 
 /** Calls a listener whenever there is another panel. */
 export const onPanel = changes.on;
 
-for (const own of [displays, selectionPanel, views, topics, transforms, toolsPanel, doctor])
-  panel(own);
+for (const own of [displays, selectionPanel, views, topics, transforms, doctor]) panel(own);

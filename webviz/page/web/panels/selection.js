@@ -30,6 +30,7 @@ const FRAMES = new Set(["Frame", "Parent", "Parent frame", "Child frame", "Refer
 export const selectionPanel = {
   name: "selection",
   title: "Selection",
+  order: 10,
   open(element) {
     /** @type {Map<string, boolean>} */
     const folds = new Map();

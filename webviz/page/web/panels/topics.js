@@ -20,6 +20,7 @@ const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
 export const topics = {
   name: "topics",
   title: "Topics",
+  order: 30,
   open(element) {
     /** @type {ValuesOf<"topics">} */
     let facts = new Map();

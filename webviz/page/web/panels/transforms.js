@@ -34,6 +34,7 @@ export const showFrame = (name) => (wanted = name);
 export const transforms = {
   name: "transforms",
   title: "TF",
+  order: 40,
   open(element) {
     /** @type {ValuesOf<"transforms"> | null} */
     let values = null;

@@ -43,6 +43,7 @@ channel.onOpen(() => watchAgain());
 export const views = {
   name: "views",
   title: "Views",
+  order: 20,
   open(element) {
     /** @type {() => void} */
     let endView = () => {};

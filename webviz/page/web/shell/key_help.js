@@ -42,7 +42,6 @@ const IMAGE = [
   ["Show all of it", ["0"]],
 ];
 
-// See tools/teleop_keys.js.
 /** @type {KeyRow[]} */
 const TELEOP = [
   ["Drive", ["W", "A", "S", "D"]],

@@ -6,15 +6,11 @@ import * as glow from "../handles/glow.js";
 import { icon } from "../icons.js";
 import { listeners } from "../listeners.js";
 import { focusCamera, interact, moveCamera } from "../tools/camera.js";
-import * as goals from "../tools/goals.js";
 import { hint, tell } from "../tools/hint.js";
-import * as history from "../tools/history.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
 import * as selecting from "../tools/select.js";
 import * as preview from "../tools/preview.js";
-import * as viewerTools from "../tools/viewer_tools.js";
-import * as waypoints from "../tools/waypoints.js";
 import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
@@ -24,7 +20,7 @@ import { keyText } from "./keys.js";
 /** The buttons of the tools; those that are icons may go into a menu. */
 export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
 export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
-/** The area below the toolbar: waypoints that are collected, goals of robots. */
+/** The area below the toolbar, which features fill. */
 export const cards = el("div", { class: "wv-cards" });
 export { hint };
 
@@ -51,9 +47,6 @@ export function install() {
   gesture.install();
   glow.install();
   selecting.install();
-  history.install();
-  viewerTools.install();
-  cards.append(waypoints.install(), goals.install());
   provide(() =>
     registry.all().map((tool) => ({
       name: tool.name,

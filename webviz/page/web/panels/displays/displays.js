@@ -22,6 +22,7 @@ import { buildTree } from "./tree.js";
 export const displays = {
   name: "displays",
   title: "Displays",
+  order: 0,
   open(panel) {
     const field = searchField("Filter displays", () => tree.setSearch(field.value), {
       spellcheck: "false",

@@ -1,0 +1,40 @@
+"""Features without a viewer, which show what a test gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
+from typing import Any, TypeVar
+
+from webviz.engine.feature import Feature
+from webviz.features.bridges import BridgesFeature
+from webviz.features.driving import DrivingFeature
+from webviz.features.goals import GoalsFeature
+from webviz.features.handles import HandlesFeature
+from webviz.features.tools import ToolsFeature
+
+F = TypeVar("F", bound=Feature)
+
+
+def stand_in(kind: type[F], **given: Any) -> F:
+    """Return a feature some of whose attributes and methods are these."""
+    made = object.__new__(kind)
+    vars(made).update(given)
+    return made
+
+
+def stand_ins(given: Callable[[str, Any], Any], steer: Callable[..., Any]) -> Sequence[Feature]:
+    """Return features that show the public fields which a test gives.
+
+    Args:
+        given: returns one by its name, or another value without it.
+        steer: takes set-points of vehicles.
+    """
+    tools = SimpleNamespace(usable=lambda: {each.id: each.tool for each in given("tools", ())})
+    return [
+        stand_in(BridgesFeature, links=lambda: tuple(given("bridges", ()))),
+        stand_in(HandlesFeature, found=lambda: given("handles", {}), _shown=None),
+        stand_in(GoalsFeature, progress=lambda: given("goals", ())),
+        stand_in(DrivingFeature, vehicles=lambda: given("driving", {}), steer=steer),
+        stand_in(ToolsFeature, list=tools, buttons=lambda: given("tools", ())),
+    ]

@@ -1,0 +1,184 @@
+// The tool that drives. What is held on this page goes to the server with every heartbeat; the
+// server ramps it, publishes it, and stops the robot when heartbeats stay away or acknowledge nothing
+// new. Hence heartbeats come from here and not from a worker: a page that hangs does not learn what
+// is let go.
+
+import * as channel from "../../channel.js";
+import { isTyping, takeKeys } from "../../shell/commands.js";
+import { places } from "../../shell/shell.js";
+import { watch } from "../../stores.js";
+import { gesture } from "../../tools/gestures.js";
+import * as registry from "../../tools/registry.js";
+import { added, makeCard } from "./teleop_card.js";
+import * as gamepad from "./teleop_gamepad.js";
+import * as keys from "./teleop_keys.js";
+
+/** @import {DrivingReport} from "../../messages.js" */
+/** @import {Shares} from "./teleop_keys.js" */
+/** @import {Made, ViewerTool} from "../../types.js" */
+
+/**
+ * @typedef {{
+ *   id: string, card: ReturnType<typeof makeCard>, beat: number, beats: number, sent: number,
+ *   heard: number, held: Shares, driver: number | null, canGoSideways: boolean,
+ *   ends: (() => void)[], timer: number,
+ * }} Driven
+ */
+
+const BEAT_MS = 50; // while something is held; the server stops the robot after 200 ms without
+const IDLE_BEATS = 2; // one heartbeat in so many while nothing is held
+const GAP_MS = 15; // between two that something changes
+const SILENCE_MS = 200; // of the server, after which heartbeats move nothing
+/** @type {Shares} */
+const STILL = [0, 0, 0];
+const HINT = matchMedia("(pointer: coarse)").matches
+  ? "Drag the stick."
+  : "Hold W A S D, the arrow keys, or the stick. Esc leaves.";
+
+/** @type {Driven | null} */
+let driven = null; // what is open while a tool that drives is active
+let isHere = true;
+
+/**
+ * The gesture of a tool that drives.
+ *
+ * @param {ViewerTool} tool
+ * @returns {Made & {icon: string}}
+ */
+const tool = ({ icon, gesture }) => ({
+  icon: icon === gesture ? "wheel" : icon,
+  hint: HINT,
+  leave: release,
+});
+
+export function install() {
+  gesture("drive", tool);
+  registry.onChange(follow);
+  takeKeys((/** @type {KeyboardEvent} */ event) => {
+    if (!driven || document.querySelector("dialog[open]")) return false;
+    const isTaken = keys.press(event, driven.canGoSideways);
+    update();
+    return isTaken;
+  });
+  window.addEventListener("keyup", (event) => keys.lift(event) && update(), true);
+  window.addEventListener("blur", () => away());
+  window.addEventListener("focus", () => (isHere = true));
+  window.addEventListener("pointerdown", () => (isHere = true), true);
+  window.addEventListener("pagehide", () => away());
+  document.addEventListener("visibilitychange", () => document.hidden && away());
+  document.addEventListener("focusin", (event) => {
+    if (isTyping(event) || /** @type {Element} */ (event.target).closest("dialog")) release();
+  });
+  channel.on("DrivingReport", hear);
+  channel.onOpen(() => {
+    if (driven) driven.beat = 0;
+    release();
+  });
+}
+
+/** The robot that is driven, and by whom; null while no tool that drives is active. */
+export const state = () => driven;
+
+// The card is there while the tool is active, however it became so.
+function follow() {
+  const active = registry.active();
+  const id = active?.gesture === "drive" ? active.id : null;
+  if (id === (driven?.id ?? null)) return;
+  close();
+  if (id !== null) open(id);
+}
+
+/** @param {string} id */
+function open(id) {
+  const card = makeCard(update);
+  places.legend.append(card.element);
+  gamepad.disarm();
+  driven = {
+    id,
+    card,
+    beat: 0,
+    beats: 0,
+    sent: 0,
+    heard: performance.now(),
+    held: STILL,
+    driver: null,
+    canGoSideways: false,
+    ends: [
+      watch(`driving:${id}`, (values) => card.showRobot(values)),
+      watch(`tool:${id}`, (values) => {
+        if (driven) driven.canGoSideways = Number(values.get("value.lateral")) > 0;
+        card.showTool(values);
+      }),
+    ],
+    timer: setInterval(tick, BEAT_MS),
+  };
+  card.showRobot(null);
+  card.showNote("");
+  card.focus();
+  send();
+}
+
+function close() {
+  release();
+  if (!driven) return;
+  clearInterval(driven.timer);
+  for (const end of driven.ends) end();
+  driven.card.element.remove();
+  driven = null;
+}
+
+function away() {
+  isHere = false;
+  gamepad.disarm();
+  release();
+}
+
+// Everything is let go, whatever fingers do.
+function release() {
+  keys.release();
+  driven?.card.release();
+  update();
+}
+
+function tick() {
+  update();
+  if (!driven) return;
+  driven.beats += 1;
+  const isHeld = driven.held !== STILL;
+  if (isHeld ? performance.now() - driven.sent >= GAP_MS : driven.beats % IDLE_BEATS === 0) send();
+  const isLate = isHeld && performance.now() - driven.heard > SILENCE_MS;
+  if (isLate) driven.card.showNote("The connection to webviz is too slow to drive.", true);
+}
+
+/** Takes up what is held now, and sends it if that is something else. */
+function update() {
+  if (!driven) return;
+  const shares = [keys.share(), driven.card.share(), isHere ? gamepad.share() : STILL];
+  const sums = shares.reduce(added);
+  const held = sums.map((part) => Math.max(-1, Math.min(1, part)));
+  const isStill = held.every((part) => part === 0);
+  const { held: before } = driven;
+  const isSame = held.every((part, axis) => part === before[axis]);
+  driven.held = isStill ? STILL : held;
+  driven.card.showHeld(held);
+  // Moves of a finger may wait for the next heartbeat; letting go may not.
+  if (!isSame && (isStill || performance.now() - driven.sent >= GAP_MS)) send();
+}
+
+function send() {
+  if (!driven || !channel.isOpen() || document.hidden) return;
+  const { id, beat, held } = driven;
+  const [linear, lateral, angular] = held;
+  driven.sent = performance.now();
+  channel.send({ type: "Drive", tool: id, beat, linear, lateral, angular });
+}
+
+/** @param {DrivingReport} report */
+function hear({ tool: id, beat, driver, problem }) {
+  if (id !== driven?.id) return;
+  driven.heard = performance.now();
+  Object.assign(driven, { beat, driver });
+  const isOthers = driver !== null && driver !== window.webviz.browser;
+  const others = `Browser ${driver} is driving. You can drive once it has let go for a second.`;
+  driven.card.showNote(isOthers ? others : problem, isOthers || problem !== "");
+}

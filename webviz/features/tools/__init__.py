@@ -1,0 +1,212 @@
+"""The tools of the toolbar, and what they send."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import inspect
+import math
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Future
+from typing import Any, ClassVar
+
+from webviz.api.errors import Error
+from webviz.api.goal import GoalRequest
+from webviz.api.roles import Role
+from webviz.api.status import Status
+from webviz.api.tool import Gesture, Position, Tool, ToolContext, outputs
+from webviz.data.transforms.geometry import REACH_M
+from webviz.engine.commands import Sender
+from webviz.engine.commands.command import ignore
+from webviz.engine.feature import command, store
+from webviz.engine.parts.advertisements import advertisement_of
+from webviz.engine.parts.advertisements import publish as publish_on
+from webviz.engine.parts.part import Core
+from webviz.engine.store import PageStore
+from webviz.features.goals import GoalsFeature
+from webviz.features.tools.toolbar import Toolbar, ToolButton
+from webviz.files.config import ConfigError
+from webviz.page.content.forms import Form, form, sendable, values_of
+from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.sources import Advertisement
+
+MAX_POINTS = 1000
+"""Of a gesture."""
+
+
+class ToolStore(PageStore, frozen=True):
+    """The properties of a tool, as `properties` has them of a display."""
+
+    spread: ClassVar = {"values": "value."}
+
+    name: str
+    type: str
+    declared: Form
+    values: Mapping[str, Any]
+
+
+def unheard(topic: str, type: str, values: Mapping[str, Any]) -> None:
+    """Ignore a message that was published."""
+
+
+class ToolsFeature(PageFeature):
+    """All tools. Which one is active is known to each page alone."""
+
+    name = "Tools"
+    module = "tools.js"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self.list = core.tools
+        self._toolbar: Toolbar | None = None
+
+    def attach(self, dispatcher: Dispatcher) -> None:
+        """Show the tools on pages, and take their gestures."""
+        self._toolbar = Toolbar(dispatcher)
+
+    def advertisements(self) -> Collection[Advertisement]:
+        """Return the outputs of all tools but vehicles."""
+        tools = self.list.usable().values()
+        return [
+            each for tool in tools if tool.vehicle is None for each in self._advertisements(tool)
+        ]
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the buttons of the toolbar, and show them."""
+        buttons = self.buttons()
+        if self._toolbar is not None:
+            self._toolbar.show(buttons)
+        return {"tools": buttons}
+
+    @store()
+    def tool(self, id: str) -> ToolStore | None:
+        """Return the properties of the tool with this id; None if it is gone."""
+        tool = self.list.usable().get(id)
+        if tool is None:
+            return None
+        return ToolStore(
+            name=str(sendable(tool.name)),
+            type=type(tool).__name__,
+            declared=form(type(tool), ("name",)),
+            values=values_of(tool, ("name",)),
+        )
+
+    def buttons(self) -> tuple[ToolButton, ...]:
+        """Return the buttons of the toolbar; a key belongs to the first tool that asks for it."""
+        keys: dict[str, str] = {}
+        for id, tool in self.list.usable().items():
+            keys.setdefault(tool.shortcut, id)
+        return tuple(
+            _button(
+                id, tool, tool.shortcut if keys[tool.shortcut] == id else "", self._refusal(tool)
+            )
+            for id, tool in self.list.usable().items()
+        )
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Return the statuses of unusable tools."""
+        return self.list.statuses()
+
+    @command(Role.OPERATOR)
+    def use_tool(
+        self,
+        sender: Sender,
+        tool: str,
+        points: tuple[Position, ...],
+        yaw: float = 0.0,
+        keys: frozenset[str] = frozenset(),
+        yaws: tuple[float, ...] = (),
+        several: str = "",
+        report: Callable[[Status], None] = ignore,
+        published: Callable[[str, str, Mapping[str, Any]], None] = unheard,
+    ) -> None:
+        """Let a tool act on a finished gesture; see `webviz.api.tool.Gesture`.
+
+        Args:
+            tool: id of the tool, or its name.
+            points, yaw, keys, yaws, several: of the gesture.
+            report: called with the result from any thread; must not block.
+            published: called with the topic, type and values of each message.
+        """
+        id, used = self.list.find(tool)
+        gesture = Gesture(points, yaw, keys, sender.browser, yaws, several)
+        _check(used, gesture)
+        ports = {name: (output, topic) for name, output, topic in outputs(used)}
+
+        def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
+            output, topic = ports[name]
+            if publish_on(self.core, output.type, topic, payload, report):
+                published(topic.name, output.type, values)
+
+        def send_goal(request: GoalRequest) -> None:
+            try:
+                goals = self.core.get(GoalsFeature)
+            except LookupError as error:
+                raise Error(f"Not sent: {error}") from error
+            goals.send(id, used.name, request, report)
+
+        core = self.core
+        context = ToolContext(
+            used, core.frames, core.player.now_ns(), publish, self._call, send_goal, report
+        )
+        used.done(gesture, context)
+
+    def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
+        name = self.core.player.resolve(service)
+        return self.core.gate.call(name, type, request, timeout_s)
+
+    def _refusal(self, tool: Tool) -> str:
+        """Why a tool can send nothing, "" if it can or is not known to send anything."""
+        names = [advertisement.topic for advertisement in self._advertisements(tool)]
+        for name in tool.uses:
+            with contextlib.suppress(ValueError):
+                names.append(self.core.player.resolve(name))
+        refusals = [self.core.gate.refusal(name) for name in names]
+        return refusals[0] if refusals and all(refusals) else ""
+
+    def _advertisements(self, tool: Tool) -> list[Advertisement]:
+        """Return the advertisements of a tool whose topics have valid names."""
+        found = [
+            advertisement_of(self.core, output.type, topic) for _, output, topic in outputs(tool)
+        ]
+        return [advertisement for advertisement in found if advertisement]
+
+    @command(Role.OPERATOR)
+    def set_tool_property(self, tool: str, path: str, value: Any) -> None:
+        """Change a property of a tool; nested ones have a dotted path, such as `topic.name`."""
+        self.list.set(tool, path, value)
+
+
+def _check(tool: Tool, gesture: Gesture) -> None:
+    points, yaws, several = gesture.points, gesture.yaws, gesture.several
+    numbers = [*(number for point in points for number in point), *yaws, gesture.yaw]
+    is_finite = all(math.isfinite(n) and abs(n) <= REACH_M for n in numbers)
+    if not 1 <= len(points) <= MAX_POINTS or not is_finite:
+        raise ConfigError(
+            f"{tool.name}: a gesture has 1 to {MAX_POINTS} points within {REACH_M:.0e} m."
+        )
+    if several and (several not in tool.several or len(yaws) != len(points)):
+        raise ConfigError(f"{tool.name}: expected several poses, for one of its buttons.")
+
+
+@functools.cache
+def _tooltip(cls: type[Tool]) -> str:
+    return (inspect.getdoc(cls) or "").partition("\n")[0]
+
+
+def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
+    tooltip = _tooltip(type(tool))
+    return ToolButton(
+        id=id,
+        name=tool.name,
+        tooltip=tooltip,
+        shortcut=shortcut,
+        gesture=tool.gesture,
+        icon=tool.icon,
+        surface=tool.surface,
+        stays=tool.stays,
+        asks=tool.asks,
+        refusal=refusal,
+        several=tool.several,
+        tool=tool,
+    )

@@ -1,0 +1,83 @@
+// History of what this page has sent by tools, with the results: the newest first.
+
+import * as act from "../../act.js";
+import { listeners } from "../../listeners.js";
+import { watch } from "../../stores.js";
+
+/** @import {MadeGesture, ToolFacts} from "../../types.js" */
+/** @import {Published} from "../../messages.js" */
+
+/** @typedef {{topic: string, type: string, values: Published["values"]}} SentMessage */
+
+/**
+ * @typedef {Required<MadeGesture> & {
+ *     number: number, tool: ToolFacts, frame: string, time: Date,
+ *     level: string, text: string, messages: SentMessage[],
+ *   }} SentGesture
+ */
+
+const MAX_KEPT = 20;
+
+const changes = listeners();
+/** @type {SentGesture[]} */
+let sent = [];
+let frame = "";
+
+export function install() {
+  watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
+}
+
+export const all = () => sent;
+export const fixedFrame = () => frame;
+
+/** Calls a listener whenever something is new; returns what ends it. */
+export const onChange = changes.on;
+
+/**
+ * Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected.
+ *
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
+export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
+  const gesture = { points, yaw, keys, yaws, several };
+  const result = { level: "", text: "", messages: [] };
+  const number = act.send("UseTool", { tool: tool.id, ...gesture });
+  const entry = { number, tool, ...gesture, frame, time: new Date(), ...result };
+  sent = [entry, ...sent].slice(0, MAX_KEPT);
+  changes.tell();
+}
+
+/**
+ * Sends it again: a new message, stamped now.
+ *
+ * @param {SentGesture} entry
+ */
+export const again = (entry) => send(entry.tool, entry);
+
+/**
+ * Note the result of a gesture, a sentence.
+ *
+ * @param {number} number
+ * @param {string} level
+ * @param {string} text
+ */
+export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));
+
+/**
+ * A message that a gesture became: `{topic, type, values}`.
+ *
+ * @param {number} number
+ * @param {SentMessage} message
+ */
+export const published = (number, message) =>
+  change(number, (entry) => ({ ...entry, messages: [...entry.messages, message] }));
+
+/**
+ * @param {number} number
+ * @param {(entry: SentGesture) => SentGesture} update
+ */
+function change(number, update) {
+  sent = sent.map((entry) => (entry.number === number ? update(entry) : entry));
+  changes.tell();
+}

@@ -1,0 +1,151 @@
+// The tools of the viewer: this page follows their gestures, the server acts on what they became.
+
+import { why } from "../../access.js";
+import { onAnswer } from "../../act.js";
+import * as channel from "../../channel.js";
+import { panel } from "../../panels/panels.js";
+import { cards } from "../../shell/tools.js";
+import { canvas } from "../../viser_page.js";
+import { tell, tellLive } from "../../tools/hint.js";
+import { gesture, gestureOf, onGesture } from "../../tools/gestures.js";
+import * as history from "./history.js";
+import { active, provide, select } from "../../tools/registry.js";
+import * as preview from "../../tools/preview.js";
+import { toolsPanel } from "./panel.js";
+import * as waypoints from "./waypoints.js";
+
+/** @import {Made, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "../../types.js" */
+
+const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
+const LIFTS = matchMedia("(pointer: coarse)").matches ? "A second finger" : "Ctrl";
+const POSE = `drag towards the heading. ${LIFTS} lifts. Esc cancels.`;
+const SEVERAL = `${LIFTS} lifts, Shift collects waypoints.`;
+/** @type {Record<string, [string, string]>} */
+const HINTS = {
+  point: ["Click on the ground. Esc cancels.", "Click on a surface. Esc cancels."],
+  pose: [`Press on the ground and ${POSE}`, `Press on a surface and ${POSE}`],
+};
+
+export function install() {
+  history.install();
+  cards.prepend(waypoints.install());
+  panel(toolsPanel);
+  gesture("point", pointerTool);
+  gesture("pose", pointerTool);
+  /** @type {ViewerTool[]} */
+  let known = [];
+  const offer = () => provide("viewer", known.map(toolOf));
+  onGesture(offer);
+  channel.on("Tools", ({ tools }) => {
+    known = tools;
+    offer();
+  });
+  onAnswer("UseTool", ({ number, level, text }) => {
+    history.told(number, level, text);
+    tell(level, text);
+  });
+  channel.on("Published", ({ number, topic, message_type, values }) =>
+    history.published(number, { topic, type: message_type, values }),
+  );
+}
+
+/**
+ * @param {ViewerTool} tool
+ * @param {number} index
+ * @returns {Tool}
+ */
+function toolOf(tool, index) {
+  const make = gestureOf(tool.gesture);
+  const refusal =
+    why(tool.gesture === "drive" ? "Drive" : "UseTool") ||
+    tool.refusal ||
+    (make ? "" : `The gesture "${tool.gesture}" is unknown. Add it in the module of the tool.`);
+  const known = { ...tool, refusal, order: FIRST + index, icon: tool.icon || tool.gesture };
+  return { ...known, ...make?.(known, (made) => take(known, { yaw: 0, keys: [], ...made })) };
+}
+
+/**
+ * Waits to be sent if the tool asks, as a gesture of the page does.
+ *
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
+function take(tool, made) {
+  if (tool.asks)
+    preview.propose(tool, made, {
+      done: (/** @type {MadeGesture} */ sent) => finish(tool, sent),
+      live: tellLive,
+    });
+  else finish(tool, made);
+}
+
+/**
+ * @param {ToolFacts} tool
+ * @param {MadeGesture} made
+ */
+function finish(tool, made) {
+  if (!active()?.stays) select(null); // as it is now: somebody may have changed it meanwhile
+  history.send(tool, made);
+}
+
+/**
+ * @param {ViewerTool} known
+ * @returns {Made}
+ */
+const pointerTool = (known) => ({
+  hint: hintOf(known),
+  cursor: "crosshair",
+  leave: preview.cancel,
+  pointer: (event) => follow(event, known),
+});
+
+/** @param {ViewerTool} tool */
+function hintOf({ gesture, surface, several }) {
+  const hint = HINTS[gesture][Number(surface)];
+  return several?.length ? hint.replace(`${LIFTS} lifts.`, SEVERAL) : hint;
+}
+
+/**
+ * Waypoints are sent by a button anyway.
+ *
+ * @param {PointerEvent} event
+ */
+const asks = ({ shiftKey }) => {
+  const tool = active();
+  return tool?.asks === true && !waypoints.collects(tool, shiftKey);
+};
+
+/**
+ * While a gesture goes on, the camera stays where it is.
+ *
+ * @param {SceneEvent} event
+ * @param {ViewerTool} tool
+ * @returns {boolean}
+ */
+function follow(event, tool) {
+  if ("deltaY" in event) {
+    if (preview.isGoing()) event.preventDefault();
+    return preview.isGoing();
+  }
+  if (preview.isGoing()) {
+    if (!preview.follows(event)) {
+      preview.followSecond(event);
+      return true;
+    }
+    if (event.type === "pointermove") preview.follow(event);
+    if (event.type === "pointerup") preview.end(event, asks(event));
+    if (event.type === "pointercancel") preview.cancel();
+    return true;
+  }
+  if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
+  event.preventDefault();
+  /** @param {MadeGesture} made */
+  const done = (made) => {
+    if (!waypoints.collect(tool, made)) finish(tool, made);
+  };
+  if (!preview.begin(event, tool, { done, live: tellLive })) {
+    const surface = "Nothing is there. Press on a surface.";
+    tell("warn", tool.surface ? surface : "There is no ground. Press below the horizon.");
+  }
+  return true;
+}
