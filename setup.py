@@ -139,6 +139,7 @@ setup(
             "reports = webviz.features.reports:ReportsFeature",
             "sharing = webviz.features.sharing:SharingFeature",
             "tools = webviz.features.tools:ToolsFeature",
+            "topics = webviz.features.topics:TopicsFeature",
             "what_if = webviz.features.what_if:WhatIfFeature",
         ],
         "webviz.checks": ["webviz = webviz.checks"],

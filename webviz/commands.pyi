@@ -154,6 +154,19 @@ class InspectSelections(Command, frozen=True):
     viewers: frozenset[int] = ...
     is_picking: bool = ...
 
+class InspectTopic(Command, frozen=True):
+    """Follow a topic that need not be shown: its rate and its last message; "" is none.
+
+    Programs and plug-ins follow one at a time, besides those that pages follow.
+    """
+
+    topic: str
+
+class InspectTopics(Command, frozen=True):
+    """Follow exactly these topics for all pages; the viewer itself keeps count of who looks."""
+
+    topics: frozenset[str]
+
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 

@@ -47,7 +47,7 @@ class House:
         self.reached: list[str] = []
         self.priorities: list[int] = []
         self.guests: list[Guest] = []
-        features = stand_ins(lambda name, other: other, self._steer)
+        features = stand_ins(lambda name, other: other, self._steer, lambda command: None)
         Pages(self.server.channel, self._enqueue, self.access, features=features)
         self.reached.clear()
 

@@ -103,7 +103,7 @@ class Loop:
         """Stores of features that pages watch."""
         self.features = [
             ShownFeatures(self),
-            *stand_ins(lambda name, other: self.of_features.get(name, other), self._steer),
+            *stand_ins(self._given, self._steer, self._note),
         ]
         self.pages = Pages(server.channel, self._enqueue, access, features=self.features)
 
@@ -149,6 +149,12 @@ class Loop:
             else:
                 answer.set_result(reply)
         self._update()
+
+    def _given(self, name: str, other: Any) -> Any:
+        return self.of_features.get(name, other)
+
+    def _note(self, command: Command) -> None:
+        self._enqueue(command, Sender())
 
     def _update(self) -> None:
         for feature in self.features:

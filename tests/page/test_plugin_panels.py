@@ -14,8 +14,7 @@ from tests.page.conftest import Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Prop, make
 from webviz.api.panel import Panel, Send, Slide, Ui
-from webviz.commands import AddPanel, RemovePanel, Reset, SetPanelProperty
-from webviz.engine.commands import InspectTopic
+from webviz.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.pipeline.plugins import load
 from webviz.engine.state import PanelTab, PanelTimes, State, Traffic
 from webviz.page.plugin_panels import MAX_WAITING

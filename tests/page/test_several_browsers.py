@@ -16,8 +16,8 @@ from tests.page.trees import Tree, group
 from webviz.api import registry
 from webviz.api.status import Level, Status
 from webviz.api.views import FPS, TopDownOrtho
-from webviz.commands import SaveImage, UseTool
-from webviz.engine.commands import InspectTopics, Sender
+from webviz.commands import InspectTopics, SaveImage, UseTool
+from webviz.engine.commands import Sender
 from webviz.engine.state import Inspected, Row, Step, UndoHistory
 from webviz.features.tools.toolbar import ToolButton
 from webviz.scene.server import Server

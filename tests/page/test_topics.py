@@ -12,9 +12,8 @@ from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api import registry
 from webviz.api.declared import Topic
 from webviz.api.display import Display, Input
-from webviz.commands import AddDisplay
+from webviz.commands import AddDisplay, InspectTopics
 from webviz.data.messages import LaserScan, to_tree
-from webviz.engine.commands import InspectTopics
 from webviz.engine.state import Inspected, State, Traffic
 from webviz.page.content.topics import topics
 from webviz.sources import Offer, Publisher

@@ -10,10 +10,10 @@ from bench import Benches
 
 from webviz.api.declared import Topic
 from webviz.api.status import Level
-from webviz.commands import Pause, Reset
-from webviz.engine.commands import Command, InspectTopic, InspectTopics, InspectTransforms
-from webviz.engine.parts.topics import MAX_INSPECTED
+from webviz.commands import InspectTopic, InspectTopics, Pause, Reset
+from webviz.engine.commands import Command, InspectTransforms
 from webviz.engine.state import State
+from webviz.features.topics import MAX_INSPECTED
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz.sources import Offer, Publisher

@@ -108,6 +108,7 @@ PARTS = [
     "Goals",
     "Handles",
     "History",
+    "Inspected topics",
 ]
 PARTS += [
     "Latency",

@@ -10,9 +10,9 @@ from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
-from webviz.commands import AddPanel, OpenPanels, SetProperty
+from webviz.commands import AddPanel, InspectTopics, OpenPanels, SetProperty
 from webviz.data.messages import encode
-from webviz.engine.commands import Command, InspectTopics
+from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings

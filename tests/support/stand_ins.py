@@ -6,12 +6,15 @@ from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import Any, TypeVar
 
+from webviz import commands
+from webviz.engine.commands import Command
 from webviz.engine.feature import Feature
 from webviz.features.bridges import BridgesFeature
 from webviz.features.driving import DrivingFeature
 from webviz.features.goals import GoalsFeature
 from webviz.features.handles import HandlesFeature
 from webviz.features.tools import ToolsFeature
+from webviz.features.topics import TopicsFeature
 
 F = TypeVar("F", bound=Feature)
 
@@ -23,16 +26,26 @@ def stand_in(kind: type[F], **given: Any) -> F:
     return made
 
 
-def stand_ins(given: Callable[[str, Any], Any], steer: Callable[..., Any]) -> Sequence[Feature]:
+def stand_ins(
+    given: Callable[[str, Any], Any], steer: Callable[..., Any], do: Callable[[Command], object]
+) -> Sequence[Feature]:
     """Return features that show the public fields which a test gives.
 
     Args:
         given: returns one by its name, or another value without it.
         steer: takes set-points of vehicles.
+        do: takes commands that follow from the stores which pages watch.
     """
     tools = SimpleNamespace(usable=lambda: {each.id: each.tool for each in given("tools", ())})
     return [
         stand_in(BridgesFeature, links=lambda: tuple(given("bridges", ()))),
+        stand_in(
+            TopicsFeature,
+            inspected=lambda: given("inspected", {}),
+            _last={},
+            _inspected=set,
+            inspect_topics=lambda topics: do(commands.InspectTopics(topics)),
+        ),
         stand_in(HandlesFeature, found=lambda: given("handles", {}), _shown=None),
         stand_in(GoalsFeature, progress=lambda: given("goals", ())),
         stand_in(DrivingFeature, vehicles=lambda: given("driving", {}), steer=steer),

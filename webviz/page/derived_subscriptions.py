@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from webviz.commands import InspectSelections, OpenPanels
-from webviz.engine.commands import PROGRAM, Command, InspectTopics, InspectTransforms, Sender
+from webviz.engine.commands import PROGRAM, Command, InspectTransforms, Sender
 from webviz.page.content.transforms import pair_of
 
 
@@ -32,7 +32,6 @@ def _derived(stores: set[str]) -> set[Command]:
     """Return the commands that these stores need."""
     pairs = map(pair_of, _arguments("between", stores))
     return {
-        InspectTopics(frozenset(_arguments("message", stores))),
         InspectSelections(
             _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
         ),

@@ -21,8 +21,6 @@ from webviz.engine.commands.tools import (
     Publish,
 )
 from webviz.engine.commands.topics import (
-    InspectTopic,
-    InspectTopics,
     InspectTransforms,
     LookUpTransform,
 )
@@ -33,8 +31,6 @@ __all__ = [
     "CallService",
     "Command",
     "FileCommand",
-    "InspectTopic",
-    "InspectTopics",
     "InspectTransforms",
     "LookUpTransform",
     "Pick",

@@ -5,21 +5,6 @@ from __future__ import annotations
 from webviz.engine.commands.command import Command
 
 
-class InspectTopic(Command, frozen=True):
-    """Follow a topic that need not be shown: its rate and its last message; "" is none.
-
-    Programs and plug-ins follow one at a time, besides those that pages follow.
-    """
-
-    topic: str
-
-
-class InspectTopics(Command, frozen=True):
-    """Follow exactly these topics for all pages; the viewer itself keeps count of who looks."""
-
-    topics: frozenset[str]
-
-
 class InspectTransforms(Command, frozen=True):
     """Report on the transforms while they are shown.
 

@@ -1,73 +1,41 @@
-"""Traffic of topics: rates, and the last messages of inspected ones."""
+"""Traffic of topics: who publishes them, and rates."""
 
 from __future__ import annotations
 
-import time
 from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
-from webviz.api.declared import Topic
-from webviz.data.messages import MessageError, decode, peek_header, to_tree
-from webviz.engine.commands import Command, InspectTopic, InspectTopics, Sender
-from webviz.engine.parts.part import Batches, Core, Handler, Part
-from webviz.engine.state import Inspected, Traffic
-from webviz.sources import Offer, Raw, Subscriber, Subscription
+from webviz.data.messages import MessageError, peek_header
+from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.state import Traffic
+from webviz.sources import Offer, Raw
 
 SPAN_S = 3.0
 """Over how long a rate is measured."""
 MEASURED_S = 0.5
 EVERY_S = 1.0
-"""Interval between readings of an inspected message."""
-MAX_INSPECTED = 64
-"""Topics that are looked into at once."""
+"""Interval between measurements of a delay."""
 
 
 class TopicsPart(Part):
-    """Who publishes what, how fast it arrives, and the last messages of some topics."""
+    """Who publishes what, and how fast it arrives."""
 
     name = "Topics"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._subscriber = Subscriber()
-        self._own = ""
-        self._of_pages: frozenset[str] = frozenset()
         self._offers: Mapping[str, Offer] | None = None
         self._types: dict[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
         self._shown: dict[str, Traffic] = {}
         self._delays: dict[str, tuple[float, float | None]] = {}
-        self._last: dict[str, tuple[Raw, float]] = {}
-        self._read: dict[str, tuple[float, Raw, Inspected]] = {}
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {InspectTopic: self._inspect, InspectTopics: self._inspect_for_pages}
-
-    def subscriptions(self) -> Mapping[str, Subscription]:
-        """Return the topics that are inspected while a browser is open, with their first types."""
-        inspected = self._inspected() if self.core.is_watched() else ()
-        offers = {topic: self.core.offers.get(topic) for topic in inspected}
-        return self._subscriber.subscribe(
-            {
-                topic: Subscription(offer.publishers[0].type, Topic(topic))
-                for topic, offer in offers.items()
-                if offer and offer.publishers
-            }
-        )
 
     def take(self, batches: Batches) -> None:
-        """Keep the newest messages of the topics that are looked into, and measure delays."""
-        inspected = self._inspected()
+        """Measure delays."""
         for topic, batch in batches.items():
-            newest = next(reversed(list(batch)), None)
-            if newest is None:
-                continue
-            self._measure(topic, newest)
-            if topic in inspected:
-                self._last[topic] = newest, time.time()
+            if (newest := next(reversed(list(batch)), None)) is not None:
+                self._measure(topic, newest)
 
     def reset(self) -> None:
         """Forget delays, which another time makes meaningless."""
@@ -82,26 +50,12 @@ class TopicsPart(Part):
                 topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
                 for topic, offer in offers.items()
             }
-        inspected = self._inspected()
-        for gone in self._last.keys() - inspected:
-            del self._last[gone]
-            self._read.pop(gone, None)
         return {
             "topics": self._types,
             "offers": offers,
             "services": self.core.gate.services(),
             "traffic": self._traffic(),
-            "inspected": {topic: self._look(topic) for topic in inspected},
         }
-
-    def _inspect(self, command: InspectTopic, sender: Sender) -> None:
-        self._own = command.topic
-
-    def _inspect_for_pages(self, command: InspectTopics, sender: Sender) -> None:
-        self._of_pages = frozenset(sorted(command.topics)[:MAX_INSPECTED])
-
-    def _inspected(self) -> set[str]:
-        return {topic for topic in (self._own, *self._of_pages) if topic}
 
     def _measure(self, topic: str, raw: Raw) -> None:
         """Note how old a message was when it came, now and then."""
@@ -110,7 +64,7 @@ class TopicsPart(Part):
             return
         offer = self.core.offers.get(topic)
         try:
-            header = peek_header(_type_of(offer), raw.cdr) if offer and _type_of(offer) else None
+            header = peek_header(type_of(offer), raw.cdr) if offer and type_of(offer) else None
         except MessageError:
             header = None
         delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None
@@ -142,35 +96,7 @@ class TopicsPart(Part):
             traffic[topic] = Traffic(*rates, self._delays.get(topic, (0.0, None))[1])
         return traffic
 
-    def _look(self, topic: str) -> Inspected:
-        """Return the report on an inspected topic."""
-        offer = self.core.offers.get(topic)
-        type_ = _type_of(offer) if offer else ""
-        if not offer or not offer.publishers:
-            return Inspected(problem="No publisher on this topic.")
-        if offer.problem:
-            return Inspected(type_, problem=f"This topic cannot be read: {offer.problem}.")
-        if topic not in self._last:
-            return Inspected(type_, problem="No message has arrived yet.")
-        raw, received_s = self._last[topic]
-        now = self.core.clock()
-        read = self._read.get(topic)
-        if read is None or (read[1] is not raw and not 0.0 <= now - read[0] < EVERY_S):
-            read = now, raw, _read(type_, raw, received_s)
-            self._read[topic] = read
-        return read[2]
 
-
-def _type_of(offer: Offer) -> str:
+def type_of(offer: Offer) -> str:
     """Return the type its messages are decoded as."""
     return offer.type or (offer.publishers[0].type if offer.publishers else "")
-
-
-def _read(type_name: str, raw: Raw, received_s: float) -> Inspected:
-    size = len(raw.cdr)
-    try:
-        tree = to_tree(decode(type_name, raw.cdr))
-    except MessageError as error:
-        problem = f"The last message cannot be read: {error}"
-        return Inspected(type_name, None, problem, size, received_s)
-    return Inspected(type_name, tree, "", size, received_s)

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from webviz.engine.state.state import Row, State
 
 _COMPARED = (
-    *("frames", "statuses", "file", "traffic", "inspected", "between", "views", "history"),
+    *("frames", "statuses", "file", "traffic", "between", "views", "history"),
     *("transforms", "playback", "selected", "selections"),
 )
 """Fields that are made anew for each state, and cannot change within."""

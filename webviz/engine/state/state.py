@@ -200,7 +200,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         offers: publishers and QoS by topic name.
         services: types of services by name, as far as the source knows them.
         traffic: by topic name, of the topics that are subscribed to.
-        inspected: the inspected topics, by name.
         transforms: the tree of transforms, None while no page shows it.
         between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
@@ -229,7 +228,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     offers: Mapping[str, Offer] = msgspec.field(default_factory=dict)
     services: Mapping[str, str] = msgspec.field(default_factory=dict)
     traffic: Mapping[str, Traffic] = msgspec.field(default_factory=dict)
-    inspected: Mapping[str, Inspected] = msgspec.field(default_factory=dict)
     transforms: Diagnosis | None = None
     between: Mapping[tuple[str, str], Between] = msgspec.field(default_factory=dict)
     views: Mapping[int, View] = msgspec.field(default_factory=dict)

@@ -20,7 +20,7 @@ from webviz.page.content.playback import bookmarks, density, events, playback, r
 from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, selected, selection
-from webviz.page.content.topics import message, topics, traffic
+from webviz.page.content.topics import topics, traffic
 from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
@@ -41,7 +41,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "graph": graph,
     "history": history,
     "legend": legend,
-    "message": message,
     "panes": panes,
     "picking": picking,
     "playback": playback,

@@ -1,4 +1,4 @@
-"""Topics: who publishes them and how, what arrives, and the last message of one."""
+"""Topics: who publishes them and how, and what arrives."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import msgspec
 
 from webviz.api.display import Display
 from webviz.api.registry import display_types
-from webviz.data.messages.tree import Tree
 from webviz.engine.commands.by_topic import Pick, no_display, picks
 from webviz.engine.state import State
 from webviz.engine.store import PageStore
@@ -66,15 +65,6 @@ class TrafficStore(PageStore, frozen=True):
     topics: Mapping[str, TopicTraffic]
 
 
-class MessageStore(PageStore, frozen=True):
-    """The last message on a topic, see `webviz.engine.state.Inspected`."""
-
-    message: Tree | None
-    problem: str
-    size: int
-    received: float
-
-
 def topics(state: State, _: str) -> TopicsStore:
     """Return the topics of the graph."""
     return TopicsStore(_topics(state.offers, display_types()))
@@ -91,19 +81,6 @@ def traffic(state: State, _: str) -> TrafficStore:
             )
             for topic, traffic in state.traffic.items()
         }
-    )
-
-
-def message(state: State, topic: str) -> MessageStore | None:
-    """Return the last message on a topic; None if it is not inspected."""
-    inspected = state.inspected.get(topic)
-    if inspected is None:
-        return None
-    return MessageStore(
-        message=inspected.message,
-        problem=inspected.problem,
-        size=inspected.size,
-        received=round(inspected.received_s, 1),
     )
 
 

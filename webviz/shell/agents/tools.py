@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, InvalidStateError
 from typing import Any
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.status import LOADING, Status
-from webviz.engine.commands import Command, InspectTopic, LookUpTransform, Refresh
+from webviz.engine.commands import Command, LookUpTransform, Refresh
 from webviz.engine.state import Inspected
 from webviz.files.config import nearest
 from webviz.page.dispatcher import command_of
@@ -106,11 +107,11 @@ class AgentTools:
     def read(self, caller: AgentCaller, topic: str) -> str:
         """Return the newest message of a topic, or why there is none."""
         self._begin(caller, f"read {topic}")
-        self._viewer.do(InspectTopic(topic))
+        self._viewer.do(commands.InspectTopic(topic))
         try:
             found = self._received(topic)
         finally:
-            self._viewer.do(InspectTopic(""))
+            self._viewer.do(commands.InspectTopic(""))
         if found is None:
             raise Error(f"The viewer is reading other topics. Read {topic} again.")
         hint = "" if found.type else nearest(topic, list(self._viewer.topics)).capitalize()

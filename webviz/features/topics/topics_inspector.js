@@ -1,22 +1,22 @@
 // One topic: who publishes it and how, its last message as a tree, and a display for it.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { copyAndTell } from "../clipboard.js";
-import { wallNow } from "../clock.js";
-import { el, set, setText, showText } from "../dom.js";
-import { iconButton, textButton } from "../icons.js";
-import { openMenuBelow } from "../shell/menu.js";
-import { toast } from "../shell/toasts.js";
-import { watch } from "../stores.js";
-import { messageRows } from "./message_rows.js";
-import { textOf } from "./message_tree.js";
-import { bytesText, rateText, sizeText, spanText } from "./units.js";
+import { needs } from "../../access.js";
+import { act } from "../../act.js";
+import { copyAndTell } from "../../clipboard.js";
+import { wallNow } from "../../clock.js";
+import { el, set, setText, showText } from "../../dom.js";
+import { iconButton, textButton } from "../../icons.js";
+import { openMenuBelow } from "../../shell/menu.js";
+import { toast } from "../../shell/toasts.js";
+import { watch } from "../../stores.js";
+import { messageRows } from "../../panels/message_rows.js";
+import { textOf } from "../../panels/message_tree.js";
+import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
 
-/** @import {Fields} from "./message_tree.js" */
-/** @import {GraphTopic} from "../contents.js" */
-/** @import {TopicRow} from "./topics_table.js" */
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Fields} from "../../panels/message_tree.js" */
+/** @import {GraphTopic} from "../../contents.js" */
+/** @import {TopicRow} from "../../panels/topics_table.js" */
+/** @import {ValuesOf} from "../../types.js" */
 
 const OLD_S = 2; // until then, an age says nothing that the rate does not say
 

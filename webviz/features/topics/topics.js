@@ -1,23 +1,26 @@
 // The panel "Topics": all topics in a table, and the last message of the one that is chosen.
 
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { rowList, touchable } from "../controls/rows.js";
-import { searchField } from "../controls/fields.js";
-import { watch } from "../stores.js";
+import { el, set, setText } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { recall, remember } from "../../remember.js";
+import { rowList, touchable } from "../../controls/rows.js";
+import { searchField } from "../../controls/fields.js";
+import { panel } from "../../panels/panels.js";
+import { watch } from "../../stores.js";
 import { inspector } from "./topics_inspector.js";
-import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "./topics_table.js";
+import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "../../panels/topics_table.js";
 
-/** @import {Panel, ValuesOf} from "../types.js" */
-/** @import {Sort} from "./topics_table.js" */
+/** @import {Panel, ValuesOf} from "../../types.js" */
+/** @import {Sort} from "../../panels/topics_table.js" */
 
 const WIDE_PX = 600;
 const HEIGHTS = { wide: 26, narrow: 44 };
 const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
 
+export const install = () => panel(topics);
+
 /** @type {Panel} */
-export const topics = {
+const topics = {
   name: "topics",
   title: "Topics",
   order: 30,
