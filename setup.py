@@ -140,6 +140,7 @@ setup(
             "sharing = webviz.features.sharing:SharingFeature",
             "tools = webviz.features.tools:ToolsFeature",
             "topics = webviz.features.topics:TopicsFeature",
+            "transforms = webviz.features.transforms:TransformsFeature",
             "what_if = webviz.features.what_if:WhatIfFeature",
         ],
         "webviz.checks": ["webviz = webviz.checks"],

@@ -167,6 +167,17 @@ class InspectTopics(Command, frozen=True):
 
     topics: frozenset[str]
 
+class InspectTransforms(Command, frozen=True):
+    """Report on the transforms while they are shown.
+
+    Args:
+        tree: whether on the tree of all frames.
+        between: pairs of frames, target and source, between which transforms are read out.
+    """
+
+    tree: bool = ...
+    between: frozenset[tuple[str, str]] = ...
+
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
 
@@ -189,6 +200,12 @@ class Load(FileCommand, frozen=True):
 
     text: str
     name: str
+
+class LookUpTransform(Command, frozen=True):
+    """Answer with the newest transform between two frames, in words."""
+
+    target: str
+    source: str
 
 class MoveDisplay(Command, frozen=True):
     """Move a display or a group in the list.

@@ -8,11 +8,10 @@ import pytest
 from msgspec.structs import replace
 
 from tests.page.conftest import Loop, Tab
-from webviz.commands import FocusFrame
+from tests.support.stand_ins import stand_in
+from webviz.commands import FocusFrame, InspectTransforms
 from webviz.data.transforms import Diagnosis, FrameReport
-from webviz.engine.commands import InspectTransforms
-from webviz.engine.state import Between, State
-from webviz.page.content.transforms import between, pair_of
+from webviz.features.transforms import Between, TransformsFeature, pair_of
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 ODOM = FrameReport("odom", "map", False, ("/slam",), 20.04, 1, 123_000_000, None, 200, 10, ())
@@ -146,7 +145,8 @@ def test_the_transform_between_two_frames_is_read_out(loop: Loop, panel: Tab) ->
 @pytest.mark.parametrize("argument", ["", "map", '["map"]', '["map", 1]', "[" * 5000, '{"a": 1}'])
 def test_what_names_no_two_frames_is_ignored(argument: str) -> None:
     assert pair_of(argument) is None
-    assert between(State(), argument) is None
+    shown = stand_in(TransformsFeature, transforms_between=dict)
+    assert shown.between(argument) is None
 
 
 @pytest.fixture

@@ -10,8 +10,8 @@ from bench import Benches
 
 from webviz.api.declared import Topic
 from webviz.api.status import Level
-from webviz.commands import InspectTopic, InspectTopics, Pause, Reset
-from webviz.engine.commands import Command, InspectTransforms
+from webviz.commands import InspectTopic, InspectTopics, InspectTransforms, Pause, Reset
+from webviz.engine.commands import Command
 from webviz.engine.state import State
 from webviz.features.topics import MAX_INSPECTED
 from webviz.shell.testing.messages import header

@@ -18,6 +18,7 @@ from webviz.commands import (
     FocusFrame,
     Identify,
     Load,
+    LookUpTransform,
     RemoveDisplay,
     ResetView,
     Save,
@@ -29,7 +30,7 @@ from webviz.commands import (
     Undo,
     WriteDisplays,
 )
-from webviz.engine.commands import LookUpTransform, Picks, Sender
+from webviz.engine.commands import Picks, Sender
 from webviz.files.opening import load
 from webviz.files.sessions import MAX_VIEWERS, Sessions
 from webviz.server.access import rules

@@ -122,6 +122,7 @@ PARTS += [
     "Selection",
     "Settings",
     "Share",
+    "TF",
     "Time",
     "Tools",
     "Topics",

@@ -15,6 +15,7 @@ from webviz.features.goals import GoalsFeature
 from webviz.features.handles import HandlesFeature
 from webviz.features.tools import ToolsFeature
 from webviz.features.topics import TopicsFeature
+from webviz.features.transforms import TransformsFeature
 
 F = TypeVar("F", bound=Feature)
 
@@ -45,6 +46,12 @@ def stand_ins(
             _last={},
             _inspected=set,
             inspect_topics=lambda topics: do(commands.InspectTopics(topics)),
+        ),
+        stand_in(
+            TransformsFeature,
+            tree=lambda: given("transforms", None),
+            transforms_between=lambda: given("between", {}),
+            inspect_transforms=lambda *looked_at: do(commands.InspectTransforms(*looked_at)),
         ),
         stand_in(HandlesFeature, found=lambda: given("handles", {}), _shown=None),
         stand_in(GoalsFeature, progress=lambda: given("goals", ())),

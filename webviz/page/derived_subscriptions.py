@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from webviz.commands import InspectSelections, OpenPanels
-from webviz.engine.commands import PROGRAM, Command, InspectTransforms, Sender
-from webviz.page.content.transforms import pair_of
+from webviz.engine.commands import PROGRAM, Command, Sender
 
 
 class DerivedSubscriptions:
@@ -30,14 +29,9 @@ class DerivedSubscriptions:
 
 def _derived(stores: set[str]) -> set[Command]:
     """Return the commands that these stores need."""
-    pairs = map(pair_of, _arguments("between", stores))
     return {
         InspectSelections(
             _browsers("selected", stores), _browsers("selection", stores), "picking" in stores
-        ),
-        InspectTransforms(
-            not stores.isdisjoint({"transforms", "frame_tree"}),
-            frozenset(pair for pair in pairs if pair),
         ),
         OpenPanels(frozenset(_arguments("panel", stores))),
     }

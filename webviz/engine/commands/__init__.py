@@ -20,10 +20,6 @@ from webviz.engine.commands.tools import (
     CallService,
     Publish,
 )
-from webviz.engine.commands.topics import (
-    InspectTransforms,
-    LookUpTransform,
-)
 
 __all__ = [
     "MAX_PRIORITY",
@@ -31,8 +27,6 @@ __all__ = [
     "CallService",
     "Command",
     "FileCommand",
-    "InspectTransforms",
-    "LookUpTransform",
     "Pick",
     "Picks",
     "Publish",

@@ -2,7 +2,6 @@
 
 from webviz.engine.state.config_file import ConfigFile
 from webviz.engine.state.state import (
-    Between,
     ClockRate,
     Inspected,
     PanelTab,
@@ -15,7 +14,6 @@ from webviz.engine.state.state import (
 )
 
 __all__ = [
-    "Between",
     "ClockRate",
     "ConfigFile",
     "Inspected",

@@ -9,8 +9,8 @@ from msgspec.structs import replace
 from webviz.engine.state.state import Row, State
 
 _COMPARED = (
-    *("frames", "statuses", "file", "traffic", "between", "views", "history"),
-    *("transforms", "playback", "selected", "selections"),
+    *("frames", "statuses", "file", "traffic", "views", "history"),
+    *("playback", "selected", "selections"),
 )
 """Fields that are made anew for each state, and cannot change within."""
 

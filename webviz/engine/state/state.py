@@ -14,7 +14,6 @@ from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
-from webviz.data.transforms import Diagnosis
 from webviz.engine.state.config_file import ConfigFile
 from webviz.files.config import Settings
 from webviz.sources import Offer
@@ -130,22 +129,6 @@ class Inspected(msgspec.Struct, frozen=True):
     received_s: float = 0.0
 
 
-class Between(msgspec.Struct, frozen=True):
-    """The transform between two frames, at the newest time that all links between them have.
-
-    Args:
-        translation: of the source in the target, in metres; None if there is no transform.
-        rotation: (x, y, z, w).
-        age_s: how old that time is; None if all links are static, or ROS time is not known.
-        problem: why there is no transform, and what to do; a sentence.
-    """
-
-    translation: tuple[float, float, float] | None = None
-    rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
-    age_s: float | None = None
-    problem: str = ""
-
-
 class PanelTab(msgspec.Struct, frozen=True):
     """One panel of a plug-in.
 
@@ -200,8 +183,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         offers: publishers and QoS by topic name.
         services: types of services by name, as far as the source knows them.
         traffic: by topic name, of the topics that are subscribed to.
-        transforms: the tree of transforms, None while no page shows it.
-        between: requested transforms, by target and source frame.
         views: what each browser shows, by its id.
         panels: of plug-ins, in their order.
         history: what can be undone and redone.
@@ -228,8 +209,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     offers: Mapping[str, Offer] = msgspec.field(default_factory=dict)
     services: Mapping[str, str] = msgspec.field(default_factory=dict)
     traffic: Mapping[str, Traffic] = msgspec.field(default_factory=dict)
-    transforms: Diagnosis | None = None
-    between: Mapping[tuple[str, str], Between] = msgspec.field(default_factory=dict)
     views: Mapping[int, View] = msgspec.field(default_factory=dict)
     panels: tuple[PanelTab, ...] = ()
     history: UndoHistory = UndoHistory()

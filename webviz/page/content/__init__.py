@@ -21,14 +21,12 @@ from webviz.page.content.properties import properties, statuses, topics_of
 from webviz.page.content.scene import attributions, legend, watchers
 from webviz.page.content.selection import picking, selected, selection
 from webviz.page.content.topics import topics, traffic
-from webviz.page.content.transforms import between, frame_tree, transforms
 from webviz.page.content.types import types
 from webviz.page.content.viewer import file, frames, graph, settings, view_type
 from webviz.page.content.views import view, views
 
 MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "attributions": attributions,
-    "between": between,
     "bookmarks": bookmarks,
     "clock": clock,
     "density": density,
@@ -36,7 +34,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "events": events,
     "file": file,
     "findings": findings,
-    "frame_tree": frame_tree,
     "frames": frames,
     "graph": graph,
     "history": history,
@@ -56,7 +53,6 @@ MAKERS: Mapping[str, Callable[[State, str], PageStore | None]] = {
     "topics_of": topics_of,
     "view": view,
     "views": views,
-    "transforms": transforms,
     "types": types,
     "view_type": view_type,
     "watchers": watchers,

@@ -7,12 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from webviz.api.roles import Role
-from webviz.engine import commands as engine_commands
 from webviz.engine import feature
 from webviz.server.access import requests
 
 _COMMANDS: Mapping[type[Any], Role] = {
-    engine_commands.LookUpTransform: Role.WATCHER,
     requests.UseWidget: Role.OPERATOR,
     # Who may come.
     requests.Dismiss: Role.OWNER,

@@ -11,7 +11,7 @@ from typing import Any
 from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.status import LOADING, Status
-from webviz.engine.commands import Command, LookUpTransform, Refresh
+from webviz.engine.commands import Command, Refresh
 from webviz.engine.state import Inspected
 from webviz.files.config import nearest
 from webviz.page.dispatcher import command_of
@@ -124,7 +124,7 @@ class AgentTools:
             Error: there is none, and why.
         """
         self._begin(caller, f"looked up {source} in {target}")
-        return self._viewer.do(LookUpTransform(target, source))
+        return self._viewer.do(commands.LookUpTransform(target, source))
 
     def act(self, caller: AgentCaller, command: str, fields: Mapping[str, Any]) -> str:
         """Give a command of pages, with the rights of the caller.

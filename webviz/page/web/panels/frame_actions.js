@@ -14,3 +14,20 @@ export const frameActions = [];
 
 /** @param {FrameAction} action */
 export const frameAction = (action) => frameActions.push(action);
+
+/** @type {string | null} */
+let wanted = null;
+
+/**
+ * Marks a frame when the panel is shown.
+ *
+ * @param {string} name
+ */
+export const showFrame = (name) => (wanted = name);
+
+/** That frame, once. */
+export function wantedFrame() {
+  const name = wanted;
+  wanted = null;
+  return name;
+}

@@ -8,7 +8,6 @@ import { listeners } from "../listeners.js";
 import { displays } from "./displays/displays.js";
 import { doctor } from "./doctor.js";
 import { selectionPanel } from "./selection.js";
-import { transforms } from "./transforms.js";
 import { views } from "./views.js";
 
 /** @import {Panel} from "../types.js" */
@@ -35,4 +34,4 @@ export function panel(added) {
 /** Calls a listener whenever there is another panel. */
 export const onPanel = changes.on;
 
-for (const own of [displays, selectionPanel, views, transforms, doctor]) panel(own);
+for (const own of [displays, selectionPanel, views, doctor]) panel(own);

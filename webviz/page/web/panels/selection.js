@@ -12,7 +12,7 @@ import * as selection from "../tools/selection.js";
 import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf, textOf } from "./message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
-import { showFrame } from "./transforms.js";
+import { showFrame } from "./frame_actions.js";
 
 /** @import {Panel, ValuesOf} from "../types.js" */
 /** @import {Fields, MessageRow} from "./message_tree.js" */

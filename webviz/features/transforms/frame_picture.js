@@ -1,14 +1,14 @@
 // The tree of frames as a picture, in a dialog: moved by dragging, zoomed by the wheel, searched.
 
-import { searchField } from "../controls/fields.js";
-import { el, set, setText } from "../dom.js";
-import { listenToPanning } from "../panning.js";
-import { openDialog } from "../shell/dialog.js";
-import { watch } from "../stores.js";
-import { wordsOf } from "../words.js";
+import { searchField } from "../../controls/fields.js";
+import { el, set, setText } from "../../dom.js";
+import { listenToPanning } from "../../panning.js";
+import { openDialog } from "../../shell/dialog.js";
+import { watch } from "../../stores.js";
+import { wordsOf } from "../../words.js";
 import { boxAt, draw, HEIGHT, layOut } from "./frame_drawing.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {ValuesOf} from "../../types.js" */
 /** @import {Box, Drawing, Look} from "./frame_drawing.js" */
 
 const FURTHEST = 0.02;

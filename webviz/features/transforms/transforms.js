@@ -1,37 +1,37 @@
 // The panel "TF": the tree of frames, and the transform between two of them.
 
-import { act } from "../act.js";
-import { keyOf, rowList, touchable } from "../controls/rows.js";
-import { searchField } from "../controls/fields.js";
-import { el, set, setText, showText } from "../dom.js";
-import { icon, iconButton, textButton } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { watch } from "../stores.js";
-import { needs } from "../access.js";
-import { foldByKey } from "./folds.js";
-import { frameActions } from "./frame_actions.js";
+import { act } from "../../act.js";
+import { keyOf, rowList, touchable } from "../../controls/rows.js";
+import { searchField } from "../../controls/fields.js";
+import { el, set, setText, showText } from "../../dom.js";
+import { icon, iconButton, textButton } from "../../icons.js";
+import { recall, remember } from "../../remember.js";
+import { watch } from "../../stores.js";
+import { needs } from "../../access.js";
+import { foldByKey } from "../../panels/folds.js";
+import { panel } from "../../panels/panels.js";
+import { frameActions, wantedFrame } from "../../panels/frame_actions.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
-import { ageText, factOf, frameNames, frameRows, makeFrame, updateFrame } from "./frame_rows.js";
+import {
+  ageText,
+  factOf,
+  frameNames,
+  frameRows,
+  makeFrame,
+  updateFrame,
+} from "../../panels/frame_rows.js";
 
-/** @import {FrameRow} from "./frame_rows.js" */
-/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {FrameRow} from "../../panels/frame_rows.js" */
+/** @import {Panel, ValuesOf} from "../../types.js" */
 
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";
 
-/** @type {string | null} */
-let wanted = null;
-
-/**
- * Marks a frame when the panel is shown.
- *
- * @param {string} name
- */
-export const showFrame = (name) => (wanted = name);
+export const install = () => panel(transforms);
 
 /** @type {Panel} */
-export const transforms = {
+const transforms = {
   name: "transforms",
   title: "TF",
   order: 40,
@@ -92,9 +92,9 @@ export const transforms = {
       if (!values?.has("/roots")) return;
       const rows = frameRows(values, folded, search.value);
       list.show(rows);
+      const wanted = wantedFrame();
       const row = rows.find(({ name }) => name === wanted);
       if (row) list.mark(row.key);
-      wanted = null;
       const hasFrames = (values.get("/roots") ?? []).length > 0;
       setText(empty, hasFrames ? "No matching frames." : NOTHING);
       set(empty, { hidden: rows.length > 0 });

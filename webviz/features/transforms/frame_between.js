@@ -1,14 +1,14 @@
 // Two frames, and the transform between them.
 
-import { copyAndTell } from "../clipboard.js";
-import { combobox } from "../controls/combobox.js";
-import { el, set, setText } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { watch } from "../stores.js";
-import { spanText } from "./units.js";
+import { copyAndTell } from "../../clipboard.js";
+import { combobox } from "../../controls/combobox.js";
+import { el, set, setText } from "../../dom.js";
+import { iconButton } from "../../icons.js";
+import { recall, remember } from "../../remember.js";
+import { watch } from "../../stores.js";
+import { spanText } from "../../panels/units.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {ValuesOf} from "../../types.js" */
 
 const ROWS = {
   Translation: "x, y, z",
