@@ -110,7 +110,8 @@ class TopicsPart(Part):
             return
         offer = self.core.offers.get(topic)
         try:
-            header = peek_header(_type_of(offer), raw.cdr) if offer and _type_of(offer) else None
+            type_ = _type_of(offer) if offer else ""
+            header = peek_header(type_, raw.cdr, raw.types) if type_ else None
         except MessageError:
             header = None
         delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None
@@ -169,7 +170,7 @@ def _type_of(offer: Offer) -> str:
 def _read(type_name: str, raw: Raw, received_s: float) -> Inspected:
     size = len(raw.cdr)
     try:
-        tree = to_tree(decode(type_name, raw.cdr))
+        tree = to_tree(decode(type_name, raw.cdr, raw.types))
     except MessageError as error:
         problem = f"The last message cannot be read: {error}"
         return Inspected(type_name, None, problem, size, received_s)
