@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import re
 import threading
 from collections.abc import Callable, Iterator
@@ -9,6 +11,7 @@ from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from bags import START_NS
 from drives import CONFIG, recorded
 from pages import COARSE
 from playwright.sync_api import expect
@@ -98,7 +101,13 @@ def test_an_export_tells_which_share_is_done(tmp_path: Path) -> None:
         shares.append,
         threading.Event(),
     )
-    assert re.fullmatch(r"\d\.\d s, \d\.\d MB\.", text)
+    assert re.fullmatch(r"6\.0 s, \d\.\d MB\.", text)
+    packed = re.search(rb'"webviz/about">([^<]*)<', files["run.html"])
+    assert packed is not None
+    about = json.loads(base64.b64decode(packed[1]))
+    assert about["start"] == pytest.approx(START_NS / 1e9)
+    assert about["duration"] == pytest.approx(6.0, abs=0.1)
+    assert about["at"] == AT_S
     assert shares == sorted(shares)
     assert 0.5 < shares[-1] <= 1.0
     assert files == {"run.html": path.read_bytes()}
