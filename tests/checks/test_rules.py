@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
@@ -15,8 +15,12 @@ from bags import START_NS, Bag, ns
 from examining import HERE, SCAN, look, three_ranges
 
 from webviz.api.finding import CauseLevel
+from webviz.api.observation import DisplaySeen, Observation
 from webviz.api.rule import parse_rule
+from webviz.api.status import Level, Status
 from webviz.data.messages import encode
+from webviz.data.transforms import TransformBuffer
+from webviz.engine.doctor.judging import value_of
 from webviz.files.config import WatchRule
 from webviz.shell.cli import main
 from webviz.shell.doctor.rule_results import RuleResults
@@ -138,6 +142,19 @@ def test_a_rule_is_about_each_number_that_a_message_path_names(
         assert f"{'ok     ' if holds else 'FAILED '}{rule}" in said
     assert "/charge.data is 0.1 at " in said, "one of 200 messages"
     assert "/charge.date never had a value." in said
+
+
+@pytest.mark.parametrize(
+    ("levels", "value"),
+    [((), 0.0), ((Level.OK,), 0.0), ((Level.OK, Level.IDLE), 0.0), ((Level.IDLE, Level.WARN), 1.0)],
+)
+def test_an_idle_display_is_as_good_as_one_that_is_ok(
+    levels: Sequence[Level], value: float
+) -> None:
+    statuses = {f"{number}": Status(level, "") for number, level in enumerate(levels)}
+    display = DisplaySeen("1", "LaserScan", LaserScan(name="Scan"), statuses)
+    seen = Observation(now_ns=1, fixed_frame="map", buffer=TransformBuffer(), displays=[display])
+    assert value_of(parse_rule("Scan.status < warn"), seen) == value
 
 
 def test_a_rule_of_the_config_is_tested(

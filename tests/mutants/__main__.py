@@ -41,7 +41,24 @@ TESTS = {
         "tests/sources/test_bag_past.py tests/playback/test_rewinding.py "
         "tests/playback/test_seeks_and_transforms.py tests/playback/test_seeking.py"
     ),
+    "webviz/shell/export": (
+        "tests/capture/test_tape.py tests/capture/test_chunks.py tests/capture/test_pane_tape.py "
+        "tests/features/sharing tests/capture/test_export.py"
+    ),
+    "webviz/files/report": "tests/report/test_archive.py tests/report/test_tests.py",
     "webviz/shell/report": "tests/report/test_tests.py tests/report",
+    "webviz/data/tiles": "tests/sources/test_tiles.py",
+    "webviz/engine/doctor": (
+        "tests/checks/test_ordering.py tests/checks/test_rules.py tests/checks"
+    ),
+    "webviz/features": "tests/features",
+    "webviz/features/recording": "tests/features/recording",
+    "webviz/features/black_box": "tests/features/black_box",
+    "webviz/features/sharing": "tests/features/sharing",
+    "webviz/sources/recording": (
+        "tests/features/recording tests/features/black_box tests/playback/test_rewinding.py"
+    ),
+    "webviz/sources/bridge": "tests/sources/bridge",
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
         "tests/pipeline/test_kept_sessions.py"

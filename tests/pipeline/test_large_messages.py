@@ -12,7 +12,7 @@ from waiting import until
 
 from webviz import Context, Display, Input, Sample, Topic
 from webviz.commands import SetFixedFrame, SetProperty
-from webviz.data.messages import decode, encode
+from webviz.data.messages import MessageTypes, decode, encode
 from webviz.engine.pipeline import folding
 from webviz.engine.pipeline.folding import MAX_BYTES
 from webviz.shell.testing.messages import header
@@ -207,10 +207,10 @@ class Unthreaded(Display):
 def test_large_messages_are_decoded_in_a_thread_also_if_they_are_folded_by_the_loop(
     bench: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def decode_at_gate(type_name: str, cdr: bytes) -> Any:
+    def decode_at_gate(type_name: str, cdr: bytes, types: MessageTypes) -> Any:
         if len(cdr) >= Display.slow_bytes:
             wait_at_gate()
-        return decode(type_name, cdr)
+        return decode(type_name, cdr, types)
 
     monkeypatch.setattr(folding, "decode", decode_at_gate)
     at = bench(Unthreaded())

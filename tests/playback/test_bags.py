@@ -6,8 +6,9 @@ import math
 import struct
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from bags import START_NS, Bag, ns, strings
@@ -18,12 +19,15 @@ import webviz
 from tests.scene.conftest import Peer
 from webviz.api.declared import Topic
 from webviz.api.views import Orbit
-from webviz.data.messages import decode, encode
+from webviz.data.messages import decode, encode, register
 from webviz.shell.app.bag_config import config_of, fixed_frame_of, robot_frame_of
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import header
 from webviz.sources import Subscription
 from webviz.sources.bag.history import BagHistory
+from webviz.sources.player import Player
+
+CDR = b"\0\1\0\0"
 
 
 def robot() -> Bag:
@@ -138,54 +142,61 @@ def test_bags_that_lie_far_apart_are_reported(tmp_path: Path, theater: Callable)
     )
 
 
+APPLE, BASKET = "fruit_of_topics/msg/Apple", "fruit_of_topics/msg/Basket"
+PART = f"{'=' * 80}\nMSG: fruit_of_topics/Apple\n"
+NUMBER = struct.pack("<i", 7), struct.pack("<f", 0.5)
+
+
+def arrived(player: Player, types: Mapping[str, str]) -> dict[str, Any]:
+    """Play all of a recording, and return the messages by topic."""
+    player.want({topic: Subscription(type_, Topic(topic)) for topic, type_ in types.items()})
+    assert [offer.problem for offer in player.offers().values()] == [""] * len(types)
+    player.play_until(player.history.end_ns)
+    raws = {topic: raw for topic, (raw,) in player.inbox.drain().items()}
+    return {topic: decode(types[topic], raw.cdr, raw.types) for topic, raw in raws.items()}
+
+
 @pytest.mark.parametrize("is_last", [False, True])
-def test_a_definition_changes_no_type_of_another_topic(tmp_path: Path, is_last: bool) -> None:
-    """A type that no class of webviz has is what the topics of that type say, in either order."""
-    apple, basket = "fruit_of_topics/msg/Apple", "fruit_of_topics/msg/Basket"
-    part = f"{'=' * 80}\nMSG: fruit_of_topics/Apple\n"
+def test_each_topic_is_read_by_its_own_definition(tmp_path: Path, is_last: bool) -> None:
+    """Although they define a type in each other, and one that is known, otherwise."""
+    whole, half = NUMBER
     topics = {
-        "/apple": (apple, "int32 weight\n"),
-        "/basket": (basket, f"Apple apple\n{part}int32  weight  # in g\n"),
-        "/liar": ("fruit_of_topics/msg/Liar", f"Apple apple\n{part}float64 weight\n"),
+        "/apple": (APPLE, "int32 weight\n", whole),
+        "/basket": (BASKET, f"Apple apple\n{PART}float32  weight  # in kg\n", half),
+        "/crate": ("fruit_of_topics/msg/Crate", f"Apple[] apples\n{PART}int16 weight\n", b""),
     }
+    live = "fruit_of_topics/msg/Live"
+    register(live, f"Apple apple\n{PART}uint8 weight\n")
     bag = Bag()
-    for topic, (type_name, definition) in sorted(topics.items(), reverse=is_last):
+    for topic, (type_name, definition, number) in sorted(topics.items(), reverse=is_last):
         bag.add(topic, type_name, definition=definition)
-        bag.put(0, topic, struct.pack("<4xi4x", 7))
-    history = BagHistory(bag.write(tmp_path / "run"))
-    wanted = {name: Subscription(type, Topic(name)) for name, (type, _) in topics.items()}
-    for topic in ("/liar", "/basket", "/apple", "/liar"):
-        history.offers({topic: wanted[topic]})
-    problems = {topic: offer.problem for topic, offer in history.offers(wanted).items()}
-    assert problems == {
-        "/apple": "",
-        "/basket": "",
-        "/liar": f"its definition of {apple} is not that of /apple in run",
-    }
-    cdr = struct.pack("<BBBBi", 0, 1, 0, 0, 7)
-    assert decode(apple, cdr).weight == decode(basket, cdr).apple.weight == 7
-    history.close()
+        bag.put(0, topic, CDR + (number or struct.pack("<ihh", 2, 1, -1)))
+    player = Player(BagHistory(bag.write(tmp_path / "run")))
+    found = arrived(player, {topic: type_ for topic, (type_, _, _) in topics.items()})
+    assert found["/apple"].weight == 7
+    assert found["/basket"].apple.weight == 0.5
+    assert [apple.weight for apple in found["/crate"].apples] == [1, -1]
+    assert decode(live, CDR + b"\x07").apple.weight == decode(APPLE, CDR + b"\x07").weight == 7
+    player.close()
 
 
-def test_definitions_that_differ_between_bags_are_not_mixed(
-    tmp_path: Path, theater: Callable
-) -> None:
+def test_bags_and_live_topics_may_define_a_type_otherwise(tmp_path: Path) -> None:
     paths = []
-    for name, definition in {
-        "first": "int32 a  # apples\n",
-        "second": "\nint32   a\n",
-        "third": "float64 a\n",
-    }.items():
+    for topic, kind, number in zip(
+        ("/first", "/second"), ("int32", "float32"), NUMBER, strict=True
+    ):
         bag = Bag()
-        bag.add(f"/{name}", "fruit_of_bags/msg/Basket", definition=definition)
-        bag.put(0, f"/{name}", bytes(16))
-        paths.append(bag.write(tmp_path / name))
-    offers = theater(paths).source.offers()
-    assert [offers[f"/{name}"].problem for name in ("first", "second", "third")] == [
-        "",
-        "",
-        "fruit_of_bags/msg/Basket is not defined in third as it is in first",
-    ]
+        bag.add(topic, BASKET, definition=f"Apple apple\n{PART}{kind} weight\n")
+        bag.put(0, topic, CDR + number)
+        paths.append(bag.write(tmp_path / topic[1:]))
+    together, alone = Player(BagHistory(paths)), Player(BagHistory(paths[0]))
+    register(BASKET, f"Apple apple\n{PART}uint8 weight\n")
+    assert arrived(alone, {"/first": BASKET})["/first"].apple.weight == 7
+    found = arrived(together, {"/first": BASKET, "/second": BASKET})
+    assert [each.apple.weight for each in found.values()] == [7, 0.5]
+    assert decode(BASKET, CDR + b"\x09").apple.weight == 9
+    alone.close()
+    together.close()
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])

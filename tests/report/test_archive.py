@@ -54,6 +54,15 @@ def test_a_report_that_leaves_out_parts_has_none() -> None:
     assert not any((report.has_names, report.statuses, report.findings, report.moments))
 
 
+def test_a_report_of_any_time_and_with_a_comment_is_read(tmp_path: Path) -> None:
+    first = with_number("first_ns", str(-(2**63)))
+    path = zipped(tmp_path / "bug.zip", {**WHOLE, "report.json": first})
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.comment = b"x" * 65_535
+    (tmp_path / "out").mkdir()
+    assert read_report(path, tmp_path / "out").report.first_ns == -(2**63)
+
+
 def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
     others = {"../evil": b"x", "/tmp/evil": b"x", "config.yaml/../../evil": b"x", "big": b"x" * 9}
     path = zipped(tmp_path / "bug.zip", {**others, **WHOLE})
@@ -66,6 +75,7 @@ def test_members_of_other_names_are_never_unpacked(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("members", "reason"),
     [
+        ({}, "report.json is missing"),
         ({"report.json": b"{}"}, "config.yaml is missing"),
         ({**WHOLE, "report.json": b"{}"}, "report.json is invalid"),
         ({**WHOLE, "report.json": b"[" * 100_000}, "report.json is invalid"),

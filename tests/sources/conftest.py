@@ -36,7 +36,7 @@ class PlayedBag:
     def heard(self, topic: str = "/words", type_name: str = STRING) -> Sequence[str]:
         """The strings that arrived since the last call."""
         arrived = self.source.inbox.drain().get(topic, ())
-        return [decode(type_name, raw.cdr).data for raw in arrived]
+        return [decode(type_name, raw.cdr, raw.types).data for raw in arrived]
 
     def words_until(self, to_s: float) -> Sequence[str]:
         """The strings of /words up to so many seconds from the start."""

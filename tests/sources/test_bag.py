@@ -233,7 +233,7 @@ def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
     bag.want("/own", type_name="learnt_msgs/msg/Own")
     bag.play(1)
     (raw,) = bag.source.inbox.drain()["/own"]
-    message = decode("learnt_msgs/msg/Own", raw.cdr)
+    message = decode("learnt_msgs/msg/Own", raw.cdr, raw.types)
     assert (message.data, message.number) == ("hi", 7)
     assert bag.source.warnings == []
 

@@ -13,7 +13,6 @@ from mcap.writer import Writer
 
 from webviz.data.foxglove import schemas
 from webviz.data.messages import decode, encode, register
-from webviz.data.messages.typestore import agree
 from webviz.data.recordings.mcap_writing import McapFile
 from webviz.sources.bag.file import BagFile
 
@@ -123,19 +122,8 @@ def test_definitions_in_idl_are_read(tmp_path: Path) -> None:
         lambda writer: add(writer, "/battery", "cdr", name, battery, text=text),
     )
     (message,) = file.messages(file.channels, 0)
-    assert decode(message.type, message.cdr).voltage == 12.5
+    assert decode(message.type, message.cdr, message.types).voltage == 12.5
     copied = copy(file, tmp_path / "copy.mcap")
     assert [each.recorded for each in copied.channels] == [each.recorded for each in file.channels]
     copied.close()
     file.close()
-
-
-def test_types_in_idl_are_compared() -> None:
-    register(CUSTOM, BATTERY_IDL)
-    assert agree(
-        CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, BATTERY_IDL.replace("A battery.", "The battery."))
-    )
-    assert not agree(
-        CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, BATTERY_IDL.replace("voltage", "volts"))
-    )
-    assert not agree(CUSTOM, (CUSTOM, BATTERY_IDL), (CUSTOM, "float32 voltage"))

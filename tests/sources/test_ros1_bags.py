@@ -38,7 +38,7 @@ def test_its_messages_are_those_of_ros_2(
         bag.source.jump(bag.source.history.end_ns)
         bag.play(10)
         arrived = bag.source.inbox.drain().get(topic, ())
-        found[topic] = [decode(name, raw.cdr) for raw in arrived]
+        found[topic] = [decode(name, raw.cdr, raw.types) for raw in arrived]
     assert bag.source.warnings == []
     newest = found["/scan"][-1]
     assert (newest.header.frame_id, newest.header.stamp_ns) == ("laser", 1009_900_000_000)

@@ -10,19 +10,25 @@ import os
 import sqlite3
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 import PIL.Image
 import pytest
-from pmtiles.tile import Compression, TileType, zxy_to_tileid
+from pmtiles.tile import (
+    Compression,
+    TileType,
+    deserialize_header,
+    tileid_to_zxy,
+    zxy_to_tileid,
+)
 from pmtiles.writer import Writer
 
 from webviz.data.tiles import TileError, decoded, open_tiles
 from webviz.data.tiles import mbtiles as mbtiles_file
 from webviz.data.tiles.pmtiles_file import PMTiles
-from webviz.data.tiles.server import VARIABLE, TileCache, TileServer, is_allowed
+from webviz.data.tiles.server import VARIABLE, TileCache, TileServer, is_allowed, user_cache
 from webviz.data.tiles.source import MAX_BYTES, plain
 
 TIMEOUT_S = 1.0
@@ -48,10 +54,13 @@ def mbtiles(path: Path, **about: str) -> Path:
     return path
 
 
-def pmtiles(path: Path, kind: TileType = TileType.PNG) -> Path:
+def pmtiles(
+    path: Path, kind: TileType = TileType.PNG, contents: Mapping[int, bytes] | None = None
+) -> Path:
     with path.open("wb") as file:
         writer = Writer(file)
-        writer.write_tile(zxy_to_tileid(2, 1, 0), picture())
+        for number, content in (contents or {zxy_to_tileid(2, 1, 0): picture()}).items():
+            writer.write_tile(number, content)
         header = {"tile_type": kind, "tile_compression": Compression.NONE}
         bounds = dict.fromkeys(("min_lon_e7", "min_lat_e7", "max_lon_e7", "max_lat_e7"), 0)
         writer.finalize(header | bounds, {"attribution": '<a href="x">&copy; Surveyors</a>'})
@@ -373,6 +382,30 @@ def test_a_directory_of_pmtiles_unpacks_to_one_megabyte_at_most(tmp_path: Path) 
             else pytest.raises(TileError, match="more than 1048576 bytes")
         ):
             assert tiles._unpacked(packed) == bytes(size)
+
+
+def test_tiles_of_a_large_pmtiles_file_are_found_by_way_of_its_leaves(tmp_path: Path) -> None:
+    """The root has at most 16 kB; of more tiles, it names the directories that have them."""
+    first = zxy_to_tileid(8, 0, 0)
+    sizes = np.random.default_rng(0).integers(1, 128, 1 << 15).tolist()
+    contents = {first + n: n.to_bytes(2, "big") * size for n, size in enumerate(sizes)}
+    path = pmtiles(tmp_path / "map.pmtiles", contents=contents)
+    with path.open("rb") as file:
+        assert deserialize_header(file.read(127))["leaf_directory_length"] > 0
+    tiles = PMTiles(path)
+    for number in (first, first + 10_000, first + len(sizes) - 1):
+        assert tiles.read(*tileid_to_zxy(number)) == contents[number]
+    assert tiles.read(3, 0, 0) is None
+
+
+def test_tiles_are_kept_in_the_cache_of_the_user(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert user_cache() == tmp_path / "webviz/tiles"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert user_cache() == tmp_path / ".cache/webviz/tiles"
 
 
 def test_attributions_are_texts_of_one_line() -> None:

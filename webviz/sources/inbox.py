@@ -8,6 +8,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
+from webviz.data.messages import KNOWN, MessageTypes
+
 MAX_BYTES = 64 << 20
 """Of the messages of one topic between two calls of `drain`."""
 MAX_TOTAL = 256 << 20
@@ -39,6 +41,7 @@ class Raw:
         arrived_s: monotonic time of arrival, in seconds.
         recorded_ns: time of recording of one of a bag, 0 for a live one.
         earlier: the messages before it, if not all of them were delivered; for statistics.
+        types: that define its type.
     """
 
     cdr: bytes
@@ -46,6 +49,7 @@ class Raw:
     arrived_s: float = field(default_factory=time.monotonic)
     recorded_ns: int = 0
     earlier: Earlier | None = None
+    types: MessageTypes = KNOWN
 
 
 class Inbox:

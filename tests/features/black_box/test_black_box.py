@@ -6,7 +6,7 @@ import re
 import shutil
 import time
 from collections.abc import Callable, Iterator
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -188,6 +188,17 @@ def until(bench: Bench, is_reached: Callable[[State], bool]) -> State:
     raise AssertionError("not reached")
 
 
+def causes(bench: Bench) -> set[str]:
+    """Why something is being saved in the next 5 s of the doctor."""
+    found = set[str]()
+    for _ in range(50):
+        shown = bench.do(Refresh()).black_box
+        found |= {shown.saving} if shown is not None else set()
+        bench.clock += 0.1
+        time.sleep(0.01)
+    return found
+
+
 def saved(bench: Bench) -> list[Path]:
     """The recordings once none is being made."""
 
@@ -238,6 +249,38 @@ def test_no_more_is_saved_than_the_limits_allow(make: Benches) -> None:
 
 
 @pytest.mark.parametrize(
+    ("per_day", "gigabytes", "reason"),
+    [
+        (2, 5.0, "2 recordings were made today"),
+        (3, 0.00015, "webviz_black_box has 0.0 GB, which is the limit"),
+    ],
+)
+def test_recordings_that_were_made_before_count(
+    make: Benches, per_day: int, gigabytes: float, reason: str
+) -> None:
+    for days, cause in ((0, "a"), (0, "b"), (1, "c"), (2, "d")):
+        moment = datetime.now() - timedelta(days=days)
+        path = Path("webviz_black_box") / f"{moment:{black_box.MOMENT}}_{cause}"
+        path.mkdir(parents=True)
+        (path / "metadata.yaml").write_bytes(bytes(40_000))
+    bench = make(WatchRule(display="Plan", status="error"), per_day=per_day, gigabytes=gigabytes)
+    publish(bench, 1.0)
+    until(bench, lambda state: state.black_box is not None and len(state.black_box.saved) == 4)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
+    assert statuses["Black box"].text.startswith(f"A rule fired, but {reason}")
+
+
+def test_a_rule_saves_until_its_time_is_up(make: Benches, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = make(WatchRule(display="Plan", status="error"))
+    monkeypatch.setattr(black_box, "AFTER_S", 1e9)
+    publish(bench, 1.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    until(bench, lambda _: any(Path("webviz_black_box").glob("*/*.mcap")))
+    assert causes(bench) == {"Plan error"}
+
+
+@pytest.mark.parametrize(
     "rule", [WatchRule(display="Plan", status="warn"), WatchRule(rule="Plan.status < warn")]
 )
 def test_a_display_that_has_received_nothing_yet_fires_no_rule(
@@ -264,7 +307,7 @@ def test_a_status_does_not_count_while_a_robot_starts(
     publish(bench, 1.0)
     bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
     until(bench, lambda state: state.rows[0].level is Level.ERROR)
-    bench.do(Refresh())
+    assert causes(bench) == {""}
     assert not Path("webviz_black_box").exists()
     monkeypatch.setattr(black_box, "SETTLE_S", 0.0)
     saved(bench)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from typing import Any
 
 import pytest
@@ -20,6 +21,7 @@ from webviz.commands import (
 )
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
+from webviz.files.config.layout import MAX_DOCKED, MAX_LAYOUTS
 
 CONFIG = """\
 version: 1
@@ -130,6 +132,30 @@ def test_what_cannot_be_is_refused(b: Any) -> None:
         assert "Unknown saved layout `nowhere`" in b.refused(command)
     assert "name" in b.refused(SaveLayout(""))
     assert layouts(b) == (SHOWN, {"lab": LAB})
+
+
+def test_a_page_cannot_save_more_layouts_than_a_file_may_have(b: Any) -> None:
+    for number in range(1, MAX_LAYOUTS):
+        b.do(SaveLayout(f"{number}"))
+    assert f"at most {MAX_LAYOUTS}" in b.refused(SaveLayout("more"))
+    assert len(layouts(b)[1]) == MAX_LAYOUTS
+    b.do(SaveLayout("lab"))
+
+
+def test_the_largest_layouts_are_written_and_read_in_seconds() -> None:
+    """A session is written so while somebody drives; ten seconds would be felt."""
+    places = [[f"{place} {number}" for number in range(MAX_DOCKED)] for place in "abc"]
+    docked = [
+        tuple(DockedPanel(panel=name, weight=1 / 3) for name in place) for place in places[:2]
+    ]
+    numbers = {"left": 1 / 3, "top": 1 / 3, "width": 1 / 7, "height": 1 / 7}
+    over = tuple(FloatingPanel(panel=name, **numbers) for name in places[2])
+    layout = Layout(beside=docked[0], below=docked[1], over=over)
+    config = read(CONFIG, "x.yaml")
+    config.settings.layouts = {f"{number}": layout for number in range(MAX_LAYOUTS)}
+    start_s = time.process_time()
+    assert read(dump(config), "x.yaml").settings == config.settings
+    assert time.process_time() - start_s < 6.0
 
 
 @pytest.mark.parametrize(("key", "saved"), [("layouts", {}), ("views", {}), ("bookmarks", 0.0)])

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 from bench import Bench, benches
 
@@ -16,11 +17,19 @@ from webviz.data.messages import decode, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.commands import Sender
+from webviz.features.recording import (
+    MemoryState,
+    RecordingState,
+    RecordingStore,
+    RunningRecording,
+    recording_store,
+)
 from webviz.files.config import Settings
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw
 from webviz.sources.recording import RecentMessages, recent, recorder
 from webviz.sources.recording.channels import Channels
+from webviz.sources.recording.memory import MEMORY_OFF
 from webviz_displays.path import Path as PathDisplay
 from webviz_displays.robot_model import RobotModel
 
@@ -350,3 +359,51 @@ def test_a_recording_ends_before_its_files_are_too_large(tmp_path: Path) -> None
     writer.close()
     assert writer.is_full
     assert 6 <= writer.messages <= 9, "what each takes besides its bytes counts, too"
+
+
+LIMITS = MemorySettings(seconds=60.0, megabytes=512.0)
+REMEMBERS = "Remembers the last 60 s of the displayed topics, up to 512 MB."
+
+
+def test_pages_read_what_is_remembered_and_recorded() -> None:
+    memory = MemoryState(61.7, 2_999_999)
+    running = RecordingState(
+        path=Path("folder/run"), seconds=3.9, messages=5, size=1_260_000, dropped=2
+    )
+    shown = RunningRecording(name="run", seconds=3, megabytes=1.3, dropped=2)
+    assert recording_store(memory, running, LIMITS) == RecordingStore(
+        (61, 2), True, REMEMBERS, shown
+    )
+    assert recording_store(memory, None, LIMITS) == RecordingStore((61, 2), True, REMEMBERS, None)
+    assert recording_store(None, running, LIMITS) is None
+
+
+@pytest.mark.parametrize("off", [{"seconds": 0.0}, {"megabytes": 0.0}])
+def test_pages_read_that_there_is_no_memory(off: dict[str, float]) -> None:
+    limits = msgspec.structs.replace(LIMITS, **off)
+    off_store = RecordingStore((0, 0), False, MEMORY_OFF, None)
+    assert recording_store(MemoryState(0.0, 0), None, limits) == off_store
+
+
+@pytest.mark.parametrize(
+    ("is_full", "pinned", "sentences"),
+    [
+        (True, (), "Older messages are dropped already: raise memory.megabytes."),
+        (
+            False,
+            tuple("abcd"),
+            "Older latched messages and last transforms are kept of a, b, c, d.",
+        ),
+        (
+            False,
+            tuple("abcde"),
+            "Older latched messages and last transforms are kept of a, b, c, d ….",
+        ),
+    ],
+)
+def test_pages_read_which_bound_of_a_memory_is_reached(
+    is_full: bool, pinned: tuple[str, ...], sentences: str
+) -> None:
+    found = recording_store(MemoryState(1.0, 1, is_full, pinned), None, LIMITS)
+    assert found is not None
+    assert found.about == f"{REMEMBERS} {sentences}"

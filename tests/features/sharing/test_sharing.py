@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import re
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from bags import START_NS
 from drives import CONFIG, recorded
 from pages import COARSE
 from playwright.sync_api import expect
@@ -16,7 +20,9 @@ from waiting import until
 import webviz
 from webviz.commands import Refresh, ShareMoment, StopSharing
 from webviz.data.messages import encode
+from webviz.engine.parts.part import HostProgram
 from webviz.features.sharing import SharingState
+from webviz.features.sharing.exporting import SharedMoment, export
 from webviz.shell.testing import header
 from webviz.shell.testing.source import SECOND, HandFedSource
 
@@ -82,6 +88,29 @@ def test_without_memory_there_is_nothing_to_share(tmp_path: Path) -> None:
         viewer.config = {"displays": []}
         with pytest.raises(webviz.Error, match="No messages are kept in memory"):
             viewer.do(ShareMoment(str(tmp_path / "run.html")))
+
+
+def test_an_export_tells_which_share_is_done(tmp_path: Path) -> None:
+    recorded().write(tmp_path / "run")
+    (tmp_path / "lab.yaml").write_text(CONFIG)
+    (bag,) = (tmp_path / "run").glob("*.mcap")
+    path, shares, files = tmp_path / "run.html", list[float](), dict[str, bytes]()
+    text = export(
+        SharedMoment(bag, tmp_path / "lab.yaml", path, "", AT_S),
+        HostProgram(files.__setitem__),
+        shares.append,
+        threading.Event(),
+    )
+    assert re.fullmatch(r"6\.0 s, \d\.\d MB\.", text)
+    packed = re.search(rb'"webviz/about">([^<]*)<', files["run.html"])
+    assert packed is not None
+    about = json.loads(base64.b64decode(packed[1]))
+    assert about["start"] == pytest.approx(START_NS / 1e9)
+    assert about["duration"] == pytest.approx(6.0, abs=0.1)
+    assert about["at"] == AT_S
+    assert shares == sorted(shares)
+    assert 0.5 < shares[-1] <= 1.0
+    assert files == {"run.html": path.read_bytes()}
 
 
 def test_a_click_shares_the_moment_and_the_view(

@@ -289,16 +289,17 @@ def test_a_flood_of_statuses_keeps_the_newest(liar: Liar) -> None:
 def test_a_message_above_the_limit_is_a_problem_of_its_topic(
     liar: Liar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(source, "MAX_TOTAL", 1000)
+    monkeypatch.setattr(source, "MAX_TOTAL", 3 << 20)
 
     def script(connection: ServerConnection) -> None:
         connection.send(advertise(channel(1, "/words")))
-        connection.send(message(next_subscription(connection), "x" * 2000))
+        connection.send(message(next_subscription(connection), "x" * (5 << 20)))
 
     reader = liar(script)
     reader.want(words=STRING)
     reader.until(lambda: "/words" in reader.source.offers())
-    reader.until(lambda: "is above the limit" in reader.source.offers()["/words"].problem)
+    said = "a message of 5 MB is above the limit of 3 MB; publish smaller ones"
+    reader.until(lambda: reader.source.offers()["/words"].problem == said)
 
 
 def test_a_frame_above_all_limits_ends_the_connection(

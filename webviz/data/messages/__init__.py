@@ -8,8 +8,8 @@ of the bytes. Some messages have typed classes here; that of any other is
 the bytes of such messages, or of nested mappings.
 """
 
-from webviz.data.messages.classes import message_class
-from webviz.data.messages.decode import decode, peek_header, prepare, register
+from webviz.data.messages.classes import is_message, message_class
+from webviz.data.messages.decode import decode, defined, peek_header, prepare, register
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import (
     DecodeError,
@@ -60,10 +60,18 @@ from webviz.data.messages.types import (
     PointField,
     String,
 )
-from webviz.data.messages.typestore import definition, find_with, type_exists, type_hash
+from webviz.data.messages.typestore import (
+    KNOWN,
+    MessageTypes,
+    definition,
+    find_with,
+    type_exists,
+    type_hash,
+)
 from webviz.data.messages.workspaces import learn
 
 __all__ = [
+    "KNOWN",
     "Clock",
     "ColorRGBA",
     "CompressedImage",
@@ -83,6 +91,7 @@ __all__ = [
     "MarkerSequence",
     "MeshFile",
     "MessageError",
+    "MessageTypes",
     "OccupancyGrid",
     "OccupancyGridUpdate",
     "Odometry",
@@ -106,8 +115,10 @@ __all__ = [
     "UnknownTypeError",
     "Vector3",
     "decode",
+    "defined",
     "definition",
     "encode",
+    "is_message",
     "message_class",
     "peek_header",
     "prepare",

@@ -12,7 +12,9 @@ from webviz.data.messages import geometry, markers, trajectories, types
 from webviz.data.messages.extents import attribute
 from webviz.data.messages.geometry import zeros
 from webviz.data.messages.typestore import (
+    KNOWN,
     MessageField,
+    MessageTypes,
     constants,
     fields,
     full_name,
@@ -94,8 +96,12 @@ SEQUENCES: dict[str, Callable[[], Any]] = {
 
 
 @per_definitions
-def message_class(type_name: str) -> type[Any]:
+def message_class(type_name: str, types: MessageTypes = KNOWN) -> type[Any]:
     """Return the class of a message type; its constructor takes the fields by name, as in rclpy.
+
+    Args:
+        type_name: such as "sensor_msgs/msg/LaserScan".
+        types: that define it.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
@@ -103,22 +109,31 @@ def message_class(type_name: str) -> type[Any]:
     name = full_name(type_name)
     if name in WRITTEN:
         return WRITTEN[name]
-    definition = [(attribute(f.name), Any, _default(f)) for f in fields(name)]
+    definition = [(attribute(f.name), Any, _default(f, types)) for f in fields(name, types)]
     return msgspec.defstruct(
         name.rpartition("/")[2],
         definition,
         module=__name__,
-        namespace=dict(constants(name)),
+        namespace=dict(constants(name, types)),
         frozen=True,
         eq=False,
     )
 
 
-def _default(field: MessageField) -> Any:
+def is_message(value: object, type_name: str) -> bool:
+    """Return whether a value is a message of a type, whatever defines it."""
+    cls = type(value)
+    return (
+        cls.__module__.startswith("webviz.data.messages.")
+        and cls.__name__ == type_name.rpartition("/")[2]
+    )
+
+
+def _default(field: MessageField, types: MessageTypes) -> Any:
     """ROS's default of a field: zero, empty, or a message of defaults."""
     if field.size is None:
         if field.is_message:
-            return msgspec.field(default_factory=lambda: message_class(field.base)())
+            return msgspec.field(default_factory=lambda: message_class(field.base, types)())
         return DTYPES[field.base].type(0).item() if field.base in DTYPES else ""
     if field.base in DTYPES:
         return zeros(DTYPES[field.base], field.size)
@@ -127,5 +142,5 @@ def _default(field: MessageField) -> Any:
         return zeros(DTYPES[dtype], field.size, width)
     if field.base in SEQUENCES and field.size == 0:
         return msgspec.field(default_factory=SEQUENCES[field.base])
-    make = (lambda: message_class(field.base)()) if field.is_message else str
+    make = (lambda: message_class(field.base, types)()) if field.is_message else str
     return msgspec.field(default_factory=lambda: [make() for _ in range(field.size or 0)])

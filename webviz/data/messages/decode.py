@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, TypeVar
 
 from webviz.data.messages import typestore
@@ -11,12 +12,16 @@ from webviz.data.messages.cdr import CdrError, Reader, TooLargeError
 from webviz.data.messages.classes import WRITTEN
 from webviz.data.messages.decoders import decoder
 from webviz.data.messages.errors import DecodeError
+from webviz.data.messages.typestore import KNOWN, DefinedTypes, MessageTypes
+
+MAX_DEFINITIONS = 256
+"""Of recordings, which several files or channels may share."""
 
 T = TypeVar("T")
 Bytes = bytes | bytearray | memoryview
 
 
-def decode(type_name: str, cdr: Bytes) -> Any:
+def decode(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> Any:
     """Decode a message.
 
     Numeric arrays are read-only views of `cdr`, which they keep alive.
@@ -24,19 +29,20 @@ def decode(type_name: str, cdr: Bytes) -> Any:
     Args:
         type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
         cdr: The message as received, encapsulation header included. Trailing padding is ignored.
+        types: that define the type: those of this process, or of a recording.
 
     Returns:
-        An object with the fields of the type, an instance of `message_class(type_name)`.
+        An object with the fields of the type, an instance of `message_class(type_name, types)`.
 
     Raises:
         DecodeError: The bytes are not a message of this type.
         UnknownTypeError: No definition of the type is known.
     """
-    return _read(type_name, cdr, lambda reader: decoder(type_name, reader.order)(reader))
+    return _read(type_name, cdr, lambda reader: decoder(type_name, reader.order, types)(reader))
 
 
-def peek_header(type_name: str, cdr: Bytes) -> tuple[str, int] | None:
-    """Read only the header of a message.
+def peek_header(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> tuple[str, int] | None:
+    """Read only the header of a message; see `decode`.
 
     Returns:
         Frame id and stamp in nanoseconds; None if the type does not begin with a std_msgs/Header.
@@ -45,7 +51,7 @@ def peek_header(type_name: str, cdr: Bytes) -> tuple[str, int] | None:
         DecodeError: The bytes are too short or not CDR.
         UnknownTypeError: No definition of the type is known.
     """
-    return _read(type_name, cdr, _peek) if _has_header(type_name) else None
+    return _read(type_name, cdr, _peek) if _has_header(type_name, types) else None
 
 
 def register(type_name: str, text: str) -> None:
@@ -66,19 +72,29 @@ def register(type_name: str, text: str) -> None:
     typestore.add(type_name, text, fixed=WRITTEN)
 
 
-def prepare(type_name: str) -> None:
+@lru_cache(MAX_DEFINITIONS)
+def defined(type_name: str, text: str) -> DefinedTypes:
+    """Return the types of a definition, which are read when they are needed; see `register`.
+
+    Raises:
+        UnknownTypeError: `type_name` is not the name of a type.
+    """
+    return DefinedTypes(type_name, text, fixed=WRITTEN)
+
+
+def prepare(type_name: str, types: MessageTypes = KNOWN) -> None:
     """Build what `decode` needs, which takes a second for a message of many types.
 
     Raises:
         MessageError: as `decode`, for any message of this type.
     """
-    decoder(type_name, "<")
-    _has_header(type_name)
+    decoder(type_name, "<", types)
+    _has_header(type_name, types)
 
 
 @typestore.per_definitions
-def _has_header(type_name: str) -> bool:
-    fields = typestore.fields(type_name)
+def _has_header(type_name: str, types: MessageTypes) -> bool:
+    fields = typestore.fields(type_name, types)
     return bool(fields) and fields[0].base == "std_msgs/msg/Header" and fields[0].size is None
 
 

@@ -15,7 +15,14 @@ from typing import Any
 from webviz.data.messages.cdr import ENCAPSULATION_SIZE, CdrError, Reader
 from webviz.data.messages.classes import CODES, DTYPES, VECTORS, message_class
 from webviz.data.messages.sequences import SEQUENCE_READERS
-from webviz.data.messages.typestore import MessageField, fields, full_name, per_definitions, weight
+from webviz.data.messages.typestore import (
+    MessageField,
+    MessageTypes,
+    fields,
+    full_name,
+    per_definitions,
+    weight,
+)
 
 Step = Callable[[Reader, list[Any]], None]
 """Reads one or several fields and appends them."""
@@ -25,17 +32,21 @@ Build = Callable[[Iterator[Any]], Any]
 
 
 @per_definitions
-def decoder(type_name: str, order: str) -> Read:
+def decoder(type_name: str, order: str, types: MessageTypes) -> Read:
     """Return the function that reads a message of this type from a `Reader` of this byte order.
 
     Raises:
         UnknownTypeError: No definition of the type, or of one it holds, is known.
     """
-    make = message_class(type_name)
+    make = message_class(type_name, types)
     steps: list[Step] = []
-    for fixed, group in groupby(fields(type_name), lambda field: _codes(field) is not None):
+    own = fields(type_name, types)
+    for fixed, group in groupby(own, lambda field: _codes(field, types) is not None):
         run = list(group)
-        steps += [_run(run, order)] if fixed else [_step(field, order) for field in run]
+        if fixed:
+            steps.append(_run(run, order, types))
+        else:
+            steps += [_step(field, order, types) for field in run]
 
     def read(reader: Reader) -> Any:
         values: list[Any] = []
@@ -46,21 +57,21 @@ def decoder(type_name: str, order: str) -> Read:
     return read
 
 
-def _codes(field: MessageField) -> str | None:
+def _codes(field: MessageField, types: MessageTypes) -> str | None:
     """Return the `struct` codes of a field of fixed size, else None."""
     if field.size is not None:
         return None
     if not field.is_message:
         return CODES.get(field.base)
-    inner = [_codes(f) for f in fields(field.base)]
+    inner = [_codes(f, types) for f in fields(field.base, types)]
     return None if None in inner else "".join(filter(None, inner))
 
 
-def _run(run: list[MessageField], order: str) -> Step:
+def _run(run: list[MessageField], order: str, types: MessageTypes) -> Step:
     """Read neighbouring fields of fixed size at once."""
-    codes = "".join(_codes(field) or "" for field in run)
+    codes = "".join(_codes(field, types) or "" for field in run)
     layouts = [_layout(codes, order, start) for start in range(8)]
-    builds = [_build(field) for field in run]
+    builds = [_build(field, types) for field in run]
     nested = any(field.is_message for field in run)
 
     def step(reader: Reader, values: list[Any]) -> None:
@@ -87,25 +98,25 @@ def _layout(codes: str, order: str, start: int) -> Struct:
     return Struct(order + padded)
 
 
-def _build(field: MessageField) -> Build:
+def _build(field: MessageField, types: MessageTypes) -> Build:
     if not field.is_message:
         return next
-    make = message_class(field.base)
-    inner = fields(field.base)
+    make = message_class(field.base, types)
+    inner = fields(field.base, types)
     if not any(f.is_message for f in inner):
         count = len(inner)
         return lambda numbers: make(*islice(numbers, count))
-    builds = [_build(f) for f in inner]
+    builds = [_build(f, types) for f in inner]
     return lambda numbers: make(*[build(numbers) for build in builds])
 
 
-def _step(field: MessageField, order: str) -> Step:
+def _step(field: MessageField, order: str, types: MessageTypes) -> Step:
     """Read one field of varying size, or an array."""
-    read = _reader_of(field, order)
+    read = _reader_of(field, order, types)
     return lambda reader, values: values.append(read(reader))
 
 
-def _reader_of(field: MessageField, order: str) -> Read:
+def _reader_of(field: MessageField, order: str, types: MessageTypes) -> Read:
     base, size = field.base, field.size
     if size == 0 and base in SEQUENCE_READERS:
         return SEQUENCE_READERS[base]
@@ -113,10 +124,10 @@ def _reader_of(field: MessageField, order: str) -> Read:
         return _array_of(base, 1, size)
     if size is not None and base in VECTORS:
         return _array_of(*VECTORS[base], size)
-    one = _reader_of_one(field, order)
+    one = _reader_of_one(field, order, types)
     if size is None:
         return one
-    each = weight(base) if field.is_message else 1
+    each = weight(base, types) if field.is_message else 1
     return lambda reader: [one(reader) for _ in range(reader.elements(size, each))]
 
 
@@ -131,9 +142,9 @@ def _array_of(base: str, width: int, size: int) -> Read:
     return read
 
 
-def _reader_of_one(field: MessageField, order: str) -> Read:
+def _reader_of_one(field: MessageField, order: str, types: MessageTypes) -> Read:
     if field.is_message:
-        return decoder(full_name(field.base), order)
+        return decoder(full_name(field.base), order, types)
     if field.base == "string":
         return Reader.string
     if field.base == "wstring":

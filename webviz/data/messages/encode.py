@@ -7,9 +7,10 @@ from typing import Any
 from webviz.data.messages.cdr import LITTLE_ENDIAN
 from webviz.data.messages.encoders import Misfit, encoder
 from webviz.data.messages.errors import EncodeError
+from webviz.data.messages.typestore import KNOWN, MessageTypes
 
 
-def encode(type_name: str, values: Any = None) -> bytes:
+def encode(type_name: str, values: Any = None, types: MessageTypes = KNOWN) -> bytes:
     """Encode a message as ROS 2 does: plain CDR, little endian, without trailing padding.
 
     Args:
@@ -19,6 +20,7 @@ def encode(type_name: str, values: Any = None) -> bytes:
             Missing keys have their default; so have all fields for None. Arrays are numpy arrays,
             lists or other sequences of numbers; those of points and quaternions may be (N, 3) and
             (N, 4).
+        types: that define the type.
 
     Returns:
         The bytes as `decode` takes them, encapsulation header included.
@@ -29,7 +31,7 @@ def encode(type_name: str, values: Any = None) -> bytes:
     """
     out = bytearray(LITTLE_ENDIAN)
     try:
-        encoder(type_name)(out, {} if values is None else values)
+        encoder(type_name, types)(out, {} if values is None else values)
     except Misfit as misfit:
         end = "" if misfit.reason.endswith("?") else "."
         raise EncodeError(f"{type_name}{misfit.where}: {misfit.reason}{end}") from misfit

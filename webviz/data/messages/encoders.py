@@ -19,7 +19,13 @@ from webviz.data.messages.geometry import (
     PoseStampedSequence,
 )
 from webviz.data.messages.trajectories import JointTrajectoryPointSequence
-from webviz.data.messages.typestore import MessageField, fields, full_name, per_definitions
+from webviz.data.messages.typestore import (
+    MessageField,
+    MessageTypes,
+    fields,
+    full_name,
+    per_definitions,
+)
 
 Write = Callable[[bytearray, Any], None]
 """Appends a value to a message."""
@@ -52,17 +58,18 @@ class Misfit(Exception):
 
 
 @per_definitions
-def encoder(type_name: str) -> Write:
+def encoder(type_name: str, types: MessageTypes) -> Write:
     """Return the function that appends a message of this type.
 
     Raises:
         UnknownTypeError: No definition of the type, or of one it holds, is known.
     """
     name = full_name(type_name)
-    defaults = message_class(name)()
-    names = [field.name for field in fields(name)]
+    defaults = message_class(name, types)()
+    own = fields(name, types)
+    names = [field.name for field in own]
     attributes = [attribute(name) for name in names]
-    writers = [_writer(field) for field in fields(name)]
+    writers = [_writer(field, types) for field in own]
     absent = [_constant(w, getattr(defaults, a)) for w, a in zip(writers, attributes, strict=True)]
     steps = list(zip(names, attributes, writers, absent, strict=True))
 
@@ -102,8 +109,8 @@ def _constant(write: Write, value: Any) -> Callable[[int], bytes]:
     return bytes_at
 
 
-def _writer(field: MessageField) -> Write:
-    one = _writer_of_one(field)
+def _writer(field: MessageField, types: MessageTypes) -> Write:
+    one = _writer_of_one(field, types)
     if field.size is None:
         return one
     if field.base in DTYPES:
@@ -113,9 +120,9 @@ def _writer(field: MessageField) -> Write:
     return _elements(field, one)
 
 
-def _writer_of_one(field: MessageField) -> Write:
+def _writer_of_one(field: MessageField, types: MessageTypes) -> Write:
     if field.is_message:
-        return encoder(field.base)
+        return encoder(field.base, types)
     if field.base == "string":
         return _string(field.longest)
     if field.base == "wstring":

@@ -13,10 +13,12 @@ from rosbags.typesys import Stores, get_typestore
 
 from webviz.data.messages import typestore
 from webviz.data.messages.cdr import MAX_ELEMENTS, TooLargeError
+from webviz.data.messages.decode import defined
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import DecodeError
 from webviz.data.messages.extents import extent
 from webviz.data.messages.ros1_transforms import transforms_to_cdr
+from webviz.data.messages.typestore import KNOWN, MessageTypes
 
 RENAMED = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 """Types by their names in ROS 2."""
@@ -84,6 +86,9 @@ class Ros1Type:
         """Of the type in ROS 2."""
         self._made: dict[str, _Read] = {}
         self._read = self._message(name)
+        text = self.definition()
+        self.types: MessageTypes = defined(self.name, text) if text else KNOWN
+        """Of ROS 2."""
         self._is_usual: bool | None = None if self.name == TRANSFORMS else False
         """True if `transforms_to_cdr` reads it; None until both ways were compared."""
 
@@ -100,7 +105,7 @@ class Ros1Type:
         return store.generate_msgdef(self.name, ros_version=2)[0]
 
     def to_cdr(self, data: bytes) -> bytes:
-        """Return a message as ROS 2 has it; its type must be registered.
+        """Return a message as ROS 2 has it.
 
         Raises:
             DecodeError: the message is cut off.
@@ -114,7 +119,7 @@ class Ros1Type:
             raise DecodeError(f"This {self.name} of ROS 1 is too large: {error}.") from None
         except (struct.error, UnicodeDecodeError, ValueError) as error:
             raise DecodeError(f"{self.name} of ROS 1 is damaged.") from error
-        cdr = encode(self.name, values)
+        cdr = encode(self.name, values, self.types)
         if self._is_usual is None and values.get("transforms"):
             # The text that came with the bag decides, which anybody may have written.
             with contextlib.suppress(struct.error, ValueError):

@@ -6,7 +6,14 @@ import struct
 
 from webviz.data.messages.cdr import Reader
 from webviz.data.messages.errors import MessageError
-from webviz.data.messages.typestore import MessageField, fields, per_definitions, weight
+from webviz.data.messages.typestore import (
+    KNOWN,
+    MessageField,
+    MessageTypes,
+    fields,
+    per_definitions,
+    weight,
+)
 
 TIME = "builtin_interfaces/msg/Time"
 SIZES = {
@@ -21,7 +28,7 @@ MAX_SECONDS = 2**31 - 1
 MAX_DEPTH = 30
 
 
-def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
+def shifted(type_name: str, cdr: bytes, by_ns: int, types: MessageTypes = KNOWN) -> bytes:
     """Return a message with all its stamps moved.
 
     Those that are zero stay, as they mean "now" or none.
@@ -30,16 +37,17 @@ def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
         type_name: a type that is known.
         cdr: the serialised message.
         by_ns: added to each stamp, which is kept within the range of the type.
+        types: that define the type.
 
     Returns:
         A message of the same length; the same one if it is malformed.
     """
     places: list[int] = []
     try:
-        if not by_ns or not has_stamps(type_name):
+        if not by_ns or not has_stamps(type_name, types):
             return cdr
         reader = Reader(cdr)
-        _walk(reader, type_name, places, 0)
+        _walk(reader, type_name, places, 0, types)
         layout = struct.Struct(f"{reader.order}iI")
         moved = bytearray(cdr)
         for place in places:
@@ -54,29 +62,31 @@ def shifted(type_name: str, cdr: bytes, by_ns: int) -> bytes:
 
 
 @per_definitions
-def has_stamps(type_name: str) -> bool:
+def has_stamps(type_name: str, types: MessageTypes) -> bool:
     """Return whether a type has stamps anywhere in it."""
     return type_name == TIME or any(
-        each.is_message and has_stamps(each.base) for each in fields(type_name)
+        each.is_message and has_stamps(each.base, types) for each in fields(type_name, types)
     )
 
 
 @per_definitions
-def _layout(type_name: str) -> tuple[MessageField, ...]:
-    return tuple(fields(type_name))
+def _layout(type_name: str, types: MessageTypes) -> tuple[MessageField, ...]:
+    return tuple(fields(type_name, types))
 
 
 @per_definitions
-def _stamped(type_name: str) -> int:
+def _stamped(type_name: str, types: MessageTypes) -> int:
     """Return the number of fields up to the last that has stamps."""
-    found = _layout(type_name)
+    found = _layout(type_name, types)
     return max(
-        (n for n, each in enumerate(found, 1) if each.is_message and has_stamps(each.base)),
+        (n for n, each in enumerate(found, 1) if each.is_message and has_stamps(each.base, types)),
         default=0,
     )
 
 
-def _walk(reader: Reader, type_name: str, places: list[int], depth: int) -> None:
+def _walk(
+    reader: Reader, type_name: str, places: list[int], depth: int, types: MessageTypes
+) -> None:
     """Note where the stamps of a message are; of the outermost, the rest is not read."""
     if depth > MAX_DEPTH:
         raise MessageError("it is nested too deeply")
@@ -85,12 +95,14 @@ def _walk(reader: Reader, type_name: str, places: list[int], depth: int) -> None
         places.append(reader.pos)
         reader.pos += 8
         return
-    found = _layout(type_name)
-    for field in found if depth else found[: _stamped(type_name)]:
-        _field(reader, field, places, depth)
+    found = _layout(type_name, types)
+    for field in found if depth else found[: _stamped(type_name, types)]:
+        _field(reader, field, places, depth, types)
 
 
-def _field(reader: Reader, field: MessageField, places: list[int], depth: int) -> None:
+def _field(
+    reader: Reader, field: MessageField, places: list[int], depth: int, types: MessageTypes
+) -> None:
     size = None if field.is_message else SIZES.get(field.base)
     if size is not None:
         count = 1 if field.size is None else field.size or reader.count()
@@ -100,11 +112,11 @@ def _field(reader: Reader, field: MessageField, places: list[int], depth: int) -
         if reader.pos > reader.size:
             raise MessageError("it is cut off")
         return
-    each = weight(field.base) if field.is_message else 1
+    each = weight(field.base, types) if field.is_message else 1
     count = 1 if field.size is None else reader.elements(field.size, each)
     for _ in range(count):
         if field.is_message:
-            _walk(reader, field.base, places, depth + 1)
+            _walk(reader, field.base, places, depth + 1, types)
         elif field.base == "string":
             length = reader.count()
             reader.pos += length

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 import threading
-from collections.abc import Callable, Container
-from functools import _lru_cache_wrapper, cache, lru_cache
+from collections.abc import Callable, Collection, Container
+from functools import _lru_cache_wrapper, cache, cached_property, lru_cache
 from typing import Any, NamedTuple, TypeVar
 
 from rosbags.interfaces import Nodetype
@@ -23,7 +23,6 @@ from webviz.data.messages.msg_text import (
     Description,
     TextError,
     Types,
-    name_in_text,
     types_in_msg,
 )
 
@@ -33,6 +32,8 @@ Reading them takes up to two seconds."""
 MAX_TYPES = 1000
 """Of a definition, those that its messages consist of; those of ROS have 80. Making the class of
 each takes 0.2 ms."""
+MAX_CACHED = 10_000
+"""Results of a function that follow from definitions; a large robot has a thousand types."""
 MAX_NAMES = 10_000
 """Of types that are remembered as valid; a large robot has a thousand."""
 PLACEHOLDER: tuple[str, Description] = (
@@ -42,8 +43,6 @@ PLACEHOLDER: tuple[str, Description] = (
 """The field of messages without fields: IDL has no empty structure, so rosidl adds it."""
 _IDL = re.compile(r"^={80}\nIDL: \S+$", re.MULTILINE)
 """Precedes each IDL file of a definition."""
-_PART = re.compile(r"^={80}\r?\n(?:MSG|IDL): (\S+)[ \t]*\r?$", re.MULTILINE)
-"""Precedes each type of a definition but the first."""
 _TYPE_NAME = re.compile(r"[A-Za-z]\w*/(?:msg|srv|action)/[A-Za-z]\w*", re.ASCII)
 
 
@@ -51,14 +50,13 @@ _finders: list[Callable[[str], object]] = []
 _cached: list[_lru_cache_wrapper[Any]] = []
 _lock = threading.RLock()
 """Held while definitions or what is known of them change."""
-_extents: dict[str, Extent] = {}
 
 R = TypeVar("R")
 
 
 def per_definitions(function: Callable[..., R]) -> _lru_cache_wrapper[R]:
-    """Cache the results of a function until a definition changes."""
-    _cached.append(cached := cache(function))
+    """Cache the results of a function until a definition changes; its last argument is `types`."""
+    _cached.append(cached := lru_cache(MAX_CACHED)(function))
     return cached
 
 
@@ -87,18 +85,65 @@ def _store() -> Any:
     return get_typestore(Stores.ROS2_JAZZY)
 
 
-def _known(name: str) -> Any:
-    """Return the definition of a type by its full name, None if there is none.
+class KnownTypes:
+    """The message types of this process, which publishers add and replace."""
 
-    Those of `definitions` are read when they are needed: all of them take a tenth of a start.
+    def __init__(self) -> None:
+        self.extents: dict[str, Extent] = {}
+        """Of the types that were asked for."""
+
+    def get(self, name: str) -> Any:
+        """Return the definition of a type by its full name, None if there is none.
+
+        Those of `definitions` are read when they are needed: all of them take a tenth of a start.
+        """
+        known = _store().fielddefs
+        if name not in known and "/msg/" in name and (text := definitions.text(name)):
+            parsed = types_in_msg(text, name)[name]
+            for field in filter(lambda field: field.is_message, _fields_of(parsed)):
+                self.get(field.base)  # they are looked for in the store
+            known[name] = parsed
+        return known.get(name)
+
+
+KNOWN = KnownTypes()
+
+
+class DefinedTypes:
+    """The message types of one definition, such as that of a channel in a recording.
+
+    They are read when they are needed, and stay as they are, whatever else has their names.
+
+    Args:
+        type_name, text: see `webviz.data.messages.register`.
+        fixed: names of types that the definition must define as this process does.
     """
-    known = _store().fielddefs
-    if name not in known and "/msg/" in name and (text := definitions.text(name)):
-        parsed = types_in_msg(text, name)[name]
-        for field in filter(lambda field: field.is_message, _fields_of(parsed)):
-            _known(field.base)  # they are looked for in the store
-        known[name] = parsed
-    return known.get(name)
+
+    def __init__(self, type_name: str, text: str, fixed: Container[str]) -> None:
+        self.extents: dict[str, Extent] = {}
+        self._source = full_name(type_name), text, fixed
+
+    def get(self, name: str) -> Any:
+        """Return the definition of a type by its full name, None if it has none.
+
+        Raises:
+            DefinitionError: the text is invalid; see `webviz.data.messages.register`.
+        """
+        if isinstance(self._types, str):
+            raise DefinitionError(self._types)
+        return self._types.get(name)
+
+    @cached_property
+    def _types(self) -> Types | str:
+        """The types, or why there are none."""
+        try:
+            learnt, reached = _learnt(*self._source)
+        except DefinitionError as error:
+            return str(error)
+        return {name: learnt.get(name) or KNOWN.get(name) for name in reached}
+
+
+MessageTypes = KnownTypes | DefinedTypes
 
 
 @lru_cache(MAX_NAMES)
@@ -137,19 +182,23 @@ def find(type_name: str) -> None:
 def type_exists(type_name: str) -> bool:
     """Return whether a definition of this type is known."""
     try:
-        return _known(full_name(type_name)) is not None
+        return KNOWN.get(full_name(type_name)) is not None
     except UnknownTypeError:
         return False
 
 
-def fields(type_name: str) -> list[MessageField]:
+def fields(type_name: str, types: MessageTypes = KNOWN) -> list[MessageField]:
     """Return the fields of a type in the order of the wire.
+
+    Args:
+        type_name: such as "std_msgs/msg/Header".
+        types: that define it.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
         DefinitionError: Types that it contains have been replaced by others that do not fit.
     """
-    return _fields_of(_definition(type_name))
+    return _fields_of(_definition(type_name, types))
 
 
 def fields_in(type_name: str, text: str) -> list[MessageField]:
@@ -161,13 +210,13 @@ def fields_in(type_name: str, text: str) -> list[MessageField]:
     return _fields_of(types_in(type_name, text)[type_name])
 
 
-def constants(type_name: str) -> dict[str, bool | int | float | str]:
-    """Return the constants of a type, such as `ARROW` of a marker.
+def constants(type_name: str, types: MessageTypes = KNOWN) -> dict[str, bool | int | float | str]:
+    """Return the constants of a type, such as `ARROW` of a marker; see `fields`.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
     """
-    return {name: value for name, _, value in _definition(type_name)[0]}
+    return {name: value for name, _, value in _definition(type_name, types)[0]}
 
 
 def definition(type_name: str) -> str:
@@ -195,44 +244,28 @@ def is_idl(text: str) -> bool:
     return bool(_IDL.search(text))
 
 
-def parts_of(type_name: str, text: str) -> dict[str, str]:
-    """Return the part of a definition for each type in it, unread; it may be invalid."""
-    first, *others = _PART.split(text)
-    names, texts = map(name_in_text, others[::2]), map(str.strip, others[1::2])
-    return {type_name: first.strip(), **dict(zip(names, texts, strict=True))}
-
-
-def agree(name: str, one: tuple[str, str], other: tuple[str, str]) -> bool:
-    """Return whether two definitions define a type in them alike; those that are invalid do not.
-
-    Args:
-        name: of the type.
-        one, other: type that a definition defines, and its text; see `types_in`.
-    """
-    try:
-        return types_in(*one).get(name) == types_in(*other).get(name)
-    except DefinitionError:
-        return False
-
-
 def add(type_name: str, text: str, fixed: Container[str]) -> None:
     """Register a type from its .msg text or IDL, but never change those in `fixed`.
 
     See `webviz.data.messages.register`.
     """
-    name = full_name(type_name)
+    with _lock:
+        _learn(_learnt(full_name(type_name), text, fixed)[0])
+
+
+def _learnt(name: str, text: str, fixed: Container[str]) -> tuple[Types, Collection[str]]:
+    """Return the types in a definition, and the names of all that its type consists of."""
     learnt = types_in(name, text)
     for key in learnt:
         if key in fixed and _fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
                 f"The definition of {name} contains a {key} that differs from ROS 2's."
             )
-    with _lock:
-        reached: dict[str, Extent] = {}
-        extent(name, lambda key: (learnt.get(key) or _known(key) or (None, None))[1], reached)
-        if len(reached) > MAX_TYPES:
-            raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
-        _learn(learnt)
+    reached: dict[str, Extent] = {}
+    extent(name, lambda key: (learnt.get(key) or KNOWN.get(key) or (None, None))[1], reached)
+    if len(reached) > MAX_TYPES:
+        raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
+    return learnt, reached
 
 
 def types_in(name: str, text: str) -> Types:
@@ -285,15 +318,15 @@ def declare(type_name: str, described: list[Any]) -> None:
         _learn({type_name: ([], described or [PLACEHOLDER])})
 
 
-def weight(type_name: str) -> int:
+def weight(type_name: str, types: MessageTypes = KNOWN) -> int:
     """Return what a message of this type counts as among the elements of a sequence.
 
     Raises:
         MessageError: as `fields`.
     """
-    _definition(type_name)
+    _definition(type_name, types)
     with _lock:
-        return _extent(full_name(type_name)).weight
+        return _extent(full_name(type_name), types).weight
 
 
 def described(type_name: str) -> list[Any]:
@@ -305,30 +338,30 @@ def described(type_name: str) -> list[Any]:
     return _definition(type_name)[1]
 
 
-def _definition(type_name: str) -> Any:
+def _definition(type_name: str, types: MessageTypes = KNOWN) -> Any:
     name = full_name(type_name)
-    if _known(name) is None:
+    if types is KNOWN and KNOWN.get(name) is None:
         find(name)
-    if (found := _known(name)) is None:
+    if (found := types.get(name)) is None:
         raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
-    if name not in _extents:
+    if name not in types.extents:
         with _lock:
-            _extent(name)
+            _extent(name, types)
     return found
 
 
-def _extent(name: str) -> Extent:
+def _extent(name: str, types: MessageTypes) -> Extent:
     """Return the extent of a type; those in it may have been replaced since it was registered."""
-    return extent(name, lambda key: (_known(key) or (None, None))[1], _extents)
+    return extent(name, lambda key: (types.get(key) or (None, None))[1], types.extents)
 
 
 def _learn(types: Types) -> None:
     """Take types, and forget what follows from those that they replace."""
     known = _store().fielddefs
-    is_replaced = any(_known(name) not in (None, found) for name, found in types.items())
+    is_replaced = any(KNOWN.get(name) not in (None, found) for name, found in types.items())
     known.update(types)
     if is_replaced:
-        _extents.clear()
+        KNOWN.extents.clear()
         for cached in _cached:
             cached.cache_clear()
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from webviz.data.messages import register
 from webviz.data.messages.errors import MessageError
 from webviz.data.messages.ros1 import Ros1Type
 from webviz.data.recordings.recording import (
@@ -116,8 +115,6 @@ class Ros1Recording:
         try:
             type_ = Ros1Type(name, connection.definition)
             definition = type_.definition()
-            if definition:
-                register(type_.name, definition)
             channel = RecordedChannel(topic, type_.name, "cdr", definition, profile)
         except MessageError:
             channel = RecordedChannel(topic, name, "ros1", "", profile)

@@ -214,7 +214,7 @@ class PanelsPart(Part):
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
     try:
-        message = decode(type_, raw.cdr)
+        message = decode(type_, raw.cdr, raw.types)
     except MessageError as error:
         panel.refuse(topic, str(error))
     else:

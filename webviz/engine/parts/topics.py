@@ -64,7 +64,8 @@ class TopicsPart(Part):
             return
         offer = self.core.offers.get(topic)
         try:
-            header = peek_header(type_of(offer), raw.cdr) if offer and type_of(offer) else None
+            type_ = type_of(offer) if offer else ""
+            header = peek_header(type_, raw.cdr, raw.types) if type_ else None
         except MessageError:
             header = None
         delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None

@@ -120,7 +120,7 @@ def _decoded(received: Received) -> Received | MessageError:
     if sample.message is not None:
         return received
     try:
-        message = decode(sample.type, received.raw.cdr)
+        message = decode(sample.type, received.raw.cdr, received.raw.types)
     except MessageError as error:
         return error
     return replace(received, sample=dataclasses.replace(sample, message=message))

@@ -185,9 +185,9 @@ class InputSubscription:
                 continue
             message, lasts_ns = None, 0
             try:
-                header = peek_header(self.type, raw.cdr)
+                header = peek_header(self.type, raw.cdr, raw.types)
                 if header and waits and duration_ns:
-                    message = decode(self.type, raw.cdr)
+                    message = decode(self.type, raw.cdr, raw.types)
                     lasts_ns = duration_ns(message)
             except MessageError as error:
                 self.refuse(str(error))

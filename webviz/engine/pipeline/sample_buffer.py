@@ -12,7 +12,7 @@ from webviz.api.nodes import Pose
 from webviz.api.observation import InputSeen
 from webviz.api.sample import KeepsNewest, Sample
 from webviz.api.status import Level, Status
-from webviz.data.messages import MessageError, decode, message_class
+from webviz.data.messages import MessageError, decode, is_message
 from webviz.engine.commands.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.history import Histories, SampleHistory, held_samples
@@ -233,7 +233,7 @@ class SampleBuffer:
         raw, message = arrival.raw, arrival.message
         try:
             if message is None and not is_decoded_later:
-                message = decode(input_subscription.type, raw.cdr)
+                message = decode(input_subscription.type, raw.cdr, raw.types)
         except MessageError as error:
             input_subscription.refuse(str(error))
             return None
@@ -255,4 +255,4 @@ def _received(sample: Sample) -> Sample | None:
     newest = sample.message.newest if isinstance(sample.message, KeepsNewest) else sample
     if not isinstance(newest, Sample) or not newest.type:
         return None
-    return newest if isinstance(newest.message, message_class(newest.type)) else None
+    return newest if is_message(newest.message, newest.type) else None

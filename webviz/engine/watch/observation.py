@@ -148,10 +148,10 @@ def _level(type_name: str, raw: Raw) -> Level:
     """Return the level of a message; OK of one that cannot be read."""
     try:
         if type_name == DIAGNOSTICS:
-            array = decode(DIAGNOSTICS, raw.cdr)
+            array = decode(DIAGNOSTICS, raw.cdr, raw.types)
             worst = max((status.level for status in array.status), default=0)
             return (Level.OK, Level.WARN)[worst] if worst < 2 else Level.ERROR
-        log = decode(LOG, raw.cdr)
+        log = decode(LOG, raw.cdr, raw.types)
     except MessageError:
         return Level.OK
     if log.level >= LOG_ERROR:

@@ -29,7 +29,8 @@ class PathNumbers:
         found: list[float] = []
         for raw in batch:
             try:
-                number = self.path.number(decode(type_name, raw.cdr))
+                message = decode(type_name, raw.cdr, raw.types)
+                number = self.path.number(message)
             except (MessageError, PathError):
                 continue
             time_s = raw.received_ns / NS_PER_S

@@ -151,7 +151,7 @@ class DrivingFeature(PageFeature):
                 return Driving(driver, problem=f"No publisher on {name}. {REMEDY}")
             return Driving(driver, problem=f"No message on {name}. {REMEDY}")
         try:
-            twist = decode(ODOMETRY, raw.cdr).twist.twist
+            twist = decode(ODOMETRY, raw.cdr, raw.types).twist.twist
         except MessageError as error:
             return Driving(driver, problem=joined(f"{name} cannot be read: {error}", REMEDY))
         x, y, turn = float(twist.linear.x), float(twist.linear.y), float(twist.angular.z)

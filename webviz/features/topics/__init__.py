@@ -129,7 +129,7 @@ class TopicsFeature(Feature):
 def _read(type_name: str, raw: Raw, received_s: float) -> Inspected:
     size = len(raw.cdr)
     try:
-        tree = to_tree(decode(type_name, raw.cdr))
+        tree = to_tree(decode(type_name, raw.cdr, raw.types))
     except MessageError as error:
         problem = f"The last message cannot be read: {error}"
         return Inspected(type_name, None, problem, size, received_s)

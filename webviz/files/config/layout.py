@@ -11,6 +11,8 @@ from webviz.api.declared import Prop
 
 MAX_DOCKED = 20
 """Panels in one place of a layout."""
+MAX_LAYOUTS = 20
+"""Saved ones. To read so many, with all places full, takes a second, to write them half of that."""
 PanelName = Annotated[
     str,
     msgspec.Meta(min_length=1, max_length=100),

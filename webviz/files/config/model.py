@@ -15,7 +15,7 @@ from webviz.api.registry import display_types, plugin_types
 from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
-from webviz.files.config.layout import Layout
+from webviz.files.config.layout import MAX_LAYOUTS, Layout
 from webviz.files.config.robots import Template
 from webviz.files.config.watch import WatchLimits, WatchRule
 
@@ -74,7 +74,7 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
     layout: Annotated[Layout, Prop(help="Panels beside, below and over the scene.")] = Layout()
     layouts: Annotated[
         dict[str, Layout],
-        msgspec.Meta(max_length=100),
+        msgspec.Meta(max_length=MAX_LAYOUTS),
         Prop(help="Saved layouts by name."),
     ] = {}
     memory: Annotated[

@@ -11,8 +11,15 @@ from msgspec.structs import replace
 from webviz.api.errors import Error
 from webviz.api.offer import Publisher
 from webviz.data.foxglove.schemas import Conversion, ConversionError, conversion, is_own, problem_of
-from webviz.data.messages import MessageError, definition, register, type_exists
-from webviz.data.messages.typestore import full_name
+from webviz.data.messages import (
+    KNOWN,
+    MessageError,
+    MessageTypes,
+    defined,
+    definition,
+    type_exists,
+)
+from webviz.data.messages.typestore import fields, full_name
 from webviz.data.names import problem_of as name_problem
 from webviz.data.recordings import RecordedChannel, RecordingError, open_recording
 from webviz.data.recordings.recording import Counts, RecordedMessage, TimeParts
@@ -38,6 +45,7 @@ class BagChannel(msgspec.Struct, frozen=True):
         depth: how many messages its publishers latch in total.
         recorded: as it is in the file.
         conversion: to that type, None for messages of ROS.
+        types: that define that type.
     """
 
     topic: str
@@ -46,6 +54,7 @@ class BagChannel(msgspec.Struct, frozen=True):
     depth: int
     recorded: RecordedChannel
     conversion: Conversion | None = None
+    types: MessageTypes = KNOWN
 
     @property
     def written(self) -> RecordedChannel:
@@ -189,7 +198,7 @@ class BagFile:
             except ConversionError as error:
                 self._misfits[channel.topic] = str(error)
                 continue
-            yield Recorded(channel.topic, channel.type, cdr, entry.stamp_ns)
+            yield Recorded(channel.topic, channel.type, cdr, entry.stamp_ns, channel.types)
 
     def _unreadable(self, error: OSError) -> str:
         return f"Cannot read {self.path}: {error.strerror or error}."
@@ -210,7 +219,7 @@ class BagFile:
 
 
 def _obstacle(recorded: RecordedChannel) -> str:
-    """Why the messages of a channel cannot be read, "" if they can; registers their type."""
+    """Why the messages of a channel cannot be read, "" if they can."""
     if is_own(recorded.type, recorded.encoding):
         if len(recorded.topic) > MAX_NAME or name_problem(recorded.topic):
             return "its name is too long, or contains invisible characters"
@@ -224,7 +233,7 @@ def _obstacle(recorded: RecordedChannel) -> str:
     if not recorded.definition.strip():
         return f"{recorded.type} is unknown, and the bag has no .msg definition of it"
     try:
-        register(recorded.type, recorded.definition)
+        fields(recorded.type, defined(recorded.type, recorded.definition))
     except MessageError as error:
         return str(error).rstrip(".")
     return ""
@@ -233,6 +242,8 @@ def _obstacle(recorded: RecordedChannel) -> str:
 def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
     known = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
     type_name = known.type if known else full_name(recorded.type)
+    is_defined = known is None and recorded.definition.strip()
+    types = defined(type_name, recorded.definition) if is_defined else KNOWN
     profiles = profiles_of(recorded.profiles)
     publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
     return BagChannel(
@@ -242,4 +253,5 @@ def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
         sum(max(profile.depth, KEEP_LAST) for profile in profiles) or KEEP_LAST,
         recorded,
         known,
+        types,
     )

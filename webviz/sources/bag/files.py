@@ -9,8 +9,6 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from webviz.data.messages.classes import WRITTEN
-from webviz.data.messages.typestore import agree, parts_of
 from webviz.data.recordings.recording import Counts, TimeParts
 from webviz.data.words import counted
 from webviz.sources.bag.extras import Extra, extras_file
@@ -97,8 +95,7 @@ class BagFiles:
             files.insert(0, extras_file(extras, self.start_ns))
         self.topics = {channel.topic for file in files for channel in file.channels}
         self.topics.update(topic for file in files for topic in file.skipped)
-        self._redefined: dict[str, str] = {}
-        self.channels = tuple(self._agreeing())
+        self.channels = tuple(channel for file in files for channel in file.channels)
         self._used = {c.topic for file in files for c in file.channels if file.is_used(c)}
         self._conflict = self._conflicting_types()
         self._gap = self._gap_between()
@@ -106,8 +103,7 @@ class BagFiles:
     @property
     def skipped(self) -> Mapping[str, str]:
         """Return why the messages of a topic cannot be read, by topic."""
-        within = {topic: why for file in self._files for topic, why in file.skipped.items()}
-        return within | self._redefined
+        return {topic: why for file in self._files for topic, why in file.skipped.items()}
 
     @property
     def warnings(self) -> list[str]:
@@ -171,32 +167,6 @@ class BagFiles:
         """Close all files."""
         self._stack.close()
 
-    def _agreeing(self) -> Sequence[BagChannel]:
-        """Return the channels but for those that define a type otherwise than another before.
-
-        A type has one definition at a time; with the wrong one, messages may turn into nonsense.
-        That of a topic's own type comes before those within others. Types with a class are fixed.
-        """
-        first: dict[str, tuple[BagChannel, str, str]] = {}
-        agreeing = [(channel, file.name) for file in self._files for channel in file.channels]
-        for is_nested in (False, True):
-            offered, agreeing = agreeing, []
-            for channel, where in offered:
-                own, parts = channel.type, _parts(channel)
-                named = parts.keys() - WRITTEN.keys() - {own} if is_nested else parts.keys() & {own}
-                for name in sorted(named):
-                    other, part, there = first.setdefault(name, (channel, parts[name], where))
-                    if part != parts[name] and not _agree(name, channel, other):
-                        self._redefined[channel.topic] = (
-                            f"its definition of {name} is not that of {other.topic} in {there}"
-                            if is_nested
-                            else f"{name} is not defined in {where} as it is in {there}"
-                        )
-                        break
-                else:
-                    agreeing.append((channel, where))
-        return [channel for channel, _ in agreeing]
-
     def _gap_between(self) -> str:
         """Return a sentence on bags that lie far apart, "" without any."""
         files = sorted(filter(_name, self._files), key=lambda file: file.start_ns)
@@ -232,13 +202,3 @@ def _name(file: MergedFile) -> str:
 
 def _stamp(recorded: Recorded) -> int:
     return recorded.stamp_ns
-
-
-def _parts(channel: BagChannel) -> Mapping[str, str]:
-    text = channel.recorded.definition
-    return parts_of(channel.type, text) if text else {}
-
-
-def _agree(name: str, *channels: BagChannel) -> bool:
-    one, other = ((each.type, each.recorded.definition) for each in channels)
-    return agree(name, one, other)

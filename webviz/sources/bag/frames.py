@@ -38,7 +38,7 @@ def frames_of(file: BagFiles, channels: Collection[BagChannel]) -> Sequence[str]
     found: dict[str, None] = {}
     for recorded in _first(file, channels):
         try:
-            header = peek_header(recorded.type, recorded.cdr)
+            header = peek_header(recorded.type, recorded.cdr, recorded.types)
         except MessageError:
             continue
         if header and header[0]:

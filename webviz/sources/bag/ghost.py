@@ -106,7 +106,7 @@ class GhostFile(BagFile):
         return super().histogram(moved)
 
     def _moved(self, recorded: Recorded) -> Recorded:
-        cdr = shifted(recorded.type, recorded.cdr, self._stamps_ns)
+        cdr = shifted(recorded.type, recorded.cdr, self._stamps_ns, recorded.types)
         return recorded._replace(cdr=cdr, stamp_ns=recorded.stamp_ns + self._offset_ns)
 
 
@@ -282,7 +282,8 @@ def _numbers(files: BagFiles, path: str) -> tuple[npt.NDArray[np.int64], Floats]
         for recorded in files.messages(channels, files.start_ns):
             if len(times) >= MAX_SAMPLES:
                 break
-            value = read.number(decode(recorded.type, recorded.cdr))
+            message = decode(recorded.type, recorded.cdr, recorded.types)
+            value = read.number(message)
             times.append(recorded.stamp_ns)
             values.append(value)
     except MessageError as error:

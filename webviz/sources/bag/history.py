@@ -8,7 +8,8 @@ from pathlib import Path
 
 from webviz.api.offer import Offer, Publisher
 from webviz.data.disk import in_thread
-from webviz.data.messages import MessageError, register
+from webviz.data.messages import MessageError
+from webviz.data.messages.typestore import fields
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.file import BagChannel, BagError
 from webviz.sources.bag.files import BagFiles
@@ -215,15 +216,14 @@ class BagHistory:
         return [own for channel in channels for own in self._own.get(channel, ())]
 
     def _problem(self, channel: HistoryChannel) -> str:
-        """Return why messages cannot be decoded; registers their definition at first."""
+        """Return why messages cannot be decoded, "" if they can."""
         if channel not in self._problems:
             self._problems[channel] = ""
             for own in self._own[channel]:
-                if own.recorded.definition:
-                    try:
-                        register(own.type, own.recorded.definition)
-                    except MessageError as error:
-                        self._problems[channel] = str(error)
+                try:
+                    fields(own.type, own.types)
+                except MessageError as error:
+                    self._problems[channel] = str(error)
         return self._problems[channel]
 
     def _offer(

@@ -17,6 +17,7 @@ from webviz.data.messages import MessageError, decode
 from webviz.data.words import shortened
 from webviz.sources.bag.file import BagChannel
 from webviz.sources.bag.files import BagFiles
+from webviz.sources.history import Recorded
 from webviz.sources.past_state import Event
 
 ROSOUT, LOG = "/rosout", "rcl_interfaces/msg/Log"
@@ -114,7 +115,7 @@ def _read(files: BagFiles) -> BagLog:
         is_short = len(recorded.cdr) <= LEVEL_AT
         if recorded.type == LOG and (is_short or recorded.cdr[LEVEL_AT] < WARN):
             continue
-        if (found := event_of(recorded.type, recorded.cdr, recorded.stamp_ns)) is None:
+        if (found := event_of(recorded)) is None:
             continue
         level, event = found
         count += 1
@@ -127,17 +128,18 @@ def _read(files: BagFiles) -> BagLog:
     return BagLog(events, warning)
 
 
-def event_of(type_name: str, cdr: bytes, at_ns: int) -> tuple[int, Event] | None:
+def event_of(recorded: Recorded) -> tuple[int, Event] | None:
     """Return the level and the event of a message, None if it is neither a warning nor an error."""
     try:
-        message = decode(type_name, cdr)
+        message = decode(recorded.type, recorded.cdr, recorded.types)
     except MessageError:
         return None
-    level = message.level if type_name == LOG else ROS_1_LEVELS.get(message.level, 0)
+    level = message.level if recorded.type == LOG else ROS_1_LEVELS.get(message.level, 0)
     if level < WARN:
         return None
     name, text = shortened(message.name, MAX_NAME), _first_line(message.msg)
-    return level, Event(at_ns, Level.ERROR if level >= ERROR else Level.WARN, name, text)
+    shown = Level.ERROR if level >= ERROR else Level.WARN
+    return level, Event(recorded.stamp_ns, shown, name, text)
 
 
 def _channels(files: BagFiles) -> Sequence[BagChannel]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from webviz.api.offer import Offer
+from webviz.data.messages import KNOWN, MessageTypes
 from webviz.data.recordings.latched import TF
 from webviz.sources.history.runs import Runs
 from webviz.sources.past_state import Event
@@ -36,12 +37,14 @@ class Recorded(NamedTuple):
         type: three-part name.
         cdr: the serialised message.
         stamp_ns: time of recording.
+        types: that define its type.
     """
 
     topic: str
     type: str
     cdr: bytes
     stamp_ns: int
+    types: MessageTypes = KNOWN
 
 
 class RecordedTime(Protocol):

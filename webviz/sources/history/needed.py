@@ -201,7 +201,7 @@ class NeededMessages:
         """Return when frames above that of the newest message had their last transforms."""
         newest = next(self._history.newest(channels, self._at_ns), None)
         try:
-            header = None if newest is None else peek_header(channels[0].type, newest.cdr)
+            header = newest and peek_header(newest.type, newest.cdr, newest.types)
         except MessageError:
             header = None
         if not header:
@@ -263,7 +263,7 @@ def _decoded(newest: Iterator[Recorded], type_name: str, stamps: list[int]) -> I
     """Messages, of which those that cannot be decoded are skipped; the others' stamps are noted."""
     for recorded in newest:
         try:
-            message = decode(type_name, recorded.cdr)
+            message = decode(type_name, recorded.cdr, recorded.types)
         except MessageError:
             continue
         stamps.append(recorded.stamp_ns)
@@ -274,6 +274,7 @@ def _starts_over(lookback: Lookback, recorded: Recorded, subscription: Subscript
     if lookback.starts_over is None:
         return False
     try:
-        return lookback.starts_over(decode(subscription.type, recorded.cdr), subscription.type)
+        message = decode(subscription.type, recorded.cdr, recorded.types)
+        return lookback.starts_over(message, subscription.type)
     except MessageError:
         return False

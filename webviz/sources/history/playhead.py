@@ -183,7 +183,13 @@ class Playhead:
             raw = Raw(recorded.cdr, received_ns)
         else:
             earlier = self._earlier.take(recorded)
-            raw = Raw(recorded.cdr, received_ns, recorded_ns=recorded.stamp_ns, earlier=earlier)
+            raw = Raw(
+                recorded.cdr,
+                received_ns,
+                recorded_ns=recorded.stamp_ns,
+                earlier=earlier,
+                types=recorded.types,
+            )
         self._deliver(recorded.topic, raw)
 
 

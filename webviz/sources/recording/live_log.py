@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Sequence
 
 from webviz.sources.bag.log import LEVEL_AT, LOG, MAX_EVENTS, ROSOUT, WARN, event_of
+from webviz.sources.history import Recorded
 from webviz.sources.inbox import Raw
 from webviz.sources.past_state import Event
 from webviz.sources.recording.wall_clock import WallClock
@@ -34,7 +35,8 @@ class LiveLog:
         events, is_changed = self._events, bool(self._new)
         while self._new:
             raw = self._new.popleft()
-            if found := event_of(LOG, raw.cdr, self._clock.stamp_ns(raw.arrived_s)):
+            stamp_ns = self._clock.stamp_ns(raw.arrived_s)
+            if found := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns)):
                 events.append(found[1])
         while events and events[0].at_ns < start_ns:
             events.popleft()
