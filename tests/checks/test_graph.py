@@ -11,7 +11,7 @@ from pathlib import Path as PathOfFile
 
 import pytest
 from examining import SCAN, display, examined, live_findings
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PointStamped, PoseStamped
 from nav_msgs.msg import OccupancyGrid
 from nodes import node_of
 from rclpy.duration import Duration
@@ -365,6 +365,20 @@ def test_a_node_that_was_started_twice(robot: Node, webviz_viewer: Viewers) -> N
     lidars[0].destroy_node()
     viewer.wait_for(lambda: not noted(viewer))
     lidars[1].destroy_node()
+
+
+def test_two_viewers_and_one_beside_a_doctor(robot: Node, webviz_viewer: Viewers) -> None:
+    other = Node("webviz", context=robot.context, enable_rosout=False)
+    viewer = webviz_viewer(TF())
+    viewer.wait_for(lambda: [*viewer.source.graph.nodes()].count("/webviz") == 2)
+    assert "GRAPH015" not in noted(viewer)
+    other.create_publisher(PointStamped, "/clicked_point", 1)
+    viewer.wait_for(lambda: noted(viewer).get("GRAPH015") is webviz.Severity.NOTE)
+    (found,) = (each for each in viewer.viewer.snapshot().findings if each.id == "GRAPH015")
+    assert found.cause == "2 viewers have the name /webviz."
+    assert "--ros-args -r __ns:=" in found.command
+    other.destroy_node()
+    viewer.wait_for(lambda: "GRAPH015" not in noted(viewer))
 
 
 def test_large_messages_that_are_not_repeated(robot: Node, webviz_viewer: Viewers) -> None:

@@ -85,10 +85,10 @@ def off_alone(seen: Observation) -> Mapping[str, int]:
 def off_together(seen: Observation) -> int | None:
     """Return the delay in ns that all data and most transforms share, None if it is no fault.
 
-    A slow link holds up everything, too, so that of a bridge is not judged.
+    A slow link holds up everything, too, as do recorders, so neither bridges nor bags are judged.
     """
     delays, links = measured(seen), linked(seen)
-    if not delays or not links or seen.bridges:
+    if not delays or not links or seen.bridges or seen.is_recorded:
         return None
     all_ns = (*delays.values(), median_low(links.values()))
     is_off = all(OFF_NS < abs(ns) < LARGE_NS for ns in all_ns)
