@@ -28,6 +28,9 @@ from webviz_sim.pose import Pose2D
 NUMBER = "std_msgs/msg/Float64"
 
 
+WIDE = Path(__file__).parents[3] / "shared/data/reports/B3w/wstring.mcap"
+
+
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     """A bag whose scans stop for ten seconds."""
@@ -138,6 +141,17 @@ def test_a_rule_is_about_each_number_that_a_message_path_names(
         assert f"{'ok     ' if holds else 'FAILED '}{rule}" in said
     assert "/charge.data is 0.1 at " in said, "one of 200 messages"
     assert "/charge.date never had a value." in said
+
+
+@pytest.mark.skipif(not WIDE.exists(), reason="the shared data is absent")
+def test_a_rule_is_about_numbers_beside_a_wide_string(capsys: pytest.CaptureFixture[str]) -> None:
+    rules = "/odd.x <= 1", "/odd.x < 0.5", "/odd.w == 1"
+    given = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(WIDE), *given]) == 3
+    said = capsys.readouterr().out
+    assert "ok     /odd.x <= 1 (-0." in said
+    assert "/odd.x is 0." in said
+    assert "/odd.w never had a value. Check the name, that it is a number" in said
 
 
 def test_a_rule_of_the_config_is_tested(
