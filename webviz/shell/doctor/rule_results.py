@@ -47,8 +47,8 @@ class RuleResult(msgspec.Struct):
             return f"{name} is {value} at {self.at_s:.1f} s, expected {self.rule.expectation}."
         if self.lowest is None:
             return (
-                f"{name} never had a value. Check the name, that it is a number, and that its topic "
-                "has messages."
+                f"{name} never had a value. Check the name, that it is a number, and that its "
+                "topic has messages."
             )
         return ""
 
