@@ -129,7 +129,7 @@ def test_topics_of_a_node_that_ended_are_one_finding(
         publishers = [lidars.create_publisher(LaserScan, each, 1) for each in ("/front", "/rear")]
 
         def is_received() -> bool:
-            """Whether both topics have a message; the first of one may come before its match."""
+            """Return whether both topics have a message; the first may come before its match."""
             for each in publishers:
                 each.publish(message)
             topics = [row.statuses.get("Topic") for row in viewer.viewer.snapshot().rows]
