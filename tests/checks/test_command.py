@@ -86,6 +86,22 @@ def test_a_bag_is_examined_for_a_program(run_bag: Path, capsys: pytest.CaptureFi
     assert {*msgspec.json.decode(schema_text())["$defs"]} >= {"DoctorReport", "ReportedFinding"}
 
 
+def test_joint_states_of_a_bag_are_examined(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag, axle = Bag(), '<joint name="axle" type="continuous"><parent link="a"/><child link="b"/>'
+    urdf = f'<robot name="r"><link name="a"/><link name="b"/>{axle}</joint></robot>'
+    bag.add("/robot_description", "std_msgs/msg/String", latched=True)
+    bag.add("/joint_states", "sensor_msgs/msg/JointState")
+    bag.put(0.0, "/robot_description", {"data": urdf})
+    bag.transform(0.0, "map", "a", static=True)
+    for number in range(60):
+        bag.put(number / 10, "/joint_states", {"name": ["arm"], "position": [0.0]})
+    assert main(["doctor", "--bag", str(bag.write(tmp_path / "run")), "--json"]) == 3
+    report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
+    assert [each.id for each in report.findings] == ["DATA017"]
+
+
 def test_a_bag_is_examined_for_a_person(run_bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--bag", str(run_bag)]) == 3
     said = capsys.readouterr().out

@@ -131,6 +131,8 @@ def test_a_laser_that_sees_a_post_of_its_robot(webviz_harness: Make) -> None:
         ({"step": 10}, Severity.ERROR),
         ({"height": 7}, Severity.ERROR),
         ({"encoding": "bgra8", "step": 512}, Severity.ERROR),
+        ({"encoding": "mono8", "width": 32, "height": 12, "step": 96}, Severity.WARNING),
+        ({"encoding": "mono8", "width": 32, "height": 18, "step": 64}, None),  # aligned rows
         ({"encoding": "nv21", "width": 192, "height": 4}, None),
         ({}, None),
     ],
@@ -321,6 +323,26 @@ def test_a_shift_that_turns_with_the_robot_is_of_its_laser(
     assert said[0].startswith("Give the pose") != is_of_laser
 
 
+@pytest.mark.parametrize(("way", "is_found"), [(0.35, True), (0.1, False)])
+def test_a_laser_that_is_a_little_off_fits_now_and_then(
+    webviz_harness: Make, way: float, is_found: bool
+) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    found: dict[str, Finding] = {}
+    is_off = itertools.cycle([True, False])
+    for step in range(8):
+        yaw = 0.4 * step
+        off = cmath.rect(way if next(is_off) else 0.0, yaw)
+        seen = Pose2D(HERE.x + off.real, HERE.y + off.imag, yaw)
+        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(seen))
+        stage.clock += 1.1
+        stage.source.now += SECOND
+        stage.turn()
+        found = examining.by_key(stage.state().findings, CauseLevel.DATA)
+    assert [*found] == (["DATA003 Scan"] if is_found else [])
+    assert all(each.remedy == "Correct the transform of 'laser'." for each in found.values())
+
+
 def test_a_map_without_a_known_cell(webviz_harness: Make) -> None:
     stage = webviz_harness(Map(), fixed_frame="map")
     stage.transform("map", "odom")
@@ -361,8 +383,13 @@ WHEEL = """<robot name="r"><link name="map"/><link name="wheel"/>
 <joint name="axle" type="continuous"><parent link="map"/><child link="wheel"/></joint></robot>"""
 
 
-@pytest.mark.parametrize("positions", [[], [1.0, 2.0], [math.nan]])
-def test_joint_states_that_are_invalid(webviz_harness: Make, positions: list[float]) -> None:
+@pytest.mark.parametrize(
+    ("name", "positions"),
+    [("axle", []), ("axle", [1.0, 2.0]), ("axle", [math.nan]), ("arm", [1.0])],
+)
+def test_joint_states_that_are_invalid(
+    webviz_harness: Make, name: str, positions: list[float]
+) -> None:
     stage = webviz_harness(RobotModel(), fixed_frame="map")
     state = "sensor_msgs/msg/JointState"
     stage.source.known["/joint_states"] = Offer(
@@ -370,14 +397,17 @@ def test_joint_states_that_are_invalid(webviz_harness: Make, positions: list[flo
     )
     stage.publish("/robot_description", "std_msgs/msg/String", {"data": WHEEL})
     stage.transform("map", "other")
+    stage.settle()  # the robot is loaded in the background
 
-    def publish(values: list[float]) -> None:
-        said = {"header": header("", stage.source.now), "name": ["axle"], "position": values}
+    def publish(joint: str, values: list[float]) -> None:
+        said = {"header": header("", stage.source.now), "name": [joint], "position": values}
         stage.publish("/joint_states", state, said)
 
-    for values, is_found in ((positions, True), ([1.0], False)):
+    for joint, values, is_found in ((name, positions, True), ("axle", [1.0], False)):
         for _ in range(3):
-            examining.examined(stage, CauseLevel.DATA, publish=lambda v=values: publish(v))
+            examining.examined(
+                stage, CauseLevel.DATA, publish=lambda j=joint, v=values: publish(j, v)
+            )
         found = [each.id for each in stage.viewer.snapshot().findings]
         assert ("DATA017" in found) == is_found, found
         assert not is_found or not {"TF013", "TF017"} & {*found}, "they follow"

@@ -32,6 +32,9 @@ from webviz_sim.pose import Pose2D
 NUMBER = "std_msgs/msg/Float64"
 
 
+WIDE = Path(__file__).parents[3] / "shared/data/reports/B3w/wstring.mcap"
+
+
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     """A bag whose scans stop for ten seconds."""
@@ -155,6 +158,17 @@ def test_an_idle_display_is_as_good_as_one_that_is_ok(
     display = DisplaySeen("1", "LaserScan", LaserScan(name="Scan"), statuses)
     seen = Observation(now_ns=1, fixed_frame="map", buffer=TransformBuffer(), displays=[display])
     assert value_of(parse_rule("Scan.status < warn"), seen) == value
+
+
+@pytest.mark.skipif(not WIDE.exists(), reason="the shared data is absent")
+def test_a_rule_is_about_numbers_beside_a_wide_string(capsys: pytest.CaptureFixture[str]) -> None:
+    rules = "/odd.x <= 1", "/odd.x < 0.5", "/odd.w == 1"
+    given = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(WIDE), *given]) == 3
+    said = capsys.readouterr().out
+    assert "ok     /odd.x <= 1 (-0." in said
+    assert "/odd.x is 0." in said
+    assert "/odd.w never had a value. Check the name, that it is a number" in said
 
 
 def test_a_rule_of_the_config_is_tested(

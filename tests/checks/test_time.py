@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -23,6 +24,8 @@ from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
 from webviz_displays.laser_scan import LaserScan
+from webviz_displays.odometry import Odometry
+from webviz_displays.point_cloud2 import PointCloud2
 from webviz_displays.tf import TF
 
 WALL_NS = 1_700_000_000 * SECOND
@@ -215,6 +218,54 @@ def test_a_transform_of_another_clock_is_not_said_to_have_stopped(webviz_harness
     first, *others = stage.findings(0.2, publish)
     assert first.id == "TIME010"
     assert not {each.id for each in others} & {"TIME011", "TF018", "TF020"}
+
+
+@pytest.mark.parametrize(
+    ("late_s", "ids"),
+    [
+        ({}, []),
+        ({"/scan": 0.5}, ["TIME009 /scan"]),
+        ({"/scan": -0.5}, ["TIME008 /scan"]),
+        ({"/scan": 0.2}, []),  # a slow sweep
+        ({"/cloud": 0.5}, []),  # takes time to compute
+        ({"odom": 0.5}, ["TIME010"]),
+        ({"map": -0.5}, []),  # localisation stamps ahead
+        ({"/odom": 0.5, "odom": 0.5}, ["TIME010"]),
+        ({"/scan": 0.5, "/odom": 0.5, "/cloud": 0.5, "odom": 0.5, "map": 0.0}, ["TIME010"]),
+        ({"/scan": -0.5, "/odom": -0.5, "odom": -0.5, "map": -1.0}, ["TIME010"]),
+    ],
+)
+@pytest.mark.parametrize("jitter_s", [0.02, 0.4])
+def test_stamps_that_are_off_by_a_steady_half_second(
+    webviz_harness: Make, late_s: dict[str, float], ids: list[str], jitter_s: float
+) -> None:
+    stage = webviz_harness(LaserScan(), Odometry(), PointCloud2(topic=Topic("/cloud")), TF())
+    stage.source.now = WALL_NS
+    stage.transform("base_link", "laser")
+    waits, wait_s = itertools.cycle([0.0, jitter_s / 2, jitter_s, jitter_s / 2]), 0.0
+
+    def stamp(name: str) -> int:
+        return stage.source.now - round((late_s.get(name, 0.0) + wait_s) * SECOND)
+
+    def publish() -> None:
+        nonlocal wait_s
+        for _ in range(3):
+            wait_s = next(waits)
+            stage.source.now += SECOND // 20
+            stage.transform("map", "odom", stamp_ns=stamp("map"))
+            stage.transform("odom", "base_link", (1.0, 0.0, 0.0), stamp_ns=stamp("odom"))
+            stage.transform("base_link", "wheel", stamp_ns=stamp("odom"))
+            stage.publish("/scan", SCAN, three_ranges("laser", stamp("/scan")))
+            pose = {"position": {"x": 1.0}, "orientation": {"w": 1.0}}
+            odometry = {"header": header("odom", stamp("/odom")), "pose": {"pose": pose}}
+            stage.publish("/odom", "nav_msgs/msg/Odometry", odometry)
+            cloud = {"header": header("laser", stamp("/cloud"))}
+            stage.publish("/cloud", "sensor_msgs/msg/PointCloud2", cloud)
+
+    for _ in range(4):
+        stage.findings(0.3, publish)
+    found = examining.examined(stage, CauseLevel.TIME, 0.3, publish)
+    assert [*found] == (ids if jitter_s < 0.1 else [])
 
 
 def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:

@@ -23,6 +23,8 @@ OF_BAGS = (
     "unknown",
     "millimetres",
     "localisation does not",
+    "joint states of",
+    "joint states without",
     "empty",
 )
 """Words of the names of faults that a bag shows as well."""

@@ -101,6 +101,11 @@ def _only(change: Callable[[Robot], None], *names: str) -> Callable[[Robot], Non
     return both
 
 
+def _half_ahead(robot: Robot) -> None:
+    for name in STREAMS:
+        robot[name].ahead_s += 0.5
+
+
 STREAMS = "odometry", "odom", "localisation", "wheel", "joints", "scan"
 STANDING_NS = time.time_ns()
 
@@ -144,6 +149,8 @@ ALL = [
     Provocation("odometry transform half a second late", "TIME010", "", _ahead(-0.5, "odom")),
     Provocation("odometry transform 5 s late", "TIME010", "", _ahead(-5.0, "odom")),
     Provocation("odometry transform 5 s ahead", "TIME010", "", _ahead(5.0, "odom")),
+    Provocation("robot whose clock is half a second late", "TIME010", "", _ahead(-0.5, *STREAMS)),
+    Provocation("robot whose clock is half a second ahead", "TIME010", "", _half_ahead),
     Provocation("robot whose clock is an hour late", "TIME010", "", _ahead(-3600.0, *STREAMS)),
     Provocation("robot whose clock is a minute ahead", "TIME010", "", _ahead(60.0, *STREAMS)),
     Provocation(

@@ -101,6 +101,16 @@ def _described(text: str) -> Change:
     return _with("description", data=text)
 
 
+def _hall() -> Any:
+    """Return the cells of a hall with pillars, as large as the building's map."""
+    cells = np.zeros_like(building.WORLD.cells)
+    cells[[0, -1]] = cells[:, [0, -1]] = 100
+    rows, columns = cells.shape
+    for row, column in np.random.default_rng(0).integers(0, (rows - 6, columns - 6), (30, 2)):
+        cells[row : row + 6, column : column + 6] = 100
+    return cells.ravel()
+
+
 def _clean(robot: Robot) -> None:
     robot["map"].then(lambda v, _: v.update(data=np.full_like(v["data"], -1)))
 
@@ -138,13 +148,13 @@ ALL = [
         "DATA003",
         "Correct the transform of 'laser'",
         _mounted(x=0.3),
-        seconds=16.0,
+        seconds=24.0,
     ),
     Provocation(
         "map of another place",
         "DATA004",
         "",
-        _then("map", lambda v, _: v.update(data=np.random.default_rng(0).permutation(v["data"]))),
+        _then("map", lambda v, _: v.update(data=_hall())),
     ),
     Provocation("map that is unknown", "DATA018", "", _clean),
     Provocation(
@@ -185,8 +195,8 @@ ALL = [
     ),
     Provocation("twist forwards with a wrong sign", "DATA013", "sign", _twist(linear=-1.0)),
     Provocation("twist of turns with a wrong sign", "DATA013", "sign", _twist(angular=-1.0)),
-    Provocation("twist in km/h", "DATA020", "m/s", _twist(linear=3.6)),
-    Provocation("twist in degrees", "DATA020", "rad/s", _twist(angular=57.29578)),
+    Provocation("twist in km/h", "DATA020", "m/s", _twist(linear=3.6), seconds=16.0),
+    Provocation("twist in degrees", "DATA020", "rad/s", _twist(angular=57.29578), seconds=16.0),
     Provocation("odometry against its own transform", "DATA021", "", _then("odometry", _own_tf)),
     Provocation("joint states without positions", "DATA017", "position", _jointless(position=[])),
     Provocation("joint states with NaN", "DATA017", "", _jointless(position=[math.nan])),

@@ -32,6 +32,13 @@ def _twice(robot: Robot) -> None:
     robot.add("again", "scan", node="lidar#2")
 
 
+def _viewers(robot: Robot) -> None:
+    for node in ("webviz", "webviz#2"):
+        robot.streams[node] = Stream(
+            node, "/clicked_point", "geometry_msgs/msg/PointStamped", lambda *_: {}, rate_hz=1e-3
+        )
+
+
 def _killed(at_s: float) -> Callable[[Robot], object]:
     return lambda robot: robot.actions.append((at_s, lambda: os.kill(os.getpid(), signal.SIGKILL)))
 
@@ -121,6 +128,7 @@ ALL = [
         seconds=14.0,
     ),
     Provocation("lidar that is started twice", "GRAPH015", "End one", _twice),
+    Provocation("two other viewers", "GRAPH015", "namespace", _viewers),
     Provocation(
         "lidar that is not activated", "GRAPH012", "lifecycle", lambda r: r.lifecycle.add("lidar")
     ),

@@ -20,6 +20,7 @@ class ReceivedMessages:
         endpoints: identities of these publishers; those of a node that is started again are new.
         is_ready: whether a subscription exists, so that no message is missed from now on.
         has_gap: whether messages were dropped, or missed while nobody listened.
+        is_recorded: whether they are of a bag, which has no services.
     """
 
     messages: Sequence[bytes] = ()
@@ -27,6 +28,7 @@ class ReceivedMessages:
     endpoints: frozenset[bytes] = frozenset()
     is_ready: bool = False
     has_gap: bool = False
+    is_recorded: bool = False
 
 
 class GraphConnection(Protocol):

@@ -80,6 +80,11 @@ class Client(msgspec.Struct):
         if received.has_gap or received.endpoints != before:
             self._restart()
         self._waiting += received.messages
+        if received.is_recorded:
+            self._restart()
+            self.problem = f"The bag has updates of {self.namespace}, but not its service, which "
+            self.problem += "has the markers. Connect to the live server to see them."
+            return [News(is_all=True)] if before - received.endpoints else []
         if not received.publishers:
             self._restart()
             return [News(is_all=True)] if before else []

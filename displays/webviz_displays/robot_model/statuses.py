@@ -62,6 +62,7 @@ def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
         "probably not published. Start the driver or joint_state_publisher, which publish "
         "/joint_states.",
         cause="moving joints",
+        joint=joint.name,
     )
 
 

@@ -10,8 +10,8 @@ from webviz.api.observation import Observation
 from webviz.data.images import ImageError, layout_of, needed_bytes, whole_bytes
 
 IMAGE = "sensor_msgs/msg/Image"
-ALIGNED, WIDE = 64, 2
-"""Bytes to which drivers align rows; rows that are so many times as long have other pixels."""
+ALIGNED = 64
+"""Bytes to which drivers align rows. Padding as long as this and as the row itself is pixels."""
 
 
 class ImageSize(Check):
@@ -46,7 +46,7 @@ class ImageSize(Check):
                 needed_bytes(layout, width, height, step),
                 whole_bytes(layout, height, step),
             )
-            if step < row or step >= WIDE * row >= WIDE * ALIGNED:
+            if step < row or step - row >= max(row, ALIGNED):
                 cause = f"{row} bytes in a row, but its rows have {step}"
             elif not least <= has <= most:
                 cause = f"{most} bytes, but it has {has}"

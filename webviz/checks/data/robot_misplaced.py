@@ -19,7 +19,9 @@ TURNED_RAD = math.radians(30.0)
 STEADY_M = 0.15
 """By which a shift that stays may vary."""
 KEPT = 30
-"""Shifts that are compared, one a round."""
+"""Rounds whose shifts are compared, about one a second."""
+FEWEST = 3
+"""Shifts that show a laser which is so little off that its scan fits in some rounds."""
 
 
 class _Shift(NamedTuple):
@@ -46,19 +48,22 @@ class RobotMisplaced(Check):
     id = "DATA003"
 
     def __init__(self) -> None:
-        self._shifts: dict[str, list[_Shift]] = {}
-        """By frame of the laser, as long as its scan does not fit."""
+        self._shifts: dict[str, list[_Shift | None]] = {}
+        """Those of the last rounds by frame of the laser, None for one in which its scan fits."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
         before, self._shifts = self._shifts, {}
-        for display, found in seen.misfits():
-            if found.fit.shift is None:
+        for display in seen.displays:
+            if (found := display.fit) is None:
                 continue
-            shifts = self._shifts[found.frame] = before.get(found.frame, [])[-KEPT:]
-            if (yaw := _yaw(seen, found)) is not None:
-                shifts.append(_Shift(complex(*found.fit.shift), yaw))
+            rounds = self._shifts[found.frame] = before.get(found.frame, [])[-KEPT:]
+            rounds.append(_shift(seen, found))
+            shifts = [each for each in rounds if each]
             off = _of_laser(shifts)
+            is_off_now = not found.fit.is_good and found.fit.shift is not None
+            if not is_off_now and (off is None or len(shifts) < FEWEST):
+                continue
             if off is not None:
                 cause = (
                     f"The scan of '{found.frame}' is off by ({off.real:.2f}, {off.imag:.2f}) m in "
@@ -80,14 +85,15 @@ class RobotMisplaced(Check):
             )
 
 
-def _yaw(seen: Observation, found: MapFit) -> float | None:
-    """Return the yaw of a laser in the map."""
+def _shift(seen: Observation, found: MapFit) -> _Shift | None:
+    """Return the shift with which a scan would fit, None without one."""
+    shift = None if found.fit.is_good else found.fit.shift
     try:
         pose = seen.buffer.lookup(found.map_frame, found.frame, 0)
     except TransformException:
         return None
     x, y, z, w = pose.rotation
-    return to_rpy((w, x, y, z))[2]
+    return shift and _Shift(complex(*shift), to_rpy((w, x, y, z))[2])
 
 
 def _of_laser(shifts: list[_Shift]) -> complex | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
@@ -18,7 +18,7 @@ class SameName(Check):
     """Two nodes have one name.
 
     Several nodes of the graph have the same full name. It is a note unless they also publish the
-    same topic.
+    same topic, and of viewers.
 
     Why:
         Services and parameters of the name are answered by any of them. Usually a node was started
@@ -37,13 +37,15 @@ class SameName(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such name."""
         for node, number in Counter(seen.nodes).items():
-            if number < 2 or is_own(node):  # a viewer, and `webviz doctor` beside it
-                continue
             both = sorted(
                 topic
                 for topic, offer in seen.offers.items()
                 if topic not in SHARED and sum(p.node == node for p in offer.publishers) > 1
             )
+            if is_own(node):
+                yield from self._viewers(seen, node, both)
+            if number < 2 or is_own(node):
+                continue
             too = f", and publish {both[0]}" if both else ""
             yield self.found(
                 f"{number} nodes have the name {node}{too}.",
@@ -53,4 +55,17 @@ class SameName(Check):
                 evidence={"node": node, "number": number, "topics": tuple(both[:10])},
                 command="ros2 node list",
                 explains=seen.symptom("Transforms") if both else (),
+            )
+
+    def _viewers(self, seen: Observation, node: str, topics: Sequence[str]) -> Iterator[Finding]:
+        """Yield a note if several viewers run; `webviz doctor` has the name, but no publisher."""
+        counts = (sum(p.node == node for p in seen.offers[each].publishers) for each in topics)
+        if number := max(counts, default=0):
+            yield self.found(
+                f"{number} viewers have the name {node}.",
+                "To set parameters or call services of one of them, give it a namespace.",
+                subject=node,
+                severity=Severity.NOTE,
+                evidence={"node": node, "number": number, "topics": tuple(topics[:10])},
+                command="webviz --ros-args -r __ns:=/second",
             )

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import Finding, Symptom
 from webviz.api.observation import Observation
+from webviz.checks.time.offsets import LateLinks, off_together
 from webviz.data.transforms.clocks import clock_problem, is_off
-from webviz.data.transforms.reasons import YEAR_NS, Kind
+from webviz.data.transforms.reasons import YEAR_NS, Kind, in_words
+from webviz.data.transforms.tree import ancestors
+from webviz.data.words import listed
 
 OF_LINKS = Kind.AHEAD, Kind.BEHIND, Kind.NO_DATA, Kind.CLOCKS
 """Reasons why a frame behind such a transform has no pose."""
+NAMED = 3
 
 
 class ClocksDiffer(Check):
     """Clocks of transforms differ.
 
-    Transforms are stamped with a time that differs from that of webviz.
+    Transforms are stamped with a time that differs from that of webviz: by seconds, or by a steady
+    third of a second while data is on time or off by as much.
 
     Why:
         Data and transforms of different clocks do not meet: the data waits for transforms that come
@@ -30,8 +35,13 @@ class ClocksDiffer(Check):
 
     id = "TIME010"
 
+    def __init__(self) -> None:
+        self._late = LateLinks()
+
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
+        late, together_ns = self._late.update(seen), off_together(seen)
+        clock = "the time of the bag" if seen.is_recorded else "the clock of this computer"
         explains = seen.symptom("Clocks")
         problem = clock_problem(seen.buffer, seen.now_ns, seen.is_recorded)
         # Where data has the time of this computer, webviz need not follow another: TIME011.
@@ -50,3 +60,36 @@ class ClocksDiffer(Check):
                 command="chronyc tracking",
                 explains=(*explains, *lost, *seen.off_map()),
             )
+        elif together_ns is not None:
+            side = "behind" if together_ns > 0 else "ahead of"
+            yield self._steady(
+                f"All data and transforms are stamped {in_words(together_ns)} {side} {clock}.",
+                together_ns,
+                seen.off_map(),
+            )
+        elif late and not explains:
+            names = listed([f'"{child}"' for child in late], NAMED)
+            worst_ns = max(late.values())
+            tree = seen.buffer.tree
+            delayed = (
+                symptom
+                for display, each in seen.inputs()
+                if late.keys() & {*ancestors(tree, each.frame)}
+                for symptom in display.symptom("Transform")
+            )
+            yield self._steady(
+                f"The transforms of {names} are stamped {in_words(worst_ns)} behind {clock}, the "
+                "data is not.",
+                worst_ns,
+                (*delayed, *seen.off_map()),
+            )
+
+    def _steady(self, cause: str, delay_ns: int, explains: Sequence[Symptom] = ()) -> Finding:
+        return self.found(
+            cause,
+            "Synchronise the clocks of the machines (chrony, NTP), and look for what delays "
+            "them if they agree.",
+            evidence={"delay_s": round(delay_ns / 1e9, 3)},
+            command="chronyc tracking",
+            explains=(*explains,),
+        )

@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.checks.time.offsets import FEWEST, LARGE_NS, delays_of, off_alone
 from webviz.data.transforms.reasons import HOUR_NS, in_words
-
-FEWEST, FAR_NS = 5, 1_500_000_000
 
 
 class FutureStamps(Check):
     """Stamps in the future.
 
-    Messages arrive before the time of their stamp.
+    Messages arrive before the time of their stamp. Of sensors, a steady third of a second is
+    enough, while others are on time.
 
     Why:
         Transforms for that time do not exist yet, so that the data waits for them.
@@ -32,9 +32,11 @@ class FutureStamps(Check):
         """Yield a finding for each such topic."""
         if seen.symptom("Clocks"):
             return  # the clock of the transforms is off, too: TIME010
+        steady = off_alone(seen)
         for display, each in seen.inputs():
-            delays = [received_ns - stamp_ns for stamp_ns, received_ns in each.stamps if stamp_ns]
-            if len(delays) < FEWEST or not (all(FAR_NS < -d < HOUR_NS for d in delays)):
+            delays = delays_of(each)
+            is_far = len(delays) >= FEWEST and all(LARGE_NS < -d < HOUR_NS for d in delays)
+            if not is_far and steady.get(each.topic, 0) >= 0:
                 continue
             usual_ns = sorted(delays)[len(delays) // 2]
             yield self.found(

@@ -7,15 +7,18 @@ from collections.abc import Iterator
 from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
+from webviz.checks.time.offsets import FEWEST, LARGE_NS, delays_of, off_alone
 from webviz.data.transforms.reasons import HOUR_NS, in_words
 
-FEWEST, FAR_NS = 5, 1_500_000_000
+TRANSFORMS = "TIME010"
+"""Id of the check of transforms that are late."""
 
 
 class OldStamps(Check):
     """Stamps in the past.
 
-    Messages arrive long after the time of their stamp.
+    Messages arrive long after the time of their stamp. Of sensors, a steady third of a second is
+    enough, while others are on time.
 
     Why:
         The clock of their machine is slow, or a node or the network holds them up. Everything is
@@ -33,11 +36,13 @@ class OldStamps(Check):
         """Yield a finding for each such topic."""
         if seen.symptom("Clocks"):
             return  # the clock of the transforms is off, too: TIME010
+        if any(each.id == TRANSFORMS for each in seen.findings):
+            return  # the transforms are late, too
+        steady = off_alone(seen)
         for display, each in seen.inputs():
-            delays = [received_ns - stamp_ns for stamp_ns, received_ns in each.stamps if stamp_ns]
-            if len(delays) < FEWEST or not (
-                all(FAR_NS < d < HOUR_NS for d in delays) and each.rate_hz > 1.0
-            ):
+            delays = delays_of(each)
+            is_far = len(delays) >= FEWEST and all(LARGE_NS < d < HOUR_NS for d in delays)
+            if not (is_far and each.rate_hz > 1.0) and steady.get(each.topic, 0) <= 0:
                 continue
             usual_ns = sorted(delays)[len(delays) // 2]
             yield self.found(

@@ -55,6 +55,7 @@ class Explanation:
         frame: the one without a pose.
         near: a known frame whose name is similar, "" if the name is not misspelt.
         link: the child frame of the transform that is missing, late or wrong; "" if it is unknown.
+        joint: of the robot description that moves the frame, "" for none.
     """
 
     kind: Kind
@@ -68,6 +69,7 @@ class Explanation:
     frame: str = field(default="", compare=False)
     near: str = field(default="", compare=False)
     link: str = field(default="", compare=False)
+    joint: str = field(default="", compare=False)
 
 
 FOR_ALL = (Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME)

@@ -202,7 +202,8 @@ class Doctor(Part):
         listened_s = time.monotonic() - self.listening_since_s
         joint_states = dict(self._clock.joint_states)
         seen = replace(seen, joint_states=joint_states, listened_s=listened_s)
-        self._clock.is_wanted = bool(seen.stalled()) and not seen.is_paused
+        is_playing = seen.is_recorded or not seen.is_paused  # bags are played by hand
+        self._clock.is_wanted = is_playing and bool(seen.stalled())
         if self._clock.is_wanted and not (seen.is_recorded or seen.bridges):
             nodes = (node for node in seen.stalled_nodes() if not is_own(node))
             seen = replace(seen, sim_time=self._sim_time.ask(nodes))

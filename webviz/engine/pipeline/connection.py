@@ -84,6 +84,7 @@ class DisplayConnection:
             endpoints=frozenset(each.endpoint for each in publishers),
             is_ready=bool(offer and offer.requested and offer.type == type),
             has_gap=line.has_gap,
+            is_recorded=bool(offer and offer.is_recorded),
         )
         line.waiting.clear()
         line.has_gap, line.is_open = False, True

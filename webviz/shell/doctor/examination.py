@@ -92,10 +92,9 @@ class Examination:
         environment: Environment | None = None,
         since_s: float | None = None,
     ) -> None:
-        # Those of the config would save a recording in the working folder.
-        config = msgspec.structs.replace(
-            config, settings=msgspec.structs.replace(config.settings, watch=())
-        )
+        # Its rules would save a recording in the working folder, its tools appear as publishers.
+        settings = msgspec.structs.replace(config.settings, watch=())
+        config = msgspec.structs.replace(config, settings=settings, tools=[])
         self._results = results
         self._rounds = 0
         self._began_s = time.monotonic()

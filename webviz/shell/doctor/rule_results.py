@@ -46,7 +46,10 @@ class RuleResult(msgspec.Struct):
             value = self.rule.shown(self.violated.value)
             return f"{name} is {value} at {self.at_s:.1f} s, expected {self.rule.expectation}."
         if self.lowest is None:
-            return f"{name} never had a value. Check the name, and that its topic has messages."
+            return (
+                f"{name} never had a value. Check the name, that it is a number, and that its "
+                "topic has messages."
+            )
         return ""
 
     @property
