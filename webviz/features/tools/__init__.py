@@ -23,7 +23,6 @@ from webviz.engine.parts.advertisements import advertisement_of
 from webviz.engine.parts.advertisements import publish as publish_on
 from webviz.engine.parts.part import Core
 from webviz.engine.store import PageStore
-from webviz.features.goals import GoalsFeature
 from webviz.features.tools.toolbar import Toolbar, ToolButton
 from webviz.files.config import ConfigError
 from webviz.page.content.forms import Form, form, sendable, values_of
@@ -140,8 +139,11 @@ class ToolsFeature(PageFeature):
 
         def send_goal(request: GoalRequest) -> None:
             try:
+                # Here, as the other tools work without goals, too.
+                from webviz.features.goals import GoalsFeature
+
                 goals = self.core.get(GoalsFeature)
-            except LookupError as error:
+            except (ImportError, LookupError) as error:
                 raise Error(f"Not sent: {error}") from error
             goals.send(id, used.name, request, report)
 
