@@ -249,7 +249,8 @@ class Tab:
             if condition():
                 return
             self.page.wait_for_timeout(20)
-        raise AssertionError("timed out")
+        side = self.page.locator(".wv-side").all_inner_texts()
+        raise AssertionError(f"timed out; beside the scene there is {side}")
 
     def wait_for_command(self, command: Command) -> None:
         """Wait until the newest command is this one."""

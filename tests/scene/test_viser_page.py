@@ -11,6 +11,7 @@ import viser
 from tests.scene.conftest import View
 
 FOLDER = Path(str(resources.files("webviz.page"))) / "web"
+FEATURES = FOLDER.parents[1] / "features"
 MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
 
 
@@ -67,6 +68,7 @@ def test_all_modules_are_valid_and_used(view: View) -> None:
     """Chromium compiles them, with every name that they import; and the page has loaded them."""
     assert view.evaluate(IMPORT, MODULES) == {}
     texts = {name: (FOLDER / name).read_text() for name in (*MODULES, "head.html")}
+    texts |= {str(path): path.read_text() for path in FEATURES.rglob("*.js")}
     unused = {
         name
         for name in MODULES

@@ -101,7 +101,7 @@ class DisplaysPart(Part):
     def add_display(
         self,
         type: str,
-        values: dict[str, Any] | None = None,
+        values: dict[str, Any] = {},  # noqa: B006 - nobody changes it
         group: str = "",
         made: Callable[[str], None] = ignore,
     ) -> None:
@@ -113,7 +113,7 @@ class DisplaysPart(Part):
             group: id of the group; "" is the list itself.
             made: called by the frame loop with the id of the new display; must not block.
         """
-        new = _new(type, values or {})
+        new = _new(type, values)
         (entry,) = self.list.add([new], self.list.group(group))
         made(entry.id)
 

@@ -132,14 +132,18 @@ class PanelsPart(Part):
         return self.core.guard.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
 
     @command(Role.OPERATOR)
-    def add_panel(self, type: str, values: dict[str, Any] | None = None) -> str:
+    def add_panel(
+        self,
+        type: str,
+        values: dict[str, Any] = {},  # noqa: B006 - nobody changes it
+    ) -> str:
         """Add a panel of a plug-in behind the others.
 
         Args:
             type: name of the panel type.
             values: its properties, as in a config file.
         """
-        types, values = plugin_types(Panel), values or {}
+        types = plugin_types(Panel)
         if (cls := types.get(type)) is None:
             hint = nearest(type, types)
             raise ConfigError(f"Unknown panel type `{type[:80]}`: {hint}")

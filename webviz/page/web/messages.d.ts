@@ -195,8 +195,8 @@ export interface Watch {
 
 /** The fields of each command that a page may send. */
 export interface Commands {
-  AddDisplay: { type: string; values?: Record<string, unknown> | null; group?: string };
-  AddPanel: { type: string; values?: Record<string, unknown> | null };
+  AddDisplay: { type: string; values?: Record<string, unknown>; group?: string };
+  AddPanel: { type: string; values?: Record<string, unknown> };
   CancelGoal: { goal: string };
   ChangeView: { key: string; value: unknown };
   Dismiss: { visitor: number; revokes: boolean };
