@@ -48,6 +48,7 @@ def test_a_common_value_is_changed_in_all_as_one_step(tree: Tree, make_row: Make
     loop.show(make_row("a", size=0.5), make_row("b", size=0.25), make_row("c", size=4.0))
     select(tree, "a", "b")
     size = field(tree, "size")
+    tree.tab.wait_for(lambda: size.count() == 1)  # the loop turns, which `expect` does not
     playwright.expect(size).to_have_value("")
     playwright.expect(size).to_have_attribute("placeholder", "Mixed")
     playwright.expect(field(tree, "count")).to_have_value("3")
