@@ -145,7 +145,7 @@ def test_the_transform_between_two_frames_is_read_out(loop: Loop, panel: Tab) ->
 @pytest.mark.parametrize("argument", ["", "map", '["map"]', '["map", 1]', "[" * 5000, '{"a": 1}'])
 def test_what_names_no_two_frames_is_ignored(argument: str) -> None:
     assert pair_of(argument) is None
-    shown = stand_in(TransformsFeature, transforms_between=dict)
+    shown = stand_in(TransformsFeature, transform_between=lambda pair: None)
     assert shown.between(argument) is None
 
 

@@ -42,7 +42,7 @@ def stand_ins(
         stand_in(BridgesFeature, links=lambda: tuple(given("bridges", ()))),
         stand_in(
             TopicsFeature,
-            inspected=lambda: given("inspected", {}),
+            inspection=lambda topic: given("inspected", {}).get(topic),
             _last={},
             _inspected=set,
             inspect_topics=lambda topics: do(commands.InspectTopics(topics)),
@@ -50,7 +50,8 @@ def stand_ins(
         stand_in(
             TransformsFeature,
             tree=lambda: given("transforms", None),
-            transforms_between=lambda: given("between", {}),
+            transform_between=lambda pair: given("between", {}).get(pair),
+            _requested=tuple,
             inspect_transforms=lambda *looked_at: do(commands.InspectTransforms(*looked_at)),
         ),
         stand_in(HandlesFeature, found=lambda: given("handles", {}), _shown=None),

@@ -32,7 +32,7 @@ ROUNDS = 4
 
 
 def delays_of(each: InputSeen) -> list[int]:
-    """Return the times from stamps to receptions of the last messages in ns; zero is no stamp."""
+    """Return the times from stamps to receptions of the last stamped messages in ns."""
     return [received_ns - stamp_ns for stamp_ns, received_ns in each.stamps if stamp_ns]
 
 
@@ -83,7 +83,7 @@ def off_alone(seen: Observation) -> Mapping[str, int]:
 
 
 def off_together(seen: Observation) -> int | None:
-    """Return the delay in ns that all data and most transforms share, None if it is no fault.
+    """Return the delay in ns that all data and most transforms share, None without such a fault.
 
     A slow link holds up everything, too, as do recorders, so neither bridges nor bags are judged.
     """

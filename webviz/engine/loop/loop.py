@@ -145,8 +145,7 @@ class FrameLoop:
             autoplay,
         )
         views = ViewsPart(core, self._settings, self._displays)
-        first = [transforms, self._time, self._playback, self._displays, self._settings]
-        first.append(views)
+        first = [transforms, self._time, self._playback, self._displays, self._settings, views]
         others, history, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         attempt = self._guard.attempt

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 from msgspec.structs import replace
@@ -116,7 +116,7 @@ class HistoryPart(Part):
             steps: how many.
             own: prefer those of the sender; what others have done since stays.
         """
-        return self._travel((steps, own), sender, self._undo, self._redo, ("undo", "Undone"))
+        return self._travel("undo", steps, sender, own)
 
     @command(Role.OPERATOR)
     def redo(self, sender: Sender, steps: int = 1, own: bool = False) -> str:
@@ -126,22 +126,17 @@ class HistoryPart(Part):
             steps: how many.
             own: prefer what the sender has taken back.
         """
-        return self._travel((steps, own), sender, self._redo, self._undo, ("redo", "Redone"))
+        return self._travel("redo", steps, sender, own)
 
-    def _travel(
-        self,
-        wanted: tuple[int, bool],
-        sender: Sender,
-        back: deque[_Done],
-        forth: deque[_Done],
-        words: tuple[str, str],
-    ) -> str:
-        (most, own), (verb, participle) = wanted, words
+    def _travel(self, verb: Literal["undo", "redo"], steps: int, sender: Sender, own: bool) -> str:
+        is_back = verb == "undo"
+        back, forth = (self._undo, self._redo) if is_back else (self._redo, self._undo)
+        participle = "Undone" if is_back else "Redone"
         if not back:
             raise ConfigError(f"There is nothing to {verb}.")
         labels = []
         moment = self._now
-        for _ in range(max(1, min(most, len(back)))):
+        for _ in range(max(1, min(steps, len(back)))):
             done = _newest(back, sender if own else None)
             self._count += 1
             step = replace(done.step, number=self._count, browser=sender.browser)

@@ -87,7 +87,7 @@ class PanelsPart(Part):
             subscriber.ask()
 
     def advertisements(self) -> Collection[Advertisement]:
-        """Where the open panels publish."""
+        """Return the publishers of the open panels."""
         topics = [
             (type_, Topic(topic))
             for panel in self._panels()

@@ -150,7 +150,7 @@ class Part:
         return {}
 
     def advertisements(self) -> Collection[Advertisement]:
-        """Where it publishes, so that its first messages arrive."""
+        """Return the publishers it needs, so that its first messages arrive."""
         return ()
 
     def take(self, batches: Batches) -> None:

@@ -67,7 +67,7 @@ class Parts:
         )
 
     def advertisements(self) -> set[Advertisement]:
-        """Where all of them publish."""
+        """Return the publishers that all parts need."""
         found: set[Advertisement] = set()
         for part in self._overriding["advertisements"]:
             found.update(self._guard.attempt(part.name, (), part.advertisements))

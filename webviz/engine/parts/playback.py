@@ -182,9 +182,8 @@ class PlaybackPart(Part):
         if first_s is None and last_s is None:
             player.selected = None
             return
-        first, last = first_s, last_s
-        first_ns = history.start_ns if first is None else self._at_ns(first)
-        last_ns = history.end_ns if last is None else min(self._at_ns(last), history.end_ns)
+        first_ns = history.start_ns if first_s is None else self._at_ns(first_s)
+        last_ns = history.end_ns if last_s is None else min(self._at_ns(last_s), history.end_ns)
         if first_ns >= last_ns:
             raise Error("The selected span is empty. Choose an end later than its start.")
         player.selected = first_ns, last_ns

@@ -72,16 +72,16 @@ class TopicsFeature(Feature):
         for gone in self._last.keys() - self._inspected():
             del self._last[gone]
             self._read.pop(gone, None)
-        return {"inspected": self.inspected()}
+        return {"inspected": {topic: self._look(topic) for topic in self._inspected()}}
 
-    def inspected(self) -> Mapping[str, Inspected]:
-        """Return the inspected topics by name."""
-        return {topic: self._look(topic) for topic in self._inspected()}
+    def inspection(self, topic: str) -> Inspected | None:
+        """Return the report on a topic, None if it is not inspected."""
+        return self._look(topic) if topic in self._inspected() else None
 
     @store()
     def message(self, topic: str) -> MessageStore | None:
         """Return the last message on a topic; None if it is not inspected."""
-        inspected = self.inspected().get(topic)
+        inspected = self.inspection(topic)
         if inspected is None:
             return None
         return MessageStore(

@@ -129,16 +129,16 @@ class TransformsFeature(Feature):
 
     def state(self) -> Mapping[str, Any]:
         """Return the requested reports."""
-        return {"transforms": self.tree(), "between": self.transforms_between()}
+        between = {pair: self._between(*pair) for pair in self._requested()}
+        return {"transforms": self.tree(), "between": between}
 
     def tree(self) -> Diagnosis | None:
         """Return the tree, None while no page shows it."""
         return self._diagnosis() if self.core.is_watched() and self._has_tree else None
 
-    def transforms_between(self) -> Mapping[tuple[str, str], Between]:
-        """Return the requested transforms, by target and source frame."""
-        pairs = sorted(self._pairs)[:MAX_BETWEEN] if self.core.is_watched() else ()
-        return {pair: self._between(*pair) for pair in pairs}
+    def transform_between(self, pair: tuple[str, str]) -> Between | None:
+        """Return the transform between two frames, None if it is not requested."""
+        return self._between(*pair) if pair in self._requested() else None
 
     @store()
     def transforms(self, argument: str) -> TransformsStore | None:
@@ -167,7 +167,7 @@ class TransformsFeature(Feature):
     @store()
     def between(self, pair: str) -> BetweenStore | None:
         """Return the transform between two frames, given as JSON: [target, source]."""
-        found = self.transforms_between().get(pair_of(pair) or ("", ""))
+        found = self.transform_between(pair_of(pair) or ("", ""))
         return found and between_store(found)
 
     @command(None)
@@ -195,6 +195,9 @@ class TransformsFeature(Feature):
             f"{source} is at ({x:.4f}, {y:.4f}, {z:.4f}) m in {target}, rotation "
             f"(x, y, z, w) = ({turn}), {age}."
         )
+
+    def _requested(self) -> Sequence[tuple[str, str]]:
+        return sorted(self._pairs)[:MAX_BETWEEN] if self.core.is_watched() else ()
 
     def _diagnosis(self) -> Diagnosis:
         """Return the tree as it was less than a second ago; at once if frames came or moved."""
