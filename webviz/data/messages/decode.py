@@ -17,6 +17,9 @@ from webviz.data.messages.typestore import KNOWN, DefinedTypes, MessageTypes
 MAX_DEFINITIONS = 256
 """Of recordings, which several files or channels may share."""
 
+PADDING = 4
+"""To a multiple of it, writers of bags and DDS fill up messages, in bytes."""
+
 T = TypeVar("T")
 Bytes = bytes | bytearray | memoryview
 
@@ -39,6 +42,23 @@ def decode(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> Any:
         UnknownTypeError: No definition of the type is known.
     """
     return _read(type_name, cdr, lambda reader: decoder(type_name, reader.order, types)(reader))
+
+
+def is_whole(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> bool:
+    """Return whether bytes are a message of a type and nothing else but padding; see `decode`.
+
+    Raises:
+        UnknownTypeError: No definition of the type is known.
+    """
+
+    def rest(reader: Reader) -> int:
+        decoder(type_name, reader.order, types)(reader)
+        return reader.size - reader.pos
+
+    try:
+        return _read(type_name, cdr, rest) < PADDING
+    except DecodeError:
+        return False
 
 
 def peek_header(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> tuple[str, int] | None:

@@ -100,7 +100,7 @@ class KnownTypes:
         known = _store().fielddefs
         if name not in known and "/msg/" in name and (text := definitions.text(name)):
             parsed = types_in_msg(text, name)[name]
-            for field in filter(lambda field: field.is_message, _fields_of(parsed)):
+            for field in filter(lambda field: field.is_message, fields_of(parsed)):
                 self.get(field.base)  # they are looked for in the store
             known[name] = parsed
         return known.get(name)
@@ -198,7 +198,7 @@ def fields(type_name: str, types: MessageTypes = KNOWN) -> list[MessageField]:
         UnknownTypeError: No definition of the type is known.
         DefinitionError: Types that it contains have been replaced by others that do not fit.
     """
-    return _fields_of(_definition(type_name, types))
+    return fields_of(_definition(type_name, types))
 
 
 def fields_in(type_name: str, text: str) -> list[MessageField]:
@@ -207,7 +207,7 @@ def fields_in(type_name: str, text: str) -> list[MessageField]:
     Raises:
         DefinitionError: as `types_in`.
     """
-    return _fields_of(types_in(type_name, text)[type_name])
+    return fields_of(types_in(type_name, text)[type_name])
 
 
 def constants(type_name: str, types: MessageTypes = KNOWN) -> dict[str, bool | int | float | str]:
@@ -257,7 +257,7 @@ def _learnt(name: str, text: str, fixed: Container[str]) -> tuple[Types, Collect
     """Return the types in a definition, and the names of all that its type consists of."""
     learnt = types_in(name, text)
     for key in learnt:
-        if key in fixed and _fields_of(learnt[key]) != fields(key):
+        if key in fixed and fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
                 f"The definition of {name} contains a {key} that differs from ROS 2's."
             )
@@ -366,7 +366,8 @@ def _learn(types: Types) -> None:
             cached.cache_clear()
 
 
-def _fields_of(definition: Any) -> list[MessageField]:
+def fields_of(definition: Any) -> list[MessageField]:
+    """Return the fields of a type as `types_in` has it."""
     return [_field(name, *description) for name, description in definition[1]]
 
 

@@ -13,11 +13,19 @@ from webviz.api.offer import Publisher
 from webviz.data.foxglove.schemas import Conversion, ConversionError, conversion, is_own, problem_of
 from webviz.data.messages import (
     KNOWN,
+    DefinitionError,
     MessageError,
     MessageTypes,
+    UnknownTypeError,
     defined,
     definition,
     type_exists,
+)
+from webviz.data.messages.distributions import (
+    OtherLayout,
+    UndefinedMessages,
+    definition_elsewhere,
+    may_differ,
 )
 from webviz.data.messages.typestore import fields, full_name
 from webviz.data.names import problem_of as name_problem
@@ -26,6 +34,8 @@ from webviz.data.recordings.recording import Counts, RecordedMessage, TimeParts
 from webviz.sources.bag.qos import profiles_of
 from webviz.sources.history import Recorded
 from webviz.sources.names import MAX_NAME
+
+Layout = OtherLayout | UndefinedMessages
 
 KEEP_LAST = 1
 """Latched messages per publisher if the bag does not record the depth."""
@@ -46,6 +56,7 @@ class BagChannel(msgspec.Struct, frozen=True):
         recorded: as it is in the file.
         conversion: to that type, None for messages of ROS.
         types: that define that type.
+        layout: by which another distribution wrote its messages, None for that of `types`.
     """
 
     topic: str
@@ -55,17 +66,24 @@ class BagChannel(msgspec.Struct, frozen=True):
     recorded: RecordedChannel
     conversion: Conversion | None = None
     types: MessageTypes = KNOWN
+    layout: Layout | None = None
 
     @property
     def written(self) -> RecordedChannel:
         """As it is written to other files, in CDR."""
-        if self.conversion is None:
+        if self.conversion is None and self.layout is None and self.recorded.definition:
             return self.recorded
-        text = definition(self.type)
+        known = type_exists(self.type)
+        text = definition(self.type) if known else definition_elsewhere(self.type)
         return replace(self.recorded, type=self.type, encoding="cdr", definition=text)
 
     def cdr(self, data: bytes) -> bytes:
-        """Return a message in CDR; raises ConversionError if it is not of its schema."""
+        """Return a message in CDR; raises ConversionError if it is not of its type."""
+        if self.layout is not None:
+            try:
+                return self.layout.to_cdr(data)
+            except MessageError as error:
+                raise ConversionError(str(error).rstrip(".")) from error
         if self.conversion is None:
             return data
         return self.conversion.convert(self.recorded.encoding, data)
@@ -210,16 +228,18 @@ class BagFile:
             # Some writers leave out the first slash, with which displays name topics.
             rooted = f"/{recorded.topic.removeprefix('/')}"
             topic = recorded.topic if rooted in names else rooted
-            reason = _obstacle(recorded)
-            if reason:
+            if reason := _obstacle(recorded):
                 self.skipped[topic] = reason
-            else:
+                continue
+            try:
                 channels.append(_channel(topic, recorded, f"the bag {self.name}"))
+            except MessageError as error:
+                self.skipped[topic] = str(error).rstrip(".")
         self.channels = tuple(channels)
 
 
 def _obstacle(recorded: RecordedChannel) -> str:
-    """Why the messages of a channel cannot be read, "" if they can."""
+    """Why the messages of a channel cannot be read whatever their type, "" if they can."""
     if is_own(recorded.type, recorded.encoding):
         if len(recorded.topic) > MAX_NAME or name_problem(recorded.topic):
             return "its name is too long, or contains invisible characters"
@@ -228,22 +248,18 @@ def _obstacle(recorded: RecordedChannel) -> str:
         return f"its messages are encoded as {recorded.encoding}, not as CDR"
     if recorded.type.endswith("_Event") and "/srv/" in recorded.type:
         return "service events are unsupported"
-    if type_exists(recorded.type):
-        return ""
-    if not recorded.definition.strip():
-        return f"{recorded.type} is unknown, and the bag has no .msg definition of it"
-    try:
-        fields(recorded.type, defined(recorded.type, recorded.definition))
-    except MessageError as error:
-        return str(error).rstrip(".")
     return ""
 
 
 def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
+    """Return a channel as it is read.
+
+    Raises:
+        MessageError: its messages cannot be read; why, as a sentence.
+    """
     known = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
     type_name = known.type if known else full_name(recorded.type)
-    is_defined = known is None and recorded.definition.strip()
-    types = defined(type_name, recorded.definition) if is_defined else KNOWN
+    types, layout = (KNOWN, None) if known else _types(type_name, recorded.definition)
     profiles = profiles_of(recorded.profiles)
     publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
     return BagChannel(
@@ -254,4 +270,34 @@ def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
         recorded,
         known,
         types,
+        layout,
     )
+
+
+def _types(name: str, text: str) -> tuple[MessageTypes, Layout | None]:
+    """Return what defines a type, and the layout of its messages if it is another one.
+
+    Args:
+        name: full name of the type.
+        text: its definition in the bag, "" if there is none.
+
+    Raises:
+        MessageError: its messages cannot be read; why, as a sentence.
+    """
+    text = text if text.strip() else ""
+    if not type_exists(name):
+        if not (text := text or definition_elsewhere(name)):
+            raise UnknownTypeError(f"{name} is unknown, and the bag has no .msg definition of it.")
+        types = defined(name, text)
+        fields(name, types)
+        return types, None
+    if not may_differ(name):  # read when it is needed
+        return (defined(name, text) if text else KNOWN), None
+    if not text:
+        return KNOWN, UndefinedMessages(name)
+    types = defined(name, text)
+    try:
+        fields(name, types)
+    except DefinitionError:
+        return KNOWN, OtherLayout(name, text)
+    return types, None
