@@ -355,7 +355,8 @@ class SaveMemory(FileCommand, frozen=True):
     """Write the last seconds of what was subscribed to, with the latched messages before them.
 
     Args:
-        seconds: as far as they are remembered; None is everything.
+        seconds: until now, as far as they are remembered; None is everything, and while people
+            look back also what has been forgotten since.
         path: as that of `StartRecording`.
     """
 

@@ -82,6 +82,27 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
             assert nodes == truth[at_s][display], (display, at_s)
 
 
+def test_what_is_looked_at_is_saved_although_the_memory_has_forgotten_it(
+    drive: Callable[..., Drive],
+) -> None:
+    """A crash that somebody rewound to is in the file, however long they look at it."""
+    live = drive(recorded(1), f"memory: {{seconds: 20}}\n{CONFIG}")
+    live.seek(2.08)
+    seen = live.shown()
+    channel = next(each for each in live.files.channels if each.topic == "/odom")
+    *_, sent = live.files.messages([channel], live.files.start_ns)
+    late_s = 28.0
+    live.source.inbox.put("/odom", Raw(sent.cdr, START_NS + ns(late_s), live.began_s + late_s))
+    live.loop.turn()
+    assert "all 28 s" in live.do(SaveMemory(path="saved"))
+    with contextlib.closing(BagViewer(Path("saved"), CONFIG)) as played:
+        played.play_to(2.08 - (played.source.history.start_ns - START_NS) / 1e9)
+        played.settle()
+        assert played.shown() == seen
+    live.do(ReturnToLive())
+    assert "the last" in live.do(SaveMemory(path="live"))
+
+
 @pytest.mark.parametrize("seconds", [60, 30])
 def test_frames_whose_transforms_ended_long_before_are_known(
     drive: Callable[..., Drive], seconds: int

@@ -376,6 +376,9 @@ def test_pages_read_what_is_remembered_and_recorded() -> None:
     )
     assert recording_store(memory, None, LIMITS) == RecordingStore((61, 2), True, REMEMBERS, None)
     assert recording_store(None, running, LIMITS) is None
+    held = recording_store(msgspec.structs.replace(memory, held_s=95.3), None, LIMITS)
+    assert held is not None
+    assert held.held == 95
 
 
 @pytest.mark.parametrize("off", [{"seconds": 0.0}, {"megabytes": 0.0}])

@@ -42,12 +42,14 @@ class MemoryState(msgspec.Struct, frozen=True):
         size: bytes of all messages.
         is_full: whether younger messages than wanted were forgotten for their size.
         pinned: topics whose latched messages are kept although they are older.
+        held_s: seconds that people look back on; None live.
     """
 
     seconds: float
     size: int
     is_full: bool = False
     pinned: tuple[str, ...] = ()
+    held_s: float | None = None
 
 
 class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
@@ -91,12 +93,14 @@ class RecordingStore(PageStore, frozen=True):
         is_remembering: whether there is a memory.
         about: sentences on the memory.
         recording: None for none.
+        held: seconds that people look back on, which are saved while they do; None live.
     """
 
     remembered: tuple[int, int]
     is_remembering: bool
     about: str
     recording: RunningRecording | None
+    held: int | None = None
 
 
 class RecordingFeature(Feature):
@@ -135,7 +139,8 @@ class RecordingFeature(Feature):
 
     def _remembered(self, memory: MemoryHistory) -> MemoryState:
         seconds, size = memory.recent.size()
-        return MemoryState(seconds, size, memory.recent.is_full, memory.recent.pinned())
+        held_s = memory.held_s if memory.is_held else None
+        return MemoryState(seconds, size, memory.recent.is_full, memory.recent.pinned(), held_s)
 
     def _recorded(self) -> RecordingState | None:
         recorder = self._recorder
@@ -219,31 +224,35 @@ class RecordingFeature(Feature):
         """Write the last seconds of what was subscribed to, with the latched messages before them.
 
         Args:
-            seconds: as far as they are remembered; None is everything.
+            seconds: until now, as far as they are remembered; None is everything, and while people
+                look back also what has been forgotten since.
             path: as that of `StartRecording`.
         """
         memory, place = self._known(), _new_path(path, sender)
         span_s = math.inf if seconds is None else seconds
         if not span_s > 0:
             raise Error(f"{span_s:g} s is not a valid time span. Give a positive number.")
+        is_held = memory.is_held and seconds is None
         past = memory.recent.last(span_s)
-        if not past.messages:
+        entries = memory.entries() if is_held else past.whole
+        if not (past.messages or is_held):
             raise Error(
                 "No messages are kept in memory. Show a topic, or raise memory.seconds in the "
                 "config."
             )
 
         def work() -> Recorder:
-            recorder = Recorder(new_folder(place), memory.recorded_channels, past.whole)
+            recorder = Recorder(new_folder(place), memory.recorded_channels, entries)
             recorder.close()
             return recorder
 
         def then(recorder: Recorder) -> str:
             if recorder.problem:
                 raise Error(recorder.problem)
-            (_, first), (_, last) = past.messages[0], past.messages[-1]
-            saved_s = (last.received_ns - first.received_ns) / 1e9
-            return f"Saved the last {saved_s:.0f} s to {recorder.path.name}."
+            (_, first), (_, last) = entries[0], entries[-1]  # latched ones have the time of the first
+            span = f"{(last.received_ns - first.received_ns) / 1e9:.0f} s"
+            what = f"all {span} that are looked back on" if is_held else f"the last {span}"
+            return f"Saved {what} to {recorder.path.name}."
 
         return Job(work, then)
 
@@ -290,6 +299,7 @@ def recording_store(
         is_remembering=bounds.seconds > 0 and bounds.megabytes > 0,
         about=str(sendable(_about(memory, bounds))),
         recording=running,
+        held=None if memory.held_s is None else int(memory.held_s),
     )
 
 

@@ -19,7 +19,7 @@ function buttons() {
   let recording = null;
   let isLive = false;
   let isRemembering = false;
-  let seconds = 0;
+  let saved = "";
 
   const start = el("button", { type: "button", class: "wv-button wv-record", onclick: toggle });
   const label = el("span", { class: "wv-number" });
@@ -54,8 +54,9 @@ function buttons() {
     if (!isLive) return;
     recording = values.get("recording");
     isRemembering = values.get("is_remembering") === true;
-    const [remembered, megabytes] = values.get("remembered") ?? [0, 0];
-    seconds = remembered;
+    const [seconds, megabytes] = values.get("remembered") ?? [0, 0];
+    const held = values.get("held") ?? null;
+    saved = held === null ? `last ${seconds} s` : `all ${held} s`;
     set(start, {
       "data-recording": recording !== null,
       "aria-label": recording ? "Stop recording" : "Record",
@@ -70,10 +71,13 @@ function buttons() {
     setText(memory, isRemembering ? `memory ${seconds} s, ${megabytes} MB` : "no memory");
     set(memory, { "data-tip": values.get("about") });
     save.hidden = !isRemembering;
-    setText(span, `Save last ${seconds} s`);
+    setText(span, `Save ${saved}`);
     set(save, {
-      "aria-label": `Save last ${seconds} s`,
-      "data-tip": `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB`,
+      "aria-label": `Save ${saved}`,
+      "data-tip":
+        held === null
+          ? `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB`
+          : `Save the ${held} s of the timeline, with the moment that is shown`,
     });
   });
 
@@ -84,7 +88,7 @@ function buttons() {
     const commands = [{ name, icon: "record", group, needs: "StartRecording", run: toggle }];
     if (isRemembering)
       commands.push({
-        name: `Save the last ${seconds} s`,
+        name: `Save ${saved}`,
         icon: "save",
         group,
         needs: "SaveMemory",

@@ -81,9 +81,24 @@ class MemoryHistory:
         """Return the messages that arrived later than a time of recording."""
         return self.recent.after(self.clock.arrived_s(at_ns))
 
+    @property
+    def is_held(self) -> bool:
+        """Return whether the past is kept that people look back on."""
+        return bool(self._held)
+
+    @property
+    def held_s(self) -> float:
+        """Return the seconds from the oldest message of `entries` to the newest while it is held."""
+        newest_s = self.recent.newest_s
+        if not self._held or newest_s is None:
+            return 0.0
+        return max(newest_s, self._entries[-1][1].arrived_s) - self._held[0][1].arrived_s
+
     def entries(self) -> list[Entry]:
-        """Return all messages, latched ones first, in the order of arrival."""
-        return self.recent.last(math.inf).whole if not self._held else self._entries
+        """Return all messages until now, latched ones first, in the order of arrival."""
+        if not self._held:
+            return self.recent.last(math.inf).whole
+        return [*self._entries, *self.recent.after(self._entries[-1][1].arrived_s)]
 
     # The interface of webviz.sources.history.History
 
