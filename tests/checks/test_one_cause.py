@@ -10,6 +10,7 @@ import examining
 import pytest
 from examining import HERE, SCAN, look, three_ranges
 
+from webviz.api.observation import Observation
 from webviz.api.offer import Offer, Publisher
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
@@ -167,3 +168,21 @@ def test_coordinates_of_utm_are_no_fault_in_its_own_frame(
     found = ids(stage, publish)
     assert ("TF022" in found) == is_found
     assert math.hypot(4.5e5, 5.4e6) > 1e5
+
+
+@pytest.mark.parametrize("has_begun", [False, True])
+def test_a_robot_that_ended_as_a_whole_has_left(
+    webviz_harness: Make, monkeypatch: pytest.MonkeyPatch, has_begun: bool
+) -> None:
+    monkeypatch.setattr(Observation, "is_alone", lambda seen: True)
+    stage = webviz_harness(LaserScan(), Map(), fixed_frame="map")
+    stage.source.now = WALL_NS
+    if has_begun:
+        offer(stage, "/scan", SCAN, "/lidar")
+        stage.publish("/scan", SCAN, three_ranges("map", WALL_NS))
+        stage.turn()
+        stage.source.known.clear()
+    ids(stage)
+    (empty,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH001"]
+    said = "All other ROS nodes have left" if has_begun else "No other ROS node is visible in"
+    assert empty.cause == f"{said} domain 0."

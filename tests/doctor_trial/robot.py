@@ -218,6 +218,8 @@ class Robot:
             for node in self._leaving & nodes.keys():
                 executor.remove_node(nodes[node])
                 nodes.pop(node).destroy_node()
+                for key in [key for key in publishers if key[0] == node]:
+                    del publishers[key]
             executor.spin_once(timeout_sec=0.01)
 
     def record(self, path: Path, seconds: float = 8.0) -> Path:

@@ -288,6 +288,24 @@ def test_a_jump_back_in_time_is_recognised_by_refused_transforms(
     assert "Reset" in found.sentence
 
 
+def test_a_link_that_stopped_before_all_that_others_keep_is_named(
+    buffer: TransformBuffer, put: Put
+) -> None:
+    """`laser` is fixed to `base`, whose odometry ended at 2 s."""
+    for stamp_s in (1.0, 2.0):
+        put("odom", "base", stamp_s)
+        put("base", "laser", stamp_s)
+    for stamp_s in range(5, 15):
+        put("map", "odom", float(stamp_s))
+        put("base", "laser", float(stamp_s))
+    found = why(buffer, "laser", 0.0, 14.5)
+    assert (found.kind, found.link) == (Kind.NO_DATA, "base")
+    assert found.sentence == (
+        'The transform "odom" → "base" has stopped: its last is 12 s old, older than all that are '
+        'kept of "map" → "odom". Restart its publisher.'
+    )
+
+
 def test_a_single_sample_at_another_time_is_too_little(buffer: TransformBuffer, put: Put) -> None:
     put("map", "odom", 1.0)
     put("odom", "base", 1.1)

@@ -35,9 +35,14 @@ class EmptyGraph(Check):
         if not seen.is_alone() or not explains:
             return
         domain = seen.environment.domain if seen.environment else "0"
+        has_left = any(each.received for _, each in seen.inputs())
         yield self.found(
-            f"No other ROS node is visible in domain {domain}.",
-            "Start the robot, or set the ROS_DOMAIN_ID of its nodes.",
+            f"All other ROS nodes have left domain {domain}."
+            if has_left
+            else f"No other ROS node is visible in domain {domain}.",
+            "Start the robot again, or restore the link to its machine."
+            if has_left
+            else "Start the robot, or set the ROS_DOMAIN_ID of its nodes.",
             severity=Severity.ERROR,
             evidence={"domain": domain, "nodes": tuple(seen.nodes)},
             command="ros2 multicast receive",

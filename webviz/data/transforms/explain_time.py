@@ -35,7 +35,7 @@ def explain_time(
     if stamp_ns == 0:
         alone = [name for name, cache in links if len(cache.stamps) == 1]
         if not alone:
-            return Explanation(Kind.NO_DATA, f"{text}.")
+            return _apart(buffer, links, now_ns) or Explanation(Kind.NO_DATA, f"{text}.")
         return Explanation(
             Kind.NO_DATA,
             f"Only one transform {_link(buffer, alone[0])} has arrived, newer than others "
@@ -53,6 +53,23 @@ def explain_time(
         reason = _behind(buffer, child, stamp_ns, oldest, cache.newest_stamp)
         return replace(reason, link=child)
     return Explanation(Kind.NO_DATA, f"{text}.")
+
+
+def _apart(
+    buffer: TransformBuffer, links: list[tuple[str, TimeCache]], now_ns: int
+) -> Explanation | None:
+    """Name a link that stopped so long ago that others have forgotten its last time."""
+    newest_ns, child = min((cache.stamps[-1], name) for name, cache in links)
+    oldest_ns, other = max((cache.stamps[0], name) for name, cache in links)
+    if not 0 < oldest_ns - newest_ns < HOUR_NS:
+        return None
+    age = f"{in_words(now_ns - newest_ns)} old, " if now_ns else ""
+    return Explanation(
+        Kind.NO_DATA,
+        f"The transform {_link(buffer, child)} has stopped: its last is {age}older than all that "
+        f"are kept of {_link(buffer, other)}. Restart its publisher.",
+        link=child,
+    )
 
 
 def _link(buffer: TransformBuffer, child: str) -> str:

@@ -249,7 +249,10 @@ class RecordingFeature(Feature):
         def then(recorder: Recorder) -> str:
             if recorder.problem:
                 raise Error(recorder.problem)
-            (_, first), (_, last) = entries[0], entries[-1]  # latched ones have the time of the first
+            (_, first), (_, last) = (
+                entries[0],
+                entries[-1],
+            )  # latched ones have the time of the first
             span = f"{(last.received_ns - first.received_ns) / 1e9:.0f} s"
             what = f"all {span} that are looked back on" if is_held else f"the last {span}"
             return f"Saved {what} to {recorder.path.name}."
