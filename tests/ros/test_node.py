@@ -15,7 +15,9 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-
 from nodes import node_of
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosbags.typesys import Stores, get_typestore
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Range
 from several import several
 from std_msgs.msg import Int32, String
 
@@ -30,6 +32,7 @@ from webviz.ros import node
 from webviz.ros.node import RosSource
 from webviz.sources import Advertisement, Gate, Rights, Subscription, merged
 
+RANGE = "sensor_msgs/msg/Range"
 STRING = "std_msgs/msg/String"
 Listen = Callable[..., RosSource]
 
@@ -293,3 +296,29 @@ def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) ->
     source.close()
     assert not [t for t in threading.enumerate() if t.name == "webviz-ros"]
     until(lambda: "webviz" not in talker.get_node_names())
+
+
+def test_messages_of_an_older_distribution_have_defaults_for_what_they_lack(
+    talker: Node, listen: Listen
+) -> None:
+    """Its Range has no variance; DDS compares the names of types alone."""
+    older = get_typestore(Stores.ROS2_HUMBLE)
+    header = older.types["std_msgs/msg/Header"](
+        stamp=older.types["builtin_interfaces/msg/Time"](sec=1, nanosec=0), frame_id="sonar"
+    )
+    message = older.types[RANGE](header, 1, 0.5, 0.1, 4.0, 2.5)
+    publisher = talker.create_publisher(Range, "/sonar", 1)
+    source = listen()
+    source.want({"/sonar": Subscription(RANGE, Topic("/sonar"))})
+    cdr = bytes(older.serialize_cdr(message, RANGE))
+    arrived: list[Any] = []
+
+    def is_received() -> bool:
+        """Return whether one has come; the first may be sent before its match."""
+        publisher.publish(cdr)
+        arrived.extend(source.inbox.drain().get("/sonar", ()))
+        return bool(arrived)
+
+    until(is_received)
+    found = decode(RANGE, arrived[0].cdr)
+    assert (found.header.frame_id, found.range, found.variance) == ("sonar", 2.5, 0.0)

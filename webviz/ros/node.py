@@ -24,6 +24,7 @@ from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.data.messages import typestore
+from webviz.data.messages.distributions import UndefinedMessages, may_differ
 from webviz.ros import qos
 from webviz.ros.control import ControlNode
 from webviz.ros.graph import RosGraph
@@ -251,12 +252,13 @@ class RosSource:
         if held.is_mixed:
             durabilities = ["transient_local", "volatile"]
         try:
-            learn(held.subscription.type)
+            learn(type_name := held.subscription.type)
+            layout = UndefinedMessages(type_name) if may_differ(type_name) else None
             held.subscriptions = [
                 self._node.create_subscription(
-                    message_class(held.subscription.type),
+                    message_class(type_name),
                     topic,
-                    functools.partial(self._arrive, topic),
+                    functools.partial(self._arrive, topic, layout),
                     qos.profile(held.subscription, reliability, each),
                     raw=True,
                     event_callbacks=qos.NO_EVENTS_OF_SUBSCRIPTIONS,
@@ -282,7 +284,7 @@ class RosSource:
     def _count_clock(self, jump: object) -> None:
         self._clock_messages += 1
 
-    def _arrive(self, topic: str, cdr: bytes) -> None:
+    def _arrive(self, topic: str, layout: UndefinedMessages | None, cdr: bytes) -> None:
         if len(cdr) > MAX_MESSAGE:
             self._problems[topic] = (
                 f"a message of {len(cdr) / 2**20:.0f} MB is above the limit of "
@@ -291,6 +293,8 @@ class RosSource:
             return
         self._heap.note(len(cdr))
         self._problems.pop(topic, None)
+        if layout is not None:
+            cdr = layout.to_cdr(cdr)
         self.inbox.put(topic, Raw(cdr, self.now_ns()))
 
 

@@ -170,7 +170,9 @@ class UndefinedMessages:
 
 
 def may_differ(type_name: str) -> bool:
-    """Return whether a known type, or one that it contains, has changed since Foxy."""
+    """Return whether a type that is known here, or one that it contains, has changed since Foxy."""
+    if not typestore.type_exists(type_name):
+        return False
     known, reached = typestore.KNOWN, dict[str, Extent]()
     extent(type_name, lambda key: (known.get(key) or (0, None))[1], reached)
     return not CHANGED.isdisjoint(reached)
