@@ -184,13 +184,18 @@ def test_texts_of_one_height_are_one_node() -> None:
     np.testing.assert_array_equal(node.colors, [(255, 0, 0), (0, 0, 255)])
 
 
-def test_texts_keep_their_colour_below_full_opacity() -> None:
-    nodes = drawn(
-        marker(Marker.TEXT_VIEW_FACING, (0, 0, 0.3), (1, 0, 0, 0.3), text="faint"),
-        marker(Marker.TEXT_VIEW_FACING, (0, 0, 0.3), (1, 0, 0, 1), text="solid"),
-    )
-    found = {node.texts: (node.colors, node.opacity) for node in nodes.values()}  # pyright: ignore[reportAttributeAccessIssue]
-    assert found == {("faint",): ((255, 0, 0), 0.5), ("solid",): ((255, 0, 0), 1.0)}
+@pytest.mark.parametrize(
+    ("alpha", "opacity"),
+    [(0.05, 0.25), (0.3, 0.25), (0.5, 0.5), (0.6, 0.5), (0.65, 0.75), (0.95, 1.0)],
+)
+def test_texts_keep_their_colour_at_the_nearest_of_four_opacities(
+    alpha: float, opacity: float
+) -> None:
+    (node,) = drawn(
+        marker(Marker.TEXT_VIEW_FACING, (0, 0, 0.3), (1, 0, 0, alpha), text="a")
+    ).values()
+    assert isinstance(node, Labels)
+    assert (node.colors, node.opacity) == ((255, 0, 0), opacity)
 
 
 def test_triangles_are_scaled_and_those_of_one_colour_are_one_node() -> None:

@@ -82,8 +82,9 @@ def texts_of(batch: MarkerBatch) -> dict[str, Node]:
     ]
     nodes: dict[str, Node] = {}
     for height, some in _by_value(heights, is_visible):
-        # Labels have four steps of opacity.
-        steps = np.where(some, np.ceil(4.0 * opacities(batch.colors[:, 3])) / 4.0, 0.0)
+        # Labels have four steps of opacity, of which the nearest is drawn.
+        nearest = np.maximum(np.round(4.0 * opacities(batch.colors[:, 3])), 1.0) / 4.0
+        steps = np.where(some, nearest, 0.0)
         for opacity, chosen in layers(steps):
             rows = np.flatnonzero(chosen)
             nodes[_key("texts", height, opacity)] = Labels(
