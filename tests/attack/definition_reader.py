@@ -18,7 +18,9 @@ from websockets.sync.server import serve as served
 from tests.attack import reader
 from webviz.api.declared import Topic
 from webviz.data.messages import (
+    KNOWN,
     MessageError,
+    MessageTypes,
     decode,
     definition,
     encode,
@@ -111,22 +113,22 @@ def _drained(inbox: Inbox, types: Mapping[str, str]) -> str | None:
             if topic == "/words":
                 found = decode(STRING, raw.cdr).data
             else:
-                _use(types[topic], raw.cdr)
+                _use(types[topic], raw.cdr, raw.types)
     return found
 
 
-def _use(type_: str, cdr: bytes) -> None:
+def _use(type_: str, cdr: bytes, types: MessageTypes = KNOWN) -> None:
     """Use a type and a message of it as displays, panels and recordings do."""
     for use in (
-        lambda: message_class(type_)(),
+        lambda: message_class(type_, types)(),
         lambda: fields_of(template(type_)),
-        lambda: encode(type_),
-        lambda: definition(type_),
+        lambda: encode(type_, None, types),
+        lambda: definition(type_, types),
         lambda: type_hash(type_),
-        lambda: peek_header(type_, cdr),
-        lambda: to_tree(decode(type_, cdr)),
+        lambda: peek_header(type_, cdr, types),
+        lambda: to_tree(decode(type_, cdr, types)),
         lambda: to_values(type_, cdr),
-        lambda: shifted(type_, cdr, 1),
+        lambda: shifted(type_, cdr, 1, types),
     ):
         with contextlib.suppress(MessageError):
             use()

@@ -156,7 +156,9 @@ def test_what_follows_from_a_definition_stays_until_it_is_replaced() -> None:
 def test_a_bridge_builds_the_decoder_of_what_is_wanted() -> None:
     """In its thread: it takes a second, in which the frame loop would draw nothing."""
     text = "".join(f"int32 a{number}\n" for number in range(19_999))
-    assert Definitions().learn("prepared_msgs/msg/Wide", text) == ""
+    definitions = Definitions()
+    assert definitions.learn("/wide", "prepared_msgs/msg/Wide", text) == ""
     start_s = time.process_time()
-    decode("prepared_msgs/msg/Wide", b"\0\1\0\0" + bytes(4 * 19_999))
+    message = b"\0\1\0\0" + bytes(4 * 19_999)
+    decode("prepared_msgs/msg/Wide", message, definitions.types("/wide"))
     assert time.process_time() - start_s < 0.1

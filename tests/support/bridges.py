@@ -21,7 +21,7 @@ from waiting import until
 from webviz.api.bridge import Bridge
 from webviz.api.declared import Topic
 from webviz.data.messages import decode
-from webviz.sources import Subscription
+from webviz.sources import Raw, Subscription
 from webviz.sources.bridge.address import address
 from webviz.sources.bridge.source import BridgeSource
 
@@ -102,7 +102,7 @@ class Reader:
 
     def __init__(self, url: str, **options: Any) -> None:
         self.source = BridgeSource(address(url, **options))
-        self.arrived: dict[str, list[bytes]] = {}
+        self.arrived: dict[str, list[Raw]] = {}
 
     @property
     def bridge(self) -> Bridge:
@@ -126,21 +126,23 @@ class Reader:
         """Wait until the bridge is connected, and its topics are known."""
         self.until(lambda: self.bridge.is_up and self.source.offers())
 
+    def take(self, topic: str, count: int = 1) -> bool:
+        """Take what is there, and return whether it is so many messages of a topic."""
+        for name, raws in self.source.inbox.drain().items():
+            self.arrived.setdefault(name, []).extend(raws)
+        return len(self.arrived.get(topic, ())) >= count
+
     def receive(self, topic: str, count: int = 1) -> list[bytes]:
         """Wait for so many new messages of a topic."""
         self.arrived.pop(topic, None)
-
-        def take() -> bool:
-            for name, raws in self.source.inbox.drain().items():
-                self.arrived.setdefault(name, []).extend(raw.cdr for raw in raws)
-            return len(self.arrived.get(topic, ())) >= count
-
-        self.until(take)
-        return self.arrived[topic]
+        self.until(lambda: self.take(topic, count))
+        return [raw.cdr for raw in self.arrived[topic]]
 
     def decoded(self, topic: str, type: str) -> Any:
         """The next message of a topic."""
-        return decode(type, self.receive(topic)[0])
+        self.receive(topic)
+        raw = self.arrived[topic][0]
+        return decode(type, raw.cdr, raw.types)
 
 
 @contextmanager

@@ -94,7 +94,7 @@ class MemorySlice:
         """`Slice.messages`."""
         clock = ForwardClock()
         for topic, raw in self._entries:
-            channel = self._channels.find(topic)
+            channel = self._channels.find(topic, raw.types)
             if channel is None:
                 continue
             stamp_ns = clock.at(raw)

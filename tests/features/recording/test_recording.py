@@ -13,7 +13,7 @@ import pytest
 from bench import Bench, benches
 
 from webviz.commands import SaveMemory, StartRecording, StopRecording
-from webviz.data.messages import decode, encode
+from webviz.data.messages import MessageTypes, decode, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.commands import Sender
@@ -273,7 +273,7 @@ def test_messages_wait_for_the_type_of_their_topic(
     class Late(Channels):
         """Knows a topic when it is asked for the third time."""
 
-        def find(self, topic: str) -> RecordedChannel | None:
+        def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
             asked.append(topic)
             return super().find("/known") if len(asked) > 2 and topic != "/never" else None
 
@@ -296,9 +296,9 @@ def test_what_waits_for_the_disk_is_bounded_and_counted(
     class Slow(Channels):
         """Answers once the disk does."""
 
-        def find(self, topic: str) -> RecordedChannel | None:
+        def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
             with disk:
-                return super().find(topic)
+                return super().find(topic, types)
 
     offers = {"/a": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
     with disk:

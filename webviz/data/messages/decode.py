@@ -15,7 +15,7 @@ from webviz.data.messages.errors import DecodeError
 from webviz.data.messages.typestore import KNOWN, DefinedTypes, MessageTypes
 
 MAX_DEFINITIONS = 256
-"""Of recordings, which several files or channels may share."""
+"""Of recordings and bridges, whose files or channels may share them."""
 
 PADDING = 4
 """To a multiple of it, writers of bags and DDS fill up messages, in bytes."""
@@ -32,7 +32,7 @@ def decode(type_name: str, cdr: Bytes, types: MessageTypes = KNOWN) -> Any:
     Args:
         type_name: Such as "sensor_msgs/msg/LaserScan" or, as in ROS 1, "sensor_msgs/LaserScan".
         cdr: The message as received, encapsulation header included. Trailing padding is ignored.
-        types: that define the type: those of this process, or of a recording.
+        types: that define the type: those of this process, of a recording or of a bridge.
 
     Returns:
         An object with the fields of the type, an instance of `message_class(type_name, types)`.

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from rosbags.interfaces import Nodetype
 
 from webviz.data.messages import definitions, typestore
-from webviz.data.messages.decode import decode, register
+from webviz.data.messages.decode import decode
 from webviz.data.messages.errors import DefinitionError, UnknownTypeError
 
 _SEPARATOR = re.compile(r"^---\s*$", re.MULTILINE)
@@ -39,6 +39,15 @@ class Action(NamedTuple):
     feedback: str
     """A message: `goal_id` and `feedback`."""
     goal: str
+
+
+class _KnownTypes:
+    """The names of all types that are known."""
+
+    def __contains__(self, name: str) -> bool:
+        if not typestore.type_exists(name):
+            typestore.find(name)
+        return typestore.type_exists(name)
 
 
 def service(type_name: str, text: str = "") -> Service:
@@ -69,13 +78,17 @@ def learn(type_name: str, request: str, response: str) -> None:
     Args:
         type_name: such as "my_robot_msgs/srv/SetMode".
         request, response: .msg text or IDL with all nested types, see `register`; "" if it has no
-            fields.
+            fields. They change no type that is known.
 
     Raises:
-        MessageError: the name or a definition is invalid.
+        MessageError: the name or a definition is invalid, or contradicts a known type.
     """
     parts = Service(f"{type_name}_Request", f"{type_name}_Response")
-    if type_name in definitions.FILES or typestore.type_exists(parts.request):
+    if type_name in definitions.FILES:
+        return
+    if not typestore.type_exists(parts.request):
+        typestore.find(type_name)
+    if typestore.type_exists(parts.request):
         return
     described = [
         _described(part, text) for part, text in zip(parts, (request, response), strict=True)
@@ -86,12 +99,13 @@ def learn(type_name: str, request: str, response: str) -> None:
 
 
 def _described(part: str, text: str) -> list[Any]:
-    """Return the fields of a part, and register the types that they contain."""
+    """Return the fields of a part, and register those of its types that nobody knows."""
     if not text.strip():
         return []
     package, _, name = typestore.full_name(part).split("/")
     plain = part if typestore.is_idl(text) else f"{package}/msg/{name}"
-    register(plain, text)  # rosbags reads .msg texts of messages only
+    # rosbags reads .msg texts of messages only.
+    typestore.add(plain, text, fixed=_KnownTypes())
     return typestore.described(plain)
 
 

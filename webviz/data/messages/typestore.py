@@ -110,7 +110,7 @@ KNOWN = KnownTypes()
 
 
 class DefinedTypes:
-    """The message types of one definition, such as that of a channel in a recording.
+    """The message types of one definition, such as that of a channel in a recording or bridge.
 
     They are read when they are needed, and stay as they are, whatever else has their names.
 
@@ -121,6 +121,7 @@ class DefinedTypes:
 
     def __init__(self, type_name: str, text: str, fixed: Container[str]) -> None:
         self.extents: dict[str, Extent] = {}
+        self.text = text
         self._source = full_name(type_name), text, fixed
 
     def get(self, name: str) -> Any:
@@ -219,12 +220,18 @@ def constants(type_name: str, types: MessageTypes = KNOWN) -> dict[str, bool | i
     return {name: value for name, _, value in _definition(type_name, types)[0]}
 
 
-def definition(type_name: str) -> str:
+def definition(type_name: str, types: MessageTypes = KNOWN) -> str:
     """Return the .msg text of a type, followed by those of its nested types, as bags store it.
+
+    Args:
+        type_name: such as "std_msgs/msg/Header".
+        types: that define it; of one definition, that is returned as it came.
 
     Raises:
         UnknownTypeError: No definition of the type is known.
     """
+    if isinstance(types, DefinedTypes):
+        return types.text
     _definition(type_name)
     return _store().generate_msgdef(full_name(type_name), ros_version=2)[0]
 

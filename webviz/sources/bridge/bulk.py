@@ -93,7 +93,7 @@ class BulkHost(Protocol):
         """Take a message; see `Host.arrive`."""
         ...
 
-    def learn(self, type: str, definition: str) -> str:
+    def learn(self, topic: str, type: str, definition: str) -> str:
         """See `Host.learn`."""
         ...
 
@@ -193,9 +193,9 @@ class BulkLine:
     def set_time(self, stamp_ns: int) -> None:
         """Do nothing: the first connection has it."""
 
-    def learn(self, type: str, definition: str) -> str:
+    def learn(self, topic: str, type: str, definition: str) -> str:
         """See `Host.learn`."""
-        return self._source.learn(type, definition)
+        return self._source.learn(topic, type, definition)
 
     def learn_service(self, type: str, request: str, response: str) -> None:
         """Do nothing: the first connection calls services."""

@@ -3,38 +3,66 @@
 from __future__ import annotations
 
 import contextlib
+from typing import NamedTuple
 
-from webviz.data.messages import MessageError, interfaces, prepare, register, type_exists
+from webviz.data.messages import (
+    KNOWN,
+    MessageError,
+    MessageTypes,
+    defined,
+    interfaces,
+    prepare,
+    type_exists,
+)
 
 MAX_SERVICE_TEXT = 8 << 20
 """Characters of the definitions of services that are read, a second for each million; those of
 large robots have a tenth of it."""
 
 
+class TopicTypes(NamedTuple):
+    """The types by which a topic is read.
+
+    Attributes:
+        type: of its messages.
+        text: the definition of the type.
+        types: of that definition, or those of this process.
+        problem: why its messages cannot be read, "" if they can.
+    """
+
+    type: str = ""
+    text: str = ""
+    types: MessageTypes = KNOWN
+    problem: str = ""
+
+
 class Definitions:
-    """The types that were learned from a bridge; each definition is read once."""
+    """The types of the topics of a bridge, and those of its services.
+
+    Each topic is read by its own definition alone, whatever others have the names of its types.
+    """
 
     def __init__(self) -> None:
-        self._learned: dict[str, tuple[str, str]] = {}
+        self._topics: dict[str, TopicTypes] = {}
         self._services = set[str]()
         self._service_text = 0
 
-    def learn(self, type: str, text: str) -> str:
-        """Register a type.
+    def learn(self, topic: str, type: str, text: str) -> str:
+        """Read a topic by a definition.
 
         Args:
-            type: its name, such as "nav_msgs/msg/Path".
-            text: its definition, see `webviz.data.messages.register`; "" if the bridge has none.
+            topic: its name.
+            type: of its messages, such as "nav_msgs/msg/Path".
+            text: the definition of the type, see `webviz.data.messages.register`; "" if the bridge
+                has none.
 
         Returns:
             Why its messages cannot be read, "" if they can.
         """
-        known, problem = self._learned.get(type, ("", ""))
-        if text and known == text:
-            return problem
-        problem = self._problem(type, text)
-        self._learned[type] = text, problem
-        return problem
+        known = self._topics.get(topic, TopicTypes())
+        if not text or known[:2] != (type, text):
+            known = self._topics[topic] = _types(type, text)
+        return known.problem
 
     def learn_service(self, type: str, request: str, response: str) -> None:
         """Register a service type, unless it is known; what is invalid stays unknown.
@@ -53,21 +81,29 @@ class Definitions:
         with contextlib.suppress(MessageError):
             interfaces.learn(type, request, response)
 
-    def problem(self, type: str) -> str:
-        """Why messages of a type that was learned cannot be read, "" if they can."""
-        return self._learned.get(type, ("", ""))[1]
+    def types(self, topic: str) -> MessageTypes:
+        """Return the types by which a topic is read."""
+        return self._topics.get(topic, TopicTypes()).types
 
-    def _problem(self, type: str, text: str) -> str:
-        if not text:
-            if type_exists(type):
-                return ""
-            return (
-                f"the bridge does not send the definition of {type}. Source the workspace that "
-                "has its package before starting the bridge"
-            )
-        try:
-            register(type, text)
-            prepare(type)
-        except MessageError as error:
-            return str(error).rstrip(".")
-        return ""
+    def problem(self, topic: str) -> str:
+        """Why messages of a topic cannot be read, "" if they can or it is not read."""
+        return self._topics.get(topic, TopicTypes()).problem
+
+    def forget(self, topic: str) -> None:
+        """Forget a topic that is not read any more."""
+        self._topics.pop(topic, None)
+
+
+def _types(type: str, text: str) -> TopicTypes:
+    if not text:
+        missing = (
+            f"the bridge does not send the definition of {type}. Source the workspace that "
+            "has its package before starting the bridge"
+        )
+        return TopicTypes(type, text, problem="" if type_exists(type) else missing)
+    try:
+        types = defined(type, text)
+        prepare(type, types)
+    except MessageError as error:
+        return TopicTypes(type, text, problem=str(error).rstrip("."))
+    return TopicTypes(type, text, types)

@@ -73,7 +73,6 @@ class FoxgloveSession:
         self._lines = ChannelSubscriptions()
         self._foreign: dict[str, wire.ServerChannel] = {}
         """By topic: subscribed channels of Foxglove's own schemas."""
-        self._problems: dict[str, str] = {}
         self._to_advertise: frozenset[Advertisement] = frozenset()
         self._advertised: dict[Advertisement, int] = {}
         self._pending: dict[int, Future[bytes]] = {}
@@ -316,9 +315,7 @@ class FoxgloveSession:
                 if self._lines.channel(topic) == channel.id:
                     return channel
                 text = "" if is_foreign(channel) else channel.schema
-                problem = self._host.learn(wish.type, text)
-                self._problems[topic] = problem
-                if not problem:
+                if not self._host.learn(topic, wish.type, text):
                     return channel
         return None
 
@@ -341,9 +338,7 @@ class FoxgloveSession:
             nodes = self._graph.publishers(topic) or ("",)
             publishers += [make(node=node, durability=durability) for node in nodes]
         reasons = [unread(channel) for channel in channels]
-        problem = self._problems.get(topic, "")
-        if all(reasons):
-            problem = reasons[0]
+        problem = reasons[0] if all(reasons) else ""
         return CarriedTopic(tuple(publishers), problem, self._readers(topic, publishers[0].type))
 
     def _readers(self, topic: str, type: str) -> tuple[Endpoint, ...] | None:

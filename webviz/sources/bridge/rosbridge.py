@@ -70,7 +70,6 @@ class RosbridgeSession:
         """By subscribed topic: its type, and `asked` of the wish."""
         self._throttles: dict[str, int] = {}
         """By subscribed topic: the least time between two messages, in ms."""
-        self._problems: dict[str, str] = {}
         self._advertised: set[Advertisement] = set()
         self._asked: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
         """By id of a call of rosapi."""
@@ -275,15 +274,12 @@ class RosbridgeSession:
             return False
         if topic in self._lines and self._lines[topic][0] == type:
             return True
-        problem = self._host.learn(type, texts[type])
-        self._problems[topic] = problem
-        return not problem
+        return not self._host.learn(topic, type, texts[type])
 
     def _carried(self, topic: str, type: str) -> CarriedTopic:
         durability = usual_durability(topic, type)
         publisher = Publisher("", type, "reliable", durability, is_qos_known=False)
-        problem = self._problems.get(topic, "") if wire.is_readable() else wire.MISSING
-        return CarriedTopic((publisher,), problem)
+        return CarriedTopic((publisher,), "" if wire.is_readable() else wire.MISSING)
 
     def _advertise(self, advertisement: Advertisement) -> None:
         if advertisement not in self._advertised:

@@ -64,8 +64,8 @@ class Host(Protocol):
         """Take the simulated time."""
         ...
 
-    def learn(self, type: str, definition: str) -> str:
-        """Register a message type; the problem of its definition, "" if it is known then."""
+    def learn(self, topic: str, type: str, definition: str) -> str:
+        """Read a topic by the definition of its type; why that cannot be, "" if it can."""
         ...
 
     def learn_service(self, type: str, request: str, response: str) -> None:

@@ -202,7 +202,8 @@ class BridgeSource:
             is_thinned = is_large and self._pacer.is_thinned(topic)
             delay_s = self._health.note_message(topic, stamp_ns, is_thinned)
             self.clock.note(stamp_ns, time.time_ns())
-        self.inbox.put(topic, Raw(cdr, self.now_ns()))
+        types = self._definitions.types(topic)
+        self.inbox.put(topic, Raw(cdr, self.now_ns(), types=types))
         return delay_s
 
     def set_time(self, stamp_ns: int) -> None:
@@ -211,9 +212,13 @@ class BridgeSource:
         self._clock_messages += 1
         self.inbox.arrived.set()
 
-    def learn(self, type: str, definition: str) -> str:
-        """Register a message type; the problem of its definition, "" if it is known then."""
-        return self._definitions.learn(type, definition)
+    def learn(self, topic: str, type: str, definition: str) -> str:
+        """Read a topic by the definition of its type; why that cannot be, "" if it can."""
+        before = self._definitions.problem(topic)
+        problem = self._definitions.learn(topic, type, definition)
+        if problem != before:
+            self.look()
+        return problem
 
     def learn_service(self, type: str, request: str, response: str) -> None:
         """Register a service type by its definitions, unless it is known."""
@@ -335,12 +340,14 @@ class BridgeSource:
         types = {topic: wish.type for topic, wish in self._wanted.items()}
         for topic in [t for t in self._opened if t not in types]:
             del self._opened[topic]
+            self._definitions.forget(topic)
             self.inbox.close(topic)
             self._health.forget(topic)
             self._too_large.pop(topic, None)
         for topic, type in types.items():
             if self._opened.get(topic) != type:
                 self._opened[topic] = type
+                self._definitions.forget(topic)
                 self.inbox.open(topic, TF_LIMIT if type == TF_TYPE else INBOX_LIMIT)
         self.sort_topics()
         self._look()
@@ -372,10 +379,8 @@ class BridgeSource:
         self.inbox.arrived.set()
 
     def _offer(self, topic: str, carried: CarriedTopic) -> Offer:
-        problem = carried.problem or self._too_large.get(topic, "")
+        problem = carried.problem or self._too_large.get(topic) or self._definitions.problem(topic)
         wish = self._wanted.get(topic)
-        if wish is not None and not problem and topic in self._pacer.subscribed():
-            problem = self._definitions.problem(wish.type)
         if wish is not None and self._problem is not None:
             problem = f"the link is broken. {self._problem.cause}"
         return carried.offer(wish, problem)

@@ -166,7 +166,7 @@ class FleetMember:
         """Return a message with its stamps by the clock of this machine."""
         ahead_ns = self.ahead_ns
         type = self._types.get(topic, "")
-        cdr = shifted(type, raw.cdr, -ahead_ns) if ahead_ns and type else raw.cdr
+        cdr = shifted(type, raw.cdr, -ahead_ns, raw.types) if ahead_ns and type else raw.cdr
         return replace(raw, cdr=cdr, received_ns=self._now_ns())
 
     def _inner(self, wish: Subscription) -> Subscription:

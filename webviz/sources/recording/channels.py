@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from webviz.api.offer import Offer, Publisher
-from webviz.data.messages import MessageError, definition
+from webviz.data.messages import KNOWN, MessageError, MessageTypes, definition
 from webviz.data.recordings import RecordedChannel
 from webviz.sources.bag.log import ROSOUT
 from webviz.sources.bag.qos import text_of
@@ -28,6 +28,8 @@ class Channels:
     def __init__(self, offers: Callable[[], Mapping[str, Offer]]) -> None:
         self._offers = offers
         self._known: dict[str, RecordedChannel] = {}
+        self._types: dict[str, MessageTypes] = {}
+        """Those that define them."""
         self._seen: Mapping[str, Offer] = {}
         self._latched: dict[str, int] = {}
         self._last: dict[str, Offer] = {}
@@ -36,10 +38,15 @@ class Channels:
     def __len__(self) -> int:
         return len(self._known)
 
-    def find(self, topic: str) -> RecordedChannel | None:
-        """Return the channel of a topic, None if nobody knows the type of its messages yet."""
+    def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
+        """Return the channel of a topic, None if nobody knows the type of its messages yet.
+
+        Args:
+            topic: full name.
+            types: that define the type of a message; None for those of the last one.
+        """
         channel = self._known.get(topic)
-        if channel is None:
+        if channel is None or types not in (None, self._types[topic]):
             offer = self._offers().get(topic)
             if offer is None or not offer.publishers:  # they ended, but their messages are here
                 offer = self._last.get(topic, offer)
@@ -47,7 +54,8 @@ class Channels:
             type_ = (offer.type if offer else "") or _type_of(publishers)
             if not type_:
                 return None
-            channel = self._known[topic] = _channel(topic, type_, publishers)
+            types = self._types[topic] = types or KNOWN
+            channel = self._known[topic] = _channel(topic, type_, publishers, types)
         return channel
 
     def look(self) -> None:
@@ -77,9 +85,11 @@ def _type_of(publishers: Sequence[Publisher]) -> str:
     return types.pop() if len(types) == 1 else ""
 
 
-def _channel(topic: str, type_: str, publishers: Sequence[Publisher]) -> RecordedChannel:
+def _channel(
+    topic: str, type_: str, publishers: Sequence[Publisher], types: MessageTypes
+) -> RecordedChannel:
     try:
-        text = definition(type_)
+        text = definition(type_, types)
     except MessageError:
         text = ""
     return RecordedChannel(topic, type_, "cdr", text, text_of(publishers))

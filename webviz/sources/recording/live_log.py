@@ -36,7 +36,7 @@ class LiveLog:
         while self._new:
             raw = self._new.popleft()
             stamp_ns = self._clock.stamp_ns(raw.arrived_s)
-            if found := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns)):
+            if found := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns, raw.types)):
                 events.append(found[1])
         while events and events[0].at_ns < start_ns:
             events.popleft()

@@ -276,7 +276,7 @@ class MemoryHistory:
         channel: HistoryChannel, stamp_ns: int, number: int, raw: Raw
     ) -> tuple[int, int, Recorded]:
         """Return a message, sorted by time and then by arrival."""
-        return stamp_ns, number, Recorded(*channel, raw.cdr, stamp_ns)
+        return stamp_ns, number, Recorded(*channel, raw.cdr, stamp_ns, raw.types)
 
     def _stamp(self, entry: tuple[object, Raw]) -> int:
         return self.clock.stamp_ns(entry[1].arrived_s)

@@ -145,10 +145,10 @@ class Recorder:
         return 0 < self._max_bytes < written + unwritten
 
     def _write(self, topic: str, raw: Raw) -> None:
-        channel = self._channels.find(topic)
+        channel = self._channels.find(topic, raw.types)
         while channel is None and time.monotonic() - raw.arrived_s < UNKNOWN_S:
             time.sleep(0.05)  # the source says soon what it subscribes to
-            channel = self._channels.find(topic)
+            channel = self._channels.find(topic, raw.types)
         if channel is None:
             self.dropped += 1
             return
