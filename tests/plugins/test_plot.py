@@ -13,7 +13,16 @@ from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
-from webviz.data.messages import Header, JointState, String, Time
+from webviz.data.messages import (
+    Header,
+    JointState,
+    String,
+    Time,
+    decode,
+    defined,
+    encode,
+    register,
+)
 from webviz.engine.state import PanelTab, PanelTimes, State
 from webviz.page.chart import ChartWidget
 from webviz.page.recorded_ui import RecordedUi
@@ -263,6 +272,21 @@ def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
         with pytest.raises(ValueError, match=r"removed already|no such time"):
             bench.chart.use(hostile, 7)
     assert bench.sent == []
+
+
+def test_units_are_those_of_the_types_that_a_bag_defines() -> None:
+    """Its topics, live ones and other bags may define the type differently."""
+    name = "plotted_msgs/msg/Thing"
+    register(name, "float64 motion\n")
+    part = f"{'=' * 80}\nMSG: geometry_msgs/Twist\nVector3 linear\nVector3 angular\n"
+    part += f"{'=' * 80}\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
+    types = defined(name, f"geometry_msgs/Twist motion\n{part}")
+    bench = Bench("/thing.motion.linear.x", "/thing.motion.angular.z.@degrees")
+    publisher = Publisher("the bag", name, "reliable", "volatile")
+    bench.show(offers={"/thing": Offer((publisher,))})
+    cdr = encode(name, {"motion": {"linear": {"x": 0.5}}}, types)
+    bench.panel.receive("/thing", decode(name, cdr, types), SECOND)
+    assert [bench.curve(index)["unit"] for index in (0, 1)] == ["m/s", "°"]
 
 
 def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: Benches) -> None:

@@ -14,7 +14,7 @@ from bags import START_NS, Bag, ns
 
 from webviz.api.nodes import Points
 from webviz.commands import Seek
-from webviz.data.messages import TFMessage, decode, encode
+from webviz.data.messages import TFMessage, decode, definition, encode
 from webviz.data.messages.stamps import shifted
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.shown_moment import slice_around
@@ -37,6 +37,8 @@ displays:
 - {type: Group, name: Sensors, displays: [{type: LaserScan, name: Scan, size: 0.1}]}
 """
 TF = "tf2_msgs/msg/TFMessage"
+TWIST = "geometry_msgs/msg/Twist"
+CAR = f"geometry_msgs/Twist motion\n{'=' * 80}\nMSG: geometry_msgs/Twist\n{definition(TWIST)}"
 AHEAD_M = 1.0
 """Of the second run, which drives as fast and begins later."""
 LATER_S = 2.0
@@ -47,6 +49,8 @@ def write(path: Path, begin_s: float, ahead_m: float) -> Path:
     bag = Bag()
     bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
     bag.add("/speed", "std_msgs/msg/Float64")
+    bag.add("/car", "cars_of_ghosts/msg/Car", definition=CAR)
+    bag.put(begin_s, "/car", b"\0\1\0\0" + bytes(48))
     bag.transform(begin_s, "map", "odom", static=True)
     for step in range(61):
         at_s = begin_s + step / 10
@@ -114,6 +118,13 @@ def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> Non
         (plot,) = [tab.panel for tab in shown.loop.state().panels if tab.panel.name == "Ghost"]
         assert plot.curves == [f"{DISTANCE}.data", f"{DIFFERENCE}.data"]  # pyright: ignore
         assert plot.units == {f"{DISTANCE}.data": "m"}, "a number has none"  # pyright: ignore
+
+
+def test_a_difference_has_the_unit_that_the_type_in_the_bag_states(runs: tuple[Path, Path]) -> None:
+    history = BagHistory(runs[0], ghost=Ghost(runs[1], "start", "/car.motion.linear.x"))
+    (plot,) = with_ghost(parse(CONFIG, "the config"), history).panels
+    assert plot.units[f"{DIFFERENCE}.data"] == "m/s"  # pyright: ignore
+    history.close()
 
 
 def test_a_slice_has_both_runs(runs: tuple[Path, Path]) -> None:

@@ -8,7 +8,7 @@ of the bytes. Some messages have typed classes here; that of any other is
 the bytes of such messages, or of nested mappings.
 """
 
-from webviz.data.messages.classes import is_message, message_class
+from webviz.data.messages.classes import is_message, message_class, types_of
 from webviz.data.messages.decode import decode, defined, peek_header, prepare, register
 from webviz.data.messages.encode import encode
 from webviz.data.messages.errors import (
@@ -126,6 +126,7 @@ __all__ = [
     "to_tree",
     "type_exists",
     "type_hash",
+    "types_of",
 ]
 
 find_with(learn)  # the last to be asked: what is installed is what runs

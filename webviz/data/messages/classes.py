@@ -114,10 +114,16 @@ def message_class(type_name: str, types: MessageTypes = KNOWN) -> type[Any]:
         name.rpartition("/")[2],
         definition,
         module=__name__,
-        namespace=dict(constants(name, types)),
+        # Names of fields and constants begin with a letter.
+        namespace={**constants(name, types), "_types": types},
         frozen=True,
         eq=False,
     )
+
+
+def types_of(message: object) -> MessageTypes:
+    """Return the types that define the type of a message."""
+    return getattr(type(message), "_types", KNOWN)
 
 
 def is_message(value: object, type_name: str) -> bool:

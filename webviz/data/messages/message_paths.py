@@ -20,6 +20,7 @@ from webviz.data.messages.paths import (
     as_number,
     required_number,
 )
+from webviz.data.messages.typestore import KNOWN, MessageTypes
 from webviz.data.messages.units import unit_of
 
 FUNCTIONS: Mapping[str, Callable[[float], float]] = {
@@ -122,9 +123,14 @@ class MessagePath:
         """
         return required_number(self.one(message), self.text)
 
-    def unit(self, type_name: str) -> str:
-        """Return the unit of the values, "" if the type of the messages states none."""
-        unit = unit_of(type_name, self._field.names) if self._field else ""
+    def unit(self, type_name: str, types: MessageTypes = KNOWN) -> str:
+        """Return the unit of the values, "" if the type of the messages states none.
+
+        Args:
+            type_name: of the messages.
+            types: that define it.
+        """
+        unit = unit_of(type_name, self._field.names, types) if self._field else ""
         for name in self._calls:
             if name in ANGLES:
                 unit = ANGLES[name]

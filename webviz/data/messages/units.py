@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from webviz.data.messages.errors import MessageError
-from webviz.data.messages.typestore import fields
+from webviz.data.messages.typestore import KNOWN, MessageTypes, fields
 
 TIMES = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
 """Types that are read as numbers."""
@@ -60,17 +60,18 @@ UNITS: Mapping[str, Mapping[str, str]] = {
 """Units of the fields of a type; those of a vector are of its components, too."""
 
 
-def unit_of(type_name: str, names: Sequence[str]) -> str:
+def unit_of(type_name: str, names: Sequence[str], types: MessageTypes = KNOWN) -> str:
     """Return the unit of a number in a message, "" if its type states none.
 
     Args:
         type_name: three-part name.
         names: of the fields that lead to it, from the outermost.
+        types: that define the type.
     """
     unit = ""
     for name in names:
         try:
-            known = {field.name: field for field in fields(type_name)}
+            known = {field.name: field for field in fields(type_name, types)}
         except MessageError:
             return ""
         if name not in known:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from webviz.data.messages import KNOWN, MessageTypes, types_of
 from webviz.data.messages.geometry import Header
 from webviz.data.messages.message_paths import MessagePath, OverTime
 from webviz.data.messages.paths import NothingMatches, PathError
@@ -30,6 +31,8 @@ class Series:
         self.problem = ""
         """Why the newest message has no value."""
         self.has_stamp = True
+        self._types: MessageTypes = KNOWN if before is None else before._types
+        """Those that define the type of the newest message."""
         self._path: MessagePath | None = None
         self._over_time: OverTime | None = None
         self._invalid = ""
@@ -51,6 +54,7 @@ class Series:
         """Add the value of a message."""
         if self._path is None:
             return
+        self._types = types_of(message)
         try:
             value = self._path.number(message)
         except NothingMatches as error:  # the element may be in the next message
@@ -71,7 +75,7 @@ class Series:
 
     def unit(self, types: Mapping[str, str]) -> str:
         """Return the unit of the values, "" if the type of the messages states none."""
-        return self._path.unit(types.get(self.topic, "")) if self._path else ""
+        return self._path.unit(types.get(self.topic, ""), self._types) if self._path else ""
 
     def clear(self) -> None:
         """Forget all values."""

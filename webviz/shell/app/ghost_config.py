@@ -54,9 +54,8 @@ def _unit(bag: BagHistory) -> str:
     if bag.ghost is None or not bag.ghost.difference:
         return ""
     path = MessagePath(bag.ghost.difference)
-    offer = bag.offers({}).get(path.topic)
-    publishers = offer.publishers if offer else ()
-    return path.unit(publishers[0].type) if publishers else ""
+    channels = (each for each in bag.files.channels if each.topic == path.topic)
+    return next((path.unit(each.type, each.types) for each in channels), "")
 
 
 def _displays(items: Sequence[Item]) -> Iterator[Display]:
