@@ -55,10 +55,14 @@ TESTS = {
     "webviz/features/recording": "tests/features/recording",
     "webviz/features/black_box": "tests/features/black_box",
     "webviz/features/sharing": "tests/features/sharing",
+    "webviz/features/sharing/exporting.py": (
+        "tests/features/sharing/test_exporting.py tests/features/sharing"
+    ),
+    "webviz/features/reports": "tests/features/reports tests/report",
     "webviz/sources/recording": (
         "tests/features/recording tests/features/black_box tests/playback/test_rewinding.py"
     ),
-    "webviz/sources/bridge": "tests/sources/bridge",
+    "webviz/sources/bridge": "tests/sources/bridge/test_pacing.py tests/sources/bridge",
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
         "tests/pipeline/test_kept_sessions.py"

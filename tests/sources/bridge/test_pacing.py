@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import struct
 from collections import deque
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ TICK_S = 0.01
 CHUNK = 1448
 SCAN, CLOUD = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/PointCloud2"
 IMAGE, MAP = "sensor_msgs/msg/CompressedImage", "nav_msgs/msg/OccupancyGrid"
+POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 VIDEO = "foxglove_msgs/msg/CompressedVideo"
 TF, MARKERS = "tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray"
 
@@ -303,3 +305,56 @@ def test_small_topics_move_if_they_are_late_although_large_ones_bring_little(
         pacer.note_bytes(bytes_per_s // 20, i / 20)
         pacer.step(i / 20)
     assert ("/pose" in pacer.large(wishes)) is is_moved
+
+
+class LatePose:
+    """Poses that come late at first, since something else than large messages fills the link.
+
+    Args:
+        size: of each pose, in bytes.
+    """
+
+    def __init__(self, size: int = 100) -> None:
+        types = {"/pose": POSE_TYPE, "/points": CLOUD}
+        self.wishes = {topic: Subscription(type, Topic(topic)) for topic, type in types.items()}
+        self.pacer, self.size, self.now = Pacer(), size, 0.0
+
+    @property
+    def is_moved(self) -> bool:
+        """Whether they take turns with large messages."""
+        return "/pose" in self.pacer.large(self.wishes)
+
+    def run(self, seconds: float, late_s: float) -> float:
+        """Let them come late for so long, or until they take turns or no longer do; how long."""
+        before, begun = self.is_moved, self.now
+        while self.now < begun + seconds and self.is_moved == before:
+            self.now += 0.05
+            if not before:
+                self.pacer.note_small("/pose", POSE_TYPE, self.size, late_s, self.now)
+            elif "/pose" in self.pacer.subscribed():
+                self.pacer.note_bytes(self.size, self.now)
+                cdr = struct.pack("<d", self.now) + bytes(self.size - 8)
+                self.pacer.note_large("/pose", cdr, late_s, self.now)
+            self.pacer.note_trip(late_s, 0.0, self.now)
+            self.pacer.step(self.now)
+        return self.now - begun
+
+
+def test_what_took_turns_is_small_again_once_it_is_in_time_and_later_each_time() -> None:
+    poses = LatePose()
+    stays: list[float] = []
+    for _ in range(7):
+        assert poses.run(5.0, late_s=5.0) < 5.0
+        assert poses.is_moved
+        stays.append(poses.run(400.0, late_s=0.0))
+        assert not poses.is_moved
+    assert stays == pytest.approx([10, 20, 40, 80, 160, 300, 300], abs=0.3)
+
+
+@pytest.mark.parametrize(("size", "late_s"), [(100, 0.05), (LARGE, 0.0)])
+def test_what_took_turns_goes_on_while_it_is_late_or_large(size: int, late_s: float) -> None:
+    poses = LatePose(size)
+    poses.run(5.0, late_s=5.0)
+    assert poses.is_moved
+    assert poses.run(60.0, late_s) > 59.0
+    assert poses.is_moved

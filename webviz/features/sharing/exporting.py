@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import select
 import subprocess
 import sys
@@ -45,7 +44,7 @@ class SharedMoment(msgspec.Struct, frozen=True):
 class _Progress(msgspec.Struct, frozen=True):
     """A line of the other process: the share that is done, or how it ended."""
 
-    share: float | None = None
+    share: float = 0.0
     done: str = ""
     problem: str = ""
 
@@ -79,7 +78,7 @@ def export(
             if told.done:
                 host.offer(moment.path.name, moment.path.read_bytes())
                 return told.done
-            progress(told.share or 0.0)
+            progress(told.share)
         if stopped.is_set():
             raise Error("Stopped.")
         status = process.wait()
@@ -92,39 +91,32 @@ def export(
 @contextlib.contextmanager
 def _process(order: Mapping[str, Any]) -> Iterator[subprocess.Popen[bytes]]:
     """Start a process that makes a file; it ends with the block, whatever happens."""
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-m", PROGRAM],
+        bufsize=0,  # so that `select` sees all that is left to read
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-    )
-    assert process.stdin is not None
-    try:
-        with contextlib.suppress(BrokenPipeError):
-            process.stdin.write(msgspec.json.encode(order) + b"\n")
-            process.stdin.flush()
-        yield process
-    finally:
-        with contextlib.suppress(BrokenPipeError):
-            process.stdin.close()  # which ends it
+    ) as process:
+        assert process.stdin is not None
         try:
-            process.wait(ENDING_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
+            with contextlib.suppress(BrokenPipeError):
+                process.stdin.write(msgspec.json.encode(order) + b"\n")
+            yield process
+        finally:
+            process.stdin.close()  # which ends it
+            try:
+                process.wait(ENDING_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
 
 
 def _lines(process: subprocess.Popen[bytes], stopped: threading.Event) -> Iterator[_Progress]:
     """Yield the lines of a process, until it ends or is not wanted any more."""
     assert process.stdout is not None
-    rest = b""
     while not stopped.is_set():
-        if not select.select([process.stdout], [], [], REST_S)[0]:
-            continue
-        data = os.read(process.stdout.fileno(), 1 << 16)
-        if not data:
-            return
-        *whole, rest = (rest + data).split(b"\n")
-        yield from (msgspec.json.decode(line, type=_Progress) for line in whole)
+        if select.select([process.stdout], [], [], REST_S)[0]:
+            line = process.stdout.readline()
+            if not line.endswith(b"\n"):
+                return
+            yield msgspec.json.decode(line, type=_Progress)
