@@ -91,7 +91,7 @@ def test_one_that_is_stopped_ends_even_if_it_hangs(
         else:
             stopped.set()
 
-    with pytest.raises(Error, match="^Stopped.$"):
+    with pytest.raises(Error, match=r"^Stopped\.$"):
         run(HANGS.format(pid=str(tmp_path / "pid")), progress=progress, stopped=stopped)
     assert shares == [0.25]
     number = int((tmp_path / "pid").read_text())
