@@ -41,6 +41,7 @@ CALLERS = ("webviz.ros", "webviz.page", "webviz.panels", "webviz.shell")
 FOLDERS = {
     "webviz.engine": (
         "store",
+        "forms",
         "state",
         "commands",
         "driving",
@@ -48,8 +49,8 @@ FOLDERS = {
         "playback",
         "pipeline",
         "parts",
-        "feature",
         "doctor",
+        "feature",
         "loop",
     ),
     "webviz.server": ("access", "sending", "channel", "images", "http"),

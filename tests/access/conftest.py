@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.given_parts import GivenParts
 from tests.support.guest import Guest
 from tests.support.stand_ins import stand_ins
 from webviz.api.roles import Role
@@ -48,7 +49,9 @@ class House:
         self.priorities: list[int] = []
         self.guests: list[Guest] = []
         features = stand_ins(lambda name, other: other, self._steer, lambda command: None)
-        Pages(self.server.channel, self._enqueue, self.access, features=features)
+        Pages(
+            self.server.channel, self._enqueue, self.access, parts=[*features, *GivenParts().parts]
+        )
         self.reached.clear()
 
     def cookie(self, role: Role) -> str:

@@ -11,8 +11,9 @@ import webviz.page
 from webviz import commands
 from webviz.api.roles import Role
 from webviz.engine.commands import Command
+from webviz.engine.parts.declaring import stores_of
 from webviz.engine.parts.selection import MAX_SELECTED
-from webviz.page.content import MAKERS
+from webviz.page.people import People
 from webviz.server.access import rules
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
 from webviz.server.access.roles import LIMITS, LINKS
@@ -95,7 +96,7 @@ def test_every_message_to_viser_is_one_that_viser_knows() -> None:
 
 
 def test_stores_with_a_role_of_their_own_exist() -> None:
-    assert rules.STORES.keys() <= MAKERS.keys() | {"addresses", "journal", "links"}
+    assert rules.STORES.keys() <= stores_of(People).keys()
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))

@@ -10,7 +10,7 @@ import pytest
 
 import webviz
 from tests.support.guest import Guest
-from webviz.page.content.forms import MAX_TEXT
+from webviz.engine.forms import MAX_TEXT
 from webviz.server.access import rules
 
 LONG = "x" * 40_000

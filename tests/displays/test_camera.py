@@ -19,10 +19,10 @@ from webviz.api.group import DisplayGroup
 from webviz.api.nodes import Pane
 from webviz.api.pictures import OverlayCamera, Readout
 from webviz.data.images import values as values_of
+from webviz.engine.parts.visibility import hidden_in, names
 from webviz.engine.state import Row
 from webviz.files.rviz import switch_tree
 from webviz.files.rviz.values import Unfit
-from webviz.page.content.visibility import hidden_in, names
 from webviz.shell.testing.source import SECOND
 from webviz_displays.axes import Axes
 from webviz_displays.camera import Camera

@@ -14,12 +14,13 @@ import pytest
 from msgspec.structs import replace
 from pages import COARSE
 
+from tests.support.given_parts import GivenParts
 from tests.support.stand_ins import stand_ins
 from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
-from webviz.commands import AddDisplay, DuplicateDisplay, InspectSelections, SetProperty
+from webviz.commands import AddDisplay, DuplicateDisplay, OpenPanels, SetProperty
 from webviz.engine.commands import Command, Refresh, Sender
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import Feature, store
@@ -103,9 +104,11 @@ class Loop:
         """Stores of features that pages watch."""
         self.features = [
             ShownFeatures(self),
-            *stand_ins(self._given, self._steer, self._note),
+            *stand_ins(self._field, self._steer, self._note),
         ]
-        self.pages = Pages(server.channel, self._enqueue, access, features=self.features)
+        self._given = GivenParts()
+        parts = [*self.features, *self._given.parts]
+        self.pages = Pages(server.channel, self._enqueue, access, parts=parts)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
         answer: Future[str] = Future()
@@ -131,7 +134,7 @@ class Loop:
         """Collect the commands, obey the property changes that are valid, and update the pages."""
         while not self._queue.empty():
             command, sender, answer = self._queue.get()
-            if not isinstance(command, Refresh | InspectSelections):  # which nobody has clicked
+            if not isinstance(command, Refresh | OpenPanels):  # which nobody has clicked
                 self.commands.append(command)
                 self.senders.append(sender)
             reply = self.answer
@@ -150,7 +153,7 @@ class Loop:
                 answer.set_result(reply)
         self._update()
 
-    def _given(self, name: str, other: Any) -> Any:
+    def _field(self, name: str, other: Any) -> Any:
         return self.of_features.get(name, other)
 
     def _note(self, command: Command) -> None:
@@ -159,6 +162,7 @@ class Loop:
     def _update(self) -> None:
         for feature in self.features:
             feature.state()
+        self._given.show(self.state)
         self.pages.update(self.state)
 
 

@@ -10,8 +10,8 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
-from webviz.engine.state import Row, State, Traffic
-from webviz.page.content.types import types
+from webviz.engine.parts.display_types import types_store
+from webviz.engine.state import Row, Traffic
 from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
 
@@ -153,7 +153,7 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
 
 
 def test_types_have_the_messages_that_they_show_an_icon_and_a_small_picture() -> None:
-    found = types(State(), "").types
+    found = types_store().types
     assert found["LaserScan"].topics == [SCAN]
     assert (found["LaserScan"].icon, found["Wrench"].icon) == ("laser", "plug")
     sizes = {name: len(each.picture) for name, each in found.items() if "Everything" not in name}

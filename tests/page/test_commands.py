@@ -24,7 +24,7 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command
-from webviz.engine.state import ConfigFile, Row, Step, UndoHistory
+from webviz.engine.state import ConfigFile, HistoryStep, Row, UndoHistory
 from webviz.files.config import Settings
 
 LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
@@ -181,9 +181,9 @@ def test_the_camera_stays_when_a_key_is_a_command(tab: Tab) -> None:
     assert tab.page.evaluate(eye) == before
 
 
-def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[Step, ...]:
+def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[HistoryStep, ...]:
     """Steps with these labels, the newest first."""
-    made = [Step(first + index, label, browser) for index, label in enumerate(labels)]
+    made = [HistoryStep(first + index, label, browser) for index, label in enumerate(labels)]
     return tuple(reversed(made))
 
 
@@ -226,7 +226,7 @@ def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
 def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
     show_history(tab, UndoHistory())
     browser = tab.page.evaluate("window.webviz.browser")
-    step = Step(1001, "Remove Path", browser, removed="Path")
+    step = HistoryStep(1001, "Remove Path", browser, removed="Path")
     show_history(tab, UndoHistory((step,)))
     toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
     toast.get_by_role("button", name="Undo").click()

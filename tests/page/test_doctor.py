@@ -13,9 +13,9 @@ from tests.page.conftest import Tab
 from webviz import Finding, OtherFixedFrame, Severity, Symptom
 from webviz.api.status import Level, Status
 from webviz.commands import Seek, SetFixedFrame
-from webviz.engine.state import Row, State
+from webviz.engine.doctor.findings import findings_store
+from webviz.engine.state import Row
 from webviz.features.latency.stages import BrowserLatency, Latency, Stage
-from webviz.page.content.doctor import findings
 from webviz_displays.grid import Grid
 
 EXAMINED_NS = 3_607_000_000_000
@@ -126,7 +126,7 @@ def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) ->
 
 
 def test_a_finding_without_a_check_has_no_documentation() -> None:
-    (told,) = findings(State(findings=(replace(NOTE, id="DATA999"),)), "").all
+    (told,) = findings_store((replace(NOTE, id="DATA999"),), {}, 0.0, 0).all
     assert (told.why, told.level, told.button) == ((), "ok", None)
 
 

@@ -15,10 +15,10 @@ from webviz.api.declared import make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
 from webviz.commands import SetBackground, SetFixedFrame, SetFrameRate
+from webviz.engine.forms import values_of
+from webviz.engine.parts.display_properties import IN_THE_TREE
 from webviz.engine.state import Row, Traffic
 from webviz.files.config import Settings
-from webviz.page.content.forms import values_of
-from webviz.page.content.properties import IN_THE_TREE
 from webviz.sources import Offer, Publisher
 from webviz_displays.markers import MarkerArray
 from webviz_displays.point_cloud2 import PointCloud2

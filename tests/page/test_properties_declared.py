@@ -10,7 +10,7 @@ import pytest
 from webviz.api.declared import Color, Prop, Topic
 from webviz.api.display import Display, Input
 from webviz.api.properties import Property, properties_of
-from webviz.page.content.forms import MAX_TEXT, form, leaves, sendable, values_of
+from webviz.engine.forms import MAX_TEXT, form, leaves, sendable, values_of
 
 
 class Nested(msgspec.Struct, frozen=True):

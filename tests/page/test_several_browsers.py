@@ -18,7 +18,7 @@ from webviz.api.status import Level, Status
 from webviz.api.views import FPS, TopDownOrtho
 from webviz.commands import InspectTopics, SaveImage, UseTool
 from webviz.engine.commands import Sender
-from webviz.engine.state import Inspected, Row, Step, UndoHistory
+from webviz.engine.state import HistoryStep, Inspected, Row, UndoHistory
 from webviz.features.tools.toolbar import ToolButton
 from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
@@ -57,7 +57,7 @@ def test_a_browser_that_comes_late_sees_how_things_are_and_asks_for_itself(
     """The first test of this module, since the other browser is then the late one."""
     request.addfinalizer(partial(registry.register, "tests", {}))
     open_panel(mine.tab.loop, mine.tab, Frames)
-    steps = UndoHistory((Step(3001, "Move Path", 10**6),))
+    steps = UndoHistory((HistoryStep(3001, "Move Path", 10**6),))
     row = make_row("a", count=8, filled=False)
     mine.tab.loop.show(row, fixed_frame="odom", history=steps, frames=("late_frame",))
     mine.wait_for_value("count", "8")

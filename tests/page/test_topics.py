@@ -7,6 +7,7 @@ from typing import Annotated
 
 import numpy as np
 import pytest
+from shown_stores import shown_by
 
 from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api import registry
@@ -15,7 +16,6 @@ from webviz.api.display import Display, Input
 from webviz.commands import AddDisplay, InspectTopics
 from webviz.data.messages import LaserScan, to_tree
 from webviz.engine.state import Inspected, State, Traffic
-from webviz.page.content.topics import topics
 from webviz.sources import Offer, Publisher
 
 HOSTILE = "<img src=x onerror=alert(1)>"
@@ -247,6 +247,7 @@ def test_a_name_that_cannot_be_sent_stops_no_other_store(loop: Loop, panel: Tab)
 
 
 def test_where_publishers_differ_the_qos_is_mixed() -> None:
-    made = topics(State(offers={"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))}), "")
-    assert made.topics["/scan"].qos == "best effort, volatile"
-    assert made.topics["/mixed"].qos == "mixed, mixed"
+    offers = {"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))}
+    made = shown_by("topics", State(offers=offers))
+    assert made["/scan"]["qos"] == "best effort, volatile"
+    assert made["/mixed"]["qos"] == "mixed, mixed"

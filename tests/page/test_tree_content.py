@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from typing import Any
 
 import msgspec
 import pytest
 from msgspec.structs import replace
 from shown_stores import shown_by
 
+from tests.support.given_parts import GivenParts
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, State, Traffic
-from webviz.page.content import MAKERS
-from webviz.page.dependency_tracking import DependencyTracker
+from webviz.page.pages import Pages
+from webviz.server.channel.channel import Channel
+from webviz.server.channel.messages import ToPage
 from webviz.server.channel.stores import Stores
 
 MakeRow = Callable[..., Row]
@@ -93,12 +97,43 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
     assert shown_by("rate", replace(state, traffic={}), "a") == {}
 
 
-def test_a_store_is_made_anew_only_if_what_it_was_made_of_is_new(make_row: MakeRow) -> None:
+class CountingChannel(Channel):
+    """A channel of a page that watches the tree of displays."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.names = {"displays"}
+        self.shown = 0
+
+    def watched(self) -> set[str]:
+        return self.names
+
+    def send(self, message: ToPage, browser: int | None = None) -> None:
+        pass
+
+    def show(self, store: str, values: Mapping[str, Any]) -> None:
+        self.shown += 1
+
+
+def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(make_row: MakeRow) -> None:
+    channel, given = CountingChannel(), GivenParts()
+    pages = Pages(channel, lambda command, sender: Future(), parts=given.parts)
+
+    def shown_after(state: State) -> int:
+        given.show(state)
+        pages.update(state)
+        return channel.shown
+
     state = State(rows=(make_row("a"),))
-    reading = DependencyTracker(state)
-    MAKERS["displays"](reading.state, "")
-    assert reading.is_as_in(replace(state, fixed_frame="odom"))
-    assert not reading.is_as_in(replace(state, rows=(make_row("a"),)))
+    assert shown_after(state) == 1
+    assert shown_after(replace(state, rows=(*state.rows,), frames=("odom",))) == 1
+    assert shown_after(replace(state, rows=(make_row("b"),))) == 2
+    channel.names = set()
+    assert shown_after(state) == 2
+    channel.names = {"displays"}
+    assert shown_after(state) == 3, "nobody knows what the page had"
+    pages._types = {}
+    assert shown_after(state) == 4, "there are other types of displays"
 
 
 def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:

@@ -6,11 +6,15 @@ from typing import Any
 
 import msgspec
 
+from tests.support.given_parts import GivenParts
+from webviz.engine.parts.declaring import stores_of
 from webviz.engine.state import State
-from webviz.page.content import MAKERS
 
 
 def shown_by(store: str, state: State, argument: str = "") -> dict[str, Any]:
     """Return the values of a store by key, as JSON brings them to a page."""
-    made = MAKERS[store](state, argument)
+    given = GivenParts()
+    given.show(state)
+    (part,) = (each for each in given.parts if store in stores_of(type(each)))
+    made = stores_of(type(part))[store].make(part, argument)
     return {} if made is None else msgspec.json.decode(msgspec.json.encode(made.by_key()))

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from webviz import commands
 from webviz.engine.commands import Command
 from webviz.engine.feature import Feature
+from webviz.engine.parts.part import Part
 from webviz.features.bridges import BridgesFeature
 from webviz.features.driving import DrivingFeature
 from webviz.features.goals import GoalsFeature
@@ -17,11 +18,11 @@ from webviz.features.tools import ToolsFeature
 from webviz.features.topics import TopicsFeature
 from webviz.features.transforms import TransformsFeature
 
-F = TypeVar("F", bound=Feature)
+P = TypeVar("P", bound=Part)
 
 
-def stand_in(kind: type[F], **given: Any) -> F:
-    """Return a feature some of whose attributes and methods are these."""
+def stand_in(kind: type[P], **given: Any) -> P:
+    """Return a part some of whose attributes and methods are these."""
     made = object.__new__(kind)
     vars(made).update(given)
     return made

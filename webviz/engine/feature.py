@@ -20,12 +20,13 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
 from webviz.api.entry_points import installed
 from webviz.engine import commands as engine_commands
+from webviz.engine.doctor import Doctor
 from webviz.engine.parts.declaring import (
     DeclaredCommand,
     DeclaredStore,
@@ -43,6 +44,8 @@ from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.topics import TopicsPart
+from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 
 __all__ = ["Feature", "command", "commands", "features", "store", "stores"]
@@ -57,26 +60,19 @@ PARTS: tuple[type[Part], ...] = (
     SelectionPart,
     SettingsPart,
     TimePart,
+    TopicsPart,
+    TransformsPart,
     ViewsPart,
+    Doctor,
 )
-"""The parts with commands that every viewer has."""
+"""The parts with commands or stores that every viewer has."""
 
 
 class Feature(Part):
-    """One capability of a viewer: its commands, its stores, and its module of the page.
-
-    The frame loop calls all methods; see `Part`. Stores are made only while a page watches them.
-    """
+    """One capability of a viewer: its commands, its stores, and its module of the page."""
 
     module: ClassVar[str] = ""
     """A JavaScript file beside the class, whose function `install` adds it to the page."""
-
-    def watched(self, stores: Set[str]) -> None:
-        """Note that pages have begun or ceased to watch some of its stores.
-
-        Args:
-            stores: the names of those that are watched, with what stands behind the colon.
-        """
 
 
 def features() -> Mapping[str, type[Feature]]:
@@ -97,7 +93,7 @@ def commands() -> Mapping[str, DeclaredCommand]:
 
 @functools.cache
 def stores() -> Mapping[str, DeclaredStore]:
-    """Return the stores of all features by name."""
+    """Return the stores of all parts and features by name."""
     return _united(stores_of)
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from typing import Any
 
 from webviz.engine.commands import Sender
-from webviz.page.content.forms import brief
+from webviz.engine.forms import brief
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Done
 

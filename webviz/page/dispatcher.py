@@ -13,9 +13,9 @@ import msgspec
 
 from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import Feature
+from webviz.engine.forms import MAX_TEXT
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
-from webviz.page.content.forms import MAX_TEXT
 from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Download

@@ -13,6 +13,7 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads
+from webviz.engine.parts.declaring import store
 from webviz.engine.state import State
 from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
@@ -102,7 +103,7 @@ class JournalStore(PageStore, frozen=True):
 
 
 class People:
-    """Stores about people, see `webviz.page.content`, and invitations.
+    """Stores about people, and invitations.
 
     Args:
         channel: to the pages.
@@ -116,9 +117,16 @@ class People:
         self._access = access
         self._dismissing: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
+        self._state = State()
 
-    def people(self, state: State, _: str) -> PeopleStore:
+    def update(self, state: State) -> None:
+        """Note who drives what."""
+        self._state = state
+
+    @store()
+    def people(self, argument: str) -> PeopleStore:
         """Return the connected browsers."""
+        state = self._state
         names = {button.id: button.name for button in state.more.get("tools", ())}
         driving = {tool: driving.driver for tool, driving in state.more.get("driving", {}).items()}
         return PeopleStore(
@@ -134,16 +142,19 @@ class People:
             }
         )
 
-    def addresses(self, state: State, _: str) -> AddressesStore:
+    @store()
+    def addresses(self, argument: str) -> AddressesStore:
         """Return the network addresses of browsers."""
         visitors = self._channel.visitors()
         return AddressesStore({str(id_): visitor.address for id_, visitor in visitors.items()})
 
-    def links(self, state: State, _: str) -> LinksStore:
+    @store()
+    def links(self, argument: str) -> LinksStore:
         """Return the valid links."""
         return LinksStore({token.name: _link(token) for token in self._access.tokens})
 
-    def journal(self, state: State, _: str) -> JournalStore:
+    @store()
+    def journal(self, argument: str) -> JournalStore:
         """Return people's actions."""
         return JournalStore(
             [
@@ -253,12 +264,3 @@ class People:
 def _link(token: Token) -> ValidLink:
     expires_s = None if token.expires is None else token.expires.timestamp()
     return ValidLink(token.role, expires_s)
-
-
-MAKERS_OF_PEOPLE: Mapping[str, Callable[[People, State, str], PageStore]] = {
-    "addresses": People.addresses,
-    "journal": People.journal,
-    "links": People.links,
-    "people": People.people,
-}
-"""Makers of stores, see `webviz.page.content`."""

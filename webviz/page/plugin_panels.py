@@ -12,16 +12,20 @@ from typing import Any, ClassVar
 
 import msgspec
 
+from webviz.api.display import Display
 from webviz.api.errors import Error
+from webviz.api.modules import module_texts
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
-from webviz.engine.commands import Command, Sender
+from webviz.api.tool import Tool
+from webviz.commands import OpenPanels
+from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.commands.guard import Guard
-from webviz.engine.state import State
+from webviz.engine.forms import Form, form, values_of
+from webviz.engine.parts.declaring import store
+from webviz.engine.state import PanelTab, State
 from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
-from webviz.page.content.forms import Form, form, values_of
-from webviz.page.content.modules import ModulesStore, modules
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
 from webviz.server.access.requests import UseWidget
@@ -108,6 +112,17 @@ class PanelCommandsStore(PageStore, frozen=True):
     commands: Mapping[str, PanelCommand]
 
 
+class ModulesStore(PageStore, frozen=True):
+    """The texts of all modules by kind and name of their plug-ins, such as "tool Lasso".
+
+    Those of a plug-in are by file name, each after those that it imports.
+    """
+
+    spread: ClassVar = {"modules": ""}
+
+    modules: Mapping[str, Mapping[str, str]]
+
+
 class PluginPanels:
     """The panels of plug-ins, each in a tab named after its type.
 
@@ -121,30 +136,38 @@ class PluginPanels:
     def __init__(self, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
         self._enqueue = enqueue
         self._tabs: dict[str, _Tab] = {}
-        self._order: list[str] = []
+        self._shown: Sequence[PanelTab] = ()
+        self._open: frozenset[str] = frozenset()
         self._broken = broken_types(Panel)
 
     def update(self, state: State, watched: Collection[str]) -> None:
         """Let the panels show the viewer whose stores are watched."""
+        self._shown = state.panels
         panels = {tab.tab: tab.panel for tab in state.panels}
         for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
             self._tabs.pop(name).close()
         for name in panels.keys() - self._tabs.keys():
             self._tabs[name] = _Tab(name, panels[name], self._send)
-        self._order = list(panels)
         for name, tab in self._tabs.items():
             if f"panel:{name}" in watched:
                 tab.update(state)
+        attended = frozenset(s.partition(":")[2] for s in watched if s.startswith("panel:"))
+        if attended != self._open:
+            self._open = attended
+            self._enqueue(OpenPanels(attended), PROGRAM)
 
-    # What stores hold, see `webviz.page.content`
+    # Stores
 
-    def panels(self, state: State, _: str) -> PanelsStore:
+    @store()
+    def panels(self, argument: str) -> PanelsStore:
         """Return the panels of plug-ins."""
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
-        return PanelsStore(titles | broken, [*self._order, *self._broken], _types())
+        order = [*(tab.tab for tab in self._shown), *self._broken]
+        return PanelsStore(titles | broken, order, _types())
 
-    def panel(self, state: State, name: str) -> PanelStore:
+    @store()
+    def panel(self, name: str) -> PanelStore:
         """Return the widgets of a panel."""
         tab = self._tabs.get(name)
         if tab is None:
@@ -158,15 +181,17 @@ class PluginPanels:
         }
         return PanelStore(values | parts, list(widgets), tab.failure)
 
-    def properties(self, state: State, name: str) -> PanelPropertiesStore | None:
-        """Properties of a panel; None if it is gone."""
-        found = next((tab for tab in state.panels if tab.tab == name), None)
+    @store(name="panel_properties")
+    def properties(self, name: str) -> PanelPropertiesStore | None:
+        """Return the properties of a panel; None if it is gone."""
+        found = next((tab for tab in self._shown if tab.tab == name), None)
         if found is None:
             return None
         cls, own = type(found.panel), values_of(found.panel, _SHARED)
         return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own)
 
-    def commands(self, state: State, _: str) -> PanelCommandsStore:
+    @store()
+    def commands(self, argument: str) -> PanelCommandsStore:
         """Return the commands of all panels."""
         return PanelCommandsStore(
             {
@@ -176,9 +201,17 @@ class PluginPanels:
             }
         )
 
-    def modules(self, state: State, _: str) -> ModulesStore:
+    @store(of=lambda panels: [plugin_types(base) for base in (Display, Tool, Panel)])
+    def modules(self, argument: str) -> ModulesStore:
         """Return the modules of plug-ins for the page, of panels, tools and displays."""
-        return modules()
+        return ModulesStore(
+            {
+                f"{base.kind} {name}": module_texts(cls)
+                for base in (Display, Tool, Panel)
+                for name, cls in plugin_types(base).items()
+                if cls.module
+            }
+        )
 
     # Called on the event loop
 
@@ -200,16 +233,6 @@ class PluginPanels:
 
     def _send(self, command: Any, browser: int | None = None) -> None:
         self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)
-
-
-MAKERS_OF_PANELS: Mapping[str, Callable[[PluginPanels, State, str], PageStore | None]] = {
-    "commands": PluginPanels.commands,
-    "modules": PluginPanels.modules,
-    "panel": PluginPanels.panel,
-    "panel_properties": PluginPanels.properties,
-    "panels": PluginPanels.panels,
-}
-"""Makers of stores, see `webviz.page.content`."""
 
 
 def _types() -> list[PanelType]:

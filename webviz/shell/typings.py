@@ -13,11 +13,11 @@ from msgspec import inspect
 
 from webviz import page
 from webviz.engine import feature
+from webviz.engine.parts.declaring import stores_of
 from webviz.engine.store import PageStore
-from webviz.page.content import MAKERS
 from webviz.page.dispatcher import form_of
-from webviz.page.people import MAKERS_OF_PEOPLE
-from webviz.page.plugin_panels import MAKERS_OF_PANELS
+from webviz.page.people import People
+from webviz.page.plugin_panels import PluginPanels
 from webviz.scene import browsers, capacity
 from webviz.scene.constants import CONSTANTS
 from webviz.server.access import rules
@@ -73,10 +73,8 @@ def _messages() -> str:
 
 
 def _stores() -> str:
-    makers: dict[str, Callable[..., PageStore | None]] = {}
-    for known in (MAKERS, MAKERS_OF_PEOPLE, MAKERS_OF_PANELS):
-        makers |= known
-    makers |= {name: each.make for name, each in feature.stores().items()}
+    declared = {**feature.stores(), **stores_of(People), **stores_of(PluginPanels)}
+    makers = {name: each.make for name, each in declared.items()}
     names = _Names()
     lines = [f"  {name}: {_store(makers[name], names)};" for name in sorted(makers)]
     body = "\n".join(lines)
@@ -124,7 +122,8 @@ class _Names:
         name = info.cls.__name__
         if name not in self._known:
             self._known[name] = info.cls, ""
-            fields = [_field(field, self) for field in info.fields]
+            omits = info.cls.__struct_config__.omit_defaults
+            fields = [_field(field, self, omits=omits) for field in info.fields]
             if info.array_like:
                 text = f"export type {name} = [{', '.join(fields)}];\n"
             else:
@@ -140,14 +139,18 @@ class _Names:
         return "\n".join(text for _, (_, text) in sorted(self._known.items()))
 
 
-def _field(field: inspect.Field, names: _Names, *, may_lack: bool = False) -> str:
-    """Return a field; those that are unset or equal to their default are not sent."""
+def _field(
+    field: inspect.Field, names: _Names, *, may_lack: bool = False, omits: bool = False
+) -> str:
+    """Return a field; only those that are unset, or that their struct omits, may lack."""
+    is_unset = field.default is field.default_factory is msgspec.NODEFAULT
+    may_lack = may_lack or (not field.required and (omits or is_unset))
     key = field.encode_name if field.encode_name.isidentifier() else json.dumps(field.encode_name)
     type_ = field.type
-    if not field.required and field.default is None and isinstance(type_, inspect.UnionType):
+    if omits and field.default is None and isinstance(type_, inspect.UnionType):
         rest = (each for each in type_.types if not isinstance(each, inspect.NoneType))
         type_ = inspect.UnionType(tuple(rest))
-    return f"{key}{'?' * (may_lack or not field.required)}: {_of_type(type_, names)}"
+    return f"{key}{'?' * may_lack}: {_of_type(type_, names)}"
 
 
 def _structs(base: type[msgspec.Struct]) -> Iterator[type[msgspec.Struct]]:

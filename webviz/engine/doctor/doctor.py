@@ -17,14 +17,18 @@ from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
 from webviz.engine.doctor.environment import look_around, lost_so_far
+from webviz.engine.doctor.findings import FindingsStore, findings_store
 from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.load import LoadMeter
 from webviz.engine.doctor.observing import observe, problems
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.doctor.sim_time import SimTime
 from webviz.engine.parts.clock_watch import ClockWatchPart
+from webviz.engine.parts.declaring import store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.timeline import EventsStore, events_of
 from webviz.engine.state import State
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
@@ -116,6 +120,37 @@ class Doctor(Part):
         """ROS time of the last round, 0 before the first."""
         self.findings: Sequence[Finding] = ()
         """Of the last round, the one to repair first at the beginning."""
+
+    @store(name="findings", of=lambda part: part.made_of)
+    def shown(self, argument: str) -> FindingsStore:
+        """Return the findings of the last round."""
+        findings, names, start_ns, examined_ns = self.made_of
+        return findings_store(findings, dict(names), (start_ns or 0) / 1e9, examined_ns)
+
+    @property
+    def made_of(self) -> tuple[Sequence[Finding], Sequence[tuple[str, str]], int | None, int]:
+        """The findings, ids and names of displays, the start of the recording, and when it was."""
+        names = [(row.id, row.name) for row in self._displays.rows]
+        return self.findings, names, self._start_ns, self.examined_ns
+
+    @store(name="events", of=lambda part: part.all_events)
+    def events_in_recording(self, argument: str) -> EventsStore | None:
+        """Return warnings and errors in the recording; None without one."""
+        start_ns, *events = self.all_events
+        if start_ns is None:
+            return None
+        return EventsStore(*(events_of(each, start_ns) for each in events))
+
+    @property
+    def all_events(self) -> tuple[int | None, Sequence[Event], Sequence[Event], Sequence[Event]]:
+        """The start of the recording, and what was logged, of displays, and found."""
+        playback = self.core.get(PlaybackPart)
+        return self._start_ns, playback.logged, playback.warned, self.events
+
+    @property
+    def _start_ns(self) -> int | None:
+        playback = self.core.get(PlaybackPart).playback
+        return playback.start_ns if playback else None
 
     @property
     def is_graph_found(self) -> bool:

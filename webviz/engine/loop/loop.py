@@ -44,7 +44,6 @@ from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.state import State
-from webviz.engine.state.memoizing import reuse_unchanged
 from webviz.engine.state.statuses import failures, without
 from webviz.files.config import Config, Settings
 from webviz.sources import Advertisement, Gate, Rights, Source
@@ -150,12 +149,12 @@ class FrameLoop:
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         attempt = self._guard.attempt
         made = (attempt(each.name, None, each, core) for each in features().values())
-        self.features = [feature for feature in made if feature is not None]
+        own_features = [feature for feature in made if feature is not None]
         clock_watch = ClockWatchPart(core)
         self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
         """Finds the causes behind the statuses."""
         core.parts = [*first, *others, numbers, clock_watch, self.doctor]
-        core.parts += [*(make(core) for make in parts), *self.features]
+        core.parts += [*(make(core) for make in parts), *own_features]
         self._parts = Parts(core.parts, self._guard)
         self._do = history.noting(self._parts.do)
         self._arrivals = Arrivals(core, self._time, transforms)
@@ -218,6 +217,11 @@ class FrameLoop:
     def settings(self) -> Settings:
         """Everything in the config except its lists."""
         return self._settings.settings
+
+    @property
+    def parts(self) -> Sequence[Part]:
+        """All parts and features."""
+        return self._core.parts
 
     def get(self, kind: type[P]) -> P:
         """Return the part or feature of a class; see `Core.get`."""
@@ -340,8 +344,9 @@ class FrameLoop:
         self._core.verdicts = self.doctor.verdicts
         statuses = statuses | failures(self._guard.crashes) | self._showing.statuses
         statuses |= without(broken_features())
-        warned = self._playback.warned(state.rows)
-        seen = replace(state, statuses=statuses, warned=warned)
+        self._core.statuses = statuses
+        self._playback.note_warnings(state.rows)
+        seen = replace(state, statuses=statuses, warned=self._playback.warned)
         doctor = self.doctor
         found = self._guard.attempt("Doctor", (), doctor.examine, seen)
         return replace(seen, findings=found, found=doctor.events, examined_ns=doctor.examined_ns)
@@ -355,7 +360,7 @@ class FrameLoop:
         return self._files.config()
 
     def _show_state(self) -> None:
-        self._core.shown = reuse_unchanged(self.state(), self._core.shown)
+        self._core.shown = self.state()
         self._show(self._core.shown)
 
     def _move_on(self) -> None:

@@ -47,12 +47,15 @@ class DeclaredStore(msgspec.Struct, frozen=True):
         name: of the store.
         role: of pages that may watch it.
         is_private: whether a page may watch only the one with its id behind the colon.
-        make: the function, from a feature and what stands behind the colon.
+        of: returns what it is made of; it is made anew when that is something else. None for what
+            is quick to make: equal values are not sent again.
+        make: the function, from a part and what stands behind the colon.
     """
 
     name: str
     role: Role
     is_private: bool
+    of: Callable[[Any], object] | None
     make: Callable[[Any, str], PageStore | None]
 
 
@@ -88,12 +91,16 @@ def command(
 
 
 def store(
-    role: Role = Role.WATCHER, *, is_private: bool = False, name: str = ""
+    role: Role = Role.WATCHER,
+    *,
+    is_private: bool = False,
+    name: str = "",
+    of: Callable[[Any], object] | None = None,
 ) -> Callable[[F], F]:
     """Make a method a store of this name, or of its own; see `DeclaredStore`."""
 
     def declare(method: F) -> F:
-        vars(method)["store"] = DeclaredStore(name or method.__name__, role, is_private, method)
+        vars(method)["store"] = DeclaredStore(name or method.__name__, role, is_private, of, method)
         return method
 
     return declare

@@ -1,24 +1,84 @@
-"""Rows of the list of displays, as a panel shows them."""
+"""Rows of the list of displays: as parts read them, and as pages show the tree."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import ClassVar
 
+import msgspec
 from msgspec.structs import replace
 
+from webviz.api.display import Display, inputs
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status, worst_status
 from webviz.engine.parts.entry import Entry
+from webviz.engine.parts.status_lines import (
+    LevelName,
+    RemedyButton,
+    follows,
+    level_name,
+    remedy_of,
+)
 from webviz.engine.pipeline import Runner
 from webviz.engine.state import Row
+from webviz.engine.store import PageStore
 from webviz.files.config import Unreadable
 
 
+class DisplayRow(msgspec.Struct, frozen=True):
+    """A row of the tree.
+
+    Args:
+        type, name, depth, enabled: see `webviz.engine.state.Row`.
+        icon: see `webviz.Display.icon`.
+        can_edit: whether it has properties.
+        level: the worst of its statuses.
+        line: the first status of this level if it is a problem, "" if not.
+        status: its name.
+        topics: that it subscribes to.
+        remedy: of the problem, if a click can solve it.
+    """
+
+    type: str
+    icon: str
+    name: str
+    depth: int
+    enabled: bool
+    can_edit: bool
+    level: LevelName
+    line: str
+    status: str
+    topics: Sequence[str]
+    remedy: RemedyButton | msgspec.UnsetType = msgspec.UNSET
+
+
+class DisplaysStore(PageStore, frozen=True):
+    """The tree of displays.
+
+    Args:
+        order: the ids from top to bottom.
+        rows: by id.
+    """
+
+    spread: ClassVar = {"rows": ""}
+
+    order: Sequence[str]
+    rows: Mapping[str, DisplayRow]
+
+
 def rows(
-    entries: Sequence[Entry], statuses_of: Callable[[Runner], Mapping[str, Status]]
+    entries: Sequence[Entry],
+    statuses_of: Callable[[Runner], Mapping[str, Status]],
+    before: tuple[Row, ...] = (),
 ) -> tuple[Row, ...]:
-    """Return the list for a panel; the statuses of a group summarize the displays in it."""
+    """Return the list; the statuses of a group summarize the displays in it.
+
+    Args:
+        entries: of the list.
+        statuses_of: returns those of a display.
+        before: the last list; rows that are the same, and the list, are the same objects.
+    """
     rows = [_row(entry, statuses_of) for entry in entries]
     for index, entry in enumerate(entries):
         if isinstance(entry.content, DisplayGroup) and entry.is_enabled:
@@ -28,7 +88,14 @@ def rows(
                 if other is not entry and other.is_within(entry)
             ]
             rows[index] = replace(rows[index], statuses=_summary(inner))
-    return tuple(rows)
+    known = {row.id: row for row in before}
+    now = tuple(_same(row, known.get(row.id)) for row in rows)
+    return before if now == before else now
+
+
+def _same(row: Row, before: Row | None) -> Row:
+    is_same = before is not None and row.display is before.display and row == before
+    return before if is_same and before else row
 
 
 def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) -> Row:
@@ -59,3 +126,56 @@ def _summary(rows: Iterable[Row]) -> dict[str, Status]:
         for row in rows
         if row.level > Level.OK or is_idle
     }
+
+
+class TreeRows:
+    """Rows as the page shows them, by id; the same object for a row as long as it is unchanged."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[Row, DisplayRow]] = {}
+        self._causes: tuple[Status, ...] = ()
+
+    def __call__(self, rows: Iterable[Row], causes: tuple[Status, ...]) -> Mapping[str, DisplayRow]:
+        """Return those of these rows; see `webviz.engine.parts.status_lines.causes`."""
+        before = self._known if causes == self._causes else {}
+        self._causes = causes
+        self._known = now = {
+            row.id: known
+            if (known := before.get(row.id)) and known[0] is row
+            else (row, _shown(row, causes))
+            for row in rows
+        }
+        return {id_: shown for id_, (_, shown) in now.items()}
+
+
+def _shown(row: Row, causes: Sequence[Status]) -> DisplayRow:
+    level = row.level
+    name, worst = next(((n, s) for n, s in row.statuses.items() if s.level == level), ("", None))
+    is_said = any(follows(status, each) for each in causes for status in row.statuses.values())
+    has_own = worst and level > Level.OK and not is_said and row.type != "Group"
+    remedy = remedy_of(worst, row.id) if worst and has_own else None
+    return DisplayRow(
+        type=row.type,
+        icon=(type(row.display) if row.display else Display).icon,
+        name=row.name,
+        depth=row.depth,
+        enabled=row.enabled,
+        can_edit=row.display is not None,
+        level=level_name(level),
+        # What the viewer says is on top of the list, once.
+        line="" if is_said or not worst or level < Level.WARN else _sentence(row, name, worst),
+        status=name,
+        topics=topics_of_row(row),
+        remedy=remedy or msgspec.UNSET,
+    )
+
+
+def _sentence(row: Row, name: str, status: Status) -> str:
+    """Return what a status says; that of a group names the display."""
+    return f"{name}: {status.text}" if row.type == "Group" or not status.text else status.text
+
+
+def topics_of_row(row: Row | None) -> list[str]:
+    """Return the topics that a display subscribes to, in the order of its inputs."""
+    display = row.display if row else None
+    return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []

@@ -14,12 +14,31 @@ from webviz.api.registry import display_types
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.engine.commands.command import ignore
+from webviz.engine.parts.captions import (
+    AttributionsStore,
+    LegendStore,
+    PanesStore,
+    legend,
+    panes,
+)
 from webviz.engine.parts.consistency import ConsistencyCheck
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.display_list import DisplayList
-from webviz.engine.parts.display_rows import rows
+from webviz.engine.parts.display_properties import (
+    PropertiesStore,
+    RateStore,
+    TopicOffersStore,
+    properties,
+    rate,
+    topic_offers,
+)
+from webviz.engine.parts.display_rows import DisplaysStore, TreeRows, rows
+from webviz.engine.parts.display_types import TypesStore, types_store
 from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.status_lines import StatusesStore, causes, lines
+from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.pipeline import Runner, Services
+from webviz.engine.state import Row, Traffic
 from webviz.engine.state.trace import Trace
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
 from webviz.sources import Advertisement, Subscription, merged
@@ -47,6 +66,10 @@ class DisplaysPart(Part):
         self.tracer = services.tracer
         self.points = services.points
         self.consistency = ConsistencyCheck(core, self.list)
+        self.rows: tuple[Row, ...] = ()
+        """The list as of the last turn; the same objects for what has not changed."""
+        self.tree = TreeRows()
+        """The rows of the page's tree."""
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the displays' subscriptions. The first decides on type and QoS of a topic."""
@@ -74,7 +97,8 @@ class DisplaysPart(Part):
     def state(self) -> Mapping[str, Any]:
         """Return the list of displays."""
         self.core.guard("Consistency check", self.consistency.update)
-        return {"rows": rows(self.list.entries, self._statuses_of)}
+        self.rows = rows(self.list.entries, self._statuses_of, self.rows)
+        return {"rows": self.rows}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core
@@ -89,6 +113,65 @@ class DisplaysPart(Part):
         if not (display.enabled and type(display).has_pane):
             return False
         return self.core.guard.attempt("Scene", False, scene.is_unseen, runner.id)
+
+    # Stores
+
+    @store(of=lambda part: (part.rows, part.core.statuses))
+    def displays(self, argument: str) -> DisplaysStore:
+        """Return the tree of displays."""
+        shown = self.tree(self.rows, causes(self.core.statuses))
+        return DisplaysStore([row.id for row in self.rows], shown)
+
+    @store(name="properties", of=lambda part: (part.rows, part.core.offers, part.traffic))
+    def properties_of(self, display: str) -> PropertiesStore | None:
+        """Return the properties of the display with this id; None if it is gone."""
+        row = self._row(display)
+        return properties(row, self.rows, self.core.offers, self.traffic) if row else None
+
+    @store(of=lambda part: (part.rows, part.core.statuses), name="statuses")
+    def statuses_of(self, display: str) -> StatusesStore | None:
+        """Return the statuses of the display with this id; None if it is gone."""
+        row = self._row(display)
+        return lines(row.statuses, row.id, causes(self.core.statuses)) if row else None
+
+    @store(name="rate", of=lambda part: (part.rows, part.traffic))
+    def rate_of(self, display: str) -> RateStore:
+        """Return the rate of messages of the display with this id."""
+        return rate(self._row(display), self.traffic)
+
+    @store(of=lambda part: (part.rows, part.core.offers, part.traffic))
+    def topics_of(self, types: str) -> TopicOffersStore:
+        """Return the live topics of message types; see `topic_offers`."""
+        return topic_offers(types, self.rows, self.core.offers, self.traffic)
+
+    @store(of=lambda part: part.rows, name="legend")
+    def legend_of_all(self, argument: str) -> LegendStore:
+        """Return the colour scales of displays."""
+        return legend(self.rows)
+
+    @store(of=lambda part: part.rows, name="panes")
+    def panes_of_all(self, argument: str) -> PanesStore:
+        """Return the captions of panes."""
+        return panes(self.rows)
+
+    @store(of=lambda part: part.rows)
+    def attributions(self, argument: str) -> AttributionsStore:
+        """Return each credit once, in the order of the displays."""
+        credits = filter(None, (row.attribution for row in self.rows))
+        return AttributionsStore(tuple(dict.fromkeys(credits)))
+
+    @store(of=lambda part: ())
+    def types(self, argument: str) -> TypesStore:
+        """Return the types of displays."""
+        return types_store()
+
+    @property
+    def traffic(self) -> Mapping[str, Traffic]:
+        """Return the traffic by topic."""
+        return self.core.get(TopicsPart).traffic
+
+    def _row(self, id: str) -> Row | None:
+        return next((row for row in self.rows if row.id == id), None)
 
     # Commands
 

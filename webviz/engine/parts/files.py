@@ -20,7 +20,7 @@ from webviz.data.names import MAX_FILE_BYTES, MAX_NAME, file_problem_of, readabl
 from webviz.data.words import counted, joined
 from webviz.engine.commands import Command, FileCommand, Restore, Sender
 from webviz.engine.commands.requests import Job
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Handler, Part
 from webviz.engine.parts.plugin_list import PluginList
@@ -128,19 +128,24 @@ class FilesPart(Part):
             self._next_listing = now + FOLDER_S
             self._list_folder()
 
-    def state(self) -> Mapping[str, Any]:
+    @store()
+    def file(self, argument: str = "") -> ConfigFile:
         """Return the file, and the others of its folder."""
         if self._listing is not None and self._listing.done():
             self._others, self._listing = self._listing.result(), None
         path = str(self._path) if self._path else ""
-        return {"file": ConfigFile(path, self._is_changed, str(self._folder), self._others)}
+        return ConfigFile(path, self._is_changed, str(self._folder), self._others)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the file, and the others of its folder."""
+        return {"file": self.file()}
 
     def statuses(self) -> Mapping[str, Status]:
         """Return the unsupported parts of the open .rviz file."""
         return {"Import": import_status(self._report)} if self._report else {}
 
     def _list_folder(self) -> None:
-        """Begin to list the config files of the folder; `state` takes the result."""
+        """Begin to list the config files of the folder; `file` takes the result."""
         if self._listing is None:
             with contextlib.suppress(OSError):
                 self._listing = in_thread(functools.partial(_config_files, self._folder))

@@ -12,12 +12,12 @@ from msgspec.structs import replace
 from webviz.api.roles import Role
 from webviz.engine.commands import Command, Restore, Sender
 from webviz.engine.commands.requests import Job
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.rebasing import rebased
 from webviz.engine.parts.steps import Difference, Moment, difference
-from webviz.engine.state import Step, UndoHistory
+from webviz.engine.state import HistoryStep, UndoHistory
 from webviz.files.config import ConfigError
 
 MAX_STEPS = 100
@@ -30,7 +30,7 @@ Do = Callable[[Command, Sender], str | Job[Any]]
 class _Done(msgspec.Struct, frozen=True):
     """A step, and the moments around it."""
 
-    step: Step
+    step: HistoryStep
     before: Moment
     after: Moment
 
@@ -55,11 +55,16 @@ class HistoryPart(Part):
         self._now = Moment()
         self._now = self._moment()
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the steps."""
+    @store()
+    def history(self, argument: str = "") -> UndoHistory:
+        """Return the steps that can be undone and redone."""
         undo = tuple(done.step for done in reversed(self._undo))
         redo = tuple(done.step for done in reversed(self._redo))
-        return {"history": UndoHistory(undo, redo)}
+        return UndoHistory(undo, redo)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the steps."""
+        return {"history": self.history()}
 
     def noting(self, do: Do) -> Do:
         """Like `do`, which carries out commands, but notes what they change."""
@@ -93,7 +98,7 @@ class HistoryPart(Part):
             self._count += 1
             label, by = command.label or done.label, sender.browser
             restored = command.amount if isinstance(command, Restore) else ""
-            step = Step(self._count, label, by, done.removed, restored)
+            step = HistoryStep(self._count, label, by, done.removed, restored)
             self._undo.append(_Done(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -94,6 +94,8 @@ class Core:
         """Publishers and QoS by topic."""
         self.parts: Sequence[Part] = ()
         """All parts, once they are there."""
+        self.statuses: Mapping[str, Status] = {}
+        """Those of the viewer as a whole, such as "Fixed Frame", as of the last turn."""
         self.shown = State()
         """The last state that pages have seen."""
         self.verdicts: Sequence[Verdict] = ()
@@ -116,10 +118,10 @@ class Core:
 
 
 class Part:
-    """One responsibility of a viewer: it owns some commands and some fields of `State`.
+    """One responsibility of a viewer: its commands, its stores, and some fields of `State`.
 
     The frame loop calls all methods, so none may block. Exceptions become a status named after the
-    part.
+    part. Stores are made only while a page watches them.
 
     Args:
         core: shared by all parts.
@@ -164,6 +166,13 @@ class Part:
 
         Args:
             commanded: whether there was a command since the last call.
+        """
+
+    def watched(self, stores: Set[str]) -> None:
+        """Note that pages have begun or ceased to watch some of its stores.
+
+        Args:
+            stores: the names of those that are watched, with what stands behind the colon.
         """
 
     def state(self) -> Mapping[str, Any]:

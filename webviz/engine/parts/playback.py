@@ -13,10 +13,21 @@ from webviz.api.status import Level, Status
 from webviz.data.names import problem_of
 from webviz.data.words import joined
 from webviz.engine.commands.requests import Job
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.timeline import (
+    BookmarksStore,
+    DensityStore,
+    PlaybackStore,
+    RecordedStore,
+    bookmarks_store,
+    counted,
+    density_store,
+    playback_store,
+)
 from webviz.engine.state import Row
 from webviz.files.config import nearest
 from webviz.sources.bag.history import BagHistory
@@ -62,6 +73,12 @@ class PlaybackPart(Part):
         self._start_over = start_over
         self._stop = stop
         self._first_events = self._display_events = DisplayEvents()
+        self.playback: PlaybackState | None = None
+        """The recording that is played, as of the last turn; None for live topics alone."""
+        self.recorded: Mapping[str, Sequence[int]] = {}
+        """Counts of its messages in equal parts of its span, by topic."""
+        self.logged: Sequence[Event] = ()
+        """Warnings and errors that its nodes logged, by time."""
 
     @property
     def is_seeking(self) -> bool:
@@ -107,17 +124,47 @@ class PlaybackPart(Part):
         """Return the state of the player, and what is recorded when."""
         player, history = self._player, self._player.history
         if player.absence:
-            return {"playback": None, "recorded": {}, "logged": ()}
-        recorded = history.histogram(BUCKETS)
-        return {"playback": _state_of(player), "recorded": recorded, "logged": history.logged()}
+            self.playback, self.recorded, self.logged = None, {}, ()
+        else:
+            self.playback, self.recorded = _state_of(player), history.histogram(BUCKETS)
+            self.logged = history.logged()
+        return {"playback": self.playback, "recorded": self.recorded, "logged": self.logged}
 
-    def warned(self, rows: Sequence[Row]) -> Sequence[Event]:
-        """Note which displays began to warn at the position, and return all notes."""
+    @store(name="playback")
+    def shown(self, argument: str) -> PlaybackStore | None:
+        """Return the recording or the memory, None without either."""
+        if self.playback is None:
+            return None
+        memory_s = self._settings.settings.memory.seconds
+        return playback_store(self.playback, memory_s, self.core.get(TimePart).times.wall_s)
+
+    @store()
+    def bookmarks(self, argument: str) -> BookmarksStore | None:
+        """Return the bookmarks of this recording."""
+        recording = self.playback
+        return recording and bookmarks_store(recording, self._settings.settings.bookmarks)
+
+    @store(of=lambda part: (counted(part.playback), part.recorded))
+    def density(self, argument: str) -> DensityStore:
+        """Return counts of all messages."""
+        return density_store(self.playback, self.recorded)
+
+    @store(name="recorded", of=lambda part: part.recorded)
+    def recorded_by_topic(self, argument: str) -> RecordedStore:
+        """Return counts of messages by topic."""
+        return RecordedStore(self.recorded)
+
+    @property
+    def warned(self) -> Sequence[Event]:
+        """When displays began to warn, as far as it was shown, by time."""
+        return self._display_events.events
+
+    def note_warnings(self, rows: Sequence[Row]) -> None:
+        """Note which displays began to warn at the position."""
         player, found = self._player, self._display_events
         # On the way to a position, and before the first message, displays lack their messages.
         if not player.is_seeking and player.reached_ns >= player.history.start_ns:
             found.note(player.position_ns, rows)
-        return found.events
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""

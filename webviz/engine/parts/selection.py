@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence, Set
+from typing import Any, ClassVar
 
 import msgspec
 
@@ -12,13 +12,15 @@ from webviz.api.picking import Details
 from webviz.api.roles import Role
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.commands import Picks, Sender
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
 from webviz.engine.pipeline.picking import Found
-from webviz.engine.pipeline.statistics import Statistics
+from webviz.engine.pipeline.statistics import Statistics, ValueRange
+from webviz.engine.state import Row
+from webviz.engine.store import PageStore
 
 MAX_SELECTED = 1000
 """Things that one browser selects."""
@@ -31,6 +33,75 @@ MAX_PAST = 20
 
 GONE = "It has been replaced since the click. Click again."
 REPLACED = "A newer message has replaced this one; the values are those of the selected message."
+
+
+class Thing(msgspec.Struct, frozen=True):
+    """A selected item.
+
+    Args:
+        display, name: id and name of its display.
+        title: of the item.
+        tree: of values, see `webviz.data.messages.to_tree`.
+        note: a sentence, or "".
+    """
+
+    display: str
+    name: str
+    title: str
+    tree: Mapping[str, Any]
+    note: str
+
+
+class DisplayShare(msgspec.Struct, frozen=True):
+    """The items of one display: its name, their number, and the extents of their numbers."""
+
+    name: str
+    count: int
+    ranges: Sequence[ValueRange]
+
+
+class SelectionInfo(msgspec.Struct, frozen=True):
+    """All items.
+
+    Args:
+        total: before any limit.
+        live: how many are kept up to date at most.
+        count: of those selected.
+        displays: of several items.
+    """
+
+    total: int
+    live: int
+    count: int
+    displays: Sequence[DisplayShare] | msgspec.UnsetType = msgspec.UNSET
+
+
+class SelectionStore(PageStore, frozen=True):
+    """The selection of a browser: the items by id, and "/info" on all of them."""
+
+    spread: ClassVar = {"things": ""}
+
+    things: Mapping[str, Thing]
+    info: SelectionInfo | msgspec.UnsetType = msgspec.field(name="/info", default=msgspec.UNSET)
+
+
+class SelectedStore(PageStore, frozen=True):
+    """By the id of each item, that of its display, and whether it moves and stays what it is."""
+
+    spread: ClassVar = {"things": ""}
+
+    things: Mapping[str, tuple[str, bool]]
+
+
+NOTHING = SelectionStore({})
+
+
+class PickingStore(PageStore, frozen=True):
+    """The ids of displays that are not selectable, each with False."""
+
+    spread: ClassVar = {"selectable": ""}
+
+    selectable: Mapping[str, bool]
 
 
 class _Selected(msgspec.Struct, frozen=True):
@@ -51,14 +122,20 @@ class _Selection(msgspec.Struct):
     Args:
         things: by the ids that the browser gave them.
         total: how many there were to select.
-        told: for the page; another object whenever it changes.
+        told, values: for the page, and the same for programs.
         told_at: when that was made, None if it is out of date.
     """
 
     things: dict[int, _Selected] = msgspec.field(default_factory=dict)
     total: int = 0
-    told: Mapping[str, Any] = msgspec.field(default_factory=dict)
+    told: SelectionStore = NOTHING
+    values: Mapping[str, Any] = msgspec.field(default_factory=dict)
     told_at: float | None = None
+
+    @property
+    def held(self) -> Mapping[int, tuple[str, bool]]:
+        """The display of each thing, and whether it moves, by its id."""
+        return {id: (each.runner.id, each.is_moving) for id, each in self.things.items()}
 
 
 class SelectionPart(Part):
@@ -94,18 +171,50 @@ class SelectionPart(Part):
             is_old = selection.told_at is None or (is_few and now >= selection.told_at + EVERY_S)
             if browser in self._viewers and is_old:
                 selection.told_at = now
-                told = self._told(selection)
-                selection.told = selection.told if told == selection.told else told
+                selection.told = self._told(selection)
+                selection.values = msgspec.to_builtins(selection.told.by_key())
+
+    def watched(self, stores: Set[str]) -> None:
+        """Report on the selections that pages watch."""
+
+        def browsers(name: str) -> frozenset[int]:
+            found = (each.partition(":")[2] for each in stores if each.startswith(f"{name}:"))
+            return frozenset(int(each) for each in found if each.isdecimal())
+
+        holders, viewers = browsers("selected"), browsers("selection")
+        self.inspect_selections(holders, viewers, "picking" in stores)
+
+    @store(is_private=True)
+    def selection(self, browser: str) -> SelectionStore:
+        """Return the details of what a browser has selected."""
+        known = self._selection_of(browser)
+        return known.told if known and int(browser) in self._viewers else NOTHING
+
+    @store(is_private=True)
+    def selected(self, browser: str) -> SelectedStore:
+        """Return what a browser has selected."""
+        known = self._selection_of(browser)
+        return SelectedStore({str(id): each for id, each in known.held.items()} if known else {})
+
+    @store(of=lambda part: part.rows)
+    def picking(self, argument: str) -> PickingStore:
+        """Return which displays are not selectable; watched while a page is about to select."""
+        rows = (row for row in self.rows if not getattr(row.display, "selectable", True))
+        return PickingStore({row.id: False for row in rows})
+
+    @property
+    def rows(self) -> Sequence[Row]:
+        """Return the list of displays."""
+        return self._displays.rows
+
+    def _selection_of(self, browser: str) -> _Selection | None:
+        return self._selections.get(int(browser)) if browser.isdecimal() else None
 
     def state(self) -> Mapping[str, Any]:
         """Return the selections of all browsers."""
-        viewers = self._viewers
-        held, told = {}, {}
-        for browser, selection in self._selections.items():
-            things = selection.things.items()
-            held[browser] = {id: (each.runner.id, each.is_moving) for id, each in things}
-            told[browser] = selection.told if browser in viewers else {}
-        return {"selected": held, "selections": told}
+        known, viewers = self._selections.items(), self._viewers
+        told = {id: each.values if id in viewers else {} for id, each in known}
+        return {"selected": {id: each.held for id, each in known}, "selections": told}
 
     @command(None)
     def inspect_selections(
@@ -184,9 +293,9 @@ class SelectionPart(Part):
     def _details(self, selected: _Selected) -> Details | None:
         return selected.runner.inspect(selected.found, self.core.frames)
 
-    def _told(self, selection: _Selection) -> Mapping[str, Any]:
-        """Of each thing, by id, what a page shows; "/info" is about the selection as a whole."""
-        told: dict[str, Any] = {}
+    def _told(self, selection: _Selection) -> SelectionStore:
+        """Return what a page shows of each thing, and of all."""
+        told: dict[str, Thing] = {}
         known: dict[tuple[str, str], list[Any]] = {}
         counted: dict[str, Statistics] = {}
         for id, selected in selection.things.items():
@@ -203,26 +312,20 @@ class SelectionPart(Part):
                 note = "It no longer exists."
             own = tree["fields"]
             fields = own | {k: v for k, v in self._whereabouts(found).items() if k not in own}
-            each = {"title": title, "tree": {"fields": fields}, "note": note}
-            told[str(id)] = {"display": runner.id, "name": runner.display.name, **each}
+            name = runner.display.name
+            told[str(id)] = Thing(runner.id, name, title, {"fields": fields}, note)
             statistics = counted.setdefault(runner.id, Statistics(runner.display.name))
             where = found.position(self.core.frames) if found.hit.id is not None else None
             statistics.add(details.values if details else {}, where)
-        info: dict[str, Any] = {
-            "total": max(selection.total, len(selection.things)),
-            "live": MAX_LIVE,
-        }
-        info["count"] = len(selection.things)
-        if sum(each.count for each in counted.values()) > 1:
-            info["displays"] = [
-                {
-                    "name": each.name,
-                    "count": each.count,
-                    "ranges": list(map(msgspec.structs.asdict, each.ranges())),
-                }
-                for each in counted.values()
-            ]
-        return {**told, "/info": info}
+        count = len(selection.things)
+        several = sum(each.count for each in counted.values()) > 1
+        shares = [
+            DisplayShare(each.name, each.count, list(each.ranges())) for each in counted.values()
+        ]
+        info = SelectionInfo(
+            max(selection.total, count), MAX_LIVE, count, shares if several else msgspec.UNSET
+        )
+        return SelectionStore(told, info)
 
     def _whereabouts(self, found: Found) -> dict[str, str]:
         """Return the details known of anything that is drawn."""

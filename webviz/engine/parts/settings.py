@@ -2,17 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import msgspec
 
 from webviz.api.declared import Color
+from webviz.api.nodes import Rgb
 from webviz.api.roles import Role
-from webviz.engine.parts.declaring import command
+from webviz.engine.forms import Form, form, values_of
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
+from webviz.engine.parts.status_lines import StatusLine, lines
+from webviz.engine.store import PageStore
 from webviz.files.config import ConfigError, Settings
+
+NO_CONTROL = (
+    *("version", "view", "views", "memory", "watch", "watch_limits", "bookmarks", "rviz"),
+    *("layout", "layouts", "publish"),
+)
+"""Settings that have another place on the page, or none."""
+
+
+class SettingsStore(PageStore, frozen=True):
+    """Settings of the viewer, and its statuses.
+
+    Args:
+        declared, values: of the properties of the settings.
+        fixed_frame, background, frame_rate: among the values, too.
+        views: names of the saved ones.
+        statuses, more: see `webviz.engine.parts.status_lines.StatusesStore`.
+    """
+
+    spread: ClassVar = {"values": "value."}
+
+    declared: Form
+    values: Mapping[str, Any]
+    fixed_frame: str
+    background: Rgb | None
+    frame_rate: float
+    views: Sequence[str]
+    statuses: Sequence[StatusLine]
+    more: int
 
 
 class SettingsPart(Part):
@@ -40,6 +72,22 @@ class SettingsPart(Part):
     def state(self) -> Mapping[str, Any]:
         """All settings."""
         return {"settings": self.settings, "fixed_frame": self.settings.fixed_frame}
+
+    @store(name="settings", of=lambda part: (part.settings, part.core.statuses))
+    def shown(self, argument: str) -> SettingsStore:
+        """Return the settings, and the statuses of the viewer as a whole."""
+        settings = self.settings
+        told = lines(self.core.statuses)
+        return SettingsStore(
+            declared=form(Settings, NO_CONTROL),
+            values=values_of(settings, NO_CONTROL),
+            fixed_frame=settings.fixed_frame,
+            background=settings.background,
+            frame_rate=settings.frame_rate,
+            views=list(settings.views),
+            statuses=told.statuses,
+            more=told.more,
+        )
 
     @command(Role.OPERATOR)
     def set_fixed_frame(self, frame: str) -> None:

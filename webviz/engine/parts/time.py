@@ -9,12 +9,32 @@ from typing import Any
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.words import counted
-from webviz.engine.parts.declaring import command
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
 from webviz.engine.state import PanelTimes
+from webviz.engine.store import PageStore
 from webviz.sources.player import Player
+
+
+class ClockStore(PageStore, frozen=True):
+    """The times, in seconds.
+
+    Args:
+        pace: ROS time, wall time of the same moment, and how fast ROS time runs from there.
+        began: both times at the start or the last reset.
+        is_known: whether there is a ROS time.
+        is_paused, is_simulated: see `webviz.engine.state.PanelTimes`.
+        hz: rate of /clock to two digits.
+    """
+
+    pace: tuple[float, float, float]
+    began: tuple[float, float]
+    is_known: bool
+    is_paused: bool
+    is_simulated: bool
+    hz: float
 
 
 class TimePart(Part):
@@ -40,6 +60,8 @@ class TimePart(Part):
         """Number of messages dropped while paused."""
         self.ros = RosTime(core.clock)
         """Detects that time went back."""
+        self.times = PanelTimes()
+        """Both clocks, as of the last turn."""
 
     @property
     def is_paused(self) -> bool:
@@ -59,7 +81,7 @@ class TimePart(Part):
         messages = self.core.player.clock_messages()
         player = self._player
         is_paused = self.is_paused if player.is_live else not player.is_playing
-        clock = PanelTimes(
+        self.times = PanelTimes(
             ros_ns,
             ros_ns - self._began_ns,
             wall_s,
@@ -69,7 +91,24 @@ class TimePart(Part):
             messages is not None,
             self._clock_rate.step(messages or 0, self.core.clock()),
         )
-        return {"clock": clock}
+        return {"clock": self.times}
+
+    @store()
+    def clock(self, argument: str) -> ClockStore:
+        """Return both clocks; changes only if one of them does not go on as before."""
+        times = self.times
+        clock_rate = times.clock_rate
+        return ClockStore(
+            pace=(clock_rate.ros_ns / 1e9, clock_rate.wall_s, clock_rate.rate),
+            began=(
+                round((times.ros_ns - times.ros_elapsed_ns) / 1e9, 3),
+                round(times.wall_s - times.wall_elapsed_s, 3),
+            ),
+            is_known=times.ros_ns != 0,
+            is_paused=times.is_paused,
+            is_simulated=times.is_simulated,
+            hz=float(f"{times.clock_hz:.2g}"),
+        )
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether time runs."""

@@ -1,21 +1,91 @@
-"""Traffic of topics: who publishes them, and rates."""
+"""Topics: who publishes them and how, and what arrives."""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
+import msgspec
+
+from webviz.api.display import Display
+from webviz.api.registry import display_types
 from webviz.data.messages import MessageError, peek_header
+from webviz.engine.commands.by_topic import Pick, no_display, picks
+from webviz.engine.parts.declaring import store
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.state import Traffic
-from webviz.sources import Offer, Raw
+from webviz.engine.store import PageStore
+from webviz.sources import Offer, Publisher, Raw
 
 SPAN_S = 3.0
 """Over how long a rate is measured."""
 MEASURED_S = 0.5
 EVERY_S = 1.0
 """Interval between measurements of a delay."""
+OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
+OWN_NODE = "/webviz"
+"""Unless it is remapped, which is rare before anything is published."""
+
+
+class GraphTopic(msgspec.Struct, frozen=True):
+    """A topic with publishers.
+
+    Args:
+        types: of its messages.
+        nodes: that publish it.
+        subscribers: how many there are, None if that is unknown.
+        qos: of the publishers, "mixed" where they differ.
+        show: the displays that fit, each with the properties that show the topic.
+        why: there is none, a sentence; "" if there is one.
+    """
+
+    types: Sequence[str]
+    nodes: Sequence[str]
+    subscribers: int | None
+    qos: str
+    show: Sequence[tuple[str, Mapping[str, Any]]]
+    why: str
+
+
+class TopicsStore(PageStore, frozen=True):
+    """The topics by name."""
+
+    spread: ClassVar = {"topics": ""}
+
+    topics: Mapping[str, GraphTopic]
+
+
+class TopicTraffic(msgspec.Struct, frozen=True):
+    """Traffic of a topic with a subscription here.
+
+    Args:
+        hz: messages per second.
+        bytes: per second.
+        delay: in seconds; unset without stamps.
+    """
+
+    hz: float
+    bytes: float
+    delay: float | msgspec.UnsetType = msgspec.UNSET
+
+
+class TrafficStore(PageStore, frozen=True):
+    """Traffic by topic name."""
+
+    spread: ClassVar = {"topics": ""}
+
+    topics: Mapping[str, TopicTraffic]
+
+
+class GraphStore(PageStore, frozen=True):
+    """The ROS graph.
+
+    Args:
+        is_empty: whether nothing is published, except by webviz and on topics of every node.
+    """
+
+    is_empty: bool
 
 
 class TopicsPart(Part):
@@ -28,7 +98,8 @@ class TopicsPart(Part):
         self._offers: Mapping[str, Offer] | None = None
         self._types: dict[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
-        self._shown: dict[str, Traffic] = {}
+        self.traffic: Mapping[str, Traffic] = {}
+        """Of the topics with a subscription here, over the last seconds."""
         self._delays: dict[str, tuple[float, float | None]] = {}
 
     def take(self, batches: Batches) -> None:
@@ -50,12 +121,40 @@ class TopicsPart(Part):
                 topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
                 for topic, offer in offers.items()
             }
+        self._measure_traffic()
         return {
             "topics": self._types,
             "offers": offers,
             "services": self.core.gate.services(),
-            "traffic": self._traffic(),
+            "traffic": self.traffic,
         }
+
+    @store(name="topics", of=lambda part: part.core.offers)
+    def topics_of_graph(self, argument: str) -> TopicsStore:
+        """Return the topics of the graph."""
+        return TopicsStore(_topics(self.core.offers, display_types()))
+
+    @store(of=lambda part: part.core.offers)
+    def graph(self, argument: str) -> GraphStore:
+        """Return the ROS graph."""
+        offers = self.core.offers.items()
+        published = (offer for topic, offer in offers if topic not in OF_EVERY_NODE)
+        nodes = {publisher.node for offer in published for publisher in offer.publishers}
+        return GraphStore(is_empty=not nodes - {OWN_NODE})
+
+    @store(name="traffic", of=lambda part: part.traffic)
+    def traffic_of_all(self, argument: str) -> TrafficStore:
+        """Return the traffic of the topics with a subscription here."""
+        return TrafficStore(
+            {
+                topic: TopicTraffic(
+                    hz=_digits(traffic.rate_hz, 3),
+                    bytes=_digits(traffic.bytes_per_s, 2),
+                    delay=msgspec.UNSET if traffic.delay_s is None else _digits(traffic.delay_s, 2),
+                )
+                for topic, traffic in self.traffic.items()
+            }
+        )
 
     def _measure(self, topic: str, raw: Raw) -> None:
         """Note how old a message was when it came, now and then."""
@@ -71,13 +170,13 @@ class TopicsPart(Part):
         delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None
         self._delays[topic] = now, delay
 
-    def _traffic(self) -> dict[str, Traffic]:
-        """Rates by topic over the last seconds, measured anew now and then."""
+    def _measure_traffic(self) -> None:
+        """Measure the rates anew now and then."""
         now, counts = self.core.clock(), self.core.player.inbox.received()
         if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
-            return {topic: each for topic, each in self._shown.items() if topic in counts}
-        self._shown = self._rates(now, counts)
-        return self._shown
+            self.traffic = {topic: each for topic, each in self.traffic.items() if topic in counts}
+        else:
+            self.traffic = self._rates(now, counts)
 
     def _rates(self, now: float, counts: dict[str, tuple[int, int]]) -> dict[str, Traffic]:
         self._counts.append((now, counts))
@@ -101,3 +200,43 @@ class TopicsPart(Part):
 def type_of(offer: Offer) -> str:
     """Return the type its messages are decoded as."""
     return offer.type or (offer.publishers[0].type if offer.publishers else "")
+
+
+def _topics(
+    offers: Mapping[str, Offer], displays: Mapping[str, type[Display]]
+) -> Mapping[str, GraphTopic]:
+    types = {
+        name: tuple(sorted({publisher.type for publisher in offer.publishers}))
+        for name, offer in offers.items()
+    }
+    fits: dict[str, list[Pick]] = {}
+    for pick in picks(types, displays):
+        fits.setdefault(pick.topic, []).append(pick)
+    return {name: _topic(offer, types[name], fits.get(name, [])) for name, offer in offers.items()}
+
+
+def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> GraphTopic:
+    publishers = offer.publishers
+    return GraphTopic(
+        types=types,
+        nodes=[publisher.label for publisher in publishers],
+        subscribers=offer.subscribers,
+        qos=_qos(publishers),
+        show=[(pick.display, pick.values) for pick in fits],
+        why="" if fits else no_display(types),
+    )
+
+
+def _qos(publishers: Sequence[Publisher]) -> str:
+    """Return the QoS of publishers, "mixed" where they differ, "unknown" behind a bridge."""
+    if not all(publisher.is_qos_known for publisher in publishers):
+        return "unknown"
+    reliabilities = {publisher.reliability for publisher in publishers}
+    durabilities = {publisher.durability for publisher in publishers}
+    words = [each.pop() if len(each) == 1 else "mixed" for each in (reliabilities, durabilities)]
+    return ", ".join(words).replace("_", " ") if publishers else ""
+
+
+def _digits(value: float, digits: int) -> float:
+    """So many digits, for what changes a little all the time."""
+    return float(f"{value:.{digits}g}")

@@ -7,10 +7,18 @@ from typing import Any
 
 from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Status
+from webviz.engine.parts.declaring import store
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.engine.state.statuses import fixed_frame_status
+from webviz.engine.store import PageStore
 from webviz.sources import Subscription
+
+
+class FramesStore(PageStore, frozen=True):
+    """All frame ids, sorted."""
+
+    frames: Sequence[str]
 
 
 class TransformsPart(Part):
@@ -44,9 +52,14 @@ class TransformsPart(Part):
         self._listener.reset()
         self.core.frames.forget_passed()
 
+    @store()
+    def frames(self, argument: str = "") -> FramesStore:
+        """Return all frame ids."""
+        return FramesStore(tuple(sorted(self.core.buffer.frames())))
+
     def state(self) -> Mapping[str, Any]:
         """Return the frames."""
-        return {"frames": tuple(sorted(self.core.buffer.frames()))}
+        return {"frames": self.frames().frames}
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import msgspec
 import numpy as np
@@ -29,15 +30,61 @@ from webviz.api.views import (
 from webviz.data.names import file_problem_of, problem_of
 from webviz.data.words import joined
 from webviz.engine.commands import Sender
-from webviz.engine.parts.declaring import command
+from webviz.engine.forms import Form, form, sendable, values_of
+from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.store import PageStore
 from webviz.files.config import ConfigError, nearest
 
+DIGITS = 3
+"""Decimals that are shown; a view moved by hand has more."""
 FRAME_M = 0.5
 """Half of the edge of the cube around a frame that is looked at."""
+
+
+class ViewStore(PageStore, frozen=True):
+    """The view of a browser.
+
+    Args:
+        declared, values: of its properties, rounded, and "type".
+        types: of views.
+    """
+
+    spread: ClassVar = {"values": "value."}
+
+    declared: Form
+    types: Sequence[str]
+    values: Mapping[str, Any]
+
+
+class SavedView(msgspec.Struct, frozen=True):
+    """A saved view: its name and type, and whether browsers begin with it."""
+
+    name: str
+    type: str
+    is_start: bool
+
+
+class ViewsStore(PageStore, frozen=True):
+    """The saved views."""
+
+    saved: Sequence[SavedView]
+
+
+class ViewTypeStore(PageStore, frozen=True):
+    """The view of a browser: its type and the frame that it follows; unset before it has one."""
+
+    type: str | msgspec.UnsetType = msgspec.UNSET
+    target_frame: str | msgspec.UnsetType = msgspec.UNSET
+
+
+class WatchersStore(PageStore, frozen=True):
+    """Number of browsers that watch the scene."""
+
+    count: int
 
 
 class ViewsPart(Part):
@@ -97,6 +144,42 @@ class ViewsPart(Part):
     def state(self) -> Mapping[str, Any]:
         """Return the current view of every browser."""
         return {"views": self._cameras.views()}
+
+    # Stores
+
+    @store(is_private=True)
+    def view(self, browser: str) -> ViewStore | None:
+        """Return a browser's view; None before it has one."""
+        shown = self._view_of(browser)
+        if shown is None:
+            return None
+        values = {key: _rounded(value) for key, value in values_of(shown).items()}
+        return ViewStore(form(type(shown)), list(VIEW_TYPES), {"type": type_of(shown)} | values)
+
+    @store(is_private=True)
+    def view_type(self, browser: str) -> ViewTypeStore:
+        """Return the type of view of a browser."""
+        view = self._view_of(browser)
+        return ViewTypeStore() if view is None else ViewTypeStore(type_of(view), view.target_frame)
+
+    @store(of=lambda part: part._settings.settings)
+    def views(self, argument: str) -> ViewsStore:
+        """Return the saved views."""
+        settings = self._settings.settings
+        return ViewsStore(
+            [
+                SavedView(str(sendable(name)), type_of(view), view == settings.view)
+                for name, view in settings.views.items()
+            ]
+        )
+
+    @store()
+    def watchers(self, argument: str) -> WatchersStore:
+        """Return the number of browsers that watch the scene."""
+        return WatchersStore(len(self._cameras.views()))
+
+    def _view_of(self, browser: str) -> View | None:
+        return self._cameras.views().get(int(browser)) if browser.isdecimal() else None
 
     # Commands
 
@@ -294,3 +377,13 @@ def _found(name: str, saved: Mapping[str, View]) -> View:
     if name not in saved:
         raise ConfigError(f"Unknown saved view `{name}`: {nearest(name, saved)}")
     return saved[name]
+
+
+def _rounded(value: Any) -> Any:
+    """Numbers as they are shown; small ones keep digits that count."""
+    if isinstance(value, list):
+        return [_rounded(part) for part in value]
+    if not isinstance(value, float):
+        return value
+    least = -math.floor(math.log10(abs(value))) if value else 0
+    return round(value, max(DIGITS, min(least + 1, 6)))

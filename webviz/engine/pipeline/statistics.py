@@ -15,7 +15,7 @@ MAX_NAMES = 20
 """Values of one display of which there are statistics."""
 
 
-class Range(msgspec.Struct, frozen=True):
+class ValueRange(msgspec.Struct, frozen=True):
     """The extent of one value over several items.
 
     Args:
@@ -60,15 +60,15 @@ class Statistics(msgspec.Struct):
         for name, (value, unit) in told.items():
             self._values.setdefault((name, unit), []).append(value)
 
-    def ranges(self) -> list[Range]:
+    def ranges(self) -> list[ValueRange]:
         """Return the extents, but for numbers that are the same for all items."""
-        found: list[Range] = []
+        found: list[ValueRange] = []
         for (name, unit), all_values in self._values.items():
             values = [value for value in all_values if math.isfinite(value)]
             is_told = len(values) > 1 and (unit or min(values) < max(values))
             if is_told and len(found) < MAX_NAMES:
                 mean = math.fsum(value / len(values) for value in values)
-                found.append(Range(name, unit, min(values), max(values), mean))
+                found.append(ValueRange(name, unit, min(values), max(values), mean))
         return found
 
 

@@ -3,12 +3,12 @@
 from webviz.engine.state.config_file import ConfigFile
 from webviz.engine.state.state import (
     ClockRate,
+    HistoryStep,
     Inspected,
     PanelTab,
     PanelTimes,
     Row,
     State,
-    Step,
     Traffic,
     UndoHistory,
 )
@@ -16,12 +16,12 @@ from webviz.engine.state.state import (
 __all__ = [
     "ClockRate",
     "ConfigFile",
+    "HistoryStep",
     "Inspected",
     "PanelTab",
     "PanelTimes",
     "Row",
     "State",
-    "Step",
     "Traffic",
     "UndoHistory",
 ]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import msgspec
+from webviz.engine.store import PageStore
 
 
-class ConfigFile(msgspec.Struct, frozen=True):
+class ConfigFile(PageStore, frozen=True):
     """The file of the config.
 
     Args:

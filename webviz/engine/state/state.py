@@ -15,6 +15,7 @@ from webviz.api.status import Level, Status, worst
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
 from webviz.engine.state.config_file import ConfigFile
+from webviz.engine.store import PageStore
 from webviz.files.config import Settings
 from webviz.sources import Offer
 from webviz.sources.past_state import (
@@ -143,7 +144,7 @@ class PanelTab(msgspec.Struct, frozen=True):
     panel: Panel
 
 
-class Step(msgspec.Struct, frozen=True):
+class HistoryStep(msgspec.Struct, frozen=True):
     """Something that was changed.
 
     Args:
@@ -161,11 +162,11 @@ class Step(msgspec.Struct, frozen=True):
     restored: str = ""
 
 
-class UndoHistory(msgspec.Struct, frozen=True):
+class UndoHistory(PageStore, frozen=True):
     """Undo and redo steps, each with the newest first."""
 
-    undo: tuple[Step, ...] = ()
-    redo: tuple[Step, ...] = ()
+    undo: tuple[HistoryStep, ...] = ()
+    redo: tuple[HistoryStep, ...] = ()
 
 
 class State(msgspec.Struct, frozen=True, kw_only=True):

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import msgspec
 
+from webviz.engine.forms import sendable
 from webviz.engine.store import PageStore
-from webviz.page.content.forms import sendable
 
 FOLDER = "webviz_black_box"
 """In the working folder."""

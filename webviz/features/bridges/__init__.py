@@ -10,10 +10,10 @@ from webviz.api.robots import robots_of
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.feature import Feature, store
+from webviz.engine.forms import brief
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
-from webviz.page.content.forms import brief
 from webviz.sources import Fleet
 
 

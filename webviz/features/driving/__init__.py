@@ -14,11 +14,11 @@ from webviz.data.messages import MessageError, decode
 from webviz.data.words import joined
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import store
+from webviz.engine.forms import sendable
 from webviz.engine.parts.advertisements import advertisement_of
 from webviz.engine.parts.part import Batches, Core
 from webviz.engine.store import PageStore
 from webviz.features.driving.messages import DrivingMessages
-from webviz.page.content.forms import sendable
 from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.sources import Advertisement, Raw, Subscriber, Subscription
 

@@ -14,11 +14,11 @@ from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.engine.commands.command import ignore
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.forms import brief
 from webviz.engine.parts.part import Core
+from webviz.engine.parts.status_lines import LevelName, level_name
 from webviz.engine.store import PageStore
 from webviz.features.goals.running import GoalProgress, RunningGoal
-from webviz.page.content.displays import LevelName, level_name
-from webviz.page.content.forms import brief
 from webviz.sources import Goal
 
 MAX_ACTIVE = 20

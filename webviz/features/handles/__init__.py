@@ -16,13 +16,13 @@ from webviz.api.nodes import Pose
 from webviz.api.roles import Role
 from webviz.engine.commands import Sender
 from webviz.engine.feature import command, store
+from webviz.engine.forms import brief
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.dragging import reference_group
 from webviz.engine.store import PageStore
 from webviz.features.handles.dragging import DragMessages
-from webviz.page.content.forms import brief
 from webviz.page.dispatcher import Dispatcher, PageFeature
 
 SILENCE_S = 3.0

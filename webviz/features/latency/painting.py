@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from webviz.engine.forms import brief
 from webviz.engine.pipeline.browsers import Browsers, Painted
 from webviz.features.latency.stages import BrowserLatency, stages_of
-from webviz.page.content.forms import brief
 
 SAMPLES = 200
 """Last samples of a display in a browser."""

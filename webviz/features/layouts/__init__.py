@@ -9,10 +9,10 @@ import msgspec
 from webviz.api.roles import Role
 from webviz.data.names import problem_of
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.forms import sendable
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
 from webviz.files.config import ConfigError, Layout, Settings, nearest
-from webviz.page.content.forms import sendable
 
 
 class SavedLayout(msgspec.Struct, frozen=True):

@@ -20,11 +20,11 @@ from webviz.data.words import counted, joined
 from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.commands.requests import Job
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.forms import sendable
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
 from webviz.files.config.model import MemorySettings
-from webviz.page.content.forms import sendable
 from webviz.sources.recording import Recorder, library
 from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
 

@@ -20,6 +20,7 @@ from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.forms import sendable
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, HostProgram
 from webviz.engine.parts.shown_moment import as_seen, slice_around
@@ -27,7 +28,6 @@ from webviz.engine.store import PageStore
 from webviz.features.sharing.exporting import SharedMoment, export
 from webviz.files import config as config_file
 from webviz.files.config import Config
-from webviz.page.content.forms import sendable
 from webviz.sources.slices import Slice, write_slice
 
 MAX_SLICE = 2_000_000_000

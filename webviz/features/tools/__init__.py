@@ -19,13 +19,13 @@ from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.commands import Sender
 from webviz.engine.commands.command import ignore
 from webviz.engine.feature import command, store
+from webviz.engine.forms import Form, form, sendable, values_of
 from webviz.engine.parts.advertisements import advertisement_of
 from webviz.engine.parts.advertisements import publish as publish_on
 from webviz.engine.parts.part import Core
 from webviz.engine.store import PageStore
 from webviz.features.tools.toolbar import Toolbar, ToolButton
 from webviz.files.config import ConfigError
-from webviz.page.content.forms import Form, form, sendable, values_of
 from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.sources import Advertisement
 

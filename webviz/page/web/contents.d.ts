@@ -322,7 +322,7 @@ export interface Stores {
   driving: { own: { speed?: number | null; turn_rate?: number | null; problem?: string }; items: never };
   events: { own: { logged?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; displays?: Array<[number, "error" | "idle" | "ok" | "warn", string]>; findings?: Array<[number, "error" | "idle" | "ok" | "warn", string]> }; items: never };
   file: { own: { path: string; is_changed: boolean; folder: string; others: Array<string> }; items: never };
-  findings: { own: { all: Array<ShownFinding>; examined?: number }; items: never };
+  findings: { own: { all: Array<ShownFinding>; examined: number | null }; items: never };
   frame_tree: { own: { places?: Array<[string, number, number]>; edges?: Array<[string, string, boolean]>; rows?: number }; items: never };
   frames: { own: { frames: Array<string> }; items: never };
   goals: { own: {  }; items: ShownGoal };

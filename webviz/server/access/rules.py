@@ -42,7 +42,7 @@ STORES: Mapping[str, Role] = {
     "journal": Role.OWNER,
     "links": Role.OWNER,
 }
-"""Of the stores of no feature that not everybody may watch; see `webviz.page.content`."""
+"""Of the stores of `webviz.page.people` that not everybody may watch."""
 
 SCENE: Mapping[str, Role] = {
     "SceneNodeClickMessage": Role.OPERATOR,

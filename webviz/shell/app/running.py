@@ -206,7 +206,7 @@ class Running(PictureControls):
         from webviz.server.access.announcing import Announcement, reachable
 
         loop = self._loop
-        self._pages = Pages(server.channel, loop.enqueue, self.access, keep, loop.features)
+        self._pages = Pages(server.channel, loop.enqueue, self.access, keep, loop.parts)
         if self.access.asks:
             page = reachable(self.url, self._host, allow_hosts)
             self._closing.add("The announcement", Announcement(page, self.port).close)

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 
 from webviz.api.views import VIEW_TYPES, target_group
-from webviz.page.content.forms import form
+from webviz.engine.forms import form
 from webviz.scene.cameras import placed
 from webviz.scene.names import node_path
 from webviz.server.channel.links import SlowLink

@@ -105,7 +105,7 @@ class RunRecorder:
             self.viewer = OfflineViewer(config, source, self._scene, self._show)
             stack.callback(self.viewer.close)
             loop = self.viewer.loop
-            self._pages = Pages(self.channel, loop.enqueue, features=loop.features)
+            self._pages = Pages(self.channel, loop.enqueue, parts=loop.parts)
             self._stack = stack.pop_all()
 
     @property

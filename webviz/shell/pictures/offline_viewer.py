@@ -16,9 +16,9 @@ from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.commands import Seek
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.visibility import enabled, hidden_in
 from webviz.engine.state import State
 from webviz.files.config import Config, nearest
-from webviz.page.content.visibility import enabled, hidden_in
 from webviz.scene import ViserScene
 from webviz.shell.pictures.times import seconds_from_start
 from webviz.sources import Source

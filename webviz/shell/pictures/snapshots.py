@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from webviz.api.errors import Error
 from webviz.api.status import LOADING
 from webviz.api.views import View
+from webviz.engine.parts.visibility import hidden_in
 from webviz.engine.state import State
-from webviz.page.content.visibility import hidden_in
 from webviz.scene import ViserScene
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.browser_scripts import CANVAS
@@ -82,7 +82,7 @@ class Snapshots:
             at: the pixel, from the top left.
 
         Returns:
-            What is known of it, see `webviz.page.content.selection`; empty if nothing is there.
+            What is known of it, see `webviz.engine.parts.selection`; empty if nothing is there.
 
         Raises:
             Error: no browser is installed, or the browser does not finish.

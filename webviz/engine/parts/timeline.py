@@ -1,4 +1,4 @@
-"""The recording that is played, for the timeline."""
+"""The recording that is played, as the timeline shows it."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ import msgspec
 import numpy as np
 from msgspec.structs import replace
 
-from webviz.engine.state import State
+from webviz.engine.forms import brief, sendable
+from webviz.engine.parts.status_lines import LevelName, level_name
 from webviz.engine.store import PageStore
-from webviz.page.content.displays import LevelName, level_name
-from webviz.page.content.forms import brief, sendable
 from webviz.sources.past_state import Event, PlaybackState
 
 
@@ -96,11 +95,14 @@ class EventsStore(PageStore, frozen=True):
     findings: Sequence[LoggedEvent]
 
 
-def playback(state: State, _: str) -> PlaybackStore | None:
-    """Return the recording or the memory, None without either."""
-    recording = state.playback
-    if recording is None:
-        return None
+def playback_store(recording: PlaybackState, memory_s: float, wall_s: float) -> PlaybackStore:
+    """Return the recording or the memory.
+
+    Args:
+        recording: that is played.
+        memory_s: seconds that the memory of live topics keeps at most.
+        wall_s: wall time, in seconds since 1970.
+    """
     duration_s = (recording.end_ns - recording.start_ns) / 1e9
     told = PlaybackStore(
         names=recording.names,
@@ -117,8 +119,8 @@ def playback(state: State, _: str) -> PlaybackStore | None:
         return replace(told, duration=duration_s, position=position_s)
     told = replace(
         told,
-        limit=state.settings.memory.seconds,
-        ahead=round(state.clock.wall_s - recording.start_ns / 1e9 - duration_s),
+        limit=memory_s,
+        ahead=round(wall_s - recording.start_ns / 1e9 - duration_s),
     )
     if recording.is_live:
         return replace(told, held=round(duration_s - recording.first_s))
@@ -126,51 +128,37 @@ def playback(state: State, _: str) -> PlaybackStore | None:
     return replace(told, first=first_s, position=position_s, gap=recording.gap)
 
 
-def bookmarks(state: State, _: str) -> BookmarksStore | None:
-    """Return the bookmarks of this recording."""
-    recording = state.playback
-    if recording is None:
-        return None
+def bookmarks_store(recording: PlaybackState, bookmarks: Mapping[str, float]) -> BookmarksStore:
+    """Return those of all bookmarks that are within a recording."""
     start_s, end_s = recording.start_ns / 1e9, recording.end_ns / 1e9
     inside = [
         (str(sendable(name)), round(at_s - start_s, 6))
-        for name, at_s in state.settings.bookmarks.items()
+        for name, at_s in bookmarks.items()
         if start_s <= at_s <= end_s
     ]
     return BookmarksStore(sorted(inside, key=lambda bookmark: bookmark[1]))
 
 
-def density(state: State, _: str) -> DensityStore:
-    """Return counts of all messages."""
-    counts = list(state.recorded.values())
-    first_s, last_s = _counted(state.playback)
+def density_store(
+    recording: PlaybackState | None, recorded: Mapping[str, Sequence[int]]
+) -> DensityStore:
+    """Return counts of all messages, from those by topic."""
+    counts = list(recorded.values())
+    first_s, last_s = counted(recording)
     total = np.sum(counts, axis=0).tolist() if counts else []
     return DensityStore(total, round(first_s, 3), round(last_s, 3))
 
 
-def _counted(recording: PlaybackState | None) -> tuple[float, float]:
-    """First and last second of the counts."""
+def counted(recording: PlaybackState | None) -> tuple[float, float]:
+    """Return the first and last second of the counts."""
     if recording is None:
         return 0.0, 0.0
     return recording.counted or (0.0, (recording.end_ns - recording.start_ns) / 1e9)
 
 
-def recorded(state: State, _: str) -> RecordedStore:
-    """Return counts of messages by topic."""
-    return RecordedStore(state.recorded)
-
-
-def events(state: State, _: str) -> EventsStore | None:
-    """Warnings and errors in the recording: logged, of displays, and of the doctor."""
-    recording = state.playback
-    if recording is None:
-        return None
-    start_ns = recording.start_ns
-    return EventsStore(
-        logged=[_event(event, start_ns) for event in state.logged],
-        displays=[_event(event, start_ns) for event in state.warned],
-        findings=[_event(event, start_ns) for event in state.found],
-    )
+def events_of(events: Sequence[Event], start_ns: int) -> list[LoggedEvent]:
+    """Return events of a recording that starts then, in nanoseconds since 1970."""
+    return [_event(event, start_ns) for event in events]
 
 
 def _event(event: Event, start_ns: int) -> LoggedEvent:

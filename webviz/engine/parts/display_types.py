@@ -14,7 +14,6 @@ import msgspec
 from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY
 from webviz.api.registry import display_types
-from webviz.engine.state import State
 from webviz.engine.store import PageStore
 
 
@@ -42,8 +41,8 @@ class TypesStore(PageStore, frozen=True):
     types: Mapping[str, DisplayType]
 
 
-def types(state: State, _: str) -> TypesStore:
-    """Every type of displays, sorted by name."""
+def types_store() -> TypesStore:
+    """Return every type of displays, sorted by name."""
     return TypesStore({name: _about(name, cls) for name, cls in sorted(display_types().items())})
 
 

@@ -10,10 +10,9 @@ from webviz.api.check import CheckText
 from webviz.api.check_registry import known_checks
 from webviz.api.finding import ChangeDisplay, Fact, Finding, Severity
 from webviz.api.status import Level, Status
-from webviz.engine.state import State
+from webviz.engine.forms import brief
+from webviz.engine.parts.status_lines import RemedyButton, remedy_of
 from webviz.engine.store import PageStore
-from webviz.page.content.displays import RemedyButton, remedy_of
-from webviz.page.content.forms import brief
 
 NS_PER_S = 1e9
 LEVELS = {Severity.NOTE: "ok", Severity.WARNING: "warn", Severity.ERROR: "error"}
@@ -73,12 +72,19 @@ class FindingsStore(PageStore, frozen=True):
     examined: int | None = None
 
 
-def findings(state: State, _: str) -> FindingsStore:
-    """Return the findings of the last round."""
-    names = {row.id: row.name for row in state.rows}
-    start_s = state.playback.start_ns / NS_PER_S if state.playback else 0.0
-    examined = int(state.examined_ns / NS_PER_S) if state.examined_ns else None
-    return FindingsStore([_finding(each, names, start_s) for each in state.findings], examined)
+def findings_store(
+    findings: Sequence[Finding], names: Mapping[str, str], start_s: float, examined_ns: int
+) -> FindingsStore:
+    """Return findings as pages show them.
+
+    Args:
+        findings: of the last round.
+        names: of displays by id.
+        start_s: of the recording, in seconds since 1970.
+        examined_ns: ROS time of that round, 0 before the first.
+    """
+    examined = int(examined_ns / NS_PER_S) if examined_ns else None
+    return FindingsStore([_finding(each, names, start_s) for each in findings], examined)
 
 
 def _finding(finding: Finding, names: Mapping[str, str], start_s: float) -> ShownFinding:

@@ -1,7 +1,8 @@
-"""Statuses and properties of one display."""
+"""Properties of one display, and the topics that fit them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -10,26 +11,16 @@ import msgspec
 from webviz.api.declared import Topic
 from webviz.api.display import inputs
 from webviz.api.ports import ANY
-from webviz.api.status import Status
-from webviz.engine.state import Row, State
+from webviz.engine.forms import Form, brief, form, sendable, values_of
+from webviz.engine.parts.display_rows import topics_of_row
+from webviz.engine.parts.status_lines import LevelName, level_name
+from webviz.engine.parts.visibility import names, switches_of
+from webviz.engine.state import Row, Traffic
 from webviz.engine.store import PageStore
-from webviz.page.content.displays import LevelName, RemedyButton, causes, level_name, remedy_of
-from webviz.page.content.forms import Form, brief, form, sendable, values_of
-from webviz.page.content.visibility import names, switches_of
 from webviz.sources import Offer, Publisher
 
 IN_THE_TREE = ("name", "enabled")
 """Properties that the tree of displays shows."""
-MAX_STATUSES = 40
-
-
-class StatusLine(msgspec.Struct, frozen=True, array_like=True):
-    """A status, and the button of a command that would help."""
-
-    key: str
-    level: LevelName
-    text: str
-    remedy: RemedyButton | None
 
 
 class WorstStatus(msgspec.Struct, frozen=True):
@@ -76,16 +67,14 @@ class PropertiesStore(PageStore, frozen=True):
     topics: Mapping[str, LiveTopic] = {}
 
 
-class StatusesStore(PageStore, frozen=True):
-    """Statuses of a display or of the viewer.
+class RateStore(PageStore, frozen=True):
+    """Messages of a display.
 
     Args:
-        statuses: of very many the worst.
-        more: how many are left out.
+        hz: how many arrive, to two digits; unset if it does not subscribe.
     """
 
-    statuses: Sequence[StatusLine]
-    more: int
+    hz: float | msgspec.UnsetType = msgspec.UNSET
 
 
 class TopicOffer(msgspec.Struct, frozen=True):
@@ -112,16 +101,26 @@ class TopicOffersStore(PageStore, frozen=True):
     topics: Mapping[str, TopicOffer]
 
 
-def properties(state: State, id_: str) -> PropertiesStore | None:
-    """Properties of the display with this id; None if it is gone."""
-    row = _row(state, id_)
-    if row is None:
-        return None
+def properties(
+    row: Row, rows: tuple[Row, ...], offers: Mapping[str, Offer], traffic: Mapping[str, Traffic]
+) -> PropertiesStore:
+    """Return the properties of a display.
+
+    Args:
+        row: of the display.
+        rows: of all.
+        offers, traffic: by topic.
+    """
     name = str(sendable(row.name))
     if row.display is None:
         return PropertiesStore(name, row.type, _worst(row))
     offered = {path: sendable(each) for path, each in row.offered.items()}
-    switches = {each.path: sendable(names(state.rows, row)) for each in switches_of(row)}
+    switches = {each.path: sendable(names(rows, row)) for each in switches_of(row)}
+
+    def live(topic: Topic) -> LiveTopic:
+        name = topic.name if topic.name.startswith("/") else f"/{topic.name}"
+        return LiveTopic(_rate(name, traffic), _qos(topic, offers.get(name)))
+
     return PropertiesStore(
         name=name,
         type=row.type,
@@ -129,22 +128,22 @@ def properties(state: State, id_: str) -> PropertiesStore | None:
         declared=form(type(row.display), IN_THE_TREE),
         values=values_of(row.display, IN_THE_TREE),
         offered=offered | switches,
-        topics={name: _live(topic, state) for name, _, topic in inputs(row.display)},
+        topics={name: live(topic) for name, _, topic in inputs(row.display)},
     )
 
 
-def statuses(state: State, id_: str) -> StatusesStore | None:
-    """Return the statuses of the display with this id; None if it is gone."""
-    row = _row(state, id_)
-    return lines(row.statuses, row.id, causes(state)) if row else None
-
-
-def topics_of(state: State, types: str) -> TopicOffersStore:
+def topic_offers(
+    types: str,
+    rows: tuple[Row, ...],
+    offers: Mapping[str, Offer],
+    traffic: Mapping[str, Traffic],
+) -> TopicOffersStore:
     """Return the live topics of message types, each with its rate and who has to do with it.
 
     Args:
-        state: of the viewer.
         types: separated by commas, or `ANY`.
+        rows: of all displays.
+        offers, traffic: by topic.
     """
     wanted = types.split(",")
 
@@ -152,45 +151,28 @@ def topics_of(state: State, types: str) -> TopicOffersStore:
         return publisher.type in wanted or types == ANY
 
     shown: dict[str, list[str]] = {}
-    for row in state.rows:
+    for row in rows:
         for _, _, topic in inputs(row.display) if row.display else ():
             shown.setdefault(topic.name, []).append(str(sendable(row.name)))
     return TopicOffersStore(
         {
             str(sendable(name)): TopicOffer(
                 publishers=sum(map(fits, offer.publishers)),
-                rate=_rate(name, state),
+                rate=_rate(name, traffic),
                 shown=shown.get(name, []),
                 problem=str(sendable(offer.problem)),
             )
-            for name, offer in state.offers.items()
+            for name, offer in offers.items()
             if any(map(fits, offer.publishers))
         }
     )
 
 
-def lines(
-    statuses: Mapping[str, Status], display: str = "", known: Sequence[Status] = ()
-) -> StatusesStore:
-    """Statuses as the page shows them.
-
-    Args:
-        statuses: by key.
-        display: id of the display they belong to, "" for the viewer.
-        known: causes of which they may be a consequence; see `causes`.
-    """
-    all_ = list(statuses.items())
-    if len(all_) > MAX_STATUSES:
-        all_ = sorted(all_, key=lambda line: -line[1].level)[:MAX_STATUSES]
-    return StatusesStore(
-        statuses=[_line(*line, display, known) for line in all_],
-        more=len(statuses) - len(all_),
-    )
-
-
-def _line(key: str, status: Status, display: str, known: Sequence[Status]) -> StatusLine:
-    remedy = remedy_of(status, display, known)
-    return StatusLine(brief(key), level_name(status.level), brief(status.text), remedy)
+def rate(row: Row | None, traffic: Mapping[str, Traffic]) -> RateStore:
+    """Return the rate of messages of a display, None if it is gone."""
+    known = (traffic[name].rate_hz for name in topics_of_row(row) if name in traffic)
+    hz = next(known, None)
+    return RateStore() if hz is None else RateStore(_rounded(hz))
 
 
 def _worst(row: Row) -> WorstStatus | None:
@@ -201,21 +183,11 @@ def _worst(row: Row) -> WorstStatus | None:
     return None
 
 
-def _row(state: State, id_: str) -> Row | None:
-    return next((row for row in state.rows if row.id == id_), None)
-
-
-def _live(topic: Topic, state: State) -> LiveTopic:
-    name = topic.name if topic.name.startswith("/") else f"/{topic.name}"
-    offer = state.offers.get(name)
-    return LiveTopic(_rate(name, state), _qos(topic, offer))
-
-
-def _rate(topic: str, state: State) -> float | None:
+def _rate(topic: str, traffic: Mapping[str, Traffic]) -> float | None:
     """In Hz, as precise as it stays the same for a while; None without a subscription."""
-    if (traffic := state.traffic.get(topic)) is None:
+    if (known := traffic.get(topic)) is None:
         return None
-    return round(traffic.rate_hz) if traffic.rate_hz >= 10 else round(traffic.rate_hz, 1)
+    return round(known.rate_hz) if known.rate_hz >= 10 else round(known.rate_hz, 1)
 
 
 def _qos(topic: Topic, offer: Offer | None) -> str:
@@ -234,3 +206,9 @@ def _qos(topic: Topic, offer: Offer | None) -> str:
         chosen.append(f"filter {topic.filter_size}")
     auto = f"auto ({', '.join(became)})" if became else "auto"
     return ", ".join([*chosen, auto] if became or not chosen else chosen)
+
+
+def _rounded(value: float) -> float:
+    if not value > 0.0:
+        return 0.0
+    return float(round(value, 1 - math.floor(math.log10(value))))

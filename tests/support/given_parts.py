@@ -1,0 +1,99 @@
+"""Parts without a viewer, which show the state that a test gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import msgspec
+
+from tests.support.stand_ins import stand_in
+from webviz.engine.doctor import Doctor
+from webviz.engine.parts.display_rows import TreeRows
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.history import HistoryPart
+from webviz.engine.parts.part import Part
+from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.selection import SelectionPart, SelectionStore
+from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.topics import TopicsPart
+from webviz.engine.parts.transforms import TransformsPart
+from webviz.engine.parts.views import ViewsPart
+from webviz.engine.state import HistoryStep, State
+
+KINDS = (
+    *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SelectionPart, SettingsPart),
+    *(TimePart, TopicsPart, TransformsPart, ViewsPart),
+)
+
+
+class GivenParts:
+    """The parts with stores."""
+
+    def __init__(self) -> None:
+        self._core = SimpleNamespace(get=lambda kind: self._by_kind[kind])
+        self._by_kind: dict[type[Part], Any] = {k: stand_in(k, core=self._core) for k in KINDS}
+        displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
+        self._give(DisplaysPart, tree=TreeRows())
+        self._give(Doctor, _displays=displays)
+        self._give(SelectionPart, _displays=displays, inspect_selections=lambda *asked: None)
+        self._give(PlaybackPart, _settings=settings)
+        self._give(ViewsPart, _settings=settings)
+        self.show(State())
+
+    @property
+    def parts(self) -> Sequence[Part]:
+        """All of them."""
+        return list(self._by_kind.values())
+
+    def show(self, state: State) -> None:
+        """Let them have the values of a state."""
+        self._core.offers, self._core.statuses = state.offers, state.statuses
+        self._core.buffer = SimpleNamespace(frames=lambda: state.frames)
+        self._give(DisplaysPart, rows=state.rows)
+        self._give(SettingsPart, settings=state.settings)
+        self._give(TimePart, times=state.clock)
+        self._give(TopicsPart, traffic=state.traffic)
+        self._give(ViewsPart, _cameras=SimpleNamespace(views=lambda: state.views))
+        self._give(
+            Doctor, findings=state.findings, examined_ns=state.examined_ns, events=state.found
+        )
+        self._give(
+            PlaybackPart,
+            playback=state.playback,
+            recorded=state.recorded,
+            logged=state.logged,
+            _display_events=SimpleNamespace(events=state.warned),
+        )
+        file, history = state.file, state.history
+        self._give(
+            FilesPart,
+            _listing=None,
+            _path=Path(file.path) if file.path else None,
+            _is_changed=file.is_changed,
+            _folder=file.folder,
+            _others=file.others,
+        )
+        self._give(HistoryPart, _undo=_steps(history.undo), _redo=_steps(history.redo))
+        selections = {id: SimpleNamespace(held=held) for id, held in state.selected.items()}
+        for id, told in state.selections.items():
+            known = selections.setdefault(id, SimpleNamespace(held={}))
+            known.told = _selection(told)
+        self._give(SelectionPart, _selections=selections, _viewers=state.selections.keys())
+
+    def _give(self, kind: type[Part], **values: Any) -> None:
+        vars(self._by_kind[kind]).update(values)
+
+
+def _steps(steps: Sequence[HistoryStep]) -> list[SimpleNamespace]:
+    return [SimpleNamespace(step=step) for step in reversed(steps)]
+
+
+def _selection(told: Mapping[str, Any]) -> SelectionStore:
+    things = {id: each for id, each in told.items() if id != "/info"}
+    info = {"/info": told["/info"]} if "/info" in told else {}
+    return msgspec.convert({"things": things, **info}, SelectionStore)
