@@ -1,27 +1,29 @@
 // Elements. Text is always text, never markup.
 
-/** @import {Attribute, Child} from "./types.js" */
+import { effect, Source } from "./signals.js";
+
+/** @import {Attribute, Child, Children} from "./types.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
  * An element with attributes and children: strings and elements, null for none.
  *
- * An attribute that is a function is a listener (`onclick`); true is an attribute without a value;
- * false, null and undefined are none. ARIA's attributes say "true" and "false" in words.
+ * An attribute that is a function is a listener if its name is that of one (`onclick`); true is an
+ * attribute without a value; false, null and undefined are none. ARIA's attributes say "true" and
+ * "false" in words. Signals, and other functions, are read in an effect: an attribute or a child that
+ * follows what it reads, see `signals.js`.
  *
  * @template {keyof HTMLElementTagNameMap} K
  * @param {K} tag
  * @param {Record<string, Attribute>} [attributes]
- * @param {...(Child | Child[])} children
+ * @param {...Children} children
  * @returns {HTMLElementTagNameMap[K]}
  */
 export function el(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   set(element, attributes);
-  for (const child of children.flat()) {
-    if (child !== null && child !== undefined) element.append(child);
-  }
+  append(element, children);
   return element;
 }
 
@@ -33,12 +35,79 @@ export function el(tag, attributes = {}, ...children) {
  */
 export function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
-    if (typeof value === "function") element.addEventListener(name.slice(2), value);
+    if (typeof value === "function" && name.startsWith("on")) {
+      element.addEventListener(name.slice(2), value);
+    } else if (typeof value === "function") {
+      const read = /** @type {() => Attribute} */ (value);
+      effect(() => set(element, { [name]: read() }));
+    } else if (value instanceof Source) effect(() => set(element, { [name]: value.value }));
     else if (typeof value === "boolean" && !name.startsWith("aria-")) {
       element.toggleAttribute(name, value);
     } else if (value === null || value === undefined) element.removeAttribute(name);
     else if (element.getAttribute(name) !== String(value))
       element.setAttribute(name, String(value));
+  }
+}
+
+/**
+ * @param {Element} parent
+ * @param {Children[]} children
+ */
+function append(parent, children) {
+  for (const child of children.flat()) {
+    if (typeof child === "function") follow(parent, child);
+    else if (child instanceof Source) follow(parent, () => child.value);
+    else if (child !== null && child !== undefined) parent.append(child);
+  }
+}
+
+/**
+ * Keeps what is read in its place among the children of an element. A text is that of one node, so it
+ * is changed without a new one.
+ *
+ * @param {Element} parent
+ * @param {() => Child | Child[]} read
+ */
+function follow(parent, read) {
+  const end = new Text();
+  parent.append(end);
+  /** @type {ChildNode[]} */
+  let shown = [];
+  effect(() => {
+    const made = [read()].flat().filter((child) => child !== null && child !== undefined);
+    const isText = made.length === 1 && typeof made[0] === "string";
+    const text = isText ? String(made[0]) : "";
+    if (end.data !== text) end.data = text;
+    const next = isText
+      ? []
+      : made.map(
+          (child) => /** @type {ChildNode} */ (child instanceof Node ? child : new Text(child)),
+        );
+    arrange(shown, next, end);
+    shown = next;
+  });
+}
+
+/**
+ * Puts nodes in order before one that stays, in place of others. What has the focus is never moved.
+ *
+ * @param {ChildNode[]} before
+ * @param {ChildNode[]} next
+ * @param {ChildNode} end
+ */
+function arrange(before, next, end) {
+  const kept = new Set(next);
+  for (const node of before) if (!kept.has(node)) node.remove();
+  const all = [...next, end];
+  const focused = document.activeElement;
+  const isInside = end.parentNode?.contains(focused);
+  const fixed = isInside ? all.findIndex((node) => node.contains(focused)) : -1;
+  const start = fixed < 0 ? next.length : fixed;
+  for (let i = start - 1; i >= 0; i--) {
+    if (all[i].nextSibling !== all[i + 1]) all[i + 1].before(all[i]);
+  }
+  for (let i = start + 1; i < next.length; i++) {
+    if (all[i].previousSibling !== all[i - 1]) all[i - 1].after(all[i]);
   }
 }
 

@@ -1,29 +1,162 @@
-// Values by key that the server keeps the same here, of what this page watches.
+// Values by key that the server keeps the same here, of what this page reads.
 
 import * as channel from "./channel.js";
+import { batch, Source, untracked } from "./signals.js";
 
-/** @import {ValuesOf} from "./types.js" */
+/** @import {Reader} from "./signals.js" */
+/** @import {End, StoreReader, ValuesOf} from "./types.js" */
 
-/** @type {Map<string, {values: Map<string, any>, listeners: Set<Function>, isThere: boolean}>} */
+/** @type {Map<string, Store>} */
 const stores = new Map();
 
 channel.onOpen(() => {
-  for (const name of stores.keys()) channel.send({ type: "Watch", store: name });
+  for (const store of stores.values()) store.open();
 });
 
-channel.on("Values", ({ store: name, all, set, gone }) => {
-  const store = stores.get(name);
-  if (!store) return;
-  const changed = new Set([...Object.keys(set), ...gone]);
-  if (all) {
-    for (const key of store.values.keys()) changed.add(key);
-    store.values.clear();
+channel.on("Values", ({ store, ...values }) => stores.get(store)?.take(values));
+
+/** The value of a key, or all: while an effect reads it, the server sends it. */
+class Part extends Source {
+  /** @param {Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
   }
-  for (const key of gone) store.values.delete(key);
-  for (const [key, value] of Object.entries(set)) store.values.set(key, value);
-  store.isThere = true;
-  for (const listener of [...store.listeners]) listener(store.values, changed);
-});
+
+  /** @param {Reader} reader */
+  join(reader) {
+    if (!this.readers.has(reader)) this.store.hold();
+    super.join(reader);
+  }
+
+  /** @param {Reader} reader */
+  leave(reader) {
+    if (this.readers.has(reader)) this.store.release();
+    super.leave(reader);
+  }
+}
+
+class Store {
+  #name;
+  /** @type {Map<string, any>} */
+  #values = new Map();
+  /** @type {Map<string, Part>} */
+  #parts = new Map();
+  #all = new Part(this);
+  #holders = 0;
+  #isWatched = false;
+  #isThere = false;
+  /** @type {Set<(values: any, changed: Set<string>) => void>} */
+  #listeners = new Set();
+
+  /** @param {string} name */
+  constructor(name) {
+    this.#name = name;
+  }
+
+  /** @param {string} key */
+  get(key) {
+    this.#part(key).track();
+    return this.#values.get(key);
+  }
+
+  /** @param {string} key */
+  has(key) {
+    this.#part(key).track();
+    return this.#values.has(key);
+  }
+
+  /** All values, a Map: for what depends on each of them. */
+  all() {
+    this.#all.track();
+    return this.#values;
+  }
+
+  /** @param {string} key */
+  #part(key) {
+    const part = this.#parts.get(key) ?? new Part(this);
+    this.#parts.set(key, part);
+    return part;
+  }
+
+  hold() {
+    this.#holders += 1;
+    if (this.#isWatched) return;
+    this.#isWatched = true;
+    this.open();
+  }
+
+  /** What is read again at once, such as by an effect that runs again, is not sent anew. */
+  release() {
+    this.#holders -= 1;
+    queueMicrotask(() => {
+      if (this.#holders || !this.#isWatched) return;
+      this.#isWatched = false;
+      this.take({ all: true, set: {}, gone: [] });
+      this.#isThere = false;
+      if (channel.isOpen()) channel.send({ type: "Unwatch", store: this.#name });
+    });
+  }
+
+  /** The channel has been opened, or this is watched from now on. */
+  open() {
+    if (this.#isWatched && channel.isOpen()) channel.send({ type: "Watch", store: this.#name });
+  }
+
+  /** @param {{all: boolean, set: Record<string, any>, gone: string[]}} values */
+  take({ all, set, gone }) {
+    const changed = new Set([...Object.keys(set), ...gone]);
+    if (all) {
+      for (const key of this.#values.keys()) changed.add(key);
+      this.#values.clear();
+    }
+    for (const key of gone) this.#values.delete(key);
+    for (const [key, value] of Object.entries(set)) this.#values.set(key, value);
+    this.#isThere = true;
+    batch(() => this.#tell(changed));
+  }
+
+  /** @param {Set<string>} changed */
+  #tell(changed) {
+    if (changed.size) this.#all.touch();
+    for (const key of changed) {
+      const part = this.#parts.get(key);
+      part?.touch();
+      if (!this.#values.has(key) && !part?.readers.size) this.#parts.delete(key);
+    }
+    for (const listener of [...this.#listeners]) listener(this.#values, changed);
+  }
+
+  /**
+   * @param {(values: any, changed: Set<string>) => void} listener
+   * @returns {End}
+   */
+  watch(listener) {
+    this.#listeners.add(listener);
+    this.hold();
+    if (this.#isThere) untracked(() => listener(this.#values, new Set(this.#values.keys())));
+    return () => {
+      if (this.#listeners.delete(listener)) this.release();
+    };
+  }
+}
+
+/** @param {string} name */
+function storeOf(name) {
+  const known = stores.get(name) ?? new Store(name);
+  stores.set(name, known);
+  return known;
+}
+
+/**
+ * A store to read from in effects: the server sends its values while one reads them. What has not
+ * come yet is undefined.
+ *
+ * @template {string} N
+ * @param {N} name
+ * @returns {StoreReader<N>}
+ */
+export const store = (name) => storeOf(name);
 
 /**
  * Calls `listener(values, changed)` with all values, a Map, and the set of keys that are new, changed
@@ -33,18 +166,4 @@ channel.on("Values", ({ store: name, all, set, gone }) => {
  * @param {N} name
  * @param {(values: ValuesOf<N>, changed: Set<string>) => void} listener
  */
-export function watch(name, listener) {
-  let store = stores.get(name);
-  if (!store) {
-    stores.set(name, (store = { values: new Map(), listeners: new Set(), isThere: false }));
-    if (channel.isOpen()) channel.send({ type: "Watch", store: name });
-  }
-  store.listeners.add(listener);
-  if (store.isThere) listener(store.values, new Set(store.values.keys()));
-  return () => {
-    store.listeners.delete(listener);
-    if (store.listeners.size || stores.get(name) !== store) return;
-    stores.delete(name);
-    if (channel.isOpen()) channel.send({ type: "Unwatch", store: name });
-  };
-}
+export const watch = (name, listener) => storeOf(name).watch(listener);

@@ -2,6 +2,7 @@
 
 import type { LiveTopic, Stores } from "./contents.js";
 import type { Tools } from "./messages.js";
+import type { Readable } from "./signals.js";
 
 /** x and y, in pixels unless it is said otherwise. */
 export type Vec2 = [number, number];
@@ -33,11 +34,22 @@ export type Named<N extends string> = N extends StoreName
     : never;
 /** Values of a store by its name. */
 export type ValuesOf<N extends string> = StoreValues<Named<N>>;
+/** A store that is read in effects, whose values come later; see `store`. */
+export interface StoreReader<N extends string> {
+  get<K extends keyof Named<N>["own"]>(key: K): Named<N>["own"][K] | undefined;
+  get(key: string): Named<N>["items"] | undefined;
+  has(key: string): boolean;
+  all(): ValuesOf<N>;
+}
 
-/** What `el` takes as an attribute. */
-export type Attribute = string | number | boolean | null | undefined | ((event: any) => unknown);
-/** What `el` takes as a child. */
+/** The value of an attribute; null and undefined are none. */
+type Plain = string | number | boolean | null | undefined;
+/** What `el` takes as an attribute: a value, what is read for one, or a listener. */
+export type Attribute = Plain | Readable<Plain> | ((event: any) => unknown);
+/** What is shown in an element. */
 export type Child = Node | string | null | undefined;
+/** What `el` takes as children: some, or what is read for them. */
+export type Children = Child | Child[] | Readable<Child> | (() => Child | Child[]);
 /** Ends what was begun. */
 export type End = () => void;
 

@@ -1,0 +1,122 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import * as channel from "../../webviz/page/web/channel.js";
+import { computed, effect } from "../../webviz/page/web/signals.js";
+import { store, watch } from "../../webviz/page/web/stores.js";
+
+/** What the page sends, and a function by which the server sends values of a store. */
+function server() {
+  const sent = [];
+  const socket = {
+    readyState: WebSocket.OPEN,
+    send: (text) => sent.push(JSON.parse(text)),
+    close() {},
+  };
+  channel.open(socket, "key");
+  socket.onopen();
+  return {
+    sent,
+    values: (name, set, { all = false, gone = [] } = {}) =>
+      socket.onmessage({ data: JSON.stringify({ type: "Values", store: name, all, set, gone }) }),
+  };
+}
+
+/** An effect that keeps what it reads. */
+function follow(read) {
+  const seen = [];
+  const end = effect(() => void seen.push(read()));
+  return { seen, end };
+}
+
+const later = () => new Promise((resolve) => queueMicrotask(resolve));
+
+test("a store is watched while something reads it, and read by key", async () => {
+  const { sent, values } = server();
+  const speeds = store("speeds");
+  assert.equal(speeds.get("a"), undefined);
+  const [a, b] = [follow(() => speeds.get("a")), follow(() => speeds.get("b"))];
+  assert.deepEqual(sent.slice(1), [{ type: "Watch", store: "speeds" }]);
+  values("speeds", { a: 1, b: 2 }, { all: true });
+  values("speeds", { a: 3 });
+  assert.deepEqual(
+    [a.seen, b.seen],
+    [
+      [undefined, 1, 3],
+      [undefined, 2],
+    ],
+  );
+  a.end();
+  await later();
+  assert.equal(sent.length, 2);
+  b.end();
+  await later();
+  assert.deepEqual(sent.slice(2), [{ type: "Unwatch", store: "speeds" }]);
+  assert.equal(speeds.get("b"), undefined, "what is not watched any more is old");
+});
+
+test("an effect runs once for a message, and where a key goes", () => {
+  const { values } = server();
+  const reader = store("pairs");
+  const { seen, end } = follow(() => [reader.get("x"), reader.get("y"), reader.has("z")]);
+  values("pairs", { x: 1, y: 1, z: 1 }, { all: true });
+  values("pairs", {}, { gone: ["z"] });
+  values("pairs", { y: 2 }, { all: true });
+  assert.deepEqual(seen.slice(1), [
+    [1, 1, true],
+    [1, 1, false],
+    [undefined, 2, false],
+  ]);
+  end();
+});
+
+test("all values are read as one, and a computed value notices that a key went meanwhile", () => {
+  const { values } = server();
+  const reader = store("names");
+  const first = computed(() => reader.get("a"));
+  const all = follow(() => [...reader.all().keys()].join());
+  values("names", { a: 1, b: 2 }, { all: true });
+  assert.equal(first.value, 1);
+  values("names", {}, { gone: ["a"] });
+  assert.equal(first.value, undefined);
+  values("names", { a: 5 });
+  assert.deepEqual([first.value, all.seen], [5, ["", "a,b", "b", "b,a"]]);
+  all.end();
+});
+
+test("what is read again at once is not sent anew, and what is read is, on a new connection", async () => {
+  const { sent } = server();
+  const reader = store("places");
+  const { end } = follow(() => reader.get("a"));
+  end();
+  const { end: endAgain } = follow(() => reader.get("a"));
+  await later();
+  assert.equal(sent.length, 2);
+  assert.deepEqual(server().sent.slice(1), [{ type: "Watch", store: "places" }]);
+  endAgain();
+});
+
+test("a listener gets all values, then what has changed, and makes no effect depend on them", () => {
+  const { values } = server();
+  const calls = [];
+  const ends = [];
+  let runs = 0;
+  effect(() => {
+    runs += 1;
+    ends.push(watch("rows", (all, changed) => calls.push([[...all.keys()], [...changed]])));
+    ends.push(watch("rows", (all) => void all.get("a")));
+  });
+  values("rows", { a: 1 }, { all: true });
+  values("rows", { b: 2 });
+  assert.deepEqual(
+    [calls, runs],
+    [
+      [
+        [["a"], ["a"]],
+        [["a", "b"], ["b"]],
+      ],
+      1,
+    ],
+  );
+  for (const end of [...ends, ...ends]) end();
+});
