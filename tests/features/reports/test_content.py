@@ -113,8 +113,15 @@ def test_the_statuses_have_the_times_at_which_they_began(written: Callable[..., 
 
 def test_the_findings_are_the_last_ones_with_their_times(written: Callable[..., BugReport]) -> None:
     first_ns, last_ns = START_NS, START_NS + 1_500_000_000
-    known = "TF001", "It is off.", "Turn it.", "base", Severity.ERROR
-    finding = Finding(*known, first_ns=first_ns, last_ns=last_ns)
+    finding = Finding(
+        id="TF001",
+        cause="It is off.",
+        remedy="Turn it.",
+        subject="base",
+        severity=Severity.ERROR,
+        first_ns=first_ns,
+        last_ns=last_ns,
+    )
     report = written(moment(), replace(STATE, findings=(finding,)))
     (entry,) = report.findings
     assert (entry.id, entry.severity, entry.subject) == ("TF001", "error", "base")

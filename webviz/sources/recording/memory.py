@@ -88,7 +88,7 @@ class MemoryHistory:
 
     @property
     def held_s(self) -> float:
-        """Return the seconds from the oldest message of `entries` to the newest while it is held."""
+        """Return the seconds of `entries` while they are held."""
         newest_s = self.recent.newest_s
         if not self._held or newest_s is None:
             return 0.0
