@@ -2,33 +2,36 @@ import assert from "node:assert/strict";
 import { mock, test } from "node:test";
 
 import { sync } from "../../webviz/page/web/controls/sync.js";
+import { signal } from "../../webviz/page/web/signals.js";
 
 mock.timers.enable({ apis: ["setTimeout"] });
 
 /** A control, what it shows and why it was refused, and how the viewer answers. */
 function control() {
   const seen = { shown: [], refusals: [], answer: () => {} };
+  const had = signal(undefined);
   const it = sync({
+    value: () => had.value,
     show: (value) => seen.shown.push(value),
-    send: () => new Promise((resolve) => Object.assign(seen, { answer: resolve })),
+    change: () => new Promise((resolve) => Object.assign(seen, { answer: resolve })),
     refused: (text) => seen.refusals.push(text),
     isFocused: () => true,
   });
-  return { it, seen };
+  return { it, seen, has: (value) => (had.value = value) };
 }
 
 /** Lets promises that are settled call what waits for them. */
 const turn = () => new Promise((resolve) => setImmediate(resolve));
 
 test("what the viewer refuses stays for correction, however long", async () => {
-  const { it, seen } = control();
-  it.show(1);
+  const { it, seen, has } = control();
+  has(1);
   it.hold();
   it.edit(-1);
   it.release();
   seen.answer({ level: "error", text: "Not changed: expected > 0." });
   await turn();
-  it.show(1);
+  has(1);
   mock.timers.tick(60_000);
   assert.deepEqual(seen.shown, [1]);
   assert.deepEqual(seen.refusals, ["Not changed: expected > 0."]);
@@ -37,14 +40,14 @@ test("what the viewer refuses stays for correction, however long", async () => {
 });
 
 test("older values do not set a control back, and the newest is shown in the end", async () => {
-  const { it, seen } = control();
-  it.show(1);
+  const { it, seen, has } = control();
+  has(1);
   it.edit(2);
-  it.show(1);
+  has(1);
   seen.answer({ level: "ok", text: "" });
   await turn();
-  it.show(1);
-  it.show(2);
+  has(1);
+  has(2);
   assert.deepEqual(seen.shown, [1], "it moves under the hand");
   mock.timers.tick(500);
   assert.deepEqual(seen.shown, [1, 2]);

@@ -1,7 +1,7 @@
 // History of what this page has sent by tools, with the results: the newest first.
 
 import * as act from "../../act.js";
-import { listeners } from "../../listeners.js";
+import { signal } from "../../signals.js";
 import { watch } from "../../stores.js";
 
 /** @import {MadeGesture, ToolFacts} from "../../types.js" */
@@ -18,20 +18,16 @@ import { watch } from "../../stores.js";
 
 const MAX_KEPT = 20;
 
-const changes = listeners();
-/** @type {SentGesture[]} */
-let sent = [];
+const sent = signal(/** @type {SentGesture[]} */ ([]));
 let frame = "";
 
 export function install() {
   watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
 }
 
-export const all = () => sent;
+/** All entries; read in effects. */
+export const all = () => sent.value;
 export const fixedFrame = () => frame;
-
-/** Calls a listener whenever something is new; returns what ends it. */
-export const onChange = changes.on;
 
 /**
  * Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected.
@@ -44,8 +40,7 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   const result = { level: "", text: "", messages: [] };
   const number = act.send("UseTool", { tool: tool.id, ...gesture });
   const entry = { number, tool, ...gesture, frame, time: new Date(), ...result };
-  sent = [entry, ...sent].slice(0, MAX_KEPT);
-  changes.tell();
+  sent.value = [entry, ...sent.value].slice(0, MAX_KEPT);
 }
 
 /**
@@ -78,6 +73,5 @@ export const published = (number, message) =>
  * @param {(entry: SentGesture) => SentGesture} update
  */
 function change(number, update) {
-  sent = sent.map((entry) => (entry.number === number ? update(entry) : entry));
-  changes.tell();
+  sent.value = sent.value.map((entry) => (entry.number === number ? update(entry) : entry));
 }

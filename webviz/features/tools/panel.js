@@ -2,20 +2,20 @@
 
 import { act } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
-import { form } from "../../controls/form.js";
-import { el, set, setChildren, setText } from "../../dom.js";
+import { declaredForm, form } from "../../controls/form.js";
+import { el } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { ask } from "../../shell/dialog.js";
-import { watch } from "../../stores.js";
+import { each } from "../../signals.js";
+import { store } from "../../stores.js";
 import { tell, tellLive } from "../../tools/hint.js";
 import * as history from "./history.js";
 import { fixed } from "../../tools/numbers.js";
 import * as registry from "../../tools/registry.js";
 import * as preview from "../../tools/preview.js";
 import { yaml } from "../../tools/yaml.js";
-import { maker } from "../../panels/displays/properties.js";
 
-/** @import {Panel} from "../../types.js" */
+/** @import {Panel, SendProperty} from "../../types.js" */
 /** @import {SentGesture} from "./history.js" */
 
 const NONE = "Nothing sent from this page yet. Choose a tool over the scene.";
@@ -26,83 +26,48 @@ export const toolsPanel = {
   title: "Tools",
   order: 50,
   open(element) {
-    const sent = el("ol", { class: "wv-sent", "aria-label": "Sent from this page" });
-    const none = el("p", { class: "wv-sent-none" }, NONE);
-    const sections = el("div");
+    const rows = each(
+      history.all,
+      ({ number }) => number,
+      (entry) => sentRow(() => entry.value),
+    );
     element.append(
       el("h3", { class: "wv-tools-head" }, "Sent from this page"),
-      none,
-      sent,
+      el("p", { class: "wv-sent-none", hidden: () => history.all().length > 0 }, NONE),
+      el("ol", { class: "wv-sent", "aria-label": "Sent from this page" }, rows),
       el("h3", { class: "wv-tools-head" }, "Properties"),
-      sections,
+      el("div", {}, sections()),
     );
-    const endSent = showSent(sent, none);
-    const endSections = showProperties(sections);
-    return () => {
-      endSent();
-      endSections();
-      element.replaceChildren();
-    };
+    return () => element.replaceChildren();
   },
 };
 
-/**
- * @param {HTMLElement} list
- * @param {HTMLElement} none
- */
-function showSent(list, none) {
-  /** @type {Map<number, ReturnType<typeof sentRow>>} */
-  const rows = new Map();
-  const update = () => {
-    const entries = history.all();
-    const known = new Set(entries.map(({ number }) => number));
-    for (const number of rows.keys()) if (!known.has(number)) rows.delete(number);
-    setChildren(
-      list,
-      entries.map((entry) => {
-        const row = rows.get(entry.number) ?? sentRow();
-        rows.set(entry.number, row);
-        row.update(entry);
-        return row.element;
-      }),
-    );
-    none.hidden = entries.length > 0;
+/** @param {() => SentGesture} entry */
+function sentRow(entry) {
+  const place = () => {
+    const { points, yaw, tool, several, frame } = entry();
+    const [x, y, z] = points[0].map((number) => fixed(number, 2));
+    const heading = `yaw ${fixed((yaw * 180) / Math.PI, 1)}°`;
+    const where = [`x ${x} y ${y} z ${z}`, tool.gesture === "pose" && heading];
+    const parts = several ? [`${points.length} waypoints`, several] : where;
+    return [...parts, frame].filter(Boolean).join(" · ");
   };
-  update();
-  return history.onChange(update);
-}
-
-function sentRow() {
-  /** @type {SentGesture | null} */
-  let entry = null;
-  const head = el("span", { class: "wv-sent-head" });
-  const place = el("span", { class: "wv-sent-place" });
-  const result = el("span", { class: "wv-sent-result" });
-  const yamlButton = iconButton("copy", "Copy as YAML", () => entry && copyYaml(entry));
-  const element = el(
+  const head = () => `${entry().tool.name} · ${entry().time.toLocaleTimeString()}`;
+  return el(
     "li",
-    {},
-    el("div", { class: "wv-sent-text" }, head, place, result),
-    iconButton("refresh", "Send again", () => entry && sendAgain(entry)),
-    yamlButton,
+    { "data-level": () => entry().level || null },
+    el(
+      "div",
+      { class: "wv-sent-text" },
+      el("span", { class: "wv-sent-head" }, head),
+      el("span", { class: "wv-sent-place" }, place),
+      el("span", { class: "wv-sent-result" }, () => entry().text || "No result yet."),
+    ),
+    iconButton("refresh", "Send again", () => sendAgain(entry())),
+    iconButton("copy", "Copy as YAML", () => copyYaml(entry()), {
+      hidden: () => !entry().messages.length,
+    }),
   );
-  return {
-    element,
-    /** @param {SentGesture} next */
-    update(next) {
-      entry = next;
-      const [x, y, z] = next.points[0].map((number) => fixed(number, 2));
-      const heading = `yaw ${fixed((next.yaw * 180) / Math.PI, 1)}°`;
-      const isPose = next.tool.gesture === "pose";
-      const where = [`x ${x} y ${y} z ${z}`, isPose && heading];
-      const parts = next.several ? [`${next.points.length} waypoints`, next.several] : where;
-      setText(head, `${next.tool.name} · ${next.time.toLocaleTimeString()}`);
-      setText(place, [...parts, next.frame].filter(Boolean).join(" · "));
-      setText(result, next.text || "No result yet.");
-      set(element, { "data-level": next.level || null });
-      if (yamlButton.hidden !== !next.messages.length) yamlButton.hidden = !next.messages.length;
-    },
-  };
 }
 
 /**
@@ -141,60 +106,28 @@ function copyYaml({ messages }) {
   copyAndTell(texts.join("---\n"), "Copied as YAML.");
 }
 
-/**
- * One section per tool of the viewer; those of the page have no properties.
- *
- * @param {HTMLElement} place
- */
-function showProperties(place) {
-  /** @type {Map<string, ReturnType<typeof toolSection>>} */
-  const shown = new Map();
-  const update = () => {
-    const tools = registry.all().filter(({ gesture }) => gesture);
-    const ids = new Set(tools.map(({ id }) => id));
-    for (const [id, section] of shown) {
-      if (ids.has(id)) continue;
-      section.end();
-      shown.delete(id);
-    }
-    setChildren(
-      place,
-      tools.map(({ id, name }) => {
-        const section = shown.get(id) ?? toolSection(id);
-        shown.set(id, section);
-        setText(section.title, name);
-        return section.element;
-      }),
-    );
-  };
-  const end = registry.onChange(update);
-  update();
-  return () => {
-    end();
-    for (const section of shown.values()) section.end();
-  };
-}
+/** One section per tool of the viewer; those of the page have no properties. */
+const sections = () =>
+  each(
+    () => registry.all().filter(({ gesture }) => gesture),
+    ({ id }) => id,
+    (tool, id) =>
+      el(
+        "details",
+        { class: "wv-tool-properties", open: true },
+        el("summary", {}, () => tool.value.name),
+        el("div", {}, properties(id)),
+      ),
+  );
 
-/** @param {string} id */
-function toolSection(id) {
-  const title = el("summary");
-  const content = el("div");
-  /**
-   * @param {string} path
-   * @param {unknown} value
-   */
+/** @param {string} tool */
+function properties(tool) {
+  const values = store(`tool:${tool}`);
+  /** @type {SendProperty} */
   const send = (path, value) =>
-    act("SetToolProperty", { tool: id, path, value }, { quiet: true, errors: "caller" });
-  const made = maker(content, (declared, values) => {
-    return form(declared, { send, name: `tool.${values.get("type")}`, command: "SetToolProperty" });
-  });
-  const end = watch(`tool:${id}`, made.update);
-  return {
-    title,
-    element: el("details", { class: "wv-tool-properties", open: true }, title, content),
-    end() {
-      end();
-      made.end();
-    },
-  };
+    act("SetToolProperty", { tool, path, value }, { quiet: true, errors: "caller" });
+  const options = { values, send, command: "SetToolProperty" };
+  return declaredForm(values, (declared) =>
+    form(declared, { ...options, name: `tool.${values.get("type")}` }),
+  );
 }

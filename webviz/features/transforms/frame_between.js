@@ -2,13 +2,17 @@
 
 import { copyAndTell } from "../../clipboard.js";
 import { combobox } from "../../controls/combobox.js";
-import { el, set, setText } from "../../dom.js";
+import { el } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
-import { watch } from "../../stores.js";
+import { batch, computed, effect, signal } from "../../signals.js";
+import { store } from "../../stores.js";
 import { spanText } from "../../panels/units.js";
 
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {Stores} from "../../contents.js" */
+/** @import {StoreReader} from "../../types.js" */
+
+/** @typedef {StoreReader<Stores["between"]> | null} Values what is known of two frames that are chosen */
 
 const ROWS = {
   Translation: "x, y, z",
@@ -36,13 +40,20 @@ function number(value, digits) {
 const numbers = (values, digits, unit = "") =>
   values.map((value) => number(value, digits) + unit).join("  ");
 
-/** Returns `{element, offer(names), choose(source), close}`. */
-export function between() {
-  /** @type {() => void} */
-  let end = () => {};
-  const chosen = { target: "", source: "", ...recall("tf-between", {}) };
-  /** @type {string[]} */
-  let offered = [];
+/**
+ * Two frames to choose, and the transform between them.
+ *
+ * @param {() => string[]} names of all frames, read in effects
+ */
+export function between(names) {
+  const first = { target: "", source: "", ...recall("tf-between", {}) };
+  const chosen = { source: signal(first.source), target: signal(first.target) };
+  const source = () => chosen.source.value;
+  const target = () => chosen.target.value;
+  const values = () =>
+    target() && source() ? store(`between:${JSON.stringify([target(), source()])}`) : null;
+  const isThere = () => values()?.has("translation") ?? false;
+  effect(() => remember("tf-between", { target: target(), source: source() }));
 
   /**
    * @param {"source" | "target"} which
@@ -51,119 +62,67 @@ export function between() {
   const pick = (which, label) =>
     combobox({
       label,
-      value: chosen[which],
-      options: [],
+      value: () => chosen[which].value,
+      options: () => names().map((value) => ({ value })),
       placeholder: "Frame",
-      change: (value) => change(which, value),
+      change: (value) => (chosen[which].value = value),
+    }).element;
+  const swap = () =>
+    batch(() => {
+      const before = source();
+      chosen.source.value = target();
+      chosen.target.value = before;
     });
-  const boxes = { source: pick("source", "Frame"), target: pick("target", "In frame") };
-  const swap = iconButton("refresh", "Swap the frames", () => {
-    [chosen.target, chosen.source] = [chosen.source, chosen.target];
-    follow();
-  });
-  const copyButton = iconButton("copy", "Copy transform", copyAll, { tip: "Copy" });
-  const rows = Object.entries(ROWS).map(([name, title]) => {
-    const value = el("dd", { class: "wv-number" });
-    return {
-      name,
-      value,
-      element: el("div", { title }, el("dt", { class: "wv-quiet" }, name), value),
-    };
-  });
-  const list = el(
-    "dl",
-    { class: "wv-between-values", "aria-live": "off" },
-    rows.map((row) => row.element),
+  const shown = computed(() => textsOf(values()));
+  const copyAll = () => {
+    const lines = Object.entries(shown.value).map(([name, text]) => `${name}: ${text}`);
+    copyAndTell(`${source()} in ${target()}\n${lines.join("\n")}\n`);
+  };
+  const rows = Object.entries(ROWS).map(([name, title]) =>
+    el(
+      "div",
+      { title },
+      el("dt", { class: "wv-quiet" }, name),
+      el("dd", { class: "wv-number" }, () => shown.value[name]),
+    ),
   );
-  const note = el("div", { class: "wv-between-note wv-quiet", role: "status" });
-  const element = el(
+  const note = { class: "wv-between-note wv-quiet", role: "status" };
+  return el(
     "section",
     { class: "wv-between", "aria-label": "Transform between two frames" },
     el(
       "div",
       { class: "wv-between-frames" },
-      boxes.source.element,
+      pick("source", "Frame"),
       el("span", { class: "wv-quiet" }, "in"),
-      boxes.target.element,
-      swap,
-      copyButton,
+      pick("target", "In frame"),
+      iconButton("refresh", "Swap the frames", swap),
+      iconButton("copy", "Copy transform", copyAll, { tip: "Copy", disabled: () => !isThere() }),
     ),
-    list,
-    note,
+    el("dl", { class: "wv-between-values", "aria-live": "off", hidden: () => !isThere() }, rows),
+    el("div", { ...note, "data-level": () => (values()?.get("problem") ? "warn" : null) }, () =>
+      noteOf(values()),
+    ),
   );
+}
 
-  /**
-   * @param {"source" | "target"} which
-   * @param {string} value
-   */
-  function change(which, value) {
-    chosen[which] = value;
-    follow();
-  }
+/**
+ * @param {Values} values
+ * @returns {Record<string, string>}
+ */
+const textsOf = (values) => ({
+  Translation: `${numbers(values?.get("translation") ?? [], 3)} m`,
+  Quaternion: numbers(values?.get("rotation") ?? [], 4),
+  "Roll, pitch, yaw": numbers(values?.get("rpy") ?? [], 1, "°"),
+  Distance: `${number(values?.get("distance") ?? 0, 3)} m`,
+});
 
-  function follow() {
-    remember("tf-between", chosen);
-    offer(offered);
-    end();
-    end = () => {};
-    show(null);
-    if (chosen.target && chosen.source) {
-      end = watch(`between:${JSON.stringify([chosen.target, chosen.source])}`, (values) =>
-        show(values),
-      );
-    }
-  }
-
-  /** @param {ValuesOf<"between"> | null} values */
-  function show(values) {
-    const isThere = values?.has("translation") ?? false;
-    if (values && isThere) {
-      const texts = [
-        `${numbers(values.get("translation") ?? [], 3)} m`,
-        numbers(values.get("rotation") ?? [], 4),
-        numbers(values.get("rpy") ?? [], 1, "°"),
-        `${number(values.get("distance") ?? 0, 3)} m`,
-      ];
-      rows.forEach(({ value }, index) => setText(value, texts[index]));
-    }
-    set(list, { hidden: !isThere });
-    set(copyButton, { disabled: !isThere });
-    setText(note, noteOf(values));
-    set(note, { "data-level": values?.get("problem") ? "warn" : null });
-  }
-
-  /** @param {ValuesOf<"between"> | null} values */
-  function noteOf(values) {
-    if (!chosen.target || !chosen.source) return "Choose two frames to read out the transform.";
-    const problem = values?.get("problem");
-    if (problem !== undefined) return problem;
-    if (!values?.has("translation")) return "";
-    const age = values.get("age") ?? null;
-    return age === null
-      ? "Static."
-      : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
-  }
-
-  function copyAll() {
-    const text = rows.map(({ name, value }) => `${name}: ${value.textContent}`).join("\n");
-    copyAndTell(`${chosen.source} in ${chosen.target}\n${text}\n`);
-  }
-
-  /** @param {string[]} names */
-  function offer(names) {
-    offered = names;
-    const options = names.map((value) => ({ value }));
-    for (const which of /** @type {const} */ (["source", "target"]))
-      boxes[which].update({ value: chosen[which], options });
-  }
-
-  follow();
-  return {
-    element,
-    /** @param {string[]} names */
-    offer(names) {
-      if (names.join("\n") !== offered.join("\n")) offer(names);
-    },
-    close: () => end(),
-  };
+/** @param {Values} values */
+function noteOf(values) {
+  if (!values) return "Choose two frames to read out the transform.";
+  const problem = values.get("problem");
+  if (problem !== undefined) return problem;
+  if (!values.has("translation")) return "";
+  const age = values.get("age") ?? null;
+  return age === null ? "Static." : `At the newest common time, ${spanText(Math.max(0, age))} ago.`;
 }

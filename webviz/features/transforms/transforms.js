@@ -6,7 +6,7 @@ import { searchField } from "../../controls/fields.js";
 import { el, set, setText, showText } from "../../dom.js";
 import { icon, iconButton, textButton } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
-import { watch } from "../../stores.js";
+import { store, watch } from "../../stores.js";
 import { needs } from "../../access.js";
 import { foldByKey } from "../../panels/folds.js";
 import { panel } from "../../panels/panels.js";
@@ -74,7 +74,7 @@ const transforms = {
       facts,
       actions.map(({ button }) => button),
     );
-    const pair = between();
+    const pair = between(() => frameNames(store("transforms").all()));
     element.append(
       el(
         "div",
@@ -84,7 +84,7 @@ const transforms = {
         empty,
         list.element,
         detail,
-        pair.element,
+        pair,
       ),
     );
 
@@ -149,12 +149,10 @@ const transforms = {
     const end = watch("transforms", (all) => {
       values = all;
       show();
-      pair.offer(frameNames(all));
     });
     return () => {
       end();
       list.close();
-      pair.close();
     };
   },
 };

@@ -4,7 +4,7 @@ import * as channel from "./channel.js";
 import { batch, Source, untracked } from "./signals.js";
 
 /** @import {Reader} from "./signals.js" */
-/** @import {End, StoreReader, ValuesOf} from "./types.js" */
+/** @import {End, Named, StoreReader, ValuesOf} from "./types.js" */
 
 /** @type {Map<string, Store>} */
 const stores = new Map();
@@ -154,7 +154,7 @@ function storeOf(name) {
  *
  * @template {string} N
  * @param {N} name
- * @returns {StoreReader<N>}
+ * @returns {StoreReader<Named<N>>}
  */
 export const store = (name) => storeOf(name);
 

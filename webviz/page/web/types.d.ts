@@ -35,11 +35,11 @@ export type Named<N extends string> = N extends StoreName
 /** Values of a store by its name. */
 export type ValuesOf<N extends string> = StoreValues<Named<N>>;
 /** A store that is read in effects, whose values come later; see `store`. */
-export interface StoreReader<N extends string> {
-  get<K extends keyof Named<N>["own"]>(key: K): Named<N>["own"][K] | undefined;
-  get(key: string): Named<N>["items"] | undefined;
+export interface StoreReader<S extends { own: object; items: unknown }> {
+  get<K extends keyof S["own"]>(key: K): S["own"][K] | undefined;
+  get(key: string): S["items"] | undefined;
   has(key: string): boolean;
-  all(): ValuesOf<N>;
+  all(): StoreValues<S>;
 }
 
 /** The value of an attribute; null and undefined are none. */
@@ -74,24 +74,30 @@ export type Choice = { value: string; label?: string; note?: string; level?: str
 export type Known = LiveTopic | Record<string, number | string>;
 /** Sends the value of a property by its path; returns the promise of `act`. */
 export type SendProperty = (path: string, value: unknown) => unknown;
-/** The values of a form, by "value.", "offered." or "topic." and a path. */
-export type FormValues = { has(key: string): boolean; get(key: string): unknown };
-/** What a control is made with; see `control.js`. Its values are of the kind of its property. */
-export interface ControlOptions {
+/** The values of a form, by "value.", "offered." or "topic." and a path; they are read in effects. */
+export type FormValues = { get(key: string): any };
+/** What a control is made with; values are of the kind of its property, and read in effects. */
+export interface ControlOptions<T = any> {
   label: string;
-  change(value: unknown): unknown;
+  /** Its tooltip. */
+  help?: string;
+  /** What the viewer has, undefined before that is known. */
+  value(): T | undefined;
+  /** Sends what was entered; may return the promise of `act`. */
+  change(value: T): unknown;
+  /** Says why that means nothing, "" if all is well. */
   refused(text: string): void;
+  /** What messages tell of topics, and of switches whose names are "offered". */
+  known?(): Known | undefined;
+  /** What holds for switches of other names, for properties with an "otherwise". */
+  otherwise?(): unknown;
 }
 /** A control of a property; see `control.js`. */
 export interface Control {
   element: HTMLElement;
   focus(): void;
-  describe(text: string): void;
-  update(value: unknown): void;
+  /** Makes a label change the value when it is dragged. */
   handle?(label: HTMLElement): void;
-  live?(known: Known): void;
-  follow?(value: unknown): void;
-  end?(): void;
 }
 
 /** An object of three.js or of viser's page, which have no types here. */

@@ -7,21 +7,30 @@ import { textField } from "./fields.js";
 /** @import {Control, ControlOptions} from "../types.js" */
 /** @import {DeclaredProperty} from "../contents.js" */
 
+/** @typedef {number[]} Rgb */
+
 /**
  * A colour of three bytes, or null if that is the default: automatic; see `control.js`.
  *
  * @param {DeclaredProperty} property
- * @param {ControlOptions} options
+ * @param {ControlOptions<Rgb | null>} options
  * @returns {Control}
  */
 export function color({ default: standard }, options) {
-  const { label } = options;
+  const { label, help } = options;
   const isOptional = standard === null;
   const text = textField(`${label}, as text`, { placeholder: isOptional ? "automatic" : null });
-  const swatch = el("input", { class: "wv-swatch", type: "color", "aria-label": label });
+  /** @type {HTMLInputElement} */
+  const swatch = el("input", {
+    class: "wv-swatch",
+    type: "color",
+    "aria-label": label,
+    title: help,
+    oninput: () => field.put(parse(swatch.value)),
+  });
   const field = entry(text, {
     ...options,
-    encode: (/** @type {number[] | null} */ rgb) => rgb?.join(", ") ?? "",
+    encode: (rgb) => rgb?.join(", ") ?? "",
     decode: (typed) => (isOptional && !typed.trim() ? null : parse(typed)),
     after: () => {
       const shown = attempt(text.value);
@@ -29,15 +38,7 @@ export function color({ default: standard }, options) {
       set(swatch, { "data-automatic": isOptional && !text.value.trim() });
     },
   });
-  swatch.addEventListener("input", () => field.put(parse(swatch.value)));
-  return {
-    ...field,
-    element: el("div", { class: "wv-color" }, swatch, text),
-    describe(help) {
-      set(text, { title: help });
-      set(swatch, { title: help });
-    },
-  };
+  return { ...field, element: el("div", { class: "wv-color" }, swatch, text) };
 }
 
 /**

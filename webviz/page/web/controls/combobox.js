@@ -2,6 +2,7 @@
 
 import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
+import { computed, effect, signal, untracked } from "../signals.js";
 import { textField } from "./fields.js";
 import { listbox } from "./listbox.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
@@ -13,98 +14,97 @@ import { sync } from "./sync.js";
 /**
  * A field that calls `change(value)` with what was chosen or typed.
  *
- * Options are `{value, note, label, level}`: `note` stands quietly at the right, `label` is shown in
- * place of the value, `level` colours the note. `change` may return the promise of `act`: what it
- * refuses stays in the field for correction, `refused(text)` receives the reason. Unless `free`, only options
- * are taken. `opened()` is called when the list opens, and what it returns when it closes. Returns
- * `{element, input, restore(), update({value, options})}`.
+ * `value()` and `options(isOpen)`, whether the list is open, are read in effects. Options are
+ * `{value, note, label, level}`: `note` stands quietly at the right, `label` is shown in place of the
+ * value, `level` colours the note. `change` may return the promise of `act`: what it refuses stays in
+ * the field for correction, `refused(text)` receives the reason. Unless `free`, only options are taken.
+ * Returns `{element, focus(), restore()}`.
  *
  * @param {{
- *   label: string, value: string | Mixed, options: Choice[], change: (value: string) => unknown,
- *   refused?: (text: string) => void, free?: boolean, placeholder?: string,
- *   opened?: () => (() => void) | undefined,
+ *   label: string, value: () => string | Mixed, options: (isOpen: boolean) => Choice[],
+ *   change: (value: string) => unknown, refused?: (text: string) => void, free?: boolean,
+ *   placeholder?: string, help?: string,
  * }} options
  */
-export function combobox({
-  label,
-  value,
-  options,
-  change,
-  refused,
-  free = true,
-  placeholder = "",
-  opened = () => undefined,
-}) {
-  /** @type {(() => void) | undefined} */
-  let closed;
-  let current = value;
+export function combobox({ label, value, options: read, free = true, placeholder = "", ...rest }) {
+  const isOpen = signal(false);
+  /** @type {Choice[]} */
+  let last = [];
+  const options = computed(() => {
+    const next = read(isOpen.value);
+    if (JSON.stringify(next) !== JSON.stringify(last)) last = next;
+    return last;
+  });
+  let current = untracked(value);
   let isTyped = false; // since the list was opened or the last choice
 
+  /** @type {HTMLInputElement} */
   const input = textField(label, {
     role: "combobox",
-    "aria-expanded": "false",
     "aria-autocomplete": "list",
+    "aria-description": rest.help,
     autocomplete: "off",
     spellcheck: "false",
     placeholder,
+    onfocus: () => input.select(),
+    onclick() {
+      if (!isOpen.value) input.select();
+      open();
+    },
+    oninput() {
+      isTyped = true;
+      state.hold();
+      open(input.value);
+    },
+    onkeydown: press,
+    onblur: () => (isTyped ? take() : close()),
   });
   const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
-  const list = listbox(input, label, choose);
-  const element = el(
-    "div",
-    { class: "wv-combobox" },
-    input,
-    note,
-    icon("chevron", 12),
-    list.element,
-  );
-
-  /** @param {string | Mixed} wanted */
-  const option = (wanted) => options.find((one) => one.value === wanted);
-  /** @param {string | Mixed} wanted */
-  const textOf = (wanted) => (wanted === MIXED ? "" : (option(wanted)?.label ?? wanted));
+  const list = listbox(input, label, { isOpen, options, choose });
+  const isInvalid = () => input.getAttribute("aria-invalid") !== null;
   const state = sync({
-    /** @param {string | Mixed} shown */
+    ...rest,
+    value,
     show(shown) {
       current = shown;
       if (!isTyped) write();
     },
-    send: change,
     isFocused: () => input.matches(":focus"),
-    /** @param {string} text */
     refused(text) {
       set(input, { "aria-invalid": text ? "true" : null });
-      refused?.(text);
+      rest.refused?.(text);
     },
+  });
+  effect(() => {
+    if (options.value && !isTyped && !isInvalid()) untracked(write);
   });
 
   function write() {
-    const text = textOf(current);
+    const option = options.value.find((one) => one.value === current);
+    const text = current === MIXED ? "" : (option?.label ?? current);
     if (input.value !== text) input.value = text;
-    set(input, { placeholder: current === MIXED ? MIXED_TEXT : placeholder });
-    setText(note, option(current)?.note ?? "");
-    set(note, { "data-level": option(current)?.level });
-    set(input, { title: text.length > 24 ? text.slice(0, 1000) : null });
+    set(input, {
+      placeholder: current === MIXED ? MIXED_TEXT : placeholder,
+      title: text.length > 24 ? text.slice(0, 1000) : null,
+    });
+    setText(note, option?.note ?? "");
+    set(note, { "data-level": option?.level });
   }
 
   /** @param {string} [text] */
   function open(text) {
-    const wasOpen = list.isOpen();
-    if (wasOpen && text === undefined) return;
-    list.open(options, text === undefined ? current : null, text);
-    if (!wasOpen) closed = opened();
+    if (isOpen.value && text === undefined) return;
+    list.open(text === undefined ? current : null, text);
   }
 
   function close() {
-    list.close();
     isTyped = false;
-    closed?.();
-    closed = undefined;
+    isOpen.value = false;
   }
 
   /** @param {string} chosen */
   function choose(chosen) {
-    const isNew = chosen !== current || input.getAttribute("aria-invalid");
+    const isNew = chosen !== current || isInvalid();
     close();
     current = chosen;
     write();
@@ -115,7 +115,7 @@ export function combobox({
   // What was typed: an option by its text, or the text itself.
   function take() {
     const text = input.value.trim();
-    const exact = options.find((one) => (one.label ?? one.value) === text);
+    const exact = options.value.find((one) => (one.label ?? one.value) === text);
     if (exact) choose(exact.value);
     else if (free) choose(text);
     else if (list.first()) choose(list.first().value);
@@ -128,19 +128,11 @@ export function combobox({
     write();
   }
 
-  input.addEventListener("focus", () => input.select());
-  input.addEventListener("click", () => {
-    if (!list.isOpen()) input.select();
-    open();
-  });
-  input.addEventListener("input", () => {
-    isTyped = true;
-    state.hold();
-    open(input.value);
-  });
-  input.addEventListener("keydown", (event) => {
+  /** @param {KeyboardEvent} event */
+  function press(event) {
+    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key] ?? 0;
     if (event.key === "Escape") {
-      if (!list.isOpen() && !isTyped && !input.getAttribute("aria-invalid")) return;
+      if (!isOpen.value && !isTyped && !isInvalid()) return;
       back();
       input.select();
     } else if (event.key === "Enter") {
@@ -148,36 +140,17 @@ export function combobox({
       else if (isTyped) take();
       else return;
       input.select();
-    } else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
-      if (!list.isOpen()) open();
-      else list.move(event.key === "ArrowDown" ? 1 : -1);
-    } else if (list.isOpen() && (event.key === "PageDown" || event.key === "PageUp")) {
-      list.move(event.key === "PageDown" ? 8 : -8);
-    } else {
-      return;
-    }
+    } else if (step && isOpen.value) list.move(step);
+    else if (Math.abs(step) === 1) open();
+    else return;
     event.preventDefault();
     event.stopPropagation();
-  });
-  input.addEventListener("blur", () => {
-    if (isTyped) take();
-    else close();
-  });
+  }
 
-  write();
-  state.show(value);
   return {
-    element,
-    input,
+    element: el("div", { class: "wv-combobox" }, input, note, icon("chevron", 12), list.element),
+    focus: () => input.focus(),
     /** Shows what the viewer has instead of what it refused. */
     restore: back,
-    /** @param {{value?: string | Mixed, options?: Choice[]}} next */
-    update(next) {
-      if (next.options) {
-        options = next.options;
-        list.update(options);
-      }
-      state.show(next.value === undefined ? current : next.value);
-    },
   };
 }

@@ -1,11 +1,7 @@
 // Controls for each kind of property.
 //
-// A control is made by `(property, {label, change, refused})`: a property as `content/forms.py` declares
-// it; `change(value)` sends what was entered and returns the promise of `act`; `refused(text)` says why
-// that means nothing, "" if all is well. It has an `element`; `update(value)` shows what the viewer has,
-// unless it is being edited; `describe(text)` is its tooltip; `focus()`. Some have an `end()`; those
-// of properties with an "otherwise" get its value by `follow(value)`; topics, and switches whose names
-// are "offered", get what messages tell of them by `live(known)`.
+// A control is made by `(property, options)`: a property as `content/forms.py` declares it, and
+// `ControlOptions`. It follows the value that the viewer has, unless it is being edited.
 
 import { checkbox, choice, text } from "./simple.js";
 import { color } from "./color.js";

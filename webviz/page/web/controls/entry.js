@@ -11,18 +11,18 @@ const MAX_TEXT = 100_000;
 /**
  * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
  * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
- * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed, and
- * `take()` takes over what is typed so far.
+ * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed,
+ * `take()` takes over what is typed so far, and `current()` is what the field stands for.
  *
  * @template T
  * @template {HTMLInputElement | HTMLTextAreaElement} Field
  * @param {Field} field
  * @param {{
- *   change(value: T): unknown, refused: (text: string) => void, encode: (value: T) => string,
- *   decode: (text: string) => T, after?: () => void,
+ *   value: () => T | Mixed | undefined, change(value: T): unknown, refused: (text: string) => void,
+ *   encode: (value: T) => string, decode: (text: string) => T, after?: () => void, help?: string,
  * }} options
  */
-export function entry(field, { change, refused, encode, decode, after = () => {} }) {
+export function entry(field, { value, change, refused, encode, decode, after = () => {}, help }) {
   const isLong = field instanceof HTMLTextAreaElement;
   /** @type {T | Mixed | undefined} */
   let current;
@@ -31,14 +31,15 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
   /** @param {T | Mixed | undefined} value */
   const textOf = (value) => (value === MIXED ? "" : encode(/** @type {T} */ (value)));
 
-  set(field, { autocomplete: "off", spellcheck: "false" });
+  set(field, { autocomplete: "off", spellcheck: "false", title: help });
   const state = sync({
+    value,
     /** @param {T | Mixed} value */
     show(value) {
       current = value;
       write();
     },
-    send: change,
+    change,
     isFocused: () => field.matches(":focus"),
     /** @param {string} text */
     refused(text) {
@@ -110,11 +111,7 @@ export function entry(field, { change, refused, encode, decode, after = () => {}
   return {
     element,
     focus: () => field.focus(),
-    /** @param {string} text */
-    describe: (text) => set(field, { title: text }),
-    update: state.show,
-    edit: state.edit,
-    value: () => current,
+    current: () => current,
     isTyped: () => isTyped,
     take,
     put,

@@ -1,40 +1,31 @@
 // A frame: one of those there are, or any name.
 
-import { set } from "../dom.js";
-import { watch } from "../stores.js";
+import { store } from "../stores.js";
 import { combobox } from "./combobox.js";
 
-/** @import {Mixed} from "./mixed.js" */
 /** @import {Control, ControlOptions} from "../types.js" */
 /** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Mixed} from "./mixed.js" */
 
 export const FIXED_FRAME = "<Fixed Frame>";
+
+const frames = store("frames");
+
+/** The frames there are, as options of a combobox. */
+export const frameOptions = () => (frames.get("frames") ?? []).map((value) => ({ value }));
 
 /**
  * A field for a frame; see `control.js`. `isFixed`: it is the fixed frame itself.
  *
  * @param {DeclaredProperty & {isFixed?: boolean}} property
- * @param {ControlOptions} options
+ * @param {ControlOptions<string | Mixed>} options
  * @returns {Control}
  */
-export function frame({ isFixed = false, default: standard }, { label, change, refused }) {
+export function frame({ isFixed = false, default: standard }, options) {
   const first = isFixed ? [] : [{ value: FIXED_FRAME }];
-  const field = combobox({
-    label,
-    value: String(standard ?? ""),
-    options: first,
-    change,
-    refused,
-    opened: () =>
-      watch("frames", (values) => {
-        const frames = values.get("frames") ?? [];
-        field.update({ options: [...first, ...frames.map((value) => ({ value }))] });
-      }),
+  return combobox({
+    ...options,
+    value: () => options.value() ?? String(standard ?? ""),
+    options: (isOpen) => [...first, ...(isOpen ? frameOptions() : [])],
   });
-  return {
-    element: field.element,
-    focus: () => field.input.focus(),
-    describe: (text) => set(field.input, { "aria-description": text }),
-    update: (/** @type {string | Mixed} */ value) => field.update({ value }),
-  };
 }

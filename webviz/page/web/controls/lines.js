@@ -14,7 +14,7 @@ const MAX_ROWS = 12;
  * A field of several lines; see `control.js`.
  *
  * @param {DeclaredProperty} property
- * @param {ControlOptions} options
+ * @param {ControlOptions<Lines>} options
  * @returns {Control}
  */
 export function lines(property, options) {
@@ -30,7 +30,7 @@ export function lines(property, options) {
   };
   return entry(area, {
     ...options,
-    encode: (/** @type {Lines} */ value) => encode(property, value),
+    encode: (value) => encode(property, value),
     decode: (text) => decode(property, text),
     after: fit,
   });

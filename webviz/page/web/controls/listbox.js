@@ -1,22 +1,25 @@
 // The list below a combobox, over everything else.
 
 import { el, set } from "../dom.js";
+import { effect, owned, untracked } from "../signals.js";
 import { wordsOf } from "../words.js";
 
 /** @import {Choice} from "../types.js" */
 /** @import {Mixed} from "./mixed.js" */
+/** @import {Readable, Signal} from "../signals.js" */
 
 const MAX_SHOWN = 100;
 let count = 0;
 
 /**
- * A list of options for an input that is its combobox; `choose` is called with the value picked.
+ * A list of options for an input that is its combobox, there while `isOpen`; `choose` is called with
+ * the value picked.
  *
  * @param {HTMLInputElement} input
  * @param {string} label
- * @param {(value: string) => void} choose
+ * @param {{isOpen: Signal<boolean>, options: Readable<Choice[]>, choose: (value: string) => void}} options
  */
-export function listbox(input, label, choose) {
+export function listbox(input, label, { isOpen, options, choose }) {
   count += 1;
   const id = `wv-list-${count}`;
   // In the top layer, where neither the panel's edge nor a dialog cuts it off.
@@ -28,27 +31,24 @@ export function listbox(input, label, choose) {
     popover: "manual",
     onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
   });
-  set(input, { "aria-controls": id });
-  /** @type {Choice[]} */
-  let options = [];
+  set(input, { "aria-controls": id, "aria-expanded": () => String(isOpen.value) });
   /** @type {Choice[]} */
   let shown = [];
   let search = "";
   let active = -1;
-  let isOpen = false;
 
   function fill() {
     const chosen = shown[active]?.value;
     const words = wordsOf(search);
-    const matches = options.filter((one) => fits(one, words));
+    const matches = options.value.filter((one) => fits(one, words));
     shown = matches.slice(0, MAX_SHOWN);
     active = shown.findIndex(({ value }) => value === chosen);
-    element.replaceChildren(...shown.map(item));
-    if (matches.length > MAX_SHOWN) {
-      const more = `${matches.length - MAX_SHOWN} more. Type to search.`;
-      element.append(el("div", { class: "wv-list-more" }, more));
-    }
-    if (!shown.length) element.append(el("div", { class: "wv-list-more" }, "No match."));
+    const rest = matches.length - MAX_SHOWN;
+    const note = rest > 0 ? `${rest} more. Type to search.` : shown.length ? "" : "No match.";
+    element.replaceChildren(
+      ...shown.map(item),
+      ...(note ? [el("div", { class: "wv-list-more" }, note)] : []),
+    );
     mark();
   }
 
@@ -81,7 +81,7 @@ export function listbox(input, label, choose) {
   }
 
   function place() {
-    if (!input.isConnected) return hide();
+    if (!input.isConnected) return void (isOpen.value = false);
     const field = input.getBoundingClientRect();
     const below = innerHeight - field.bottom - 8;
     const isAbove = below < 160 && field.top > below;
@@ -92,50 +92,39 @@ export function listbox(input, label, choose) {
     element.style.bottom = isAbove ? `${innerHeight - field.top + 2}px` : "auto";
   }
 
-  function hide() {
-    if (!isOpen) return;
-    isOpen = false;
-    if (element.isConnected) element.hidePopover();
-    set(input, { "aria-expanded": "false", "aria-activedescendant": null });
-    removeEventListener("scroll", place, true);
-    removeEventListener("resize", place);
-  }
+  effect(() => {
+    if (!isOpen.value) return;
+    element.showPopover();
+    addEventListener("scroll", place, true);
+    addEventListener("resize", place);
+    owned(() => {
+      if (element.isConnected) element.hidePopover();
+      set(input, { "aria-activedescendant": null });
+      removeEventListener("scroll", place, true);
+      removeEventListener("resize", place);
+    });
+  });
+  effect(() => {
+    if (!isOpen.value) return;
+    fill();
+    untracked(place);
+  });
 
   return {
     element,
-    isOpen: () => isOpen,
-    close: hide,
     /**
      * Shows the options that fit a text, with one of them marked.
      *
-     * @param {Choice[]} all
      * @param {string | Mixed | null} value
      * @param {string} [text]
      */
-    open(all, value, text = "") {
-      options = all;
+    open(value, text = "") {
       search = text;
-      active = -1;
+      isOpen.value = true;
       fill();
       active = shown.findIndex((one) => one.value === value);
-      if (!isOpen) {
-        isOpen = true;
-        element.showPopover();
-        set(input, { "aria-expanded": "true" });
-        addEventListener("scroll", place, true);
-        addEventListener("resize", place);
-      }
       place();
       mark();
-    },
-    /** @param {Choice[]} all */
-    update(all) {
-      const isSame = JSON.stringify(all) === JSON.stringify(options);
-      options = all;
-      if (isOpen && !isSame) {
-        fill();
-        place();
-      }
     },
     /** @param {number} by */
     move(by) {

@@ -8,7 +8,10 @@ import { MIXED_TEXT } from "./mixed.js";
 import { format, parse, stepOf, within } from "./units.js";
 
 /** @import {ControlOptions} from "../types.js" */
+/** @import {Mixed} from "./mixed.js" */
 /** @import {NumberProperty} from "./units.js" */
+
+/** @typedef {ControlOptions<number | Mixed>} NumberOptions */
 
 /** @type {Record<string, number>} */
 const STEPS = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
@@ -19,9 +22,10 @@ const DOUBLE_PX = 70; // for what can only be positive, right doubles and left h
  * A field for a number; see `control.js`. `prefix` stands in it at the left, such as "X".
  *
  * @param {NumberProperty} property
- * @param {ControlOptions & {prefix?: string}} options
+ * @param {NumberOptions & {prefix?: string}} options
  */
-export function number(property, { label, change, refused, prefix = "" }) {
+export function number(property, options) {
+  const { label, prefix = "" } = options;
   const input = textField(label, {
     role: "spinbutton",
     inputmode: "decimal",
@@ -36,8 +40,7 @@ export function number(property, { label, change, refused, prefix = "" }) {
     property.unit && el("span", { class: "wv-number-unit", "aria-hidden": "true" }, property.unit),
   );
   const field = entry(input, {
-    change,
-    refused,
+    ...options,
     encode: format,
     decode(text) {
       const value = parse(text, property.unit);
@@ -45,7 +48,7 @@ export function number(property, { label, change, refused, prefix = "" }) {
       throw new Error(`Not changed: expected a whole number, got ${format(value)}.`);
     },
     after() {
-      const text = format(field.value());
+      const text = format(field.current());
       set(input, {
         "aria-valuenow": text,
         "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT,
@@ -55,7 +58,7 @@ export function number(property, { label, change, refused, prefix = "" }) {
 
   /** @param {KeyboardEvent} event */
   function step(event) {
-    const value = field.value();
+    const value = field.current();
     if (typeof value !== "number") return;
     const by = STEPS[event.key];
     const size = stepOf(property, value) * (property.kind !== "int" && event.altKey ? 0.1 : 1);
@@ -72,7 +75,7 @@ export function number(property, { label, change, refused, prefix = "" }) {
   });
   const dragged = {
     begin() {
-      const value = field.value();
+      const value = field.current();
       if (field.isTyped() || typeof value !== "number" || input.matches(":disabled")) return null;
       return { value, size: stepOf(property, value) };
     },

@@ -1,39 +1,49 @@
 // One property: its label, its control, and what leads back to the default.
 
 import { holder, why } from "../access.js";
-import { el, set, showText } from "../dom.js";
+import { el } from "../dom.js";
 import { icon } from "../icons.js";
+import { computed, signal } from "../signals.js";
 import { control } from "./control.js";
 import { bounds } from "./units.js";
 
 /** @import {DeclaredProperty} from "../contents.js" */
-/** @import {Known, SendProperty} from "../types.js" */
+/** @import {ControlOptions} from "../types.js" */
 
 /** @type {Partial<Record<DeclaredProperty["kind"], string>>} */
 const ITEMS = { dict: "One entry per line, name: value.", list: "One entry per line." };
 
-let count = 0;
-
 /**
- * A row for a property as `content/forms.py` declares it. `send(path, value)` sends it to the viewer, and
- * returns the promise of `act`. `marks`: whether it shows what differs from the default; `command`: see `form`. Returns
- * `{element, update(value), live(known), follow(value), end()}`.
+ * A row for a property as `content/forms.py` declares it; see `ControlOptions`. `marks`: whether it
+ * shows what differs from the default; `command`: see `form`.
  *
  * @param {DeclaredProperty} property
- * @param {SendProperty} send
- * @param {{marks?: boolean, command?: string}} [options]
+ * @param {Omit<ControlOptions, "label" | "refused"> & {marks: boolean, command: string}} options
  */
-export function row(property, send, { marks = true, command = "" } = {}) {
-  count += 1;
-  const id = `wv-refused-${count}`;
+export function row(property, { marks, command, ...options }) {
   const { path, label, kind, default: standard } = property;
-  const refusal = el("div", { class: "wv-refused", id, role: "alert", hidden: true });
-  /** @param {string} text */
-  const tell = (text) => {
-    showText(refusal, text);
-    set(element, { "aria-invalid": text ? "true" : null });
-  };
-  const made = control(property, { label, change: (value) => send(path, value), refused: tell });
+  const refusal = signal("");
+  const isChanged = computed(() => {
+    const value = options.value();
+    return marks && value !== undefined && JSON.stringify(value) !== JSON.stringify(standard);
+  });
+  const help = about(property);
+  const made = control(property, {
+    ...options,
+    label,
+    help,
+    refused: (text) => (refusal.value = text),
+  });
+  const name = el(
+    "span",
+    {
+      class: made.handle ? "wv-property-label wv-property-handle" : "wv-property-label",
+      title: help,
+      onclick: made.handle ? undefined : made.focus,
+    },
+    label,
+  );
+  made.handle?.(name);
   const reset = el(
     "button",
     {
@@ -41,54 +51,31 @@ export function row(property, send, { marks = true, command = "" } = {}) {
       class: "wv-icon wv-property-reset",
       title: standard === undefined ? null : `Reset to ${words(property, standard)}`,
       "aria-label": `Reset ${label}`,
-      hidden: true,
-      onclick: () => {
-        tell("");
-        send(path, standard);
+      hidden: () => !isChanged.value || standard === undefined || Boolean(command && why(command)),
+      onclick() {
+        refusal.value = "";
+        options.change(standard);
         made.focus();
       },
     },
     icon("reset", 14),
   );
-  const name = el("span", { class: "wv-property-label" }, label);
-  if (made.handle) {
-    made.handle(name);
-    name.classList.add("wv-property-handle");
-  } else name.addEventListener("click", () => made.focus());
-  const element = el(
+  return el(
     "div",
     {
       class: "wv-property",
       "data-kind": kind,
       "data-path": path,
+      "data-changed": isChanged,
       role: "group",
       "aria-label": label,
+      "aria-invalid": () => (refusal.value ? "true" : null),
     },
     name,
     holder(command, { class: "wv-property-control" }, made.element),
     reset,
-    refusal,
+    el("div", { class: "wv-refused", role: "alert", hidden: () => !refusal.value }, refusal),
   );
-  const tooltip = about(property);
-  set(name, { title: tooltip });
-  made.describe(tooltip);
-
-  return {
-    element,
-    /** @param {unknown} value */
-    update(value) {
-      made.update(value);
-      const isChanged = marks && JSON.stringify(value) !== JSON.stringify(standard);
-      set(element, { "data-changed": isChanged });
-      const isOffered = isChanged && standard !== undefined && !(command && why(command));
-      if (reset.hidden === isOffered) reset.hidden = !isOffered;
-    },
-    /** @param {Known} known */
-    live: (known) => made.live?.(known),
-    /** @param {unknown} value */
-    follow: (value) => made.follow?.(value),
-    end: () => made.end?.(),
-  };
 }
 
 /**

@@ -1,6 +1,6 @@
 // Controls that the browser has by itself: a check box, a list to choose from, a line of text.
 
-import { el, set } from "../dom.js";
+import { el } from "../dom.js";
 import { icon } from "../icons.js";
 import { entry } from "./entry.js";
 import { textField } from "./fields.js";
@@ -17,23 +17,23 @@ import { sync } from "./sync.js";
  * @param {ControlOptions} options
  * @returns {Control}
  */
-export function checkbox(_, { label, change, refused }) {
-  const input = el("input", { class: "wv-check", type: "checkbox", "aria-label": label });
+export function checkbox(_, options) {
+  /** @type {HTMLInputElement} */
+  const input = el("input", {
+    class: "wv-check",
+    type: "checkbox",
+    "aria-label": options.label,
+    title: options.help,
+    onchange: () => state.edit(input.checked),
+  });
   const state = sync({
+    ...options,
     show(value) {
       input.indeterminate = value === MIXED;
-      if (input.checked !== (value === true)) input.checked = value === true;
+      input.checked = value === true;
     },
-    send: change,
-    refused,
   });
-  input.addEventListener("change", () => state.edit(input.checked));
-  return {
-    element: input,
-    focus: () => input.focus(),
-    describe: (text) => set(input, { title: text }),
-    update: state.show,
-  };
+  return { element: input, focus: () => input.focus() };
 }
 
 /**
@@ -43,8 +43,14 @@ export function checkbox(_, { label, change, refused }) {
  * @param {ControlOptions} options
  * @returns {Control}
  */
-export function choice({ choices = [] }, { label, change, refused }) {
-  const select = el("select", { class: "wv-field", "aria-label": label });
+export function choice({ choices = [] }, options) {
+  /** @type {HTMLSelectElement} */
+  const select = el("select", {
+    class: "wv-field",
+    "aria-label": options.label,
+    title: options.help,
+    onchange: () => state.edit(offered[select.selectedIndex]),
+  });
   const mixed = el("option", { hidden: true }, MIXED_TEXT);
   let offered = choices;
 
@@ -56,7 +62,9 @@ export function choice({ choices = [] }, { label, change, refused }) {
     );
   }
 
+  offer(choices);
   const state = sync({
+    ...options,
     show(value) {
       mixed.remove();
       if (value === MIXED) {
@@ -68,16 +76,10 @@ export function choice({ choices = [] }, { label, change, refused }) {
       if (!offered.includes(value)) offer([...choices, value]);
       select.selectedIndex = offered.indexOf(value);
     },
-    send: change,
-    refused,
   });
-  select.addEventListener("change", () => state.edit(offered[select.selectedIndex]));
-  offer(choices);
   return {
     element: el("div", { class: "wv-choice" }, select, icon("chevron", 12)),
     focus: () => select.focus(),
-    describe: (text) => set(select, { title: text }),
-    update: state.show,
   };
 }
 

@@ -1,68 +1,62 @@
 // A number between two bounds: a slider, and a field beside it.
 
-import { el, set } from "../dom.js";
+import { el } from "../dom.js";
+import { effect, signal } from "../signals.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { number } from "./number.js";
 import { sync } from "./sync.js";
 import { stepOf } from "./units.js";
 
-/** @import {ControlOptions} from "../types.js" */
+/** @import {Mixed} from "./mixed.js" */
+/** @import {NumberOptions} from "./number.js" */
 /** @import {NumberProperty} from "./units.js" */
 
 /**
  * A slider; see `control.js`.
  *
  * @param {NumberProperty & {low: number, high: number}} property
- * @param {ControlOptions} options
+ * @param {NumberOptions} options
  */
 export function slider(property, options) {
-  const { label, change, refused } = options;
+  const { low, high } = property;
+  const shown = signal(/** @type {number | Mixed | undefined} */ (undefined));
+  const isMixed = () => shown.value === MIXED;
+  const state = sync({
+    ...options,
+    /** @param {number | Mixed} value */
+    show: (value) => (shown.value = value),
+  });
+  /** @type {HTMLInputElement} */
   const range = el("input", {
     class: "wv-slider",
     type: "range",
-    "aria-label": label,
-    min: property.low,
-    max: property.high,
+    "aria-label": options.label,
+    title: options.help,
+    min: low,
+    max: high,
     step: stepOf(property, 0),
+    "data-mixed": isMixed,
+    "aria-valuetext": () => (isMixed() ? MIXED_TEXT : null),
+    onpointerdown: state.hold,
+    onpointerup: state.release,
+    onpointercancel: state.release,
+    oninput: () => state.edit((shown.value = Number(range.value))),
   });
-  const field = number(property, { ...options, label: `${label}, as a number` });
-  const state = sync({
-    show(value) {
-      const isMixed = value === MIXED;
-      set(range, { "data-mixed": isMixed, "aria-valuetext": isMixed ? MIXED_TEXT : null });
-      const place = isMixed ? property.low : value;
-      if (Number(range.value) !== place) range.value = String(place);
-      fill();
-      field.update(value);
-    },
-    send: change,
-    refused,
-  });
-
-  // Where the value is, for the part of the track before it.
-  function fill() {
-    const share = (Number(range.value) - property.low) / (property.high - property.low);
+  effect(() => {
+    const place = isMixed() ? low : Number(shown.value ?? low);
+    if (Number(range.value) !== place) range.value = String(place);
+    // Where the value is, for the part of the track before it.
+    const share = (Number(range.value) - low) / (high - low);
     range.style.setProperty("--wv-share", `${100 * share}%`);
-  }
-
-  range.addEventListener("pointerdown", state.hold);
-  range.addEventListener("input", () => {
-    set(range, { "data-mixed": false, "aria-valuetext": null });
-    fill();
-    field.update(Number(range.value));
-    state.edit(Number(range.value));
   });
-  for (const name of ["pointerup", "pointercancel"]) range.addEventListener(name, state.release);
-
+  const field = number(property, {
+    ...options,
+    label: `${options.label}, as a number`,
+    value: () => shown.value,
+  });
   return {
     element: el("div", { class: "wv-slide" }, range, field.element),
     focus: () => range.focus(),
     handle: field.handle,
-    /** @param {string} text */
-    describe(text) {
-      set(range, { title: text });
-      field.describe(text);
-    },
-    update: state.show,
   };
 }

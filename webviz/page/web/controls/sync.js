@@ -4,6 +4,8 @@
 // over, it sends older values, which must not set the control back under the hand. So what comes from
 // outside waits during an edit, and a moment longer; then the newest is shown.
 
+import { effect, untracked } from "../signals.js";
+
 /** @import {Mixed} from "./mixed.js" */
 /** @import {Outcome} from "../types.js" */
 
@@ -12,21 +14,20 @@ const ANSWER_MS = 8000; // then it was lost with the connection
 const LOST = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
 
 /**
- * `show(value)` makes the control show a value. `send(value)` sends it to the viewer; it may return a
- * promise of `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is
- * well. A refused value stays for correction; once the control has lost the focus (`isFocused()`),
+ * `value()` is read in an effect: what the viewer has, undefined before that is known. `show(value)`
+ * makes the control show it. `change(value)` sends another to the viewer; it may return a promise of
+ * `{level, text}`. `refused(text)` says why the viewer did not take it, or "" that all is well. A refused value stays for correction; once the control has lost the focus (`isFocused()`),
  * until somebody else changes the value.
  *
  * @template T
  * @param {{
- *   show(value: T | Mixed): void, send: (value: T) => unknown, refused?: (text: string) => void,
- *   isFocused?: () => boolean,
+ *   value: () => T | Mixed | undefined, show(value: T | Mixed): void, change: (value: T) => unknown,
+ *   refused?: (text: string) => void, isFocused?: () => boolean,
  * }} control
  */
-export function sync({ show, send, refused = () => {}, isFocused = () => false }) {
+export function sync({ value, show, change, refused = () => {}, isFocused = () => false }) {
   /** @type {T | Mixed | undefined} */
   let newest;
-  let hasNewest = false;
   let isHeld = false;
   let isRefused = false;
   let timer = 0;
@@ -40,7 +41,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
     clearTimeout(timer);
     timer = setTimeout(() => {
       timer = 0;
-      if (!isBusy() && hasNewest) show(/** @type {T | Mixed} */ (newest));
+      showNewest();
     }, SETTLE_MS);
   }
 
@@ -58,7 +59,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
   async function next(value) {
     isUnderWay = true;
     const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
-    const answer = /** @type {Outcome | undefined} */ (await Promise.race([send(value), lost]));
+    const answer = /** @type {Outcome | undefined} */ (await Promise.race([change(value), lost]));
     isUnderWay = false;
     if (waiting) {
       const { value } = waiting;
@@ -70,19 +71,23 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
     }
   }
 
+  /** @param {T | Mixed} value that the viewer has */
+  function take(value) {
+    const isOther = newest !== undefined && JSON.stringify(value) !== JSON.stringify(newest);
+    if (isOther && isRefused && !isHeld && !isFocused()) tell("");
+    newest = value;
+    showNewest();
+  }
+
+  function showNewest() {
+    if (!isBusy() && newest !== undefined) show(newest);
+  }
+
+  effect(() => {
+    const now = value();
+    if (now !== undefined) untracked(() => take(now));
+  });
   return {
-    /**
-     * The value that the viewer has.
-     *
-     * @param {T | Mixed} value
-     */
-    show(value) {
-      const isOther = hasNewest && JSON.stringify(value) !== JSON.stringify(newest);
-      if (isOther && isRefused && !isHeld && !isFocused()) tell("");
-      newest = value;
-      hasNewest = true;
-      if (!isBusy()) show(value);
-    },
     /** Typing or dragging begins. */
     hold() {
       isHeld = true;
@@ -107,7 +112,7 @@ export function sync({ show, send, refused = () => {}, isFocused = () => false }
     cancel() {
       isHeld = false;
       if (isRefused) tell("");
-      if (!isBusy() && hasNewest) show(/** @type {T | Mixed} */ (newest));
+      showNewest();
     },
   };
 }

@@ -1,71 +1,45 @@
 // A topic: one of those that carry the right type, or any name.
 
-import { set } from "../dom.js";
-import { watch } from "../stores.js";
+import { store } from "../stores.js";
 import { combobox } from "./combobox.js";
 
-/** @import {Choice, Control, ControlOptions, ValuesOf} from "../types.js" */
+/** @import {Choice, Control, ControlOptions} from "../types.js" */
 /** @import {Mixed} from "./mixed.js" */
 /** @import {DeclaredProperty, LiveTopic, TopicOffer} from "../contents.js" */
 
 /**
- * A field for the name of a topic; see `control.js`. `live(known)` shows the rate it arrives at.
+ * A field for the name of a topic; see `control.js`. What is `known` has the rate it arrives at.
  *
  * @param {DeclaredProperty} property
- * @param {ControlOptions} options
+ * @param {ControlOptions<string | Mixed>} options
  * @returns {Control}
  */
-export function topic({ type, default: standard }, { label, change, refused }) {
-  /** @type {string | Mixed} */
-  let value = String(standard ?? "");
-  /** @type {number | null} */
-  let rate = null;
-  /** @type {ValuesOf<"topics_of">} */
-  let topics = new Map();
-
-  const options = () => {
-    /** @type {Choice[]} */
-    const all = [...topics].map(([name, known]) => ({ value: name, ...describe(known) }));
-    all.sort((a, b) => (a.value < b.value ? -1 : 1));
-    // While the list is shut the field has the note of its own topic.
-    const own = typeof value === "string" && !topics.has(value) ? value : null;
-    if (own !== null && rate !== null) all.push({ value: own, note: hertz(rate) });
-    return all;
-  };
-  const field = combobox({
-    label,
+export function topic({ type, default: standard }, options) {
+  const topics = store(`topics_of:${type}`);
+  const value = () => options.value() ?? String(standard ?? "");
+  return combobox({
+    ...options,
     value,
-    options: [],
-    change,
-    refused,
+    options(isOpen) {
+      /** @type {Choice[]} */
+      const all = isOpen
+        ? [...topics.all()].map(([name, offer]) => ({ value: name, ...describe(offer) }))
+        : [];
+      all.sort((a, b) => (a.value < b.value ? -1 : 1));
+      // While the list is shut the field has the note of its own topic.
+      const own = value();
+      const known = /** @type {LiveTopic | undefined} */ (options.known?.());
+      if (
+        typeof own === "string" &&
+        known &&
+        known.rate !== null &&
+        !all.some((one) => one.value === own)
+      )
+        all.push({ value: own, note: hertz(known.rate) });
+      return all;
+    },
     placeholder: "No topic",
-    opened: () => {
-      const end = watch(`topics_of:${type}`, (values) => {
-        topics = values;
-        field.update({ options: options() });
-      });
-      return () => {
-        end();
-        topics = new Map();
-        field.update({ options: options() });
-      };
-    },
   });
-  return {
-    element: field.element,
-    focus: () => field.input.focus(),
-    describe: (text) => set(field.input, { "aria-description": text }),
-    /** @param {string | Mixed} next */
-    update(next) {
-      value = next;
-      field.update({ value, options: options() });
-    },
-    /** @param {LiveTopic} known */
-    live(known) {
-      rate = known.rate;
-      if (!topics.size) field.update({ options: options() });
-    },
-  };
 }
 
 /** @param {TopicOffer} offer */

@@ -13,10 +13,10 @@ const AXES = ["X", "Y", "Z"];
  * A vector; see `control.js`.
  *
  * @param {DeclaredProperty} property
- * @param {ControlOptions} options
+ * @param {ControlOptions<(number | Mixed)[]>} options
  * @returns {Control}
  */
-export function vector(property, { label, change, refused }) {
+export function vector(property, { label, help, value, change, refused }) {
   let current = /** @type {(number | Mixed)[]} */ (property.default);
   /** @type {Map<number, string>} */
   const told = new Map();
@@ -24,7 +24,12 @@ export function vector(property, { label, change, refused }) {
     number(property, {
       label: `${label} ${AXES[index]}`,
       prefix: AXES[index],
-      /** @param {number} value */
+      help,
+      value() {
+        current = value() ?? current;
+        return current[index];
+      },
+      /** @param {number | Mixed} value */
       change(value) {
         current = current.with(index, value);
         return change(current);
@@ -43,11 +48,5 @@ export function vector(property, { label, change, refused }) {
       parts.map(({ element }) => element),
     ),
     focus: () => parts[0].focus(),
-    describe: (text) => parts.forEach((part) => part.describe(text)),
-    /** @param {(number | Mixed)[]} value */
-    update(value) {
-      current = value;
-      parts.forEach((part, index) => part.update(value[index]));
-    },
   };
 }

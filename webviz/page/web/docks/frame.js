@@ -2,8 +2,25 @@
 
 import { el, set, setText } from "../dom.js";
 import { iconButton } from "../icons.js";
+import { root } from "../signals.js";
 
-/** @import {Panel} from "../types.js" */
+/** @import {End, Panel} from "../types.js" */
+
+/**
+ * Opens a panel in an element; returns what ends it, with all effects that it has made.
+ *
+ * @param {Panel} panel
+ * @param {HTMLElement} element
+ * @returns {End}
+ */
+export const openIn = (panel, element) =>
+  root((end) => {
+    const close = panel.open(element);
+    return () => {
+      close?.();
+      end();
+    };
+  });
 
 /**
  * @param {Panel} panel
@@ -29,7 +46,7 @@ export function makeFrame(panel, { menu, full, close }) {
     head,
     body,
   );
-  const end = panel.open(body) ?? (() => {});
+  const end = openIn(panel, body);
   return {
     element,
     head,

@@ -2,11 +2,11 @@
 
 import { textButton } from "../icons.js";
 import { openPanel } from "../shell/layout.js";
-import { watch } from "../stores.js";
+import { store } from "../stores.js";
 
 /** @import {ShownFinding} from "../contents.js" */
-/** @typedef {(display: string, status?: string) => ShownFinding | undefined} Explaining */
 
+const findings = store("findings");
 let wanted = "";
 
 /**
@@ -24,24 +24,20 @@ export const isSevere = ({ level }) => level !== "ok";
 export const keyOf = ({ id, subject }) => `${id} ${subject}`;
 
 /**
- * Calls `listener(explaining)` now and after each change; `explaining(display, status)` returns the
- * finding to repair first of those that explain a status, or any status of the display without one.
- * The viewer as a whole is the display "". Returns what ends it.
+ * The finding to repair first of those that explain a status, or any status of the display without
+ * one; read in effects. The viewer as a whole is the display "".
  *
- * @param {(explaining: Explaining) => void} listener
+ * @param {string} display
+ * @param {string} [status]
  */
-export function onFindings(listener) {
-  return watch("findings", (values) => {
-    const all = values.get("all") ?? [];
-    listener((display, status) =>
-      all.find(({ explains }) =>
-        explains.some(
-          (one) => one.display === display && (status === undefined || one.status === status),
-        ),
+export const explaining = (display, status) =>
+  findings
+    .get("all")
+    ?.find(({ explains }) =>
+      explains.some(
+        (one) => one.display === display && (status === undefined || one.status === status),
       ),
     );
-  });
-}
 
 /**
  * A link that opens the doctor at a finding.

@@ -2,15 +2,14 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
-import { form } from "../controls/form.js";
-import { el, set, setChildren, showText } from "../dom.js";
+import { declaredForm, form } from "../controls/form.js";
+import { el, setChildren, showText } from "../dom.js";
 import { textButton } from "../icons.js";
 import { provide } from "../shell/commands.js";
-import { watch } from "../stores.js";
-import { maker } from "./displays/properties.js";
+import { store, watch } from "../stores.js";
 import { makeWidget } from "./plugin_widgets.js";
 
-/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {Panel, SendProperty, ValuesOf} from "../types.js" */
 /** @import {PanelType} from "../contents.js" */
 /** @import {Widget, WidgetValues} from "./plugin_widgets.js" */
 
@@ -61,8 +60,7 @@ function open(element, name) {
     "data-level": "error",
   });
   const place = el("div", { class: "wv-plugin-widgets" });
-  const [settings, endProperties] = properties(name);
-  element.append(el("div", { class: "wv-plugin" }, failure, place), ...settings);
+  element.append(el("div", { class: "wv-plugin" }, failure, place), ...properties(name));
   /** @type {Map<string, Widget & {kind: string}>} */
   const drawn = new Map();
 
@@ -94,55 +92,36 @@ function open(element, name) {
   });
   return () => {
     end();
-    endProperties();
     for (const widget of drawn.values()) widget.close?.();
   };
 }
 
 /**
- * The elements with the properties of a panel, and what ends them.
+ * The elements with the properties of a panel.
  *
- * @returns {[HTMLElement[], () => void]}
  * @param {string} name
  */
 function properties(name) {
-  let id = "";
-  /**
-   * @param {string} path
-   * @param {unknown} value
-   */
+  const values = store(`panel_properties:${name}`);
+  const id = () => values.get("id") ?? "";
+  /** @type {SendProperty} */
   const send = (path, value) =>
-    act("SetPanelProperty", { panel: id, path, value }, { quiet: true, errors: "caller" });
-  const place = el("div");
-  const settings = el(
-    "details",
-    { class: "wv-tool-properties", hidden: true },
-    el("summary", {}, "Properties"),
-    place,
+    act("SetPanelProperty", { panel: id(), path, value }, { quiet: true, errors: "caller" });
+  const options = { values, send, command: "SetPanelProperty" };
+  const fields = declaredForm(values, (declared) =>
+    form(declared, { ...options, name: `panel.${values.get("type")}` }),
   );
-  const remove = textButton("Remove panel", () => act("RemovePanel", { panel: id }), {
+  const remove = textButton("Remove panel", () => act("RemovePanel", { panel: id() }), {
     class: "wv-plugin-remove",
-    hidden: true,
-  });
-  needs("RemovePanel", remove);
-  const made = maker(place, (declared, values) => {
-    return form(declared, {
-      send,
-      name: `panel.${values.get("type")}`,
-      command: "SetPanelProperty",
-    });
-  });
-  const end = watch(`panel_properties:${name}`, (values, changed) => {
-    id = values.get("id") ?? "";
-    set(remove, { hidden: !id });
-    set(settings, { hidden: !values.get("declared")?.length });
-    if (id) made.update(values, changed);
+    hidden: () => !id(),
   });
   return [
-    [settings, remove],
-    () => {
-      end();
-      made.end();
-    },
+    el(
+      "details",
+      { class: "wv-tool-properties", hidden: () => !values.get("declared")?.length },
+      el("summary", {}, "Properties"),
+      el("div", {}, fields),
+    ),
+    needs("RemovePanel", remove),
   ];
 }

@@ -5,6 +5,7 @@ import { combobox } from "../controls/combobox.js";
 import { slider } from "../controls/slider.js";
 import { sync } from "../controls/sync.js";
 import { el, set, setChildren, setText } from "../dom.js";
+import { signal } from "../signals.js";
 
 /** @import {ValuesOf} from "../types.js" */
 
@@ -151,18 +152,17 @@ function checkbox(_, send) {
   const box = el("input", { type: "checkbox", onchange: () => state.edit(box.checked) });
   const text = el("span");
   const element = el("label", { class: "wv-plugin-check" }, box, text);
+  const shown = signal(/** @type {boolean | undefined} */ (undefined));
   const state = sync({
-    /** @param {boolean} value */
-    show(value) {
-      box.checked = value;
-    },
-    send,
+    value: () => shown.value,
+    show: (value) => (box.checked = value === true),
+    change: send,
   });
   /** @param {Labelled & {value: boolean}} values */
   function update({ label, hint, value }) {
     setText(text, label);
     set(element, { "data-tip": hint || null });
-    state.show(value);
+    shown.value = value;
   }
   return { element, update };
 }
@@ -189,13 +189,14 @@ function field(_, send) {
   const element = el("label", { class: "wv-plugin-line" }, name, input);
   /** @type {string | null} */
   let sent = null;
+  const shown = signal(/** @type {string | undefined} */ (undefined));
   const state = sync({
-    /** @param {string} value */
+    value: () => shown.value,
     show(value) {
-      sent = value;
-      if (input.value !== value) input.value = value;
+      sent = String(value);
+      if (input.value !== sent) input.value = sent;
     },
-    send,
+    change: send,
   });
   function enter() {
     clearTimeout(timer);
@@ -207,7 +208,7 @@ function field(_, send) {
   function update({ label, hint, value }) {
     setText(name, label);
     set(element, { "data-tip": hint || null });
-    state.show(value);
+    shown.value = value;
   }
   return { element, update };
 }
@@ -217,18 +218,23 @@ function field(_, send) {
  * @param {Send} send
  * @returns {Widget}
  */
-function choice({ label, value, options }, send) {
-  /** @param {string[]} values */
-  const named = (values) => values.map((each) => ({ value: each, label: each || "(none)" }));
-  const box = combobox({ label, value, options: named(options), change: send, free: false });
-  const name = el("span", { class: "wv-quiet" });
-  const element = el("div", { class: "wv-plugin-line" }, name, box.element);
-  /** @param {Choices} values */
-  function update(values) {
-    setText(name, values.label);
-    set(element, { "data-tip": values.hint || null });
-    box.update({ value: values.value, options: named(values.options) });
-  }
+function choice(values, send) {
+  const shown = signal(values);
+  const box = combobox({
+    label: values.label,
+    value: () => shown.value.value,
+    options: () => shown.value.options.map((value) => ({ value, label: value || "(none)" })),
+    change: send,
+    free: false,
+  });
+  const element = el(
+    "div",
+    { class: "wv-plugin-line", "data-tip": () => shown.value.hint || null },
+    el("span", { class: "wv-quiet" }, () => shown.value.label),
+    box.element,
+  );
+  /** @param {Choices} next */
+  const update = (next) => (shown.value = next);
   return { element, update };
 }
 
@@ -245,12 +251,14 @@ function sliders(_, send) {
   function make({ name, low, high, unit }) {
     /** @param {number} value */
     const change = (value) => send(`${value} ${name}`);
+    const shown = signal(/** @type {number | undefined} */ (undefined));
+    const value = () => shown.value;
     const control = slider(
       { kind: "float", low, high, unit },
-      { label: name, change, refused: () => {} },
+      { label: name, value, change: (value) => change(Number(value)), refused: () => {} },
     );
     const label = el("span", { class: "wv-plugin-slider-name", title: name }, name);
-    return { line: el("div", { class: "wv-plugin-line" }, label, control.element), control };
+    return { line: el("div", { class: "wv-plugin-line" }, label, control.element), shown };
   }
   /** @param {{slides: Slide[]}} values */
   function update({ slides }) {
@@ -260,7 +268,7 @@ function sliders(_, send) {
       const key = JSON.stringify([slide.name, slide.low, slide.high, slide.unit]);
       const one = before.get(key) ?? make(slide);
       made.set(key, one);
-      one.control.update(slide.value);
+      one.shown.value = slide.value;
     }
     setChildren(
       element,

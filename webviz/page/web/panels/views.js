@@ -1,19 +1,19 @@
 // The panel "Views": what this browser looks at, and the views that are saved for all.
 
 import { act } from "../act.js";
-import * as channel from "../channel.js";
-import { form } from "../controls/form.js";
+import { declaredForm, form } from "../controls/form.js";
 import { FIXED_FRAME } from "../controls/frame.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { openMenuBelow } from "../shell/menu.js";
+import { ownStore } from "../own_store.js";
+import { computed } from "../signals.js";
 import { watch } from "../stores.js";
-import { maker } from "./displays/properties.js";
 import { savedViews } from "./saved_views.js";
 
 /** @import {DeclaredProperty} from "../contents.js" */
 /** @import {MenuItem} from "../shell/menu.js" */
-/** @import {Panel} from "../types.js" */
+/** @import {Panel, SendProperty} from "../types.js" */
 
 /** @type {DeclaredProperty} */
 const TYPE = {
@@ -34,71 +34,41 @@ const TARGET = {
   help: "The camera moves with this frame.",
 };
 
-/** @type {() => void} */
-let watchAgain = () => {};
-// viser gives the page another id when it connects again.
-channel.onOpen(() => watchAgain());
-
 /** @type {Panel} */
 export const views = {
   name: "views",
   title: "Views",
   order: 20,
   open(element) {
-    /** @type {() => void} */
-    let endView = () => {};
-    /** @type {ReturnType<typeof form> | null} */
-    let head = null;
-    /**
-     * @param {string} key
-     * @param {unknown} value
-     */
+    const values = ownStore("view");
+    /** @type {SendProperty} */
     const send = (key, value) =>
       act("ChangeView", { key, value }, { quiet: true, errors: "caller" });
-    const options = { send, name: "view", marks: false };
-    const [common, own] = [el("div"), el("div")];
-    const numbers = maker(own, (declared) =>
+    const options = { values, send, name: "view", marks: false };
+    const types = computed(() => JSON.stringify(values.get("types") ?? null));
+    const common = () => {
+      const choices = JSON.parse(types.value);
+      return choices && form([{ ...TYPE, choices }, TARGET], options);
+    };
+    const own = declaredForm(values, (declared) =>
       form(
         declared.filter(({ path }) => path !== TARGET.path),
         options,
       ),
     );
     const saved = savedViews();
+    const title = el("h2", { class: "wv-view-title" }, "Current view");
     element.append(
       el(
         "section",
         { class: "wv-view", "aria-label": "Current view" },
-        el(
-          "div",
-          { class: "wv-view-head" },
-          el("h2", { class: "wv-view-title" }, "Current view"),
-          buttons(),
-        ),
-        common,
-        own,
+        el("div", { class: "wv-view-head" }, title, buttons()),
+        el("div", {}, common),
+        el("div", {}, own),
       ),
       saved.element,
     );
-    watchAgain = () => {
-      endView();
-      endView = watch(`view:${window.webviz.browser}`, (values, changed) => {
-        if (!values.has("declared")) return;
-        if (!head) {
-          head = form([{ ...TYPE, choices: values.get("types") }, TARGET], options);
-          common.append(head.element);
-        }
-        head.update(values, changed);
-        numbers.update(values, changed);
-      });
-    };
-    if (channel.isOpen()) watchAgain();
-    const end = watch("views", (values) => saved.update(values.get("saved")));
-    return () => {
-      end();
-      endView();
-      numbers.end();
-      watchAgain = () => {};
-    };
+    return watch("views", (values) => saved.update(values.get("saved")));
   },
 };
 

@@ -3,6 +3,7 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import * as docks from "../docks/docks.js";
+import { openIn } from "../docks/frame.js";
 import { el, set, setChildren, setText } from "../dom.js";
 import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
@@ -91,7 +92,7 @@ export function tabs() {
     if (!panel) return;
     set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
     remember("tab", panel.name);
-    close = panel.open(content) ?? (() => {});
+    close = openIn(panel, content);
   }
 
   /**

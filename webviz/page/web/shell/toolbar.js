@@ -2,11 +2,13 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
-import * as channel from "../channel.js";
 import { combobox } from "../controls/combobox.js";
-import { el, set, setText } from "../dom.js";
+import { frameOptions } from "../controls/frame.js";
+import { el } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
-import { watch } from "../stores.js";
+import { ownStore } from "../own_store.js";
+import { effect, signal } from "../signals.js";
+import { store } from "../stores.js";
 import { actions, item } from "./actions.js";
 import { command } from "./commands.js";
 import { FIXED, follow } from "./follow.js";
@@ -16,29 +18,38 @@ import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
 import { VIEW_TYPES, savedMenu, saveView, setType, typeMenu } from "./view_menus.js";
 
-/** @import {Choice} from "../types.js" */
+/** @import {Child, Choice} from "../types.js" */
 
-/** @type {{type: string, target: string, frame: string, frames: string[], views: string[]}} */
-const shown = { type: "", target: FIXED, frame: "", frames: [], views: [] };
+const settings = store("settings");
+const fixedFrame = () => settings.get("fixed_frame") ?? "";
+const saved = () => settings.get("views") ?? [];
+/** @type {Choice[]} */
+const NO_TARGET = [{ value: FIXED, label: "No target" }];
 
 /** @param {{toolbar: HTMLElement, status: HTMLElement}} places */
 export function install(places) {
   tools.install();
+  const view = viewOfPage();
   const open = iconButton("menu", "Show the panels", () => fold(false), {
     class: "wv-icon wv-unfold",
     "data-key": "Ctrl+b",
   });
-  const type = button("orbit", "", "View", () => openMenuBelow(type, typeMenu(shown.type)));
-  const views = button("bookmark", "Saved views", "Saved views", () =>
-    openMenuBelow(views, savedMenu(saved)),
+  const name = el("span", { class: "wv-bar-name" }, view.type);
+  const type = button("orbit", "", () => openMenuBelow(type, typeMenu(view.type.value)), name);
+  const views = button(
+    "bookmark",
+    "Saved views",
+    () => openMenuBelow(views, savedMenu(saved)),
+    el("span", { class: "wv-bar-name" }, "Saved views"),
   );
-  const fixed = frameField("Fixed frame", "axes", () => shown.frame, fixedOptions, setFixed);
-  needs("SetFixedFrame", fixed.element);
-  const target = frameField("Follow", "follow", () => shown.target, targetOptions, follow);
-  const image = button("camera", null, actions.image.name, actions.image.run);
-  const full = button("fullscreen", null, actions.fullscreen.name, actions.fullscreen.run);
-  const more = button("dots", null, "More", () => openMenuBelow(more, bar.hiddenItems()));
-  const line = el("span", { class: "wv-bar-line" });
+  const setFixed = (/** @type {string} */ frame) => act("SetFixedFrame", { frame });
+  const fixed = frameField("Fixed frame", "axes", fixedFrame, frameOptions, setFixed);
+  const targets = () => [...NO_TARGET, ...frameOptions()];
+  const target = frameField("Follow", "follow", () => view.target.value, targets, follow);
+  const image = button("camera", actions.image.name, actions.image.run);
+  const full = button("fullscreen", actions.fullscreen.name, actions.fullscreen.run);
+  const more = button("dots", "More", () => openMenuBelow(more, bar.hiddenItems()));
+  const parts = [type, views, needs("SetFixedFrame", fixed), target, image, full, more];
   const element = el(
     "div",
     {
@@ -48,18 +59,8 @@ export function install(places) {
       onkeydown: walk,
     },
     el("div", { class: "wv-bar-part" }, open, tools.icons, tools.buttons),
-    line,
-    el(
-      "div",
-      { class: "wv-bar-part wv-bar-view" },
-      type,
-      views,
-      fixed.element,
-      target.element,
-      image,
-      full,
-      more,
-    ),
+    el("span", { class: "wv-bar-line", hidden: () => !tools.hasButtons() }),
+    el("div", { class: "wv-bar-part wv-bar-view" }, parts),
   );
   // The frames and the tools that act on the robot stay, however little room the scene has.
   /** @type {ReturnType<typeof fit>} */
@@ -71,42 +72,45 @@ export function install(places) {
     "wv-wrapped",
     { element: tools.icons, items: () => tools.iconItems() },
     { element: views, items: () => savedMenu(saved) },
-    { element: type, items: () => typeMenu(shown.type) },
+    { element: type, items: () => typeMenu(view.type.value) },
     "wv-stacked",
   ]);
   places.toolbar.append(element, tools.cards, tools.hint);
   bar.watch(places.toolbar);
-  // What stands at the right keeps its space.
-  new ResizeObserver(() => {
-    places.toolbar.style.setProperty("--wv-status", `${places.status.offsetWidth}px`);
-  }).observe(places.status);
-  // In a narrow scene it stands below.
-  new ResizeObserver(() => {
-    document.documentElement.style.setProperty("--wv-bar", `${element.offsetHeight}px`);
-  }).observe(element);
-
-  const update = () => {
-    const name = type.querySelector(".wv-bar-name");
-    if (name) setText(name, shown.type);
-    set(type, { "aria-label": `View: ${shown.type}`, "data-tip": `View type: ${shown.type}` });
-    line.hidden = !tools.buttons.children.length;
-    fixed.update();
-    target.update();
-    bar.layout();
-  };
-  tools.onTools(update);
-  watch("settings", (settings) => {
-    shown.frame = settings.get("fixed_frame") ?? "";
-    shown.views = settings.get("views") ?? [];
-    update();
+  measure(places.status, places.toolbar, "--wv-status", "offsetWidth"); // it keeps its space
+  measure(element, document.documentElement, "--wv-bar", "offsetHeight"); // below in a narrow scene
+  effect(() => {
+    const label = `View type: ${view.type.value}`;
+    type.ariaLabel = `View: ${view.type.value}`;
+    type.dataset.tip = label;
+    if (tools.all()) bar.layout();
   });
-  watch("frames", (frames) => {
-    shown.frames = frames.get("frames") ?? [];
-    update();
-  });
-  watchView(update);
-  addCommands(fixed.element, target.element);
+  addCommands(fixed, target);
 }
+
+/** Signals: the type of the view of this page and the frame it follows, the last that were known. */
+function viewOfPage() {
+  const view = ownStore("view_type");
+  const [type, target] = [signal(""), signal(FIXED)];
+  effect(() => {
+    type.value = view.get("type") ?? type.value;
+    target.value = view.get("target_frame") ?? target.value;
+  });
+  return { type, target };
+}
+
+/**
+ * Keeps a size of an element in a property of styles.
+ *
+ * @param {HTMLElement} measured
+ * @param {HTMLElement} place
+ * @param {string} property
+ * @param {"offsetWidth" | "offsetHeight"} size
+ */
+const measure = (measured, place, property, size) =>
+  new ResizeObserver(() => place.style.setProperty(property, `${measured[size]}px`)).observe(
+    measured,
+  );
 
 /**
  * @param {HTMLElement} fixed
@@ -146,45 +150,14 @@ function addCommands(fixed, target) {
 }
 
 /**
- * viser gives the page another id when it connects again.
- *
- * @param {() => void} update
- */
-function watchView(update) {
-  /** @type {() => void} */
-  let end = () => {};
-  const begin = () => {
-    end();
-    end = watch(`view_type:${window.webviz.browser}`, (view) => {
-      shown.type = view.get("type") ?? shown.type;
-      shown.target = view.get("target_frame") ?? shown.target;
-      update();
-    });
-  };
-  channel.onOpen(begin);
-  if (channel.isOpen()) begin();
-}
-
-const saved = () => shown.views;
-/** @param {string} frame */
-const setFixed = (frame) => act("SetFixedFrame", { frame });
-/** @returns {Choice[]} */
-const fixedOptions = () => shown.frames.map((value) => ({ value }));
-/** @returns {Choice[]} */
-const targetOptions = () => [
-  { value: FIXED, label: "No target" },
-  ...shown.frames.map((value) => ({ value })),
-];
-
-/**
  * @param {string} iconName
- * @param {string | null} label
  * @param {string} tip
  * @param {() => unknown} run
+ * @param {Child} [name]
  */
-function button(iconName, label, tip, run) {
+function button(iconName, tip, run, name) {
   const made = iconButton(iconName, tip, run, { class: "wv-icon wv-bar-button" });
-  if (label !== null) made.append(el("span", { class: "wv-bar-name" }, label));
+  if (name) made.append(name);
   return made;
 }
 
@@ -196,17 +169,15 @@ function button(iconName, label, tip, run) {
  * @param {(frame: string) => unknown} change
  */
 function frameField(label, iconName, value, options, change) {
+  /** @type {ReturnType<typeof combobox>} */
   const field = combobox({
     label,
-    value: value(),
-    options: options(),
+    value,
+    options,
     change,
     refused: (text) => text && field.restore(),
   });
-  return {
-    element: el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element),
-    update: () => field.update({ value: value(), options: options() }),
-  };
+  return el("div", { class: "wv-bar-field", "data-tip": label }, icon(iconName), field.element);
 }
 
 /** @param {HTMLElement} field */

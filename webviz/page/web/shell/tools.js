@@ -1,25 +1,31 @@
 // The tools in the toolbar: their buttons and keys, and the pointer while one is active.
 
-import { el, set, setChildren } from "../dom.js";
+import { el } from "../dom.js";
 import * as gesture from "../handles/gesture.js";
 import * as glow from "../handles/glow.js";
 import { icon } from "../icons.js";
-import { listeners } from "../listeners.js";
 import { focusCamera, interact, moveCamera } from "../tools/camera.js";
 import { hint, tell } from "../tools/hint.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
 import * as selecting from "../tools/select.js";
 import * as preview from "../tools/preview.js";
+import { each, effect } from "../signals.js";
 import { canvas } from "../viser_page.js";
 import { command, provide } from "./commands.js";
 import { keyText } from "./keys.js";
 
+/** @import {Signal} from "../signals.js" */
 /** @import {SceneEvent, Tool} from "../types.js" */
 
+/** All tools in the order of the toolbar; read in effects. */
+export const all = registry.all;
+/** Whether there are tools besides those that are icons. */
+export const hasButtons = () => all().some(({ isLean }) => !isLean);
+
 /** The buttons of the tools; those that are icons may go into a menu. */
-export const buttons = el("div", { class: "wv-tools", role: "group", "aria-label": "Tools" });
-export const icons = el("div", { class: "wv-tools", role: "group", "aria-label": "Camera" });
+export const buttons = group("Tools", (tool) => !tool.isLean);
+export const icons = group("Camera", (tool) => tool.isLean === true);
 /** The area below the toolbar, which features fill. */
 export const cards = el("div", { class: "wv-cards" });
 export { hint };
@@ -31,17 +37,8 @@ const EVENTS = /** @type {const} */ ([
   "pointercancel",
   "wheel",
 ]);
-const changes = listeners();
-/** @type {Map<string, HTMLButtonElement>} */
-const made = new Map();
-/** @type {Tool | null} */
-let active = null;
-
-/** Calls a listener whenever there are other tools. */
-export const onTools = changes.on;
 
 export function install() {
-  registry.onChange(update);
   registry.setDefault(interact);
   registry.provide("page", [interact, moveCamera, selecting.select, focusCamera, measure]);
   gesture.install();
@@ -72,24 +69,10 @@ export function install() {
     run: preview.send,
     isThere: () => preview.isWaiting() && !document.activeElement?.closest("button"),
   });
+  effect(() => tell("hint", registry.active()?.hint ?? ""));
   for (const name of EVENTS) {
     window.addEventListener(name, onPointer, { capture: true, passive: false });
   }
-}
-
-function update() {
-  if (active !== registry.active()) {
-    active = registry.active();
-    tell("hint", active?.hint ?? "");
-  }
-  const count = () => icons.children.length + buttons.children.length;
-  const before = count();
-  const [lean, named] = [true, false].map((isLean) =>
-    registry.all().filter((tool) => Boolean(tool.isLean) === isLean),
-  );
-  setChildren(icons, lean.map(buttonOf));
-  setChildren(buttons, named.map(buttonOf));
-  if (count() !== before) changes.tell();
 }
 
 /** The tools that are icons, as items of a menu. */
@@ -105,29 +88,40 @@ export const iconItems = () =>
       run: () => registry.toggle(tool),
     }));
 
-/** @param {Tool} tool */
+/**
+ * @param {string} label
+ * @param {(tool: Tool) => boolean} fits
+ */
+function group(label, fits) {
+  const made = each(
+    () => all().filter(fits),
+    ({ id }) => id,
+    buttonOf,
+  );
+  return el("div", { class: "wv-tools", role: "group", "aria-label": label }, made);
+}
+
+/** @param {Signal<Tool>} tool */
 function buttonOf(tool) {
-  const button = made.get(tool.id) ?? el("button", { type: "button", class: "wv-tool" });
-  made.set(tool.id, button);
-  const { name, tooltip, shortcut, isLean, refusal } = tool;
-  const text = JSON.stringify([name, tooltip, shortcut, refusal]);
-  if (button.dataset.tool !== text) {
-    button.dataset.tool = text;
-    set(button, {
+  const name = () => tool.value.name;
+  const key = () => tool.value.shortcut;
+  const isActive = () => tool.value.id === registry.active()?.id;
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-tool",
       "aria-label": name,
-      "data-tip": `${name}: ${refusal || tooltip}`,
-      "aria-disabled": refusal ? "true" : null,
-      "data-key": shortcut || null,
-    });
-    const key = shortcut ? [el("kbd", {}, keyText(shortcut))] : [];
-    button.replaceChildren(
-      icon(tool.icon),
-      ...(isLean ? [] : [el("span", { class: "wv-tool-name" }, name), ...key]),
-    );
-  }
-  button.onclick = () => registry.toggle(tool);
-  set(button, { "aria-pressed": String(tool.id === registry.active()?.id) });
-  return button;
+      "data-tip": () => `${name()}: ${tool.value.refusal || tool.value.tooltip}`,
+      "aria-disabled": () => (tool.value.refusal ? "true" : null),
+      "aria-pressed": () => String(isActive()),
+      "data-key": () => key() || null,
+      onclick: () => registry.toggle(tool.value),
+    },
+    () => icon(tool.value.icon),
+    () => (tool.value.isLean ? null : el("span", { class: "wv-tool-name" }, name())),
+    () => (tool.value.isLean || !key() ? null : el("kbd", {}, keyText(key() ?? ""))),
+  );
 }
 
 /** @param {SceneEvent} event */

@@ -7,19 +7,16 @@
 // `isLean`, whether its button is an icon only.
 // Interact is the default.
 
-import { listeners } from "../listeners.js";
+import { batch, computed, effect, signal, untracked } from "../signals.js";
 import { canvas } from "../viser_page.js";
 import { tell } from "./hint.js";
 
-/** @import {Tool} from "../types.js" */
+/** @import {End, Tool} from "../types.js" */
 
-const changes = listeners();
-/** @type {Map<string, Tool[]>} */
-const sets = new Map();
-/** @type {Tool | null} */
-let fallback = null;
-/** @type {Tool | null} */
-let current = null;
+const sets = signal(/** @type {Map<string, Tool[]>} */ (new Map()));
+const ordered = computed(() => [...sets.value.values()].flat().sort((a, b) => a.order - b.order));
+const fallback = signal(/** @type {Tool | null} */ (null));
+const current = signal(/** @type {Tool | null} */ (null));
 
 /**
  * Replaces the tools that come from one origin. A gesture goes on if its tool is still there.
@@ -28,25 +25,22 @@ let current = null;
  * @param {Tool[]} tools
  * @returns {void}
  */
-export function provide(origin, tools) {
-  sets.set(origin, tools);
-  const known = all();
-  const id = current?.id;
-  if (!current || known.includes(current)) return changes.tell();
-  const same = known.find((tool) => tool.id === id);
-  if (same && !same.refusal) {
-    current = same;
-    return changes.tell();
-  }
-  select(null);
-  if (same?.refusal) tell("warn", same.refusal);
-}
+export const provide = (origin, tools) =>
+  batch(() => {
+    sets.value = new Map(sets.value).set(origin, tools);
+    const before = current.value;
+    if (!before || all().includes(before)) return;
+    const same = all().find((tool) => tool.id === before.id);
+    if (same && !same.refusal) current.value = same;
+    else select(null);
+    if (same?.refusal) tell("warn", same.refusal);
+  });
 
 /** All tools in the order of the toolbar. */
-export const all = () => [...sets.values()].flat().sort((a, b) => a.order - b.order);
+export const all = () => ordered.value;
 
-export const active = () => current;
-export const isDefault = () => current === fallback;
+export const active = () => current.value;
+export const isDefault = () => current.value === fallback.value;
 
 /**
  * Makes a tool the one to go back to.
@@ -54,7 +48,7 @@ export const isDefault = () => current === fallback;
  * @param {Tool} tool
  */
 export function setDefault(tool) {
-  fallback = current = tool;
+  fallback.value = current.value = tool;
 }
 
 /**
@@ -65,11 +59,12 @@ export function setDefault(tool) {
  */
 export function select(tool) {
   if (tool?.refusal) return tell("warn", tool.refusal);
-  current?.leave?.();
-  current = tool ?? fallback;
-  canvas().style.cursor = current?.cursor ?? "";
-  current?.select?.();
-  changes.tell();
+  batch(() => {
+    current.value?.leave?.();
+    current.value = tool ?? fallback.value;
+    canvas().style.cursor = current.value?.cursor ?? "";
+    current.value?.select?.();
+  });
 }
 
 /**
@@ -77,7 +72,18 @@ export function select(tool) {
  *
  * @param {Tool} tool
  */
-export const toggle = (tool) => select(tool === current ? null : tool);
+export const toggle = (tool) => select(tool === current.value ? null : tool);
 
-/** Calls a listener when tools change or another one is active; returns what ends it. */
-export const onChange = changes.on;
+/**
+ * Calls a listener when tools change or another one is active; returns what ends it.
+ *
+ * @param {() => void} listener
+ * @returns {End}
+ */
+export function onChange(listener) {
+  let isFirst = true;
+  return effect(() => {
+    if (all() && active() !== undefined && !isFirst) untracked(listener);
+    isFirst = false;
+  });
+}

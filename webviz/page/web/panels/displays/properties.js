@@ -1,15 +1,14 @@
 // Statuses and properties of a display, and what holds for the viewer as a whole.
 
 import { act } from "../../act.js";
-import { form } from "../../controls/form.js";
+import { declaredForm, form } from "../../controls/form.js";
 import { el } from "../../dom.js";
-import { watch } from "../../stores.js";
+import { root } from "../../signals.js";
+import { store } from "../../stores.js";
 import { statuses } from "./statuses.js";
 
-/** @import {DeclaredProperty, RemedyButton, StatusLine, WorstStatus} from "../../contents.js" */
-/** @import {FormValues, Outcome, Vec3} from "../../types.js" */
-
-/** @typedef {ReturnType<typeof form>} Form */
+/** @import {DeclaredProperty, StatusLine, WorstStatus} from "../../contents.js" */
+/** @import {End, Outcome, SendProperty, Vec3} from "../../types.js" */
 
 const LEVELS = ["ok", "warn", "error"];
 const QUIET = /** @type {const} */ ({ quiet: true, errors: "caller" });
@@ -26,114 +25,72 @@ const SETTINGS = {
  * @param {HTMLElement} element
  * @param {string} id
  */
-export function properties(element, id) {
-  /**
-   * @param {string} path
-   * @param {unknown} value
-   */
-  const send = (path, value) => act("SetProperty", { display: id, path, value }, QUIET);
-  const said = statuses({
-    display: id,
-    open: (show) =>
-      watch(`statuses:${id}`, (values) =>
-        show(values.get("statuses") ?? [], values.get("more") ?? 0),
+export const properties = (element, id) =>
+  filled(element, () => {
+    const values = store(`properties:${id}`);
+    const lines = store(`statuses:${id}`);
+    /** @type {SendProperty} */
+    const send = (path, value) => act("SetProperty", { display: id, path, value }, QUIET);
+    const options = { values, send, command: "SetProperty" };
+    return [
+      statuses({
+        display: id,
+        worst: () => values.get("worst"),
+        lines: () => lines.get("statuses") ?? [],
+        more: () => lines.get("more") ?? 0,
+      }),
+      el(
+        "div",
+        {},
+        declaredForm(values, (declared) =>
+          form(declared, { ...options, name: String(values.get("type")) }),
+        ),
       ),
+    ];
   });
-  const place = el("div");
-  element.append(said.element, place);
-  const made = maker(place, (declared, values) =>
-    form(declared, { send, name: String(values.get("type")), command: "SetProperty" }),
-  );
-  const end = watch(`properties:${id}`, (values, changed) => {
-    if (changed.has("worst")) said.worst(values.get("worst"));
-    made.update(values, changed);
-  });
-  return () => {
-    end();
-    made.end();
-    said.end();
-    element.replaceChildren();
-  };
-}
 
 /**
  * Fills an element with what holds for the whole viewer; returns what ends it.
  *
  * @param {HTMLElement} element
  */
-export function globalOptions(element) {
-  /**
-   * @param {string} path
-   * @param {unknown} value
-   */
-  const send = (path, value) => SETTINGS[path](value);
-  /** @type {((lines: StatusLine[], more: number) => void) | null} */
-  let show = null;
-  /** @type {[StatusLine[], number]} */
-  let lines = [[], 0];
-  const said = statuses({
-    display: "",
-    /** @param {(lines: StatusLine[], more: number) => void} listener */
-    open(listener) {
-      show = listener;
-      show(...lines);
-      return () => {
-        show = null;
-      };
-    },
+export const globalOptions = (element) =>
+  filled(element, () => {
+    const values = store("settings");
+    const lines = () => values.get("statuses") ?? [];
+    /** @type {SendProperty} */
+    const send = (path, value) => SETTINGS[path](value);
+    const options = { values, send, name: "settings", command: "SetFixedFrame" };
+    return [
+      statuses({
+        display: "",
+        worst: () => worst(lines()),
+        lines,
+        more: () => values.get("more") ?? 0,
+      }),
+      el(
+        "div",
+        {},
+        declaredForm(values, (declared) => form(declared.map(withFrame), options)),
+      ),
+    ];
   });
-  const place = el("div");
-  element.append(said.element, place);
-  const made = maker(place, (declared) =>
-    form(declared.map(withFrame), {
-      send,
-      name: "settings",
-      command: "SetFixedFrame",
-    }),
-  );
-  const end = watch("settings", (values, changed) => {
-    if (changed.has("statuses")) {
-      lines = [values.get("statuses"), values.get("more")];
-      said.worst(worst(lines[0]));
-      show?.(...lines);
-    }
-    made.update(values, changed);
-  });
-  return () => {
-    end();
-    made.end();
-    said.end();
-    element.replaceChildren();
-  };
-}
 
 /**
- * Makes the form anew when something else is declared, and keeps it up to date; `end()` ends it.
+ * Fills an element; returns what ends it and empties the element.
  *
- * @param {HTMLElement} place
- * @param {(declared: DeclaredProperty[], values: FormValues) => Form} make
+ * @param {HTMLElement} element
+ * @param {() => HTMLElement[]} make
+ * @returns {End}
  */
-export function maker(place, make) {
-  /** @type {Form | null} */
-  let shown = null;
-  let declared = "";
-  /**
-   * @param {FormValues & {keys(): Iterable<string>}} values
-   * @param {Set<string>} changed
-   */
-  function update(values, changed) {
-    const now = JSON.stringify(values.get("declared") ?? []);
-    const isNew = now !== declared;
-    if (isNew) {
-      declared = now;
-      shown?.end();
-      shown = make(JSON.parse(now), values);
-      place.replaceChildren(shown.element);
-    }
-    shown?.update(values, isNew ? new Set(values.keys()) : changed);
-  }
-  return { update, end: () => shown?.end() };
-}
+export const filled = (element, make) =>
+  root((end) => {
+    element.append(...make());
+    return () => {
+      end();
+      element.replaceChildren();
+    };
+  });
 
 /**
  * @param {DeclaredProperty} property

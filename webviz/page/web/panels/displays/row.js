@@ -4,14 +4,15 @@ import { why } from "../../access.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
+import { effect, signal } from "../../signals.js";
 import { watch } from "../../stores.js";
-import { onFindings } from "../findings.js";
+import { explaining } from "../findings.js";
 import { globalOptions, properties } from "./properties.js";
 import { fillHelp } from "./statuses.js";
 
-/** @import {Explaining} from "../findings.js" */
 /** @import {Item} from "./types.js" */
 /** @import {RemedyButton} from "../../contents.js" */
+/** @import {Signal} from "../../signals.js" */
 
 /**
  * @typedef {{
@@ -79,10 +80,8 @@ export function makeRow(first, look) {
   let inside = null;
   /** @type {(() => void) | null} */
   let unwatch = null;
-  /** @type {{said: string, status?: string, remedy: RemedyButton | null}} */
-  let shown = { said: "", remedy: null };
-  /** @type {Explaining} */
-  let explaining = () => undefined;
+  /** @type {Signal<{said: string, status?: string, remedy: RemedyButton | null}>} */
+  const shown = signal({ said: "", remedy: null });
 
   /**
    * @param {boolean} isShown
@@ -100,12 +99,6 @@ export function makeRow(first, look) {
       element.append(place);
       inside = { place, end: isGlobal ? globalOptions(place) : properties(place, id) };
     }
-  }
-
-  // Without a line the viewer says it on top, or the group's displays do.
-  function showHelp() {
-    const finding = shown.said ? explaining(isGlobal ? "" : id, shown.status) : undefined;
-    fillHelp(remedy, shown.said ? shown.remedy : null, finding);
   }
 
   /** @param {boolean} isShown */
@@ -154,8 +147,11 @@ export function makeRow(first, look) {
     setText(line, said);
     set(line, { "data-tip": said || null, hidden: !said });
     // A group repeats a status of a display in it.
-    shown = { said, status: item.isGroup ? undefined : item.status, remedy: item.remedy ?? null };
-    showHelp();
+    shown.value = {
+      said,
+      status: item.isGroup ? undefined : item.status,
+      remedy: item.remedy ?? null,
+    };
     if (isGlobal) setText(note, sanitized(item.note ?? ""));
     else showRate(hasRate && item.topics.length > 0);
     showInside(isOpen && !item.isGroup, item);
@@ -168,9 +164,10 @@ export function makeRow(first, look) {
   }
 
   update(first);
-  const forget = onFindings((each) => {
-    explaining = each;
-    showHelp();
+  // Without a line the viewer says it on top, or the group's displays do.
+  const forget = effect(() => {
+    const { said, status, remedy: own } = shown.value;
+    fillHelp(remedy, said ? own : null, said ? explaining(isGlobal ? "" : id, status) : undefined);
   });
   return { element, row, name, update, close };
 }

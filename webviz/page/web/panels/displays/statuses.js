@@ -2,15 +2,13 @@
 
 import { needs } from "../../access.js";
 import { act } from "../../act.js";
-import { el, set, setChildren, setText } from "../../dom.js";
+import { el, set } from "../../dom.js";
 import { icon, textButton } from "../../icons.js";
-import { findingLink, keyOf, onFindings } from "../findings.js";
+import { computed, each, effect, signal } from "../../signals.js";
+import { explaining, findingLink, keyOf } from "../findings.js";
 
 /** @import {Commands} from "../../messages.js" */
-/** @import {Explaining} from "../findings.js" */
 /** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
-
-/** @typedef {(lines: StatusLine[], more: number) => void} ShowLines */
 
 let count = 0;
 
@@ -58,114 +56,70 @@ export function fillHelp(element, remedy, finding) {
 /**
  * Statuses that are folded while all is well, until they are unfolded by hand.
  *
- * `open(listener)` is called while they are unfolded, and returns what ends that; the listener gets
- * `lines`: `[key, level, text, remedy]`, and how many `more` there are; a remedy is
- * `{label, command, arguments}`, what a click can do about it. `display` is the id of the display, ""
- * for the viewer; statuses that a finding explains have a link to it. Returns `{element, worst(line), end()}`.
+ * All are read in effects: `worst()` decides what is folded, and nothing is shown without; `lines()`,
+ * read while they are unfolded, are `[key, level, text, remedy]`, with how many `more()` there are; a
+ * remedy is `{label, command, arguments}`, what a click can do about it. `display` is the id of the
+ * display, "" for the viewer; statuses that a finding explains have a link to it.
  *
- * @param {{open: (listener: ShowLines) => () => void, display: string}} options
+ * @param {{
+ *   display: string, worst: () => WorstStatus | null | undefined, lines: () => StatusLine[],
+ *   more: () => number,
+ * }} options
  */
-export function statuses({ open, display }) {
+export function statuses({ display, worst, lines, more }) {
   count += 1;
-  const list = el("ul", { class: "wv-statuses-lines", id: `wv-statuses-${count}` });
-  const note = el("span", { class: "wv-status-note" });
+  const id = `wv-statuses-${count}`;
+  const chosen = signal(/** @type {boolean | null} */ (null));
+  const level = () => worst()?.level ?? "ok";
+  const isOpen = computed(() => chosen.value ?? level() !== "ok");
   const toggle = el(
     "button",
     {
       type: "button",
       class: "wv-section-fold wv-status-head",
-      "aria-controls": list.id,
-      onclick: () => {
-        chosen = list.hidden === true;
-        unfold();
-      },
+      "aria-controls": id,
+      "aria-expanded": () => String(isOpen.value),
+      "data-level": level,
+      onclick: () => (chosen.value = !isOpen.value),
     },
     icon("chevron", 12),
     "Status",
     el("span", { class: "wv-dot", "aria-hidden": "true" }),
-    note,
+    el("span", { class: "wv-status-note" }, () => {
+      const line = worst();
+      return line && level() !== "ok" ? `${line.key}: ${line.text}` : "OK";
+    }),
   );
-  const element = el("section", { class: "wv-statuses", "aria-label": "Status" }, toggle, list);
-  /** @type {boolean | null} */
-  let chosen = null;
-  let level = "ok";
-  /** @type {(() => void) | null} */
-  let close = null;
+  const list = el(
+    "ul",
+    { class: "wv-statuses-lines", id, hidden: () => !isOpen.value },
+    each(
+      () => (isOpen.value ? lines().entries() : []),
+      ([index]) => index,
+      (item) => lineOf(display, () => item.value[1]),
+    ),
+    () => (isOpen.value && more() ? el("li", { class: "wv-quiet" }, `and ${more()} more`) : null),
+  );
+  const attributes = { class: "wv-statuses", "aria-label": "Status", hidden: () => !worst() };
+  return el("section", attributes, toggle, list);
+}
 
-  function unfold() {
-    const isOpen = chosen ?? level !== "ok";
-    if (isOpen === Boolean(close)) return;
-    list.hidden = !isOpen;
-    set(toggle, { "aria-expanded": String(isOpen) });
-    close?.();
-    close = isOpen ? opened() : null;
-  }
-
-  function opened() {
-    /** @type {[StatusLine[], number]} */
-    let said = [[], 0];
-    /** @type {Explaining} */
-    let explaining = () => undefined;
-    const update = () => show(...said, explaining);
-    const ends = [
-      open((lines, more) => {
-        said = [lines, more];
-        update();
-      }),
-      onFindings((each) => {
-        explaining = each;
-        update();
-      }),
-    ];
-    return () => ends.forEach((end) => end());
-  }
-
-  /**
-   * @param {StatusLine[]} lines
-   * @param {number} more
-   * @param {Explaining} explaining
-   */
-  function show(lines, more, explaining) {
-    const items = lines.map((line, index) =>
-      fill(list.children[index] ?? item(), line, explaining),
-    );
-    const rest = more ? [el("li", { class: "wv-quiet" }, `and ${more} more`)] : [];
-    setChildren(list, [...items, ...rest]);
-  }
-
-  /**
-   * @param {Element} element
-   * @param {StatusLine} line
-   * @param {Explaining} explaining
-   */
-  function fill(element, [key, own, text, remedy], explaining) {
-    const [name, said, helps] = element.children;
-    const finding = own === "ok" || own === "idle" ? undefined : explaining(display, key);
-    set(element, { "data-level": own });
-    setText(name, `${key}: `);
-    setText(said, text);
-    fillHelp(/** @type {HTMLElement} */ (helps), remedy, finding);
-    return element;
-  }
-
-  const item = () => el("li", {}, el("b"), el("span"), el("span"));
-
-  set(toggle, { "aria-expanded": "false" });
-  list.hidden = true;
-  return {
-    element,
-    /**
-     * The worst line, null for none; it decides what is folded.
-     *
-     * @param {WorstStatus | null | undefined} line
-     */
-    worst(line) {
-      element.hidden = !line;
-      level = line?.level ?? "ok";
-      set(toggle, { "data-level": level });
-      setText(note, line && level !== "ok" ? `${line.key}: ${line.text}` : "OK");
-      unfold();
-    },
-    end: () => close?.(),
-  };
+/**
+ * @param {string} display
+ * @param {() => StatusLine} line
+ */
+function lineOf(display, line) {
+  const help = el("span");
+  effect(() => {
+    const [key, level, , remedy] = line();
+    const isFault = level !== "ok" && level !== "idle";
+    fillHelp(help, remedy, isFault ? explaining(display, key) : undefined);
+  });
+  return el(
+    "li",
+    { "data-level": () => line()[1] },
+    el("b", {}, () => `${line()[0]}: `),
+    el("span", {}, () => line()[2]),
+    help,
+  );
 }
