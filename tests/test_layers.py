@@ -173,6 +173,39 @@ def test_no_modules_of_the_page_import_each_other_in_a_circle() -> None:
     assert list(graphlib.TopologicalSorter(graph).static_order())
 
 
+PAGE_FOLDERS = (
+    "",
+    "controls",
+    "docks",
+    "scene",
+    "charts",
+    "tools",
+    "handles",
+    "panels",
+    "timeline",
+    "images",
+    "shell",
+    "overlay",
+    "recorded",
+)
+"""Folders of the page's modules, each of which imports only itself and those before it."""
+PAGE_ENTRIES = {"main.js", "extensions.js"}
+"""Modules that start the others, and that hand them to plug-ins."""
+
+
+def test_the_folders_of_the_page_import_in_one_direction() -> None:
+    graph = modules_of_the_page()
+    own = {name for name in graph if not name.startswith("features/")} - PAGE_ENTRIES
+    ranks = {name: PAGE_FOLDERS.index(name.split("/")[0] if "/" in name else "") for name in own}
+    wrong = {
+        (name, other)
+        for name in own
+        for other in graph[name]
+        if other in PAGE_ENTRIES or ranks.get(other, 0) > ranks[name]
+    }
+    assert not wrong
+
+
 def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None:
     wrong = {
         (name, other)

@@ -100,7 +100,7 @@ def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
     """Where a point of the fixed frame is in the window."""
     x, y = page.tab.evaluate(
         """async (point) => {
-          const { frameNode, projectionOf } = await import("/webviz/handles/projection.js");
+          const { frameNode, projectionOf } = await import("/webviz/scene/projection.js");
           return projectionOf(frameNode("")).project(point);
         }""",
         list(point),

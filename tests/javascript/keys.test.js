@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { keyOf, keyText } from "../../webviz/page/web/shell/keys.js";
+import { keyOf, keyText } from "../../webviz/page/web/keys.js";
 import * as keys from "../../webviz/features/driving/teleop_keys.js";
 
 const press = (code, more = {}, canGoSideways = true) =>
@@ -25,7 +25,7 @@ test("on a Mac Ctrl is the command key", async () => {
     value: { platform: "MacIntel" },
     configurable: true,
   });
-  const mac = await import(`${import.meta.resolve("../../webviz/page/web/shell/keys.js")}?mac`);
+  const mac = await import(`${import.meta.resolve("../../webviz/page/web/keys.js")}?mac`);
   Object.defineProperty(globalThis, "navigator", here);
   assert.equal(mac.keyText("Ctrl+z"), "⌘+Z");
   assert.equal(keyText("Ctrl+z"), "Ctrl+Z");

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { inWords, rounded } from "../../webviz/page/web/overlay/lengths.js";
 import { checkedName } from "../../webviz/page/web/shell/file_names.js";
-import { search } from "../../webviz/page/web/shell/option_list.js";
+import { search } from "../../webviz/page/web/controls/option_list.js";
 
 test("a file name without a known suffix becomes YAML", () => {
   const names = {

@@ -3,8 +3,8 @@ import { test } from "node:test";
 
 import { bytesText, rateText, sizeText, spanText } from "../../webviz/page/web/panels/units.js";
 import { sanitized } from "../../webviz/page/web/sanitize.js";
-import { duration, timeOfDay } from "../../webviz/page/web/shell/time_text.js";
-import { fixed } from "../../webviz/page/web/tools/numbers.js";
+import { duration, timeOfDay } from "../../webviz/page/web/time_text.js";
+import { fixed } from "../../webviz/page/web/numbers.js";
 import { yaml } from "../../webviz/page/web/tools/yaml.js";
 import { wordsOf } from "../../webviz/page/web/words.js";
 

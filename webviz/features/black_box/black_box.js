@@ -5,9 +5,9 @@ import { act } from "../../act.js";
 import { copy } from "../../clipboard.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
-import { openMenu } from "../../shell/menu.js";
+import { openMenu } from "../../controls/menu.js";
 import { timeBarButton } from "../../shell/time_bar.js";
-import { toast } from "../../shell/toasts.js";
+import { toast } from "../../toasts.js";
 import { watch } from "../../stores.js";
 import { savedText } from "../../timeline/saved_text.js";
 

@@ -4,7 +4,7 @@
 // is let go.
 
 import * as channel from "../../channel.js";
-import { isTyping, takeKeys } from "../../shell/commands.js";
+import { isTyping, takeKeys } from "../../commands.js";
 import { places } from "../../shell/shell.js";
 import { watch } from "../../stores.js";
 import { gesture } from "../../tools/gestures.js";

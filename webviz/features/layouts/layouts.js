@@ -4,10 +4,10 @@ import { act } from "../../act.js";
 import { clear, savedLayouts } from "../../docks/docks.js";
 import { openWindow } from "../../docks/windows.js";
 import { submenu } from "../../shell/actions.js";
-import { provide } from "../../shell/commands.js";
-import { askName } from "../../shell/dialog.js";
+import { provide } from "../../commands.js";
+import { askName } from "../../controls/dialog.js";
 
-/** @import {MenuItem} from "../../shell/menu.js" */
+/** @import {MenuItem} from "../../controls/menu.js" */
 
 /** @returns {(MenuItem | null)[]} */
 function menu() {

@@ -4,9 +4,9 @@ import { needs } from "../../access.js";
 import { act } from "../../act.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
-import { provide } from "../../shell/commands.js";
+import { provide } from "../../commands.js";
 import { timeBarButton } from "../../shell/time_bar.js";
-import { duration } from "../../shell/time_text.js";
+import { duration } from "../../time_text.js";
 import { watch } from "../../stores.js";
 
 /** @import {RunningRecording} from "../../contents.js" */

@@ -3,8 +3,8 @@
 import { act } from "../../act.js";
 import { el, setText } from "../../dom.js";
 import { action } from "../../shell/actions.js";
-import { openDialog } from "../../shell/dialog.js";
-import { toast } from "../../shell/toasts.js";
+import { openDialog } from "../../controls/dialog.js";
+import { toast } from "../../toasts.js";
 import * as selection from "../../tools/selection.js";
 import { canvas } from "../../viser_page.js";
 import { restore } from "./reported.js";

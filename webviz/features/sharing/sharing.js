@@ -5,9 +5,9 @@ import { act } from "../../act.js";
 import { el, set, setText } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { action } from "../../shell/actions.js";
-import { openDialog } from "../../shell/dialog.js";
+import { openDialog } from "../../controls/dialog.js";
 import { timeBarButton } from "../../shell/time_bar.js";
-import { toast } from "../../shell/toasts.js";
+import { toast } from "../../toasts.js";
 import { watch } from "../../stores.js";
 
 /** @import {ValuesOf} from "../../types.js" */

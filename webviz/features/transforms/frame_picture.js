@@ -3,7 +3,7 @@
 import { searchField } from "../../controls/fields.js";
 import { el, set, setText } from "../../dom.js";
 import { listenToPanning } from "../../panning.js";
-import { openDialog } from "../../shell/dialog.js";
+import { openDialog } from "../../controls/dialog.js";
 import { watch } from "../../stores.js";
 import { wordsOf } from "../../words.js";
 import { boxAt, draw, HEIGHT, layOut } from "./frame_drawing.js";

@@ -7,7 +7,7 @@ import { el, set, setText } from "../../dom.js";
 import { textButton } from "../../icons.js";
 import { overlay } from "../../overlay/overlay.js";
 import { frameAction } from "../../panels/frame_actions.js";
-import { command } from "../../shell/commands.js";
+import { command } from "../../commands.js";
 import { watch } from "../../stores.js";
 import * as registry from "../../tools/registry.js";
 

@@ -4,7 +4,7 @@
 import * as channel from "./channel.js";
 import constants from "./constants.js";
 import { el, set } from "./dom.js";
-import { toast } from "./shell/toasts.js";
+import { toast } from "./toasts.js";
 
 /** @import {Attribute, Child} from "./types.js" */
 

@@ -2,7 +2,7 @@
 
 import { why } from "./access.js";
 import * as channel from "./channel.js";
-import { toast } from "./shell/toasts.js";
+import { toast } from "./toasts.js";
 
 /** @import {Commands, Do, Done} from "./messages.js" */
 

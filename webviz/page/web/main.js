@@ -33,7 +33,7 @@ import * as theme from "./shell/theme.js";
 import * as toolbar from "./shell/toolbar.js";
 import * as view from "./scene/view.js";
 import * as viser from "./viser_page.js";
-import * as vitals from "./vitals.js";
+import * as vitals from "./scene/vitals.js";
 import * as whole from "./scene/whole.js";
 
 /** @import {About} from "./recorded/types.js" */

@@ -1,7 +1,7 @@
 // Draws curves, grid and cursor of a chart on a canvas.
 
 import { fitted } from "./canvas.js";
-import { timeOfDay } from "../shell/time_text.js";
+import { timeOfDay } from "../time_text.js";
 import { pairs, visit } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
 

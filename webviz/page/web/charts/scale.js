@@ -1,6 +1,6 @@
 // Ranges of values and of time, and the round numbers at their axes.
 
-import { fixed } from "../tools/numbers.js";
+import { fixed } from "../numbers.js";
 
 /** @import {Range} from "../types.js" */
 

@@ -4,7 +4,7 @@ import { why } from "../access.js";
 import { act } from "../act.js";
 import { el, setChildren } from "../dom.js";
 import { listeners } from "../listeners.js";
-import { openMenuBelow } from "../shell/menu.js";
+import { openMenuBelow } from "../controls/menu.js";
 import { watch } from "../stores.js";
 import { corner } from "./corner.js";
 import { draggable } from "./drag.js";
@@ -25,7 +25,7 @@ import { splitter } from "./splitter.js";
 import { alone, layoutName, openWindow } from "./windows.js";
 
 /** @import {Panel} from "../types.js" */
-/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 /** @import {Boxes, Layout, Target} from "./places.js" */
 /** @typedef {ReturnType<typeof makeFrame>} Frame */
 

@@ -3,11 +3,11 @@
 import { set, svgElement } from "../dom.js";
 import { makeLayer } from "../tools/layer.js";
 import { beforeRender } from "../viser_page.js";
-import { projectionOf } from "./projection.js";
+import { projectionOf } from "../scene/projection.js";
 import { add, scaled } from "../vectors.js";
 
 /** @import {HandleControl} from "../contents.js" */
-/** @import {Projection} from "./projection.js" */
+/** @import {Projection} from "../scene/projection.js" */
 /** @import {Three, Vec2, Vec3} from "../types.js" */
 
 /** @typedef {{object: Three, point: Vec3, axis: Vec3}} Line */

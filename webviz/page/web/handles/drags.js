@@ -22,7 +22,7 @@ import {
 
 /** @import {HandleControl} from "../contents.js" */
 /** @import {Pose} from "../vectors.js" */
-/** @import {Projection} from "./projection.js" */
+/** @import {Projection} from "../scene/projection.js" */
 /** @import {Vec2, Vec3} from "../types.js" */
 
 /**

@@ -13,7 +13,7 @@ import { heldText, helpOf } from "./help.js";
 import * as known from "./known.js";
 import * as menu from "./menu.js";
 import * as poses from "./poses.js";
-import { frameNode, projectionOf } from "./projection.js";
+import { frameNode, projectionOf } from "../scene/projection.js";
 
 /** @import {Commands} from "../messages.js" */
 /** @import {Moved} from "./drags.js" */

@@ -7,7 +7,7 @@ import { pickAt } from "../scene/picking/pick.js";
 import { nodeNamed } from "../scene/picking/things.js";
 import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
-import { pathOf } from "./projection.js";
+import { pathOf } from "../scene/projection.js";
 
 /** @import {SceneThing, Three, ValuesOf, Vec2} from "../types.js" */
 

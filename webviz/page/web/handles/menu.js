@@ -1,9 +1,9 @@
 // The menu of a handle.
 
-import { openMenu } from "../shell/menu.js";
+import { openMenu } from "../controls/menu.js";
 
 /** @import {HandleMenuEntry, SceneHandle} from "../contents.js" */
-/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 /** @import {Vec2} from "../types.js" */
 
 /**

@@ -4,7 +4,7 @@
 import { nodeNamed } from "../scene/picking/things.js";
 import * as viser from "../viser_page.js";
 import * as known from "./known.js";
-import { frameNode } from "./projection.js";
+import { frameNode } from "../scene/projection.js";
 import { about, compose, inverse, rotate, scaled, turnedBy } from "../vectors.js";
 
 /** @import {Moved} from "./drags.js" */

@@ -1,7 +1,7 @@
 // The legend of a picture that is coloured by value.
 
 import { el, setText } from "../dom.js";
-import { colorBar } from "../overlay/color_bar.js";
+import { colorBar } from "../charts/color_bar.js";
 
 /** @import {ColorRange} from "../messages.js" */
 

@@ -2,7 +2,7 @@
 
 import { el, set, setChildren, setText } from "../dom.js";
 import { watch } from "../stores.js";
-import { colorBar } from "./color_bar.js";
+import { colorBar } from "../charts/color_bar.js";
 
 /** @import {Scale} from "../contents.js" */
 

@@ -1,7 +1,7 @@
 // Findings of the doctor: what explains a status, and the way to them.
 
 import { textButton } from "../icons.js";
-import { openPanel } from "../shell/layout.js";
+import { openPanel } from "../docks/layout.js";
 import { store } from "../stores.js";
 
 /** @import {ShownFinding} from "../contents.js" */

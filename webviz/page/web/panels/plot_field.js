@@ -1,7 +1,7 @@
 // Adds fields of messages to the panel Plot.
 
 import { act } from "../act.js";
-import { toast } from "../shell/toasts.js";
+import { toast } from "../toasts.js";
 import { watch } from "../stores.js";
 
 /** @import {ValuesOf} from "../types.js" */

@@ -5,7 +5,7 @@ import { act } from "../act.js";
 import { declaredForm, form } from "../controls/form.js";
 import { el, setChildren, showText } from "../dom.js";
 import { textButton } from "../icons.js";
-import { provide } from "../shell/commands.js";
+import { provide } from "../commands.js";
 import { store, watch } from "../stores.js";
 import { makeWidget } from "./plugin_widgets.js";
 

@@ -4,7 +4,7 @@ import { copyAndTell } from "../clipboard.js";
 import { rowList, touchable } from "../controls/rows.js";
 import { el, set, setText, showText } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
-import { openPanel } from "../shell/layout.js";
+import { openPanel } from "../docks/layout.js";
 import { watch } from "../stores.js";
 import { select } from "../tools/registry.js";
 import * as tool from "../tools/select.js";

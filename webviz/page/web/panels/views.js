@@ -5,14 +5,14 @@ import { declaredForm, form } from "../controls/form.js";
 import { FIXED_FRAME } from "../controls/frame.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
-import { openMenuBelow } from "../shell/menu.js";
+import { openMenuBelow } from "../controls/menu.js";
 import { ownStore } from "../own_store.js";
 import { computed } from "../signals.js";
 import { watch } from "../stores.js";
 import { savedViews } from "./saved_views.js";
 
 /** @import {DeclaredProperty} from "../contents.js" */
-/** @import {MenuItem} from "../shell/menu.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 /** @import {Panel, SendProperty} from "../types.js" */
 
 /** @type {DeclaredProperty} */

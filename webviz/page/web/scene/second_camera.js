@@ -2,7 +2,7 @@
 // the same frame, and copied from there. So colours, depth and smoothing are those of the page.
 
 import constants from "../constants.js";
-import { pathOf } from "../handles/projection.js";
+import { pathOf } from "./projection.js";
 import { toThree } from "./fixed_frame.js";
 import * as viser from "../viser_page.js";
 

@@ -1,19 +1,19 @@
 // Commands of the page's frame; the header and its menu are made of them.
 
 import { act } from "../act.js";
-import { openAdd } from "./add.js";
+import { openAdd } from "../panels/displays/add.js";
 import { openCommandList } from "./command_list.js";
-import { command } from "./commands.js";
+import { command } from "../commands.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
-import { fold, openPanel } from "./layout.js";
+import { fold, openPanel } from "../docks/layout.js";
 import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 import { toggle } from "./video.js";
 
-/** @import {Command} from "./commands.js" */
-/** @import {MenuItem} from "./menu.js" */
+/** @import {Command} from "../commands.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 
 /**
  * Keys are RViz's where a browser leaves them to a page. Not those of RViz that open a window,

@@ -5,12 +5,12 @@ import { act } from "../act.js";
 import { textField } from "../controls/fields.js";
 import { el } from "../dom.js";
 import { watch } from "../stores.js";
-import { all, keysOf, run } from "./commands.js";
-import { openDialog } from "./dialog.js";
+import { all, keysOf, run } from "../commands.js";
+import { openDialog } from "../controls/dialog.js";
 import { FIXED, follow } from "./follow.js";
-import { optionList, search } from "./option_list.js";
+import { optionList, search } from "../controls/option_list.js";
 
-/** @import {Command} from "./commands.js" */
+/** @import {Command} from "../commands.js" */
 /** @import {StoreName, ValuesOf} from "../types.js" */
 
 /**

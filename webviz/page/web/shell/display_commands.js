@@ -3,7 +3,7 @@
 import { act } from "../act.js";
 import * as selection from "../panels/displays/selection.js";
 import { provideFrom } from "./command_list.js";
-import { openPanel } from "./layout.js";
+import { openPanel } from "../docks/layout.js";
 
 export function install() {
   provideFrom(["displays"], ({ displays }) =>

@@ -7,10 +7,10 @@ import { el, setText } from "../dom.js";
 import { icon, textButton } from "../icons.js";
 import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
-import { ask, openDialog } from "./dialog.js";
-import { download } from "./download.js";
+import { ask, openDialog } from "../controls/dialog.js";
+import { download } from "../download.js";
 import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
-import { toast } from "./toasts.js";
+import { toast } from "../toasts.js";
 
 /** @import {Commands} from "../messages.js" */
 

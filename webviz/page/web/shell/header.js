@@ -6,16 +6,16 @@ import { iconButton } from "../icons.js";
 import { actions, added, item, submenuItems } from "./actions.js";
 import * as files from "./files.js";
 import * as history from "./history.js";
-import { fold, openPanel } from "./layout.js";
-import { openMenuBelow } from "./menu.js";
+import { fold, openPanel } from "../docks/layout.js";
+import { openMenuBelow } from "../controls/menu.js";
 import { isSevere } from "../panels/findings.js";
 import { watch } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
-import { setTitle } from "./title.js";
+import { setTitle } from "../title.js";
 
-/** @import {Command} from "./commands.js" */
-/** @import {MenuItem} from "./menu.js" */
+/** @import {Command} from "../commands.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 /** @import {Way} from "./history.js" */
 
 export function build() {

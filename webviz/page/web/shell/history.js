@@ -5,11 +5,11 @@ import { act } from "../act.js";
 import * as channel from "../channel.js";
 import { listeners } from "../listeners.js";
 import { watch } from "../stores.js";
-import { openMenuBelow } from "./menu.js";
-import { toast } from "./toasts.js";
+import { openMenuBelow } from "../controls/menu.js";
+import { toast } from "../toasts.js";
 
 /** @import {HistoryStep} from "../contents.js" */
-/** @import {MenuItem} from "./menu.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 
 /** @typedef {"undo" | "redo"} Way */
 

@@ -1,9 +1,9 @@
 // All keys in a dialog (?), made of the commands that have some.
 
 import { el } from "../dom.js";
-import { all, keysOf } from "./commands.js";
-import { openDialog } from "./dialog.js";
-import { keyText } from "./keys.js";
+import { all, keysOf } from "../commands.js";
+import { openDialog } from "../controls/dialog.js";
+import { keyText } from "../keys.js";
 
 /** @typedef {[does: string, keys: string[]]} KeyRow */
 

@@ -6,7 +6,7 @@ import { copyAndTell } from "../clipboard.js";
 import { el, setText } from "../dom.js";
 import { textButton } from "../icons.js";
 import { watch } from "../stores.js";
-import { ask, openDialog } from "./dialog.js";
+import { ask, openDialog } from "../controls/dialog.js";
 import { invitation } from "./invitation.js";
 
 /** @import {JournalLine, Person, ValidLink} from "../contents.js" */

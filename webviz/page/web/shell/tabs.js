@@ -10,8 +10,8 @@ import { followPlugins } from "../panels/plugin.js";
 import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { provideFrom } from "./command_list.js";
-import { openPanel } from "./layout.js";
-import { openMenu, openMenuBelow } from "./menu.js";
+import { openPanel } from "../docks/layout.js";
+import { openMenu, openMenuBelow } from "../controls/menu.js";
 
 /** @import {PanelType} from "../contents.js" */
 /** @import {Panel} from "../types.js" */

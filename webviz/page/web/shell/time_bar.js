@@ -7,8 +7,8 @@ import { el, set, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
 import { timeline } from "../timeline/timeline.js";
-import { command, provide } from "./commands.js";
-import { duration, timeOfDay } from "./time_text.js";
+import { command, provide } from "../commands.js";
+import { duration, timeOfDay } from "../time_text.js";
 
 /** @import {ValuesOf} from "../types.js" */
 

@@ -4,7 +4,7 @@ import { el } from "../dom.js";
 import * as gesture from "../handles/gesture.js";
 import * as glow from "../handles/glow.js";
 import { icon } from "../icons.js";
-import { focusCamera, interact, moveCamera } from "../tools/camera.js";
+import { focusCamera, interact, moveCamera } from "../handles/camera_tools.js";
 import { hint, tell } from "../tools/hint.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
@@ -12,8 +12,8 @@ import * as selecting from "../tools/select.js";
 import * as preview from "../tools/preview.js";
 import { each, effect } from "../signals.js";
 import { canvas } from "../viser_page.js";
-import { command, provide } from "./commands.js";
-import { keyText } from "./keys.js";
+import { command, provide } from "../commands.js";
+import { keyText } from "../keys.js";
 
 /** @import {Signal} from "../signals.js" */
 /** @import {SceneEvent, Tool} from "../types.js" */

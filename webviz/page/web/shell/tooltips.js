@@ -1,7 +1,7 @@
 // Tooltips: what `data-tip` or `title` says, after a moment under the mouse and on focus.
 
 import { el, setText } from "../dom.js";
-import { keyText } from "./keys.js";
+import { keyText } from "../keys.js";
 
 const WAIT_MS = 500;
 const GAP = 6;

@@ -4,8 +4,8 @@ import { el, set, setText } from "../dom.js";
 import { icon } from "../icons.js";
 import { listeners } from "../listeners.js";
 import { canvas } from "../viser_page.js";
-import { duration } from "./time_text.js";
-import { toast } from "./toasts.js";
+import { duration } from "../time_text.js";
+import { toast } from "../toasts.js";
 
 const TYPES = ["video/mp4;codecs=avc1.42E01F", "video/mp4", "video/webm;codecs=vp9", "video/webm"]; // by preference
 const FPS = 30;

@@ -1,9 +1,9 @@
 // Menus of views: their types, and those that were saved.
 
 import { act } from "../act.js";
-import { ask, askName } from "./dialog.js";
+import { ask, askName } from "../controls/dialog.js";
 
-/** @import {MenuItem} from "./menu.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
 
 export const VIEW_TYPES = [
   "Orbit",

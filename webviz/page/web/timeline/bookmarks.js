@@ -2,9 +2,9 @@
 
 import { act } from "../act.js";
 import { iconButton } from "../icons.js";
-import { askName } from "../shell/dialog.js";
-import { openMenu } from "../shell/menu.js";
-import { duration } from "../shell/time_text.js";
+import { askName } from "../controls/dialog.js";
+import { openMenu } from "../controls/menu.js";
+import { duration } from "../time_text.js";
 
 /** @import {Seeks} from "./seeks.js" */
 

@@ -1,6 +1,6 @@
 // The commands of the timeline, which have keys while nothing else wants them.
 
-import { isTyping } from "../shell/commands.js";
+import { isTyping } from "../commands.js";
 import { eventCommand } from "./events.js";
 
 /** @import {LoggedEvent, Moment} from "../types.js" */

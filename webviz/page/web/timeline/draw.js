@@ -2,7 +2,7 @@
 
 import { share, ticks } from "../charts/scale.js";
 import { fitted } from "../charts/canvas.js";
-import { duration } from "../shell/time_text.js";
+import { duration } from "../time_text.js";
 import { MARGIN, placeOf } from "./axis.js";
 import { beforeText } from "./moment.js";
 

@@ -1,6 +1,6 @@
 // Warnings and errors of a recording: `[time, level, text]`, of the log and of displays.
 
-import { toast } from "../shell/toasts.js";
+import { toast } from "../toasts.js";
 
 /** @import {LoggedEvent, ValuesOf} from "../types.js" */
 /** @import {Seeks} from "./seeks.js" */

@@ -2,7 +2,7 @@
 
 import { why } from "../access.js";
 import { act } from "../act.js";
-import { toast } from "../shell/toasts.js";
+import { toast } from "../toasts.js";
 import { nearest, placeOf, shareAt, timeAt } from "./axis.js";
 import { eventText } from "./events.js";
 import { makeLabel } from "./label.js";

@@ -3,8 +3,8 @@
 import { act } from "../act.js";
 import { wallNow } from "../clock.js";
 import { copy } from "../clipboard.js";
-import { provide } from "../shell/commands.js";
-import { toast } from "../shell/toasts.js";
+import { provide } from "../commands.js";
+import { toast } from "../toasts.js";
 import { watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
 import { timeCommands } from "./commands.js";

@@ -1,7 +1,7 @@
 // The track of the timeline: a slider over the whole recording that is zoomed by the wheel.
 
 import { el, set } from "../dom.js";
-import { duration } from "../shell/time_text.js";
+import { duration } from "../time_text.js";
 import { draw } from "./draw.js";
 import { listenToTrack } from "./gestures.js";
 import { beforeText } from "./moment.js";

@@ -9,7 +9,7 @@ import * as viser from "../viser_page.js";
 import { clicks } from "./clicks.js";
 import { tell, tellLive } from "./hint.js";
 import { makeLayer } from "./layer.js";
-import { fixed } from "./numbers.js";
+import { fixed } from "../numbers.js";
 
 /** @import {Tool, Vec2, Vec3} from "../types.js" */
 

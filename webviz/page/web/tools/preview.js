@@ -4,7 +4,7 @@ import { set, svgElement } from "../dom.js";
 import { arrowAt } from "./arrow.js";
 import { makeLayer } from "./layer.js";
 import { sendCard } from "./send_card.js";
-import { fixed } from "./numbers.js";
+import { fixed } from "../numbers.js";
 import { canvas } from "../viser_page.js";
 import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
 

@@ -6,7 +6,7 @@ import { focus } from "../scene/mouse.js";
 import { outlineOf } from "../scene/picking/outline.js";
 import { pickAt, pickIn } from "../scene/picking/pick.js";
 import { finder } from "../scene/picking/things.js";
-import { openPanel } from "../shell/layout.js";
+import { openPanel } from "../docks/layout.js";
 import { watch } from "../stores.js";
 import { canvas } from "../viser_page.js";
 import { install as installHighlight, middle } from "./highlight.js";

@@ -2,7 +2,7 @@
 
 import { act, newStep } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
-import { openMenu } from "../../shell/menu.js";
+import { openMenu } from "../../controls/menu.js";
 import { setOpen } from "./folding.js";
 import { siblings, topmost } from "./model.js";
 import { moves, step } from "./places.js";

@@ -4,10 +4,10 @@ import { needs } from "../../access.js";
 import { searchField } from "../../controls/fields.js";
 import { el } from "../../dom.js";
 import { icon, iconButton } from "../../icons.js";
-import { openAdd } from "../../shell/add.js";
-import { command } from "../../shell/commands.js";
-import { keyText } from "../../shell/keys.js";
-import { openMenuBelow } from "../../shell/menu.js";
+import { openAdd } from "./add.js";
+import { command } from "../../commands.js";
+import { keyText } from "../../keys.js";
+import { openMenuBelow } from "../../controls/menu.js";
 import * as actions from "./actions.js";
 import { buildDetails } from "./details.js";
 import * as folding from "./folding.js";
@@ -15,7 +15,7 @@ import { topmost } from "./model.js";
 import * as selection from "./selection.js";
 import { buildTree } from "./tree.js";
 
-/** @import {Command} from "../../shell/commands.js" */
+/** @import {Command} from "../../commands.js" */
 /** @import {Panel} from "../../types.js" */
 
 /** @type {Panel} */

@@ -3,7 +3,7 @@
 import { why } from "../../access.js";
 import { el } from "../../dom.js";
 import { sanitized } from "../../sanitize.js";
-import { toast } from "../../shell/toasts.js";
+import { toast } from "../../toasts.js";
 import { move } from "./actions.js";
 import { createMark } from "./drop_mark.js";
 import { isOpen } from "./folding.js";

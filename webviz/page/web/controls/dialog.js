@@ -1,6 +1,6 @@
 // Dialogs over everything else: they have the focus until they are closed.
 
-import { textField } from "../controls/fields.js";
+import { textField } from "./fields.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 

@@ -1,7 +1,7 @@
 // Projection of a frame by the camera.
 
 import constants from "../constants.js";
-import { casterAt } from "../scene/rays.js";
+import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
 /** @import {Ray} from "../vectors.js" */

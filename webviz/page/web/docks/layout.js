@@ -1,7 +1,7 @@
 // Layout of the side: its width, and whether it is folded away.
 
-import { reveal } from "../docks/docks.js";
-import { splitter } from "../docks/splitter.js";
+import { reveal } from "./docks.js";
+import { splitter } from "./splitter.js";
 import { el } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import * as viser from "../viser_page.js";

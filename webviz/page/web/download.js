@@ -1,6 +1,6 @@
 // Texts as files of the browser.
 
-import { el } from "../dom.js";
+import { el } from "./dom.js";
 
 /**
  * Saves a text as a file with this name.

@@ -1,12 +1,12 @@
 // The dialog that adds displays: for topics that are published just now, or by type.
 
-import { act, newStep } from "../act.js";
-import { textField } from "../controls/fields.js";
-import { el, set, setText, showText } from "../dom.js";
-import { recall, remember } from "../remember.js";
-import { watch } from "../stores.js";
-import { openDialog } from "./dialog.js";
-import { optionList, search } from "./option_list.js";
+import { act, newStep } from "../../act.js";
+import { textField } from "../../controls/fields.js";
+import { el, set, setText, showText } from "../../dom.js";
+import { recall, remember } from "../../remember.js";
+import { watch } from "../../stores.js";
+import { openDialog } from "../../controls/dialog.js";
+import { optionList, search } from "../../controls/option_list.js";
 import { topicEntries } from "./topic_entries.js";
 
 /** @import {AddRow, Choice, Entry, Known} from "./topic_entries.js" */

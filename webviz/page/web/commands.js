@@ -1,6 +1,6 @@
 // Everything that can be done, by name; and the one place that listens to keys.
 
-import { why } from "../access.js";
+import { why } from "./access.js";
 import { keyOf } from "./keys.js";
 import { toast } from "./toasts.js";
 

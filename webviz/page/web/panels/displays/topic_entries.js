@@ -1,8 +1,8 @@
 // Topics that can be added: each with the displays that show it, an image once for all transports.
 
-/** @import {DisplayType, GraphTopic, TopicTraffic} from "../contents.js" */
-/** @import {OptionRow} from "./option_list.js" */
-/** @import {ValuesOf} from "../types.js" */
+/** @import {DisplayType, GraphTopic, TopicTraffic} from "../../contents.js" */
+/** @import {OptionRow} from "../../controls/option_list.js" */
+/** @import {ValuesOf} from "../../types.js" */
 
 /**
  * @typedef {{type: string, values: Record<string, unknown>}} Choice

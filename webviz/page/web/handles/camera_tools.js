@@ -1,9 +1,9 @@
 // The tools that leave the pointer to the camera, and the one that aims the camera.
 
-import { leave, pointer } from "../handles/gesture.js";
+import { leave, pointer } from "./gesture.js";
 import { focusOn } from "../scene/mouse.js";
-import { clicks } from "./clicks.js";
-import { select } from "./registry.js";
+import { clicks } from "../tools/clicks.js";
+import { select } from "../tools/registry.js";
 
 /** @import {Tool} from "../types.js" */
 

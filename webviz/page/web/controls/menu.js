@@ -3,7 +3,7 @@
 import { why } from "../access.js";
 import { el } from "../dom.js";
 import { icon } from "../icons.js";
-import { keyText } from "./keys.js";
+import { keyText } from "../keys.js";
 
 /**
  * @typedef {{

@@ -3,7 +3,7 @@
 import { el, set, setChildren } from "../dom.js";
 import { icon } from "../icons.js";
 import { wordsOf } from "../words.js";
-import { keyText } from "./keys.js";
+import { keyText } from "../keys.js";
 
 /**
  * @typedef {{
