@@ -1,16 +1,17 @@
 // The panel "Topics": all topics in a table, and the last message of the one that is chosen.
 
-import { el, set, setText } from "../../dom.js";
+import { el } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
 import { rowList, touchable } from "../../controls/rows.js";
 import { searchField } from "../../controls/fields.js";
 import { panel } from "../../panels/panels.js";
-import { watch } from "../../stores.js";
+import { computed, effect, signal, untracked } from "../../signals.js";
+import { store } from "../../stores.js";
 import { inspector } from "./topics_inspector.js";
-import { arranged, COLUMNS, makeHead, makeRow, updateRow } from "../../panels/topics_table.js";
+import { arranged, tableHead, topicRow } from "../../panels/topics_table.js";
 
-/** @import {Panel, ValuesOf} from "../../types.js" */
+/** @import {Panel} from "../../types.js" */
 /** @import {Sort} from "../../panels/topics_table.js" */
 
 const WIDE_PX = 600;
@@ -19,100 +20,73 @@ const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
 
 export const install = () => panel(topics);
 
+const facts = store("topics");
+const traffic = store("traffic");
+
 /** @type {Panel} */
 const topics = {
   name: "topics",
   title: "Topics",
   order: 30,
   open(element) {
-    /** @type {ValuesOf<"topics">} */
-    let facts = new Map();
-    /** @type {ValuesOf<"traffic">} */
-    let traffic = new Map();
-    /** @type {Sort} */
-    let sort = recall("topics-sort", { column: "name", isUp: true });
-    /** @type {ReturnType<typeof inspector> | null} */
-    let inspected = null;
-
-    const search = searchField("Filter topics", show);
-    const head = makeHead(sortBy);
-    const table = el("div", { class: "wv-topics-table" }, head.element);
+    const sort = signal(
+      /** @type {Sort} */ (recall("topics-sort", { column: "name", isUp: true })),
+    );
+    effect(() => remember("topics-sort", sort.value));
+    const text = signal("");
+    const inspected = signal("");
+    const all = computed(() => {
+      const known = traffic.all();
+      return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...known.get(key) }));
+    });
+    const found = computed(() => arranged(all.value, text.value, sort.value));
+    const table = el(
+      "div",
+      { class: "wv-topics-table", "aria-rowcount": () => found.value.length + 1 },
+      tableHead(sort),
+    );
     const list = rowList({
       host: table,
       label: "Topics",
       role: "grid",
       rowRole: "row",
       height: HEIGHTS.narrow,
-      make: makeRow,
-      update: updateRow,
-      choose: ({ key }) => inspect(key),
+      row: topicRow,
+      choose: ({ key }) => (inspected.value = key),
     });
+    effect(() => list.show(found.value));
     table.append(list.element);
-    const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
-    const place = el("div", { class: "wv-topics-message" });
+    const dismiss = () => {
+      inspected.value = "";
+      table.focus();
+    };
+    /** @param {string} name */
+    const inspect = (name) => {
+      const topic = () => all.value.find(({ key }) => key === name);
+      return untracked(() => inspector(name, topic, dismiss));
+    };
+    const isEmpty = () => facts.isThere() && !found.value.length;
+    /** @type {HTMLInputElement} */
+    const search = searchField("Filter topics", () => (text.value = search.value));
     const panel = el(
       "div",
       { class: "wv-topics" },
       el("div", { class: "wv-search" }, icon("search"), search),
       table,
-      empty,
-      place,
+      el("div", { class: "wv-empty", role: "status", hidden: () => !isEmpty() }, () =>
+        all.value.length ? "No matching topics." : NOTHING,
+      ),
+      el("div", { class: "wv-topics-message" }, () =>
+        inspected.value ? inspect(inspected.value) : null,
+      ),
     );
     element.append(panel);
-
-    /** @param {string} column */
-    function sortBy(column) {
-      const isNumber = COLUMNS.find(({ id }) => id === column)?.isNumber ?? false;
-      sort = { column, isUp: sort.column === column ? !sort.isUp : !isNumber };
-      remember("topics-sort", sort);
-      show();
-    }
-
-    function show() {
-      head.update(sort);
-      const all = [...facts].map(([key, topic]) => ({ key, ...topic, ...traffic.get(key) }));
-      const found = arranged(all, search.value, sort);
-      list.show(found);
-      set(table, { "aria-rowcount": found.length + 1 });
-      setText(empty, all.length ? "No matching topics." : NOTHING);
-      set(empty, { hidden: found.length > 0 });
-      const name = inspected?.name;
-      inspected?.update(all.find(({ key }) => key === name));
-    }
-
-    /** @param {string} name */
-    function inspect(name) {
-      if (inspected?.name === name) return;
-      inspected?.close();
-      inspected = inspector(place, name, () => {
-        inspected?.close();
-        inspected = null;
-        table.focus();
-      });
-      show();
-    }
-
     const observer = new ResizeObserver(([{ contentRect }]) => {
       const isWide = contentRect.width >= WIDE_PX;
       panel.classList.toggle("wv-wide", isWide);
       list.resize(touchable(isWide ? HEIGHTS.wide : HEIGHTS.narrow));
     });
     observer.observe(panel);
-    const ends = [
-      watch("topics", (values) => {
-        facts = values;
-        show();
-      }),
-      watch("traffic", (values) => {
-        traffic = values;
-        if (facts.size) show();
-      }),
-    ];
-    return () => {
-      for (const end of ends) end();
-      observer.disconnect();
-      list.close();
-      inspected?.close();
-    };
+    return () => observer.disconnect();
   },
 };

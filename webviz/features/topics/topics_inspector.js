@@ -4,11 +4,12 @@ import { needs } from "../../access.js";
 import { act } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
 import { wallNow } from "../../clock.js";
-import { el, set, setText, showText } from "../../dom.js";
+import { el, set } from "../../dom.js";
 import { iconButton, textButton } from "../../icons.js";
 import { openMenuBelow } from "../../controls/menu.js";
 import { toast } from "../../toasts.js";
-import { watch } from "../../stores.js";
+import { effect, owned, signal } from "../../signals.js";
+import { store } from "../../stores.js";
 import { messageRows } from "../../panels/message_rows.js";
 import { textOf } from "../../panels/message_tree.js";
 import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
@@ -16,120 +17,96 @@ import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
 /** @import {Fields} from "../../panels/message_tree.js" */
 /** @import {GraphTopic} from "../../contents.js" */
 /** @import {TopicRow} from "../../panels/topics_table.js" */
-/** @import {ValuesOf} from "../../types.js" */
 
 const OLD_S = 2; // until then, an age says nothing that the rate does not say
 
 /**
- * Fills `place` with the topic of this name until it is closed; returns `{name, update, close}`.
+ * What there is to know of a topic, read by `topic()`.
  *
- * @param {HTMLElement} place
  * @param {string} name
+ * @param {() => TopicRow | undefined} topic
  * @param {() => void} dismiss
  */
-export function inspector(place, name, dismiss) {
-  /** @type {Fields | null} */
-  let message = null;
-  /** @type {GraphTopic["show"]} */
-  let fits = [];
-  let receivedAt = 0;
-  let size = 0;
-
-  const show = textButton("Show", add, { icon: "plus" });
-  needs("AddDisplay", show);
-  const copyMessage = iconButton(
-    "file",
-    "Copy message",
-    () => message && copyAndTell(textOf(message)),
-  );
-  const facts = el("div", { class: "wv-topic-facts wv-quiet" });
-  const why = el("div", { class: "wv-topic-why wv-quiet", hidden: true });
-  const age = el("div", { class: "wv-topic-age wv-quiet wv-number" });
-  const problem = el("div", { class: "wv-empty", role: "status", hidden: true });
+export function inspector(name, topic, dismiss) {
+  const values = store(`message:${name}`);
+  const message = () => /** @type {Fields | null} */ (values.get("message") ?? null);
+  const problem = () => values.get("problem") ?? "";
+  const why = () => topic()?.why ?? "";
+  const fits = () => topic()?.show ?? [];
+  const now = signal(wallNow());
+  const timer = setInterval(() => (now.value = wallNow()), 1000);
+  owned(() => clearInterval(timer));
   const tree = messageRows({ label: `Last message on ${name}`, topic: () => name });
-  place.replaceChildren(
+  effect(() => tree.show(message()));
+  /** @type {HTMLButtonElement} */
+  const show = textButton("Show", () => add(name, fits(), show), {
+    icon: "plus",
+    disabled: () => fits().length === 0,
+  });
+  set(show, { "data-tip": () => (fits().length ? "Add a display" : why()) });
+  const copy = () => copyAndTell(textOf(/** @type {Fields} */ (message())));
+  return el(
+    "section",
+    { class: "wv-inspected", "aria-label": name },
     el(
-      "section",
-      { class: "wv-inspected", "aria-label": name },
-      el(
-        "header",
-        {},
-        el("h3", { class: "wv-ellipsis", title: name }, name),
-        show,
-        iconButton("copy", "Copy name", () => copyAndTell(name)),
-        copyMessage,
-        iconButton("close", "Close", dismiss),
-      ),
-      facts,
-      why,
-      age,
-      problem,
-      tree.element,
+      "header",
+      {},
+      el("h3", { class: "wv-ellipsis", title: name }, name),
+      needs("AddDisplay", show),
+      iconButton("copy", "Copy name", () => copyAndTell(name)),
+      iconButton("file", "Copy message", copy, { disabled: () => !message() }),
+      iconButton("close", "Close", dismiss),
     ),
+    el("div", { class: "wv-topic-facts wv-quiet" }, () => factsOf(topic())),
+    el("div", { class: "wv-topic-why wv-quiet", hidden: () => !why() }, why),
+    el("div", { class: "wv-topic-age wv-quiet wv-number" }, () =>
+      ageOf(now.value, values.get("received") ?? 0, values.get("size") ?? 0),
+    ),
+    el("div", { class: "wv-empty", role: "status", hidden: () => !problem() }, problem),
+    tree.element,
   );
+}
 
-  async function add() {
-    /** @param {GraphTopic["show"][number]} fit */
-    const one = async ([type, values]) => {
-      const { level } = await act("AddDisplay", { type, values });
-      if (level === "ok") toast(`Added ${type} for ${name}.`);
-    };
-    if (fits.length === 1) return one(fits[0]);
-    openMenuBelow(
-      show,
-      fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) })),
-    );
-  }
-
-  /** @param {TopicRow | undefined} topic */
-  function update(topic) {
-    fits = topic?.show ?? [];
-    set(show, {
-      disabled: fits.length === 0,
-      "data-tip": fits.length ? "Add a display" : topic?.why,
-    });
-    showText(why, topic?.why ?? "");
-    const texts = topic
-      ? [
-          topic.types.join(", "),
-          [...new Set(topic.nodes)].slice(0, 5).join(", "),
-          topic.qos,
-          rateText(topic.hz),
-          bytesText(topic.bytes),
-          topic.delay === undefined ? "" : `delay ${spanText(topic.delay)}`,
-        ]
-      : [];
-    setText(facts, texts.filter(Boolean).join(" · "));
-  }
-
-  /** @param {ValuesOf<"message">} values */
-  function showMessage(values) {
-    message = /** @type {Fields | null} */ (values.get("message") ?? null);
-    receivedAt = values.get("received") ?? 0;
-    size = values.get("size") ?? 0;
-    const sentence = values.get("problem") ?? "";
-    showText(problem, sentence);
-    set(copyMessage, { disabled: !message });
-    tree.show(message);
-    showAge();
-  }
-
-  function showAge() {
-    const old = wallNow() - receivedAt;
-    const texts = receivedAt ? [sizeText(size), old > OLD_S ? `${spanText(old)} ago` : ""] : [];
-    setText(age, texts.length ? `Last message: ${texts.filter(Boolean).join(", ")}` : "");
-  }
-
-  const timer = setInterval(showAge, 1000);
-  const end = watch(`message:${name}`, (values) => showMessage(values));
-  return {
-    name,
-    update,
-    close() {
-      clearInterval(timer);
-      end();
-      tree.close();
-      place.replaceChildren();
-    },
+/**
+ * Adds a display for a topic, chosen from a menu if several fit.
+ *
+ * @param {string} name
+ * @param {GraphTopic["show"]} fits
+ * @param {HTMLElement} button
+ */
+function add(name, fits, button) {
+  /** @param {GraphTopic["show"][number]} fit */
+  const one = async ([type, values]) => {
+    const { level } = await act("AddDisplay", { type, values });
+    if (level === "ok") toast(`Added ${type} for ${name}.`);
   };
+  if (fits.length === 1) return one(fits[0]);
+  const items = fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) }));
+  openMenuBelow(button, items);
+}
+
+/** @param {TopicRow | undefined} topic */
+function factsOf(topic) {
+  if (!topic) return "";
+  const texts = [
+    topic.types.join(", "),
+    [...new Set(topic.nodes)].slice(0, 5).join(", "),
+    topic.qos,
+    rateText(topic.hz),
+    bytesText(topic.bytes),
+    topic.delay === undefined ? "" : `delay ${spanText(topic.delay)}`,
+  ];
+  return texts.filter(Boolean).join(" · ");
+}
+
+/**
+ * @param {number} now
+ * @param {number} receivedAt
+ * @param {number} size
+ */
+function ageOf(now, receivedAt, size) {
+  if (!receivedAt) return "";
+  const old = now - receivedAt;
+  const texts = [sizeText(size), old > OLD_S ? `${spanText(old)} ago` : ""];
+  return `Last message: ${texts.filter(Boolean).join(", ")}`;
 }

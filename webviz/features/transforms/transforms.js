@@ -3,32 +3,29 @@
 import { act } from "../../act.js";
 import { keyOf, rowList, touchable } from "../../controls/rows.js";
 import { searchField } from "../../controls/fields.js";
-import { el, set, setText, showText } from "../../dom.js";
+import { el } from "../../dom.js";
 import { icon, iconButton, textButton } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
-import { store, watch } from "../../stores.js";
+import { computed, effect, signal } from "../../signals.js";
+import { store } from "../../stores.js";
 import { needs } from "../../access.js";
 import { foldByKey } from "../../panels/folds.js";
 import { panel } from "../../panels/panels.js";
 import { frameActions, wantedFrame } from "../../panels/frame_actions.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
-import {
-  ageText,
-  factOf,
-  frameNames,
-  frameRows,
-  makeFrame,
-  updateFrame,
-} from "../../panels/frame_rows.js";
+import { ageText, factOf, frameNames, frameRow, frameRows } from "../../panels/frame_rows.js";
 
 /** @import {FrameRow} from "../../panels/frame_rows.js" */
-/** @import {Panel, ValuesOf} from "../../types.js" */
+/** @import {Signal} from "../../signals.js" */
+/** @import {Panel} from "../../types.js" */
 
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";
 
 export const install = () => panel(transforms);
+
+const frames = store("transforms");
 
 /** @type {Panel} */
 const transforms = {
@@ -36,126 +33,113 @@ const transforms = {
   title: "TF",
   order: 40,
   open(element) {
-    /** @type {ValuesOf<"transforms"> | null} */
-    let values = null;
-    /** @type {Set<string>} */
-    const folded = new Set(recall("tf-folded", []));
-
-    const search = searchField("Filter frames", show);
-    const list = rowList({
-      label: "Frames",
-      role: "tree",
-      rowRole: "treeitem",
-      height: touchable(ROW_PX),
-      make: makeFrame,
-      update: updateFrame,
-      choose,
-      onKey,
+    const folded = signal(new Set(/** @type {string[]} */ (recall("tf-folded", []))));
+    effect(() => remember("tf-folded", [...folded.value]));
+    const text = signal("");
+    const rows = computed(() =>
+      frames.has("/roots") ? frameRows(frames.all(), folded.value, text.value) : [],
+    );
+    const isThere = () => frames.has("/roots");
+    const problems = () => (isThere() ? (frames.get("/problems") ?? []).join(" ") : "");
+    const nothing = () => (frames.get("/roots")?.length ? "No matching frames." : NOTHING);
+    const list = frameList(folded);
+    effect(() => {
+      list.show(rows.value);
+      const wanted = isThere() ? wantedFrame() : null;
+      const row = rows.value.find(({ name }) => name === wanted);
+      if (row) list.mark(row.key);
     });
-    list.element.addEventListener("click", onFold, { capture: true });
+    /** @type {HTMLInputElement} */
+    const search = searchField("Filter frames", () => (text.value = search.value));
     const picture = iconButton("tree", "Show the tree as a picture", () =>
       openFramePicture((name, frame) => detailOf({ name, frame })),
     );
-    const problems = el("div", {
-      class: "wv-tf-problems",
-      role: "status",
-      hidden: true,
-      "data-level": "warn",
-    });
-    const empty = el("div", { class: "wv-empty", role: "status", hidden: true });
-    const facts = el("div");
-    const actions = frameActions.map(({ label, tip, needs: command, isFor, run }) => {
-      const button = textButton(label, () => run(list.marked()?.name ?? ""), { tip });
-      return { isFor, button: needs(command, button) };
-    });
-    const detail = el(
-      "div",
-      { class: "wv-frame-detail", hidden: true },
-      facts,
-      actions.map(({ button }) => button),
-    );
-    const pair = between(() => frameNames(store("transforms").all()));
+    const isEmpty = () => isThere() && !rows.value.length;
     element.append(
       el(
         "div",
         { class: "wv-tf" },
         el("div", { class: "wv-search wv-frame-search" }, icon("search"), search, picture),
-        problems,
-        empty,
+        el(
+          "div",
+          {
+            class: "wv-tf-problems",
+            role: "status",
+            "data-level": "warn",
+            hidden: () => !problems(),
+          },
+          problems,
+        ),
+        el("div", { class: "wv-empty", role: "status", hidden: () => !isEmpty() }, nothing),
         list.element,
-        detail,
-        pair,
+        detail(list.marked),
+        between(() => frameNames(frames.all())),
       ),
     );
-
-    function show() {
-      if (!values?.has("/roots")) return;
-      const rows = frameRows(values, folded, search.value);
-      list.show(rows);
-      const wanted = wantedFrame();
-      const row = rows.find(({ name }) => name === wanted);
-      if (row) list.mark(row.key);
-      const hasFrames = (values.get("/roots") ?? []).length > 0;
-      setText(empty, hasFrames ? "No matching frames." : NOTHING);
-      set(empty, { hidden: rows.length > 0 });
-      const sentences = (values.get("/problems") ?? []).join(" ");
-      showText(problems, sentences);
-      showDetail();
-    }
-
-    function showDetail() {
-      const row = list.marked();
-      set(detail, { hidden: !row });
-      if (row) setText(facts, detailOf(row));
-      for (const { button, isFor } of actions)
-        set(button, { hidden: !row?.frame || !isFor(row.frame) });
-    }
-
-    /** @param {FrameRow} row */
-    function choose(row) {
-      showDetail();
-      act("FocusFrame", { frame: row.name });
-    }
-
-    /** @param {string} name */
-    function toggle(name) {
-      if (!folded.delete(name)) folded.add(name);
-      remember("tf-folded", [...folded]);
-      show();
-    }
-
-    /**
-     * A click on the mark folds, and leaves the camera where it is.
-     *
-     * @param {MouseEvent} event
-     */
-    function onFold(event) {
-      const mark = /** @type {Element} */ (event.target).closest(".wv-fold-mark");
-      if (!mark?.closest(".wv-row")?.hasAttribute("aria-expanded")) return;
-      event.stopPropagation();
-      const key = keyOf(mark);
-      toggle(key.slice(key.lastIndexOf("\n") + 1));
-    }
-
-    /**
-     * @param {KeyboardEvent} event
-     * @param {FrameRow} row
-     * @returns {boolean}
-     */
-    function onKey({ key }, row) {
-      return foldByKey(key, row, ({ name }) => toggle(name), list, "\n");
-    }
-
-    const end = watch("transforms", (all) => {
-      values = all;
-      show();
-    });
-    return () => {
-      end();
-      list.close();
-    };
   },
 };
+
+/** @param {Signal<Set<string>>} folded */
+function frameList(folded) {
+  /** @param {string} name */
+  const toggle = (name) => {
+    const next = new Set(folded.value);
+    if (!next.delete(name)) next.add(name);
+    folded.value = next;
+  };
+  /** @type {ReturnType<typeof rowList<FrameRow>>} */
+  const list = rowList({
+    label: "Frames",
+    role: "tree",
+    rowRole: "treeitem",
+    height: touchable(ROW_PX),
+    row: frameRow,
+    choose: ({ name }) => act("FocusFrame", { frame: name }),
+    onKey: ({ key }, row) => foldByKey(key, row, ({ name }) => toggle(name), list, "\n"),
+  });
+  /**
+   * A click on the mark folds, and leaves the camera where it is.
+   *
+   * @param {MouseEvent} event
+   */
+  const onclick = (event) => {
+    const mark = /** @type {Element} */ (event.target).closest(".wv-fold-mark");
+    if (!mark?.closest(".wv-row")?.hasAttribute("aria-expanded")) return;
+    event.stopPropagation();
+    const key = keyOf(mark);
+    toggle(key.slice(key.lastIndexOf("\n") + 1));
+  };
+  list.element.addEventListener("click", onclick, { capture: true });
+  return list;
+}
+
+/**
+ * What is known of the frame that is marked, and what can be done with it.
+ *
+ * @param {() => FrameRow | null} row
+ */
+function detail(row) {
+  const text = () => {
+    const marked = row();
+    return marked ? detailOf(marked) : "";
+  };
+  const buttons = frameActions.map(({ label, tip, needs: command, isFor, run }) => {
+    const hidden = () => {
+      const frame = row()?.frame;
+      return !frame || !isFor(frame);
+    };
+    return needs(
+      command,
+      textButton(label, () => run(row()?.name ?? ""), { tip, hidden }),
+    );
+  });
+  return el(
+    "div",
+    { class: "wv-frame-detail", hidden: () => !row() },
+    el("div", {}, text),
+    buttons,
+  );
+}
 
 /**
  * Facts about a frame, in sentences.

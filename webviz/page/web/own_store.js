@@ -4,7 +4,7 @@ import * as channel from "./channel.js";
 import { signal } from "./signals.js";
 import { store } from "./stores.js";
 
-/** @import {Named, StoreReader} from "./types.js" */
+/** @import {Named, StoreReader, ValuesOf} from "./types.js" */
 
 const browser = signal(/** @type {number | null} */ (null));
 channel.onOpen(() => (browser.value = window.webviz.browser));
@@ -12,11 +12,17 @@ channel.onOpen(() => (browser.value = window.webviz.browser));
 /**
  * A store of this page to read from in effects; see `store`.
  *
- * @template {"view" | "view_type"} N
+ * @template {"selection" | "view" | "view_type"} N
  * @param {N} name
- * @returns {Pick<StoreReader<Named<N>>, "get">}
+ * @returns {Pick<StoreReader<Named<N>>, "get"> & {all(): ValuesOf<N> | undefined}}
  */
-export const ownStore = (name) => ({
-  get: (/** @type {string} */ key) =>
-    browser.value === null ? undefined : store(`${name}:${browser.value}`).get(key),
-});
+export function ownStore(name) {
+  const own = () => {
+    const named = browser.value === null ? null : store(`${name}:${browser.value}`);
+    return /** @type {StoreReader<Named<N>> | null} */ (/** @type {unknown} */ (named));
+  };
+  return {
+    get: (/** @type {any} */ key) => own()?.get(key),
+    all: () => own()?.all(),
+  };
+}

@@ -72,6 +72,12 @@ class Store {
     return this.#values;
   }
 
+  /** Whether the values have come. */
+  isThere() {
+    this.#all.track();
+    return this.#isThere;
+  }
+
   /** @param {string} key */
   #part(key) {
     const part = this.#parts.get(key) ?? new Part(this);
@@ -112,13 +118,17 @@ class Store {
     }
     for (const key of gone) this.#values.delete(key);
     for (const [key, value] of Object.entries(set)) this.#values.set(key, value);
+    const isNew = !this.#isThere;
     this.#isThere = true;
-    batch(() => this.#tell(changed));
+    batch(() => this.#tell(changed, isNew));
   }
 
-  /** @param {Set<string>} changed */
-  #tell(changed) {
-    if (changed.size) this.#all.touch();
+  /**
+   * @param {Set<string>} changed
+   * @param {boolean} isNew
+   */
+  #tell(changed, isNew) {
+    if (changed.size || isNew) this.#all.touch();
     for (const key of changed) {
       const part = this.#parts.get(key);
       part?.touch();

@@ -40,6 +40,7 @@ export interface StoreReader<S extends { own: object; items: unknown }> {
   get(key: string): S["items"] | undefined;
   has(key: string): boolean;
   all(): StoreValues<S>;
+  isThere(): boolean;
 }
 
 /** The value of an attribute; null and undefined are none. */

@@ -3,8 +3,35 @@
 // The list has the focus; arrow keys move the row that is marked, which screen readers announce.
 
 import { el, set } from "../dom.js";
+import { batch, effect, owned, root, signal, untracked } from "../signals.js";
 
-/** @typedef {HTMLElement & {wvKey: string, wvTop?: number, wvDepth?: number}} Row */
+/** @import {Signal} from "../signals.js" */
+/** @import {End} from "../types.js" */
+
+/** @typedef {HTMLElement & {wvKey: string, wvDepth?: number}} Row */
+
+/**
+ * A row in the page: it is made once, and follows its item.
+ *
+ * @template T
+ * @typedef {{element: Row, item: Signal<T>, end: End}} Mounted
+ */
+
+/**
+ * `role` is that of the list, `rowRole` that of its rows. `row(item)` makes the element of an item,
+ * which it reads by `item()` in effects; or `make(item)` makes one that `update(element, item)` fills in.
+ * Items have a `key`. `choose(item)` is called on click and Enter. `onKey(event, item)` may take a key
+ * before the list does, and returns whether it did. `host` is what has the focus instead, such as a grid
+ * whose rows of heads are above.
+ *
+ * @template {{key: string}} T
+ * @template {HTMLElement} E
+ * @typedef {{
+ *   label: string, role?: string, rowRole?: string, height: number, row?: (item: () => T) => E,
+ *   make?: (item: T) => E, update?: (row: E, item: T) => void, choose?: (item: T) => void,
+ *   onKey?: (event: KeyboardEvent, item: T) => boolean, host?: HTMLElement | null,
+ * }} Options
+ */
 
 const BEYOND = 6; // rows above and below what is seen that are there too
 
@@ -14,156 +41,205 @@ const FINGER_PX = 40;
 let lists = 0;
 
 /**
- * `role` is that of the list, `rowRole` that of its rows. `make(item)` returns an element, which
- * `update(element, item)` fills in; items have a `key`. `choose(item)` is called on click and Enter.
- * `onKey(event, item)` may take a key before the list does, and returns whether it did. `host` is what
- * has the focus instead, such as a grid whose rows of heads are above.
- *
- * Returns `{element, show(items), resize(height), mark(key), marked()}`; `height` is of a row in pixels.
+ * Returns `{element, show(items), resize(height), mark(key), marked(), close()}`; `height` is of a row
+ * in pixels, and `marked()` is read in effects.
  *
  * @template {{key: string}} T
  * @template {HTMLElement} [E=HTMLElement]
- * @param {{
- *   label: string, role?: string, rowRole?: string, height: number, make: (item: T) => E,
- *   update: (row: E, item: T) => void, choose?: (item: T) => void,
- *   onKey?: (event: KeyboardEvent, item: T) => boolean, host?: HTMLElement | null,
- * }} options
+ * @param {Options<T, E>} options
  */
-export function rowList({
-  label,
-  role = "listbox",
-  rowRole = "option",
-  height,
-  make,
-  update,
-  choose,
-  onKey = () => false,
-  host = null,
-}) {
-  lists += 1;
-  const id = `wv-rows-${lists}`;
-  /** @type {Map<string, Row & E>} */
-  const mounted = new Map();
+export function rowList(options) {
+  const list = new RowList(options);
+  owned(() => list.close());
+  return {
+    element: list.element,
+    show: (/** @type {T[]} */ items) => untracked(() => list.show(items)),
+    mark: (/** @type {string} */ key) => untracked(() => list.mark(key)),
+    marked: () => list.marked(),
+    resize: (/** @type {number} */ pixels) => list.resize(pixels),
+    close: () => list.close(),
+  };
+}
+
+/**
+ * @template {{key: string}} T
+ * @template {HTMLElement} E
+ */
+class RowList {
+  #id = `wv-rows-${(lists += 1)}`;
+  #numbers = 0;
+  #height;
+  #options;
+  /** @type {Map<string, Mounted<T>>} */
+  #mounted = new Map();
   /** @type {Map<string, number>} */
-  const places = new Map();
-  let numbers = 0;
+  #places = new Map();
   /** @type {T[]} */
-  let items = [];
-  /** @type {string | null} */
-  let marked = null;
-  let total = -1;
+  #items = [];
+  #shown = signal(0); // counts what was shown
+  #marked = signal(/** @type {string | null} */ (null));
+  #canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
+  #seenHeight = 0;
+  #observer = new ResizeObserver(() => this.#resized());
 
-  const canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
-  const element = el(
-    "div",
-    {
-      class: "wv-rows",
-      role: host ? "rowgroup" : null,
-      onscroll: () => render(),
-      onclick: (event) => {
-        const key = event.target.closest(".wv-row")?.wvKey;
-        if (key === undefined || event.target.closest("button")) return;
-        mark(key);
-        const item = itemOf(key);
-        if (item) choose?.(item);
+  /** @param {Options<T, E>} options */
+  constructor(options) {
+    const { label, role = "listbox", height, host } = options;
+    this.#options = options;
+    this.#height = height;
+    this.element = el(
+      "div",
+      {
+        class: "wv-rows",
+        role: host ? "rowgroup" : null,
+        onscroll: () => this.#render(),
+        onclick: (/** @type {MouseEvent} */ event) => this.#click(event),
       },
-    },
-    canvas,
-  );
-  /** @param {string | null} key */
-  const itemOf = (key) => (key === null ? undefined : items[places.get(key) ?? -1]);
-  const focused = host ?? element;
-  set(focused, { role, tabindex: 0, "aria-label": label, onkeydown: press });
-  let seenHeight = 0;
-  const observer = new ResizeObserver(() => {
-    const isSmaller = element.clientHeight < seenHeight;
-    seenHeight = element.clientHeight;
-    if (isSmaller && marked !== null)
-      mark(marked); // what was chosen stays in sight
-    else render();
-  });
-  observer.observe(element);
-
-  /** @param {T[]} next */
-  function show(next) {
-    items = next;
-    places.clear();
-    items.forEach((item, index) => places.set(item.key, index));
-    if (marked !== null && !places.has(marked)) marked = null;
-    render(true);
+      this.#canvas,
+    );
+    this.focused = host ?? this.element;
+    set(this.focused, {
+      role,
+      tabindex: 0,
+      "aria-label": label,
+      onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event),
+    });
+    this.#observer.observe(this.element);
   }
 
-  function render(isChanged = false) {
-    if (total !== items.length * height) {
-      total = items.length * height;
-      canvas.style.height = `${total}px`;
-      isChanged = true;
+  /** @param {T[]} items */
+  show(items) {
+    this.#items = items;
+    this.#places = new Map(items.map(({ key }, index) => [key, index]));
+    batch(() => {
+      if (!this.#places.has(this.#marked.value ?? "")) this.#marked.value = null;
+      this.#shown.value += 1;
+      this.#render();
+    });
+  }
+
+  marked() {
+    return this.#shown.value ? (this.#itemOf(this.#marked.value) ?? null) : null;
+  }
+
+  /** @param {string} key */
+  mark(key) {
+    this.#marked.value = key;
+    const index = this.#places.get(key);
+    if (index !== undefined) {
+      const { element } = this;
+      const top = index * this.#height;
+      if (top < element.scrollTop) element.scrollTop = top;
+      const over = top + this.#height - element.scrollTop - element.clientHeight;
+      if (over > 0) element.scrollTop += over;
     }
-    const first = Math.max(0, Math.floor(element.scrollTop / height) - BEYOND);
-    const last = Math.ceil((element.scrollTop + element.clientHeight) / height) + BEYOND;
-    const seen = items.slice(first, last);
+    this.#render();
+  }
+
+  /** @param {number} pixels */
+  resize(pixels) {
+    if (pixels === this.#height) return;
+    this.#height = pixels;
+    this.#render();
+  }
+
+  close() {
+    this.#observer.disconnect();
+    for (const { end } of this.#mounted.values()) end();
+  }
+
+  #resized() {
+    const isSmaller = this.element.clientHeight < this.#seenHeight;
+    this.#seenHeight = this.element.clientHeight;
+    // What was chosen stays in sight.
+    if (isSmaller && this.#marked.value !== null) this.mark(this.#marked.value);
+    else this.#render();
+  }
+
+  #render() {
+    const { scrollTop, clientHeight } = this.element;
+    const total = `${this.#items.length * this.#height}px`;
+    if (this.#canvas.style.height !== total) this.#canvas.style.height = total;
+    const first = Math.max(0, Math.floor(scrollTop / this.#height) - BEYOND);
+    const last = Math.ceil((scrollTop + clientHeight) / this.#height) + BEYOND;
+    const seen = this.#items.slice(first, last);
     const wanted = new Set(seen.map(({ key }) => key));
-    for (const [key, row] of mounted) {
+    for (const [key, { element, end }] of this.#mounted) {
       if (wanted.has(key)) continue;
-      row.remove();
-      mounted.delete(key);
+      end();
+      element.remove();
+      this.#mounted.delete(key);
     }
     seen.forEach((item, index) => {
-      const known = mounted.get(item.key);
-      const row = known ?? mount(item);
-      const isNew = !known;
-      mounted.set(item.key, row);
-      place(row, first + index);
-      if (isNew || isChanged === true) update(row, item);
-      if (canvas.children[index] !== row) canvas.insertBefore(row, canvas.children[index] ?? null);
+      const known = this.#mounted.get(item.key);
+      const { element, item: own } = known ?? root((end) => this.#mount(item, end));
+      own.value = item;
+      this.#place(element, first + index);
+      const before = this.#canvas.children[index] ?? null;
+      if (before !== element) this.#canvas.insertBefore(element, before);
     });
-    showMark();
+    const id = this.#mounted.get(this.#marked.value ?? "")?.element.id;
+    set(this.focused, { "aria-activedescendant": id });
   }
 
-  /** @param {T} item */
-  function mount(item) {
-    numbers += 1;
-    const row = /** @type {Row & E} */ (make(item));
-    row.classList.add("wv-row");
-    set(row, { id: `${id}-${numbers}`, role: rowRole });
-    row.wvKey = item.key;
-    return row;
+  /**
+   * @param {T} first
+   * @param {End} end
+   */
+  #mount(first, end) {
+    const { row, make, update, rowRole = "option" } = this.#options;
+    const { key } = first;
+    const item = signal(first);
+    const element = /** @type {Row & E} */ (row?.(() => item.value) ?? make?.(first));
+    this.#numbers += 1;
+    element.classList.add("wv-row");
+    element.wvKey = key;
+    set(element, {
+      id: `${this.#id}-${this.#numbers}`,
+      role: rowRole,
+      "aria-selected": () => String(this.#marked.value === key),
+    });
+    effect(() => {
+      if (this.#shown.value) update?.(element, item.value);
+    });
+    const mounted = { element, item, end };
+    this.#mounted.set(key, mounted);
+    return mounted;
   }
 
   /**
    * @param {Row} row
    * @param {number} index
    */
-  function place(row, index) {
-    if (row.wvTop !== index * height) row.style.top = `${(row.wvTop = index * height)}px`;
-    if (rowRole === "row") set(row, { "aria-rowindex": index + 2 });
-    else set(row, { "aria-posinset": index + 1, "aria-setsize": items.length });
+  #place(row, index) {
+    const top = `${index * this.#height}px`;
+    if (row.style.top !== top) row.style.top = top;
+    if (this.#options.rowRole === "row") set(row, { "aria-rowindex": index + 2 });
+    else set(row, { "aria-posinset": index + 1, "aria-setsize": this.#items.length });
   }
 
-  function showMark() {
-    for (const [key, row] of mounted) set(row, { "aria-selected": String(key === marked) });
-    set(focused, { "aria-activedescendant": mounted.get(marked ?? "")?.id });
+  /** @param {string | null} key */
+  #itemOf(key) {
+    return key === null ? undefined : this.#items[this.#places.get(key) ?? -1];
   }
 
-  /** @param {string} key */
-  function mark(key) {
-    marked = key;
-    const index = places.get(key);
-    if (index !== undefined) {
-      const top = index * height;
-      if (top < element.scrollTop) element.scrollTop = top;
-      const over = top + height - element.scrollTop - element.clientHeight;
-      if (over > 0) element.scrollTop += over;
-    }
-    render();
+  /** @param {MouseEvent} event */
+  #click({ target }) {
+    const clicked = /** @type {Element} */ (target);
+    const row = /** @type {Row | null} */ (clicked.closest(".wv-row"));
+    const item = row && this.#itemOf(row.wvKey);
+    if (!item || clicked.closest("button")) return;
+    this.mark(item.key);
+    this.#options.choose?.(item);
   }
 
   /** @param {KeyboardEvent} event */
-  function press(event) {
+  #press(event) {
     const { key } = event;
-    if (event.target !== focused || event.ctrlKey || event.metaKey || event.altKey) return;
-    const at = places.get(marked ?? "") ?? -1;
-    const page = Math.max(1, Math.floor(element.clientHeight / height) - 1);
+    if (event.target !== this.focused || event.ctrlKey || event.metaKey || event.altKey) return;
+    const at = this.#places.get(this.#marked.value ?? "") ?? -1;
+    const item = this.#items[at];
+    const page = Math.max(1, Math.floor(this.element.clientHeight / this.#height) - 1);
     /** @type {Record<string, number>} */
     const steps = {
       ArrowDown: at + 1,
@@ -171,32 +247,18 @@ export function rowList({
       PageDown: at + page,
       PageUp: at - page,
       Home: 0,
-      End: items.length - 1,
+      End: this.#items.length - 1,
     };
     const next = steps[key];
-    if (items[at] && onKey(event, items[at])) {
+    if (item && this.#options.onKey?.(event, item)) {
       // done
-    } else if (next !== undefined && items.length) {
-      mark(items[Math.max(0, Math.min(next, items.length - 1))].key);
-    } else if ((key === "Enter" || key === " ") && items[at]) choose?.(items[at]);
+    } else if (next !== undefined && this.#items.length) {
+      this.mark(this.#items[Math.max(0, Math.min(next, this.#items.length - 1))].key);
+    } else if ((key === "Enter" || key === " ") && item) this.#options.choose?.(item);
     else return;
     event.preventDefault();
     event.stopPropagation();
   }
-
-  return {
-    element,
-    show,
-    mark,
-    marked: () => itemOf(marked) ?? null,
-    /** @param {number} pixels */
-    resize(pixels) {
-      if (pixels === height) return;
-      height = pixels;
-      render(true);
-    },
-    close: () => observer.disconnect(),
-  };
 }
 
 /**

@@ -1,10 +1,10 @@
 // Switches by name, such as those of frames or of namespaces: check boxes with a search, for
 // hundreds of names.
 
-import { el, set, setChildren, setText } from "../dom.js";
+import { el, set } from "../dom.js";
 import { icon, textButton } from "../icons.js";
 import { sanitized } from "../sanitize.js";
-import { computed, effect, owned, signal } from "../signals.js";
+import { computed, effect, signal } from "../signals.js";
 import { store } from "../stores.js";
 import { wordsOf } from "../words.js";
 import { searchField } from "./fields.js";
@@ -86,11 +86,12 @@ export function switches({ offered }, options) {
   const list = rowList({
     label,
     height,
-    make,
-    update: (row, { key }) => fill(row, key, isOn(key), counts()),
+    row: (/** @type {() => {key: string}} */ item) => {
+      const { key } = item();
+      return switchRow(key, () => isOn(key), counts);
+    },
     choose: ({ key }) => put([key], !isOn(key)),
   });
-  owned(list.close);
   set(list.element, { "aria-multiselectable": "true", "aria-description": help });
   effect(() => {
     list.element.style.height = `${Math.min(shown.value.length, MAX_ROWS) * height}px`;
@@ -118,27 +119,24 @@ export function switches({ offered }, options) {
   };
 }
 
-function make() {
-  const box = el("span", { class: "wv-box", "aria-hidden": "true" });
-  const name = el("span", { class: "wv-ellipsis" });
-  const count = el("span", { class: "wv-quiet wv-switch-count" });
-  const row = el("div", { class: "wv-switch" }, box, name, count);
-  return Object.assign(row, { wvParts: { box, name, count, mark: icon("check", 12) } });
-}
-
 /**
- * @param {ReturnType<typeof make>} row
  * @param {string} key
- * @param {boolean} isOn
- * @param {Record<string, number | string>} counts
+ * @param {() => boolean} isOn
+ * @param {() => Record<string, number | string>} counts
  */
-function fill(row, key, isOn, counts) {
-  const { box, name, count, mark } = row.wvParts;
-  setText(name, key === "" ? "(no name)" : sanitized(key));
-  setText(count, Object.hasOwn(counts, key) ? String(counts[key]) : "");
-  set(row, {
-    "aria-checked": String(isOn),
-    title: key.length > 30 ? sanitized(key, 1000) : null,
-  });
-  setChildren(box, isOn ? [mark] : []);
-}
+const switchRow = (key, isOn, counts) =>
+  el(
+    "div",
+    {
+      class: "wv-switch",
+      "aria-checked": () => String(isOn()),
+      title: key.length > 30 ? sanitized(key, 1000) : null,
+    },
+    el("span", { class: "wv-box", "aria-hidden": "true" }, () =>
+      isOn() ? icon("check", 12) : null,
+    ),
+    el("span", { class: "wv-ellipsis" }, key === "" ? "(no name)" : sanitized(key)),
+    el("span", { class: "wv-quiet wv-switch-count" }, () =>
+      Object.hasOwn(counts(), key) ? String(counts()[key]) : "",
+    ),
+  );

@@ -1,6 +1,7 @@
 // The tree of frames as rows.
 
-import { el, set, setText } from "../dom.js";
+import { el } from "../dom.js";
+import { effect } from "../signals.js";
 import { wordsOf } from "../words.js";
 import { foldMark, showFold } from "./folds.js";
 import { rateText, spanText } from "./units.js";
@@ -78,39 +79,34 @@ export function frameNames(values) {
   return [...new Set([...names, ...(values.get("/roots") ?? [])])].filter(Boolean).sort();
 }
 
-/** A row without content. */
-export function makeFrame() {
-  return el(
+/** @param {() => FrameRow} row read in effects */
+export function frameRow(row) {
+  const frame = () => row().frame;
+  const problems = () => frame()?.problems ?? [];
+  const age = () => {
+    const shown = frame();
+    return shown && !shown.is_static ? ageText(shown) : "";
+  };
+  const element = el(
     "div",
-    { class: "wv-frame" },
+    { class: "wv-frame", "data-tip": () => [row().name, ...problems()].join("\n") },
     foldMark(),
-    el("span", { class: "wv-frame-name wv-ellipsis" }),
-    el("span", { class: "wv-frame-node wv-ellipsis wv-quiet" }),
-    el("span", { class: "wv-frame-fact wv-quiet wv-number" }),
-    el("span", { class: "wv-frame-age wv-quiet wv-number" }),
-    el("span", { class: "wv-dot" }),
+    el("span", { class: "wv-frame-name wv-ellipsis" }, () =>
+      row().isLoop ? `${row().name} (loop)` : row().name,
+    ),
+    el("span", { class: "wv-frame-node wv-ellipsis wv-quiet" }, () =>
+      (frame()?.nodes ?? []).join(", "),
+    ),
+    el("span", { class: "wv-frame-fact wv-quiet wv-number" }, () => factOf(frame())),
+    el("span", { class: "wv-frame-age wv-quiet wv-number" }, age),
+    el("span", {
+      class: "wv-dot",
+      "data-level": () => (problems().length ? "warn" : null),
+      "data-tip": () => problems().join("\n") || null,
+    }),
   );
-}
-
-/**
- * Fills in a row.
- *
- * @param {HTMLElement} row
- * @param {FrameRow} frameRow
- */
-export function updateFrame(row, { name, depth, isOpen, frame, isLoop }) {
-  const [, label, node, fact, age, dot] = row.children;
-  setText(label, name + (isLoop ? " (loop)" : ""));
-  setText(node, frame?.nodes.join(", ") ?? "");
-  setText(fact, factOf(frame));
-  setText(age, frame && !frame.is_static ? ageText(frame) : "");
-  const problems = frame?.problems ?? [];
-  set(dot, {
-    "data-level": problems.length ? "warn" : null,
-    "data-tip": problems.join("\n") || null,
-  });
-  set(row, { "data-tip": [name, ...problems].join("\n") });
-  showFold(row, { depth, isOpen });
+  effect(() => showFold(element, row()));
+  return element;
 }
 
 /**

@@ -1,9 +1,10 @@
 // A message as rows that fold, which arrow keys move through.
 
 import { needs } from "../access.js";
-import { keyOf, rowList, touchable } from "../controls/rows.js";
-import { el, set, setText } from "../dom.js";
+import { rowList, touchable } from "../controls/rows.js";
+import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
+import { effect } from "../signals.js";
 import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
@@ -25,27 +26,6 @@ export function messageRows({ label, topic }) {
   const folds = new Map();
   /** @type {Fields | null} */
   let shown = null;
-  const list = rowList({
-    label,
-    role: "tree",
-    rowRole: "treeitem",
-    height: touchable(ROW_PX),
-    make,
-    update: updateRow,
-    choose: toggle,
-    onKey,
-  });
-
-  function make() {
-    /** @type {HTMLButtonElement} */
-    const plot = iconButton("odometry", "Plot", () => plotField(topic(), pathOf(keyOf(plot))), {
-      class: "wv-icon wv-field-plot",
-      tabindex: -1,
-      tip: "Plot this field",
-      size: 14,
-    });
-    return makeRow(needs("AddPanel", plot));
-  }
 
   /** @param {Fields | null} tree */
   function show(tree) {
@@ -60,15 +40,16 @@ export function messageRows({ label, topic }) {
     show(shown);
   }
 
-  /**
-   * @param {KeyboardEvent} event
-   * @param {MessageRow} row
-   * @returns {boolean}
-   */
-  function onKey({ key }, row) {
-    return foldByKey(key, row, toggle, list);
-  }
-
+  /** @type {ReturnType<typeof rowList<MessageRow>>} */
+  const list = rowList({
+    label,
+    role: "tree",
+    rowRole: "treeitem",
+    height: touchable(ROW_PX),
+    row: (row) => messageRow(row, topic),
+    choose: toggle,
+    onKey: ({ key }, row) => foldByKey(key, row, toggle, list),
+  });
   return { element: list.element, show, close: list.close };
 }
 
@@ -79,27 +60,28 @@ export function messageRows({ label, topic }) {
  */
 export const pathOf = (key) => key.slice(1).replaceAll("/[", "[").replaceAll("/", ".");
 
-/** @param {HTMLElement} plot */
-function makeRow(plot) {
-  return el(
+/**
+ * @param {() => MessageRow} row
+ * @param {() => string} topic
+ */
+function messageRow(row, topic) {
+  const value = () => row().value;
+  const plot = iconButton("odometry", "Plot", () => plotField(topic(), pathOf(row().key)), {
+    class: "wv-icon wv-field-plot",
+    tabindex: -1,
+    tip: "Plot this field",
+    size: 14,
+    hidden: () => !NUMBER.test(value()),
+  });
+  const tip = () => (value().length > 30 ? value() : null);
+  const element = el(
     "div",
     { class: "wv-field-row" },
     foldMark(),
-    el("span", { class: "wv-field-name" }),
-    el("span", { class: "wv-field-value wv-ellipsis" }),
-    plot,
+    el("span", { class: "wv-field-name" }, () => row().name),
+    el("span", { class: "wv-field-value wv-ellipsis", "data-tip": tip }, value),
+    needs("AddPanel", plot),
   );
-}
-
-/**
- * @param {HTMLElement} element
- * @param {MessageRow} row
- */
-function updateRow(element, row) {
-  const [, name, value, plot] = element.children;
-  set(plot, { hidden: !NUMBER.test(row.value) });
-  setText(name, row.name);
-  setText(value, row.value);
-  set(value, { "data-tip": row.value.length > 30 ? row.value : null });
-  showFold(element, row);
+  effect(() => showFold(element, row()));
+  return element;
 }

@@ -3,20 +3,30 @@
 import { needs, why } from "../access.js";
 import { act } from "../act.js";
 import { textField } from "../controls/fields.js";
-import { el, set, setChildren, setText } from "../dom.js";
+import { el } from "../dom.js";
 import { icon, iconButton, textButton } from "../icons.js";
+import { each, signal } from "../signals.js";
+import { store } from "../stores.js";
 
 /** @import {SavedView} from "../contents.js" */
 
 const NAME = "View"; // of a view without a name, before its number
 
-/** The list, and below it the field that saves. Returns `{element, update(saved)}`. */
+/** The list, and below it the field that saves. */
 export function savedViews() {
-  /** @type {Map<string, ReturnType<typeof line>>} */
-  const lines = new Map();
-  const list = el("ul", { class: "wv-saved" });
-  const empty = el("p", { class: "wv-saved-none wv-quiet" }, "No views are saved yet.");
-  const name = textField("Name of the view to save");
+  const views = store("views");
+  const saved = () => views.get("saved") ?? [];
+  const rows = each(
+    saved,
+    (view) => view.name,
+    (view, name) => line(name, () => view.value),
+  );
+  const free = () => {
+    const names = saved().map((view) => view.name);
+    const numbers = Array.from({ length: names.length + 1 }, (_, at) => `${NAME} ${at + 1}`);
+    return numbers.find((each) => !names.includes(each));
+  };
+  const name = textField("Name of the view to save", { placeholder: free });
   const save = el(
     "form",
     {
@@ -34,50 +44,28 @@ export function savedViews() {
     tip: "New browsers and pictures begin with this view",
     icon: "flag",
   });
-  const element = el(
+  const isEmpty = () => views.isThere() && !saved().length;
+  return el(
     "section",
     { class: "wv-view", "aria-label": "Saved views" },
     el("div", { class: "wv-view-head" }, el("h2", { class: "wv-view-title" }, "Saved views")),
-    list,
-    empty,
+    el("ul", { class: "wv-saved" }, rows),
+    el(
+      "p",
+      { class: "wv-saved-none wv-quiet", hidden: () => !isEmpty() },
+      "No views are saved yet.",
+    ),
     needs("SaveView", save),
     needs("StartWithView", start),
   );
-
-  return {
-    element,
-    /** @param {SavedView[]} saved */
-    update(saved) {
-      const names = saved.map((view) => view.name);
-      for (const gone of [...lines.keys()].filter((each) => !names.includes(each)))
-        lines.delete(gone);
-      for (const view of saved) {
-        const known = lines.get(view.name) ?? line(view.name);
-        lines.set(view.name, known);
-        known.update(view);
-      }
-      setChildren(
-        list,
-        names.flatMap((each) => lines.get(each)?.element ?? []),
-      );
-      empty.hidden = saved.length > 0;
-      const numbers = Array.from(
-        { length: names.length + 1 },
-        (_, index) => `${NAME} ${index + 1}`,
-      );
-      set(name, { placeholder: numbers.find((each) => !names.includes(each)) });
-    },
-  };
 }
 
-/** @param {string} name */
-function line(name) {
-  const type = el("span", { class: "wv-quiet" });
-  const mark = el(
-    "span",
-    { class: "wv-saved-start", title: "Browsers begin with it" },
-    icon("flag", 12),
-  );
+/**
+ * @param {string} name
+ * @param {() => SavedView} view
+ */
+function line(name, view) {
+  const isRenamed = signal(false);
   const show = el(
     "button",
     {
@@ -85,16 +73,25 @@ function line(name) {
       class: "wv-saved-show",
       "aria-label": name,
       title: `Show ${name}`,
+      hidden: isRenamed,
       onclick: () => act("ShowView", { view: name }),
       onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
     },
     el("span", { class: "wv-saved-name" }, name),
-    type,
-    mark,
+    el("span", { class: "wv-quiet" }, () => view().type),
+    el(
+      "span",
+      {
+        class: "wv-saved-start",
+        title: "Browsers begin with it",
+        hidden: () => !view().is_start,
+      },
+      icon("flag", 12),
+    ),
   );
   const field = textField(`New name of ${name}`, {
-    hidden: true,
-    onblur: () => take(),
+    hidden: () => !isRenamed.value,
+    onblur: take,
     onkeydown(event) {
       if (event.key !== "Enter" && event.key !== "Escape") return;
       event.stopPropagation();
@@ -104,46 +101,32 @@ function line(name) {
       show.focus(); // which takes what was typed
     },
   });
-  const element = el(
-    "li",
-    { class: "wv-saved-line" },
-    show,
-    field,
-    needs(
-      "StartWithView",
-      tool("flag", `Start with ${name}`, () => act("StartWithView", { view: name })),
-    ),
-    needs("RenameView", tool("pencil", `Rename ${name}`, rename)),
-    needs(
-      "RemoveView",
-      tool("trash", `Remove ${name}`, () => act("RemoveView", { name })),
-    ),
-  );
 
   function rename() {
-    show.hidden = true;
-    field.hidden = false;
+    isRenamed.value = true;
     field.value = name;
     field.focus();
     field.select();
   }
 
   function take() {
-    if (field.hidden) return;
+    if (!isRenamed.value) return;
+    isRenamed.value = false;
     const newName = field.value.trim();
-    field.hidden = true;
-    show.hidden = false;
     if (newName && newName !== name) act("RenameView", { name, new_name: newName });
   }
 
-  return {
-    element,
-    /** @param {SavedView} view */
-    update(view) {
-      setText(type, view.type);
-      mark.hidden = !view.is_start;
-    },
-  };
+  const start = () => act("StartWithView", { view: name });
+  const remove = () => act("RemoveView", { name });
+  return el(
+    "li",
+    { class: "wv-saved-line" },
+    show,
+    field,
+    needs("StartWithView", tool("flag", `Start with ${name}`, start)),
+    needs("RenameView", tool("pencil", `Rename ${name}`, rename)),
+    needs("RemoveView", tool("trash", `Remove ${name}`, remove)),
+  );
 }
 
 /**

@@ -1,10 +1,11 @@
 // The table of topics: which there are, in which order, and their cells.
 
-import { el, set, setText } from "../dom.js";
+import { el } from "../dom.js";
 import { wordsOf } from "../words.js";
 import { bytesText, rateText, spanText } from "./units.js";
 
 /** @import {GraphTopic, TopicTraffic} from "../contents.js" */
+/** @import {Signal} from "../signals.js" */
 
 /**
  * @typedef {{key: string} & GraphTopic & Partial<TopicTraffic>} TopicRow
@@ -112,53 +113,56 @@ function compare(a, b, isNumber = false) {
   return first < second ? -1 : Number(first > second);
 }
 
-/** A row without content. */
-export function makeRow() {
-  const cells = COLUMNS.map(({ id, isNumber }) =>
-    el("span", {
-      class: `wv-ellipsis wv-cell-${id}${isNumber ? " wv-number" : ""}`,
-      role: "gridcell",
-    }),
-  );
-  return el("div", { class: "wv-topic" }, cells);
-}
+/** @type {Record<string, (topic: TopicRow) => string>} */
+const TIPS = {
+  name: ({ key }) => key,
+  type: ({ types }) => types.join("\n"),
+  publishers: ({ nodes }) => nodes.slice(0, 20).join("\n"),
+};
 
-/**
- * Fills in a row.
- *
- * @param {HTMLElement} row
- * @param {TopicRow} topic
- */
-export function updateRow(row, topic) {
-  COLUMNS.forEach(({ text }, index) => setText(row.children[index], text(topic)));
-  set(row.children[0], { "data-tip": topic.key });
-  set(row.children[1], { "data-tip": topic.types.join("\n") });
-  set(row.children[2], { "data-tip": topic.nodes.slice(0, 20).join("\n") });
-  set(row, { "data-silent": topic.types.length ? null : "" });
-}
-
-/**
- * The heads of the columns; `choose(column)` is called with the id of one.
- *
- * @param {(column: string) => void} choose
- */
-export function makeHead(choose) {
-  const heads = COLUMNS.map(({ id, title, hint }) =>
-    el(
-      "button",
-      { type: "button", class: `wv-cell-${id}`, title: hint ?? title, onclick: () => choose(id) },
-      title,
+/** @param {() => TopicRow} topic read in effects */
+export const topicRow = (topic) =>
+  el(
+    "div",
+    { class: "wv-topic", "data-silent": () => topic().types.length === 0 },
+    COLUMNS.map(({ id, isNumber, text }) =>
+      el(
+        "span",
+        {
+          class: `wv-ellipsis wv-cell-${id}${isNumber ? " wv-number" : ""}`,
+          role: "gridcell",
+          "data-tip": Object.hasOwn(TIPS, id) ? () => TIPS[id](topic()) : null,
+        },
+        () => text(topic()),
+      ),
     ),
   );
-  const cells = heads.map((head, index) =>
-    el("span", { role: "columnheader", class: `wv-head-${COLUMNS[index].id}` }, head),
+
+/**
+ * The heads of the columns; a click sorts by one, numbers from the largest.
+ *
+ * @param {Signal<Sort>} sort
+ */
+export function tableHead(sort) {
+  /** @param {Column} column */
+  const choose = ({ id, isNumber = false }) => {
+    const { column, isUp } = sort.value;
+    sort.value = { column: id, isUp: column === id ? !isUp : !isNumber };
+  };
+  /** @param {string} id */
+  const order = (id) =>
+    id !== sort.value.column ? "none" : sort.value.isUp ? "ascending" : "descending";
+  return el(
+    "div",
+    { class: "wv-topics-head", role: "row" },
+    COLUMNS.map((column) => {
+      const { id, title, hint = title } = column;
+      const attributes = { type: "button", class: `wv-cell-${id}`, title: hint };
+      return el(
+        "span",
+        { role: "columnheader", class: `wv-head-${id}`, "aria-sort": () => order(id) },
+        el("button", { ...attributes, onclick: () => choose(column) }, title),
+      );
+    }),
   );
-  const element = el("div", { class: "wv-topics-head", role: "row" }, cells);
-  /** @param {Sort} sort */
-  const update = (sort) =>
-    COLUMNS.forEach(({ id }, index) => {
-      const order = sort.isUp ? "ascending" : "descending";
-      set(cells[index], { "aria-sort": id === sort.column ? order : "none" });
-    });
-  return { element, update };
 }

@@ -56,7 +56,6 @@ export const views = {
         options,
       ),
     );
-    const saved = savedViews();
     const title = el("h2", { class: "wv-view-title" }, "Current view");
     element.append(
       el(
@@ -66,9 +65,8 @@ export const views = {
         el("div", {}, common),
         el("div", {}, own),
       ),
-      saved.element,
+      savedViews(),
     );
-    return watch("views", (values) => saved.update(values.get("saved")));
   },
 };
 

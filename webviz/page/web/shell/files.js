@@ -5,22 +5,21 @@ import * as channel from "../channel.js";
 import { textField } from "../controls/fields.js";
 import { el, setText } from "../dom.js";
 import { icon, textButton } from "../icons.js";
-import { listeners } from "../listeners.js";
-import { watch } from "../stores.js";
+import { each, root } from "../signals.js";
+import { store } from "../stores.js";
 import { ask, openDialog } from "../controls/dialog.js";
 import { download } from "../download.js";
 import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
 import { toast } from "../toasts.js";
 
+/** @import {Close} from "../controls/dialog.js" */
 /** @import {Commands} from "../messages.js" */
 
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
 const NEW_NAME = "webviz.yaml";
 
-/** @type {{path: string, is_changed: boolean, folder: string | null, others: string[]}} */
-let file = { path: "", is_changed: false, folder: null, others: [] };
-const changes = listeners();
+const file = store("file");
 
 /**
  * The last part of a path.
@@ -28,37 +27,17 @@ const changes = listeners();
  * @param {string} path
  */
 const baseName = (path) => path.slice(path.lastIndexOf("/") + 1);
-/** The name of the file, "" if there is none. */
-export const fileName = () => baseName(file.path);
-export const path = () => file.path;
-export const isChanged = () => file.is_changed;
+/** The name of the file, "" if there is none; read in effects, as all that follows. */
+export const fileName = () => baseName(path());
+export const path = () => file.get("path") ?? "";
+export const isChanged = () => file.get("is_changed") ?? false;
 /** True once the server has reported the file. */
-export const isThere = () => file.folder !== null;
+export const isThere = () => typeof file.get("folder") === "string";
+const others = () => file.get("others") ?? [];
 
-export function install() {
-  watch("file", (values) => {
-    file = {
-      path: values.get("path"),
-      is_changed: values.get("is_changed"),
-      folder: values.get("folder"),
-      others: values.get("others"),
-    };
-    changes.tell();
-  });
-  channel.on("Download", ({ name, text }) => download(name, text));
-}
+export const install = () => channel.on("Download", ({ name, text }) => download(name, text));
 
-/**
- * Calls `listener` now and whenever the file is another one; returns what ends it.
- *
- * @param {() => void} listener
- */
-export function onFile(listener) {
-  listener();
-  return changes.on(listener);
-}
-
-export const save = () => (file.path ? act("Save") : saveAs());
+export const save = () => (path() ? act("Save") : saveAs());
 
 /**
  * Sends the config here, as "yaml" or "rviz".
@@ -83,7 +62,7 @@ export function saveAs() {
 
   /** @param {string} name */
   function replaces(name) {
-    if (!file.others.includes(name) || name === fileName() || name === confirmed) return null;
+    if (!others().includes(name) || name === fileName() || name === confirmed) return null;
     confirmed = name;
     return `${name} exists already. Save again to replace it.`;
   }
@@ -91,7 +70,7 @@ export function saveAs() {
   const answer = openDialog({
     title: "Save as",
     content: [
-      el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
+      el("p", { class: "wv-quiet" }, `In ${file.get("folder")} of the machine that runs webviz:`),
       input,
       problem,
     ],
@@ -110,60 +89,57 @@ export function saveAs() {
   });
 }
 
-export function open() {
-  const list = el("div", { class: "wv-files", role: "group", "aria-label": "Files" });
+export const open = () =>
+  root(async (end) => {
+    const chosen = await openDialog({
+      title: "Open",
+      content: filesToOpen,
+      buttons: [{ label: "Cancel", value: null }],
+    });
+    end();
+    if (chosen?.upload) return load(chosen.upload);
+    if (chosen?.name) return replace(chosen.name, "Open", { path: chosen.name });
+  });
+
+/** @param {Close} close */
+function filesToOpen(close) {
+  /** @param {string} name */
+  const row = (name) =>
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-file-row",
+        disabled: () => name === fileName() && !isChanged(),
+        onclick: () => close({ name }),
+      },
+      icon("file"),
+      el("span", {}, name),
+    );
+  /** @type {HTMLInputElement} */
   const upload = el("input", {
     type: "file",
     accept: SUFFIXES.join(","),
     hidden: true,
     "aria-label": "File of this computer",
+    onchange: () => upload.files?.[0] && close({ upload: upload.files[0] }),
   });
-  /** @type {() => void} */
-  let end = () => {};
-
-  return openDialog({
-    title: "Open",
-    content(close) {
-      /** @param {string} name */
-      const row = (name) =>
-        el(
-          "button",
-          {
-            type: "button",
-            class: "wv-file-row",
-            disabled: name === fileName() && !file.is_changed,
-            onclick: () => close({ name }),
-          },
-          icon("file"),
-          el("span", {}, name),
-        );
-      end = onFile(() => {
-        if (list.dataset.names === JSON.stringify(file.others)) return;
-        list.dataset.names = JSON.stringify(file.others);
-        list.replaceChildren(...file.others.map(row));
-        if (!file.others.length)
-          list.append(el("p", { class: "wv-quiet" }, "No config files there."));
-      });
-      upload.addEventListener(
-        "change",
-        () => upload.files?.[0] && close({ upload: upload.files[0] }),
-      );
-      return [
-        el("p", { class: "wv-quiet" }, `In ${file.folder} of the machine that runs webviz:`),
-        list,
-        upload,
-        textButton("Upload from this computer", () => upload.click(), {
-          class: "wv-button wv-upload",
-          icon: "upload",
-        }),
-      ];
-    },
-    buttons: [{ label: "Cancel", value: null }],
-  }).then((chosen) => {
-    end();
-    if (chosen?.upload) return load(chosen.upload);
-    if (chosen?.name) return replace(chosen.name, "Open", { path: chosen.name });
-  });
+  const rows = each(
+    others,
+    (name) => name,
+    (_, name) => row(name),
+  );
+  return [
+    el("p", { class: "wv-quiet" }, `In ${file.get("folder")} of the machine that runs webviz:`),
+    el("div", { class: "wv-files", role: "group", "aria-label": "Files" }, rows, () =>
+      others().length ? null : el("p", { class: "wv-quiet" }, "No config files there."),
+    ),
+    upload,
+    textButton("Upload from this computer", () => upload.click(), {
+      class: "wv-button wv-upload",
+      icon: "upload",
+    }),
+  ];
 }
 
 /**
@@ -198,5 +174,5 @@ export async function load(upload) {
 async function replace(name, command, fields) {
   const question = `Open ${name} and discard unsaved changes? Everyone on this page loses them.`;
   const options = { title: "Unsaved changes", confirm: "Discard", danger: true };
-  if (!file.is_changed || (await ask(question, options))) act(command, fields);
+  if (!isChanged() || (await ask(question, options))) act(command, fields);
 }

@@ -1,7 +1,7 @@
 // The head of the side: the config file, and what is done with it.
 
 import { needs, why } from "../access.js";
-import { el, set, setText } from "../dom.js";
+import { el, set } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { actions, added, item, submenuItems } from "./actions.js";
 import * as files from "./files.js";
@@ -9,7 +9,8 @@ import * as history from "./history.js";
 import { fold, openPanel } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { isSevere } from "../panels/findings.js";
-import { watch } from "../stores.js";
+import { effect } from "../signals.js";
+import { store } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 import { setTitle } from "../title.js";
@@ -26,33 +27,30 @@ export function build() {
       type: "button",
       class: "wv-file",
       "aria-haspopup": "menu",
+      "data-tip": () => (files.isThere() ? files.path() || "Not yet saved in a file" : null),
       onclick: () => openMenuBelow(name, fileMenu()),
     },
-    "Connecting…",
+    () => (files.isThere() ? files.fileName() || "webviz" : "Connecting…"),
   );
-  const mark = el("span", {
-    class: "wv-mark",
-    role: "img",
-    "aria-label": "Unsaved changes",
-    "data-tip": "Unsaved changes",
-    hidden: true,
-  });
-  files.onFile(() => {
-    if (!files.isThere()) return;
-    setText(name, files.fileName() || "webviz");
-    set(name, { "data-tip": files.path() || "Not yet saved in a file" });
-    mark.hidden = !files.isChanged();
+  effect(() => {
     const title = [files.fileName(), "webviz"].filter(Boolean).join(" · ");
-    setTitle(files.isChanged() ? `* ${title}` : title);
+    if (files.isThere()) setTitle(files.isChanged() ? `* ${title}` : title);
   });
   /** @type {HTMLButtonElement} */
-  const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu(more)));
-  set(more, { "aria-haspopup": "menu" });
+  const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu(more)), {
+    "aria-haspopup": "menu",
+  });
   return el(
     "header",
     { class: "wv-head" },
     name,
-    mark,
+    el("span", {
+      class: "wv-mark",
+      role: "img",
+      "aria-label": "Unsaved changes",
+      "data-tip": "Unsaved changes",
+      hidden: () => !files.isChanged(),
+    }),
     roleMark(),
     el("span", { class: "wv-gap" }),
     badge(),
@@ -66,31 +64,25 @@ export function build() {
 
 // The number of findings, while there are any.
 function badge() {
-  const count = el("span");
-  const made = el(
+  const findings = store("findings");
+  const severe = () => (findings.get("all") ?? []).filter(isSevere);
+  const count = () => String(severe().length);
+  const cause = () => severe()[0]?.cause;
+  return el(
     "button",
     {
       type: "button",
       class: "wv-icon wv-doctor-badge",
-      hidden: true,
+      hidden: () => !severe().length,
+      "data-level": () => severe()[0]?.level,
+      "aria-label": () => `Doctor: ${count() === "1" ? "1 finding" : `${count()} findings`}`,
+      "aria-description": cause,
+      "data-tip": cause,
       onclick: () => openPanel("doctor"),
     },
     el("span", { class: "wv-dot", "aria-hidden": "true" }),
-    count,
+    el("span", {}, count),
   );
-  watch("findings", (values) => {
-    const severe = (values.get("all") ?? []).filter(isSevere);
-    const [first] = severe;
-    setText(count, String(severe.length));
-    set(made, {
-      hidden: !first,
-      "data-level": first?.level,
-      "aria-label": `Doctor: ${severe.length === 1 ? "1 finding" : `${severe.length} findings`}`,
-      "aria-description": first?.cause,
-      "data-tip": first?.cause,
-    });
-  });
-  return made;
 }
 
 /**

@@ -3,14 +3,15 @@
 import { onRole, self, why } from "../access.js";
 import { act } from "../act.js";
 import { copyAndTell } from "../clipboard.js";
-import { el, setText } from "../dom.js";
+import { el } from "../dom.js";
 import { textButton } from "../icons.js";
-import { watch } from "../stores.js";
+import { each, root } from "../signals.js";
+import { store } from "../stores.js";
 import { ask, openDialog } from "../controls/dialog.js";
 import { invitation } from "./invitation.js";
 
 /** @import {JournalLine, Person, ValidLink} from "../contents.js" */
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Child} from "../types.js" */
 
 /** A word on the role of this page, for those who are not the owner. */
 export function roleMark() {
@@ -24,133 +25,103 @@ export function roleMark() {
   return mark;
 }
 
-export async function openPeople() {
-  const isOwner = self().role === "owner";
-  /**
-   * @type {{
-   *   people: ValuesOf<"people">, addresses: ValuesOf<"addresses">, links: ValuesOf<"links">,
-   *   journal: ValuesOf<"journal"> | null,
-   * }}
-   */
-  const known = { people: new Map(), addresses: new Map(), journal: null, links: new Map() };
-  const here = el("tbody");
-  const links = el("tbody");
-  const allLinks = el(
-    "div",
-    { hidden: true },
-    el("h3", {}, "Links"),
-    el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], links)),
-  );
-  const done = el("tbody");
-  /** @type {Map<string, HTMLElement>} */
-  const rows = new Map(); // which stay, so that their buttons can be used while texts change
-  const show = () => {
-    for (const [id, row] of rows) {
-      if (known.people.has(id)) continue;
-      row.remove();
-      rows.delete(id);
-    }
-    for (const [id, person] of known.people) {
-      const texts = textsOf(id, person, known.addresses, isOwner);
-      const row = rows.get(id) ?? cells(...texts);
-      if (!rows.has(id)) {
-        if (isOwner) row.append(el("td", {}, isYou(id) ? null : endings(Number(id), person)));
-        here.append(row);
-      }
-      rows.set(id, row);
-      texts.forEach((text, index) => setText(row.children[index], text));
-    }
-    done.replaceChildren(...(known.journal?.get("entries") ?? []).map(entryRow));
-  };
-  const showLinks = () => {
-    links.replaceChildren(...[...known.links].map(linkRow));
-    allLinks.hidden = known.links.size === 0; // as of a viewer that asks for none
-  };
-  /** @type {(keyof typeof known)[]} */
-  const stores = isOwner ? ["people", "addresses", "journal", "links"] : ["people"];
-  const ends = stores.map((name) =>
-    watch(name, (values) => {
-      Object.assign(known, { [name]: values });
-      (name === "links" ? showLinks : show)();
-    }),
-  );
-  const columns = [
-    "Name",
-    "Role",
-    ...(isOwner ? ["Address"] : []),
-    "Since",
-    "Latency",
-    "Drives",
-    ...(isOwner ? [""] : []),
-  ];
-  await openDialog({
-    title: "People",
-    className: "wv-people",
-    isLight: true,
-    content: [
-      table("Connected", columns, here),
-      ...(isOwner
-        ? [
-            el("h3", {}, "Invite"),
-            invitation((link) => copyAndTell(link, "Copied the link.")),
-            allLinks,
-            el("h3", {}, "Log"),
-            el("div", { class: "wv-people-log" }, table("Log", ["Time", "Who", "What"], done)),
-          ]
-        : [el("p", { class: "wv-quiet" }, why("Invite"))]),
-    ],
+export const openPeople = () =>
+  root(async (end) => {
+    const isOwner = self().role === "owner";
+    const columns = ["Name", "Role", "Address", "Since", "Latency", "Drives", ""];
+    const shown = isOwner ? columns : columns.filter((name) => name && name !== "Address");
+    const people = store("people");
+    const persons = each(
+      () => people.all(),
+      ([id]) => id,
+      (person, id) => personRow(id, () => person.value[1], isOwner),
+    );
+    await openDialog({
+      title: "People",
+      className: "wv-people",
+      isLight: true,
+      content: [
+        table("Connected", shown, persons),
+        ...(isOwner ? ownersPart() : [el("p", { class: "wv-quiet" }, why("Invite"))]),
+      ],
+    });
+    end();
   });
-  ends.forEach((end) => end());
+
+/** What only the owner sees: invitations, links, and what others did. */
+function ownersPart() {
+  const links = store("links");
+  const journal = store("journal");
+  const rows = () => [...links.all()].map(linkRow);
+  return [
+    el("h3", {}, "Invite"),
+    invitation((link) => copyAndTell(link, "Copied the link.")),
+    el(
+      "div",
+      { hidden: () => links.all().size === 0 }, // as of a viewer that asks for none
+      el("h3", {}, "Links"),
+      el("div", { class: "wv-people-log" }, table("Links", ["Name", "Role", "Ends", ""], rows)),
+    ),
+    el("h3", {}, "Log"),
+    el(
+      "div",
+      { class: "wv-people-log" },
+      table("Log", ["Time", "Who", "What"], () => (journal.get("entries") ?? []).map(entryRow)),
+    ),
+  ];
 }
 
 /**
  * @param {string} label
  * @param {string[]} columns
- * @param {HTMLElement} body
+ * @param {() => HTMLElement[]} rows
  */
-const table = (label, columns, body) =>
-  el(
+function table(label, columns, rows) {
+  const heads = columns.map((name) => el("th", {}, name));
+  return el(
     "table",
     { "aria-label": label },
-    el(
-      "thead",
-      {},
-      el(
-        "tr",
-        {},
-        columns.map((name) => el("th", {}, name)),
-      ),
-    ),
-    body,
+    el("thead", {}, el("tr", {}, heads)),
+    el("tbody", {}, rows),
   );
+}
 
-/** @param {...string} texts */
-const cells = (...texts) =>
-  el(
+/** @param {...(Child | (() => string))} cells */
+function line(...cells) {
+  return el(
     "tr",
     {},
-    texts.map((text) => el("td", {}, text)),
+    cells.map((cell) => el("td", {}, cell)),
   );
+}
 
 /** @param {string} id */
 const isYou = (id) => id === String(window.webviz.browser);
 
 /**
+ * A row that stays, so that its buttons can be used while texts change.
+ *
  * @param {string} id
- * @param {Person} person
- * @param {ValuesOf<"addresses">} addresses
+ * @param {() => Person} person
  * @param {boolean} isOwner
  */
-function textsOf(id, person, addresses, isOwner) {
-  const name = [person.name || "no link needed", isYou(id) && "(you)"].filter(Boolean).join(" ");
-  return [
+function personRow(id, person, isOwner) {
+  const addresses = store("addresses");
+  const name = () =>
+    [person().name || "no link needed", isYou(id) && "(you)"].filter(Boolean).join(" ");
+  const latency = () => {
+    const { latency_ms: ms } = person();
+    return ms === null ? "not measured yet" : `${ms} ms`;
+  };
+  return line(
     name,
-    person.role,
-    ...(isOwner ? [addresses.get(id) ?? ""] : []),
-    timeOf(person.since_s),
-    person.latency_ms === null ? "not measured yet" : `${person.latency_ms} ms`,
-    person.drives.join(", "),
-  ];
+    () => person().role,
+    ...(isOwner ? [() => addresses.get(id) ?? ""] : []),
+    () => timeOf(person().since_s),
+    latency,
+    () => person().drives.join(", "),
+    ...(isOwner ? [isYou(id) ? null : endings(Number(id), person())] : []),
+  );
 }
 
 /**
@@ -200,20 +171,18 @@ const isSure = (name) =>
 /** @param {[string, ValidLink]} link */
 function linkRow([name, { role, expires_s }]) {
   const isOwn = name === self().name;
-  const row = cells(
+  const onclick = async () => (await isSure(name)) && act("Revoke", { name });
+  return line(
     isOwn ? `${name} (you)` : name,
     role,
     expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString(),
+    isOwn ? null : textButton("Revoke link", onclick, { tip: CLOSES_ALL }),
   );
-  const onclick = async () => (await isSure(name)) && act("Revoke", { name });
-  const button = textButton("Revoke link", onclick, { tip: CLOSES_ALL });
-  row.append(el("td", {}, isOwn ? null : button));
-  return row;
 }
 
 /** @param {JournalLine} entry */
 const entryRow = ({ time_s, name, role, address, text }) =>
-  cells(timeOf(time_s), [name, role, address].filter(Boolean).join(", "), text);
+  line(timeOf(time_s), [name, role, address].filter(Boolean).join(", "), text);
 
 /** @param {number} seconds */
 const timeOf = (seconds) => new Date(seconds * 1000).toLocaleTimeString();

@@ -1,13 +1,14 @@
 // Below the tree: statuses and properties of the display that is selected, with a border to drag.
 
 import { splitter } from "../../docks/splitter.js";
-import { el, set, setText } from "../../dom.js";
+import { el } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
 import { recall, remember } from "../../remember.js";
+import { computed, effect, signal, untracked } from "../../signals.js";
 import { duplicate, focus } from "./actions.js";
 import { GLOBAL } from "./model.js";
-import { globalOptions, properties } from "./properties.js";
+import { globalOptions, propertiesOf } from "./properties.js";
 import { severalProperties } from "./several.js";
 
 /** @import {Item} from "./types.js" */
@@ -18,19 +19,14 @@ const OPEN_KEY = "displays.details";
 
 /** Builds the border and what is below it. */
 export function buildDetails() {
-  /** @type {Item[]} */
-  let shown = [];
-  /** @type {(() => void) | null} */
-  let end = null;
-  let isOpen = recall(OPEN_KEY, true);
-  const title = el("h2", { class: "wv-details-title" });
-  const tools = [
-    iconButton("focus", "Focus", () => focus(shown[0])),
-    iconButton("copy", "Duplicate", () => duplicate(shown)),
-  ];
-  const close = iconButton("close", "Close properties", () => setOpen(false));
-  const head = el("div", { class: "wv-details-head" }, title, ...tools, close);
-  const body = el("div", { class: "wv-details-body" });
+  const isOpen = signal(recall(OPEN_KEY, true));
+  effect(() => remember(OPEN_KEY, isOpen.value));
+  const items = signal(/** @type {Item[]} */ ([]));
+  const ids = computed(() => JSON.stringify(isOpen.value ? items.value.map(({ id }) => id) : []));
+  const names = () => items.value.map(({ name }) => sanitized(name));
+  const isGlobal = () => items.value[0]?.id === GLOBAL;
+  const title = () => (names().length === 1 ? names()[0] : `${names().length} displays`);
+  const close = () => (isOpen.value = false);
   const border = splitter({
     label: "Height of the properties",
     along: () => "y",
@@ -40,17 +36,32 @@ export function buildDetails() {
     step: 24,
     class: "wv-details-border",
     "data-tip": "Drag, or double click to close",
-    ondblclick: () => setOpen(false),
+    ondblclick: close,
+  });
+  const body = el("div", { class: "wv-details-body" }, () => {
+    const shown = JSON.parse(ids.value);
+    return untracked(() => contentOf(shown));
+  });
+  effect(() => {
+    if (ids.value) body.scrollTop = 0;
   });
   /** @type {HTMLElement} */
   const element = el(
     "section",
-    { class: "wv-details", "aria-label": "Properties" },
+    { class: "wv-details", "aria-label": "Properties", hidden: () => ids.value === "[]" },
     border,
-    head,
+    el(
+      "div",
+      { class: "wv-details-head" },
+      el("h2", { class: "wv-details-title", "data-tip": () => names().join("\n") }, title),
+      iconButton("focus", "Focus", () => focus(items.value[0]), {
+        hidden: () => isGlobal() || items.value.length > 1,
+      }),
+      iconButton("copy", "Duplicate", () => duplicate(items.value), { hidden: isGlobal }),
+      iconButton("close", "Close properties", close),
+    ),
     body,
   );
-  setHeight(recall(HEIGHT_KEY, 280));
 
   /**
    * As a share of what both have, it fits when the window becomes smaller.
@@ -61,41 +72,13 @@ export function buildDetails() {
     element.style.height = `clamp(${LEAST}px, ${Math.round(pixels)}px, 100% - ${LEAST + 40}px)`;
   }
 
-  /** @param {boolean} open */
-  function setOpen(open) {
-    isOpen = open;
-    remember(OPEN_KEY, open);
-    update(shown);
-  }
+  setHeight(recall(HEIGHT_KEY, 280));
+  return { element, items, isOpen };
+}
 
-  /** @param {string[]} ids */
-  function fill(ids) {
-    end?.();
-    end = null;
-    body.replaceChildren();
-    body.scrollTop = 0;
-    if (ids.length > 1) end = severalProperties(body, ids);
-    else if (ids.length) end = ids[0] === GLOBAL ? globalOptions(body) : properties(body, ids[0]);
-  }
-
-  let filledWith = "";
-  /** @param {Item[]} items */
-  function update(items) {
-    shown = items;
-    const ids = isOpen ? items.map(({ id }) => id) : [];
-    set(element, { hidden: !ids.length });
-    if (JSON.stringify(ids) !== filledWith) {
-      filledWith = JSON.stringify(ids);
-      fill(ids);
-    }
-    if (!ids.length) return;
-    const names = items.map(({ name }) => sanitized(name));
-    setText(title, names.length === 1 ? names[0] : `${names.length} displays`);
-    set(title, { "data-tip": names.join("\n") });
-    for (const tool of tools) set(tool, { hidden: ids[0] === GLOBAL });
-    set(tools[0], { hidden: ids[0] === GLOBAL || ids.length > 1 });
-  }
-
-  update([]);
-  return { element, update, setOpen, isOpen: () => isOpen, close: () => fill([]) };
+/** @param {string[]} ids */
+function contentOf(ids) {
+  if (ids.length > 1) return severalProperties(ids);
+  const [id] = ids;
+  return !id ? [] : id === GLOBAL ? globalOptions() : propertiesOf(id);
 }

@@ -45,7 +45,7 @@ export const displays = {
     const tree = buildTree({
       after: add,
       changed({ items, search }) {
-        details.update(items);
+        details.items.value = items;
         if (field.value !== search) field.value = search;
       },
     });
@@ -62,15 +62,19 @@ export const displays = {
 
     function menu() {
       /** @param {boolean} isOpen */
-      const choose = (isOpen) => () => details.setOpen(isOpen);
+      const choose = (isOpen) => () => (details.isOpen.value = isOpen);
       /** @param {boolean} isOpen */
       const fold = (isOpen) => () => {
         for (const item of tree.model().items) if (item.isGroup) folding.setOpen(item, isOpen);
         tree.refresh();
       };
       return [
-        { label: "Properties below the tree", checked: details.isOpen(), run: choose(true) },
-        { label: "Properties in the tree only", checked: !details.isOpen(), run: choose(false) },
+        { label: "Properties below the tree", checked: details.isOpen.value, run: choose(true) },
+        {
+          label: "Properties in the tree only",
+          checked: !details.isOpen.value,
+          run: choose(false),
+        },
         null,
         {
           label: "Select several",
@@ -145,7 +149,6 @@ export const displays = {
     return () => {
       for (const end of ends) end();
       tree.close();
-      details.close();
     };
   },
 };

@@ -20,72 +20,66 @@ const SETTINGS = {
 };
 
 /**
- * Fills an element with the statuses and properties of a display; returns what ends it.
+ * The statuses and properties of a display.
+ *
+ * @param {string} id
+ */
+export function propertiesOf(id) {
+  const values = store(`properties:${id}`);
+  const lines = store(`statuses:${id}`);
+  /** @type {SendProperty} */
+  const send = (path, value) => act("SetProperty", { display: id, path, value }, QUIET);
+  const options = { values, send, command: "SetProperty" };
+  return [
+    statuses({
+      display: id,
+      worst: () => values.get("worst"),
+      lines: () => lines.get("statuses") ?? [],
+      more: () => lines.get("more") ?? 0,
+    }),
+    el(
+      "div",
+      {},
+      declaredForm(values, (declared) =>
+        form(declared, { ...options, name: String(values.get("type")) }),
+      ),
+    ),
+  ];
+}
+
+/** What holds for the whole viewer. */
+export function globalOptions() {
+  const values = store("settings");
+  const lines = () => values.get("statuses") ?? [];
+  /** @type {SendProperty} */
+  const send = (path, value) => SETTINGS[path](value);
+  const options = { values, send, name: "settings", command: "SetFixedFrame" };
+  return [
+    statuses({
+      display: "",
+      worst: () => worst(lines()),
+      lines,
+      more: () => values.get("more") ?? 0,
+    }),
+    el(
+      "div",
+      {},
+      declaredForm(values, (declared) => form(declared.map(withFrame), options)),
+    ),
+  ];
+}
+
+/**
+ * Fills an element with the statuses and properties of a display, "" for the whole viewer; returns
+ * what ends it.
  *
  * @param {HTMLElement} element
  * @param {string} id
- */
-export const properties = (element, id) =>
-  filled(element, () => {
-    const values = store(`properties:${id}`);
-    const lines = store(`statuses:${id}`);
-    /** @type {SendProperty} */
-    const send = (path, value) => act("SetProperty", { display: id, path, value }, QUIET);
-    const options = { values, send, command: "SetProperty" };
-    return [
-      statuses({
-        display: id,
-        worst: () => values.get("worst"),
-        lines: () => lines.get("statuses") ?? [],
-        more: () => lines.get("more") ?? 0,
-      }),
-      el(
-        "div",
-        {},
-        declaredForm(values, (declared) =>
-          form(declared, { ...options, name: String(values.get("type")) }),
-        ),
-      ),
-    ];
-  });
-
-/**
- * Fills an element with what holds for the whole viewer; returns what ends it.
- *
- * @param {HTMLElement} element
- */
-export const globalOptions = (element) =>
-  filled(element, () => {
-    const values = store("settings");
-    const lines = () => values.get("statuses") ?? [];
-    /** @type {SendProperty} */
-    const send = (path, value) => SETTINGS[path](value);
-    const options = { values, send, name: "settings", command: "SetFixedFrame" };
-    return [
-      statuses({
-        display: "",
-        worst: () => worst(lines()),
-        lines,
-        more: () => values.get("more") ?? 0,
-      }),
-      el(
-        "div",
-        {},
-        declaredForm(values, (declared) => form(declared.map(withFrame), options)),
-      ),
-    ];
-  });
-
-/**
- * Fills an element; returns what ends it and empties the element.
- *
- * @param {HTMLElement} element
- * @param {() => HTMLElement[]} make
  * @returns {End}
  */
-export const filled = (element, make) =>
+export const properties = (element, id) =>
   root((end) => {
-    element.append(...make());
+    element.append(...(id ? propertiesOf(id) : globalOptions()));
     return () => {
       end();
       element.replaceChildren();

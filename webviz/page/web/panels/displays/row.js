@@ -7,7 +7,7 @@ import { sanitized } from "../../sanitize.js";
 import { effect, signal } from "../../signals.js";
 import { watch } from "../../stores.js";
 import { explaining } from "../findings.js";
-import { globalOptions, properties } from "./properties.js";
+import { properties } from "./properties.js";
 import { fillHelp } from "./statuses.js";
 
 /** @import {Item} from "./types.js" */
@@ -97,7 +97,7 @@ export function makeRow(first, look) {
       const label = `Properties of ${sanitized(item.name)}`;
       const place = el("div", { class: "wv-tree-inside", role: "group", "aria-label": label });
       element.append(place);
-      inside = { place, end: isGlobal ? globalOptions(place) : properties(place, id) };
+      inside = { place, end: properties(place, isGlobal ? "" : id) };
     }
   }
 

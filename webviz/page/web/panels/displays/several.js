@@ -6,8 +6,7 @@ import { el } from "../../dom.js";
 import { sanitized } from "../../sanitize.js";
 import { computed } from "../../signals.js";
 import { store } from "../../stores.js";
-import { commonOf, filled as withOwn, valuesOf } from "./common.js";
-import { filled } from "./properties.js";
+import { commonOf, filled, valuesOf } from "./common.js";
 
 /** @import {Stores} from "../../contents.js" */
 /** @import {FormValues, StoreReader} from "../../types.js" */
@@ -16,40 +15,36 @@ const MAX_DISPLAYS = 50;
 const SAME_MS = 1500; // changes of one property that follow each other are undone together
 
 /**
- * Fills an element with the common properties of displays; returns what ends it.
+ * The common properties of displays.
  *
- * @param {HTMLElement} element
  * @param {string[]} ids
  */
-export const severalProperties = (element, ids) =>
-  filled(element, () => {
-    if (ids.length > MAX_DISPLAYS)
-      return [note(() => `Select at most ${MAX_DISPLAYS} displays to edit them together.`)];
-    const stores = ids.map((id) => store(`properties:${id}`));
-    const declared = computed(() => {
-      const lists = stores.flatMap((values) => {
-        const own = values.get("declared");
-        return own ? [own] : [];
-      });
-      return lists.length < ids.length ? null : commonOf(lists);
+export function severalProperties(ids) {
+  if (ids.length > MAX_DISPLAYS)
+    return [note(() => `Select at most ${MAX_DISPLAYS} displays to edit them together.`)];
+  const stores = ids.map((id) => store(`properties:${id}`));
+  const declared = computed(() => {
+    const lists = stores.flatMap((values) => {
+      const own = values.get("declared");
+      return own ? [own] : [];
     });
-    const merged = computed(() => valuesOf(stores, declared.value ?? []));
-    /** @type {FormValues} */
-    const values = {
-      get: (key) => (key === "declared" ? declared.value : merged.value.get(key)),
-    };
-    const options = { values, send: sender(ids, stores), name: "several", command: "SetProperty" };
-    return [
-      note(() =>
-        declared.value?.length === 0 ? "These displays have no property in common." : "",
-      ),
-      el(
-        "div",
-        {},
-        declaredForm(values, (common) => form(common, options)),
-      ),
-    ];
+    return lists.length < ids.length ? null : commonOf(lists);
   });
+  const merged = computed(() => valuesOf(stores, declared.value ?? []));
+  /** @type {FormValues} */
+  const values = {
+    get: (key) => (key === "declared" ? declared.value : merged.value.get(key)),
+  };
+  const options = { values, send: sender(ids, stores), name: "several", command: "SetProperty" };
+  return [
+    note(() => (declared.value?.length === 0 ? "These displays have no property in common." : "")),
+    el(
+      "div",
+      {},
+      declaredForm(values, (common) => form(common, options)),
+    ),
+  ];
+}
 
 /** @param {() => string} text */
 const note = (text) => el("p", { class: "wv-details-note wv-quiet", hidden: () => !text() }, text);
@@ -70,7 +65,7 @@ function sender(ids, stores) {
     const answers = await Promise.all(
       ids.map(async (display, index) => {
         const own = stores[index].get(`value.${path}`);
-        const fields = { display, path, value: withOwn(value, own) };
+        const fields = { display, path, value: filled(value, own) };
         const answer = await act("SetProperty", fields, { quiet: true, errors: "caller", step });
         const name = sanitized(stores[index].get("name") ?? "");
         return answer.level === "error" ? { ...answer, text: `${name}: ${answer.text}` } : answer;
