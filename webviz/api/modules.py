@@ -5,7 +5,8 @@
 
 The file has one function as its default export. Each page calls it once with an object through
 which it adds gestures, widgets, overlays and tabs (`webviz/page/web/extensions.js`). It may import
-files beside it: `import { hull } from "./hull.js"`.
+files beside it: `import { hull } from "./hull.js"`. A style sheet beside it comes with it, such as
+`lasso.css`.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ class ModuleError(ValueError):
 
 @functools.cache
 def module_texts(cls: type[Declared]) -> Mapping[str, str]:
-    """Return the module of a plug-in for the page, and those that it imports, by file name.
+    """Return the module of a plug-in, those that it imports, and their style sheets, by file name.
 
-    Each comes after those that it imports, so its own is the last. Empty without one.
+    Each comes after what it needs, so its own is the last. Empty without one.
 
     Raises:
         ModuleError: one is missing, not UTF-8 or imports itself, or they are too large.
@@ -52,13 +53,20 @@ def _add(path: Path, texts: dict[str, str], importing: tuple[str, ...]) -> None:
     """Add the text of a module after those that it imports; `importing` are the ones before it."""
     if path.name in importing:
         raise ModuleError(f"its module {path} imports itself")
+    text = _read(path)
+    for name in _IMPORT.findall(text):
+        if name not in texts:
+            _add(path.with_name(name), texts, (*importing, path.name))
+    sheet = path.with_suffix(".css")
+    if sheet.exists():
+        texts[sheet.name] = _read(sheet)
+    texts[path.name] = text
+
+
+def _read(path: Path) -> str:
     try:
-        text = path.read_bytes().decode()
+        return path.read_bytes().decode()
     except OSError as error:
         raise ModuleError(f"cannot read its module {path}: {error.strerror or error}") from None
     except UnicodeDecodeError:
         raise ModuleError(f"its module {path} is not UTF-8") from None
-    for name in _IMPORT.findall(text):
-        if name not in texts:
-            _add(path.with_name(name), texts, (*importing, path.name))
-    texts[path.name] = text

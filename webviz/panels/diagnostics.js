@@ -20,25 +20,12 @@ const LEVELS = ["ok", "warn", "error", "idle"];
 const WORDS = ["OK", "Warning", "Error", "Stale"];
 const RANKS = [0, 2, 3, 1];
 const NUMBER = /^\s*-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?/;
-const RULES = `
-.wv-diagnostic { display: flex; gap: 6px; height: 24px; align-items: center; white-space: nowrap;
-  padding-left: calc(var(--wv-edge) + var(--wv-indent)) }
-.wv-diagnostic > :nth-child(2) { flex: none; width: 8px; height: 8px; border-radius: 50%; background: var(--wv-level) }
-.wv-diagnostic > :nth-child(3) { flex: 0 1 auto }
-.wv-diagnostic > :nth-child(4) { flex: 1 1 0; color: var(--wv-quiet); text-align: right }
-.wv-diagnostic[data-level="idle"] > :nth-child(3) { color: var(--wv-quiet) }
-.wv-diagnostic-detail { max-height: 50%; overflow: auto }
-.wv-diagnostic-detail table { width: 100%; border-collapse: collapse }
-.wv-diagnostic-detail td { padding: 2px 8px 2px 0; vertical-align: middle; overflow-wrap: anywhere }
-.wv-diagnostic-detail td svg { display: block; width: 90px; height: 18px; stroke: var(--wv-accent); fill: none }
-`;
 
 /** @param {Page} page */
 export default function install(page) {
   const { el, foldByKey, icon, iconButton, indent, rowList, searchField, set, setText, showText } =
     page;
-  const { style, svgElement, timeOfDay, touchable, widget } = page;
-  style("diagnostics", RULES);
+  const { svgElement, timeOfDay, touchable, widget } = page;
   /** @type {Map<string, {at: number, values: number[]}>} */
   const history = new Map(); // by status and value, while this page is open
 

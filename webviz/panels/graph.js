@@ -14,16 +14,9 @@ const FOLD_ABOVE = 60; // boxes
 const WHEEL_STEP = 0.002;
 const KEY_STEP = 1.3;
 const CLICK_PX = 4;
-const RULES = `
-.wv-graph-canvas { flex: 1; min-height: 120px; width: 100%; cursor: grab; touch-action: none;
-  border: 1px solid var(--wv-line); border-radius: var(--wv-radius); background: var(--wv-field) }
-.wv-graph-detail { max-height: 40%; overflow: auto; overflow-wrap: anywhere }
-.wv-graph-detail ul { margin: 4px 0; padding-left: 18px }
-`;
 
 /** @param {Page} page */
 export default function install(page) {
-  page.style("graph", RULES);
   page.widget("graph", () => graph(page));
 }
 

@@ -2,12 +2,6 @@
 
 /** @import {Page} from "../page/web/extensions.js" */
 
-const RULES = `
-.wv-indicator { display: flex; gap: 16px; align-items: center; padding: 16px 0; font-size: 28px; font-weight: 600;
-  overflow-wrap: anywhere }
-.wv-indicator > i { flex: none; width: 48px; height: 48px; border-radius: 50%; background: var(--lamp);
-  border: 1px solid var(--wv-line) }
-`;
 /** @type {Record<string, string>} */
 const COLORS = {
   green: "#2e9e44",
@@ -19,8 +13,7 @@ const COLORS = {
 };
 
 /** @param {Page} page */
-export default function install({ el, set, setText, showText, style, widget }) {
-  style("indicator", RULES);
+export default function install({ el, set, setText, showText, widget }) {
   widget("indicator", () => {
     const lamp = el("i", { role: "img" });
     const label = el("span");

@@ -14,18 +14,6 @@ const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
 const ROW_PX = 20;
 const TALL_PX = 36; // with the text below the rest
 const NARROW_PX = 480;
-const RULES = `
-.wv-log-row { display: grid; grid-template-columns: 44px 86px minmax(0, 3fr) minmax(0, 10fr); column-gap: 8px;
-  height: 20px; align-content: center; padding-inline: var(--wv-edge);
-  font: 12px/16px ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
-.wv-log-row > :nth-child(1) { color: var(--wv-level) }
-.wv-log-row > :nth-child(2), .wv-log-row > :nth-child(3) { color: var(--wv-quiet) }
-[data-narrow] > .wv-log-row { grid-template-columns: 44px 86px minmax(0, 1fr); height: 36px }
-[data-narrow] > .wv-log-row > :nth-child(4) { grid-column: 1 / -1 }
-.wv-log-detail { max-height: 35%; overflow: auto }
-.wv-log-detail pre { margin: 4px 0; white-space: pre-wrap; overflow-wrap: anywhere;
-  font: 12px/1.45 ui-monospace, "DejaVu Sans Mono", monospace }
-`;
 
 /** @param {number} level */
 const nameOf = (level) => LEVELS[Math.min(4, Math.max(0, Math.floor(level / 10) - 1))];
@@ -50,12 +38,10 @@ export default function install({
   set,
   setText,
   showText,
-  style,
   timeOfDay,
   touchable,
   widget,
 }) {
-  style("log", RULES);
   widget("log", (_, send) => {
     /** @type {{level: string, nodes: string, text: string}} */
     let initial = { level: "", nodes: "", text: "" };

@@ -19,19 +19,9 @@ import {
 const FIRST = 17; // level
 const WHEEL_STEP = 0.003;
 const ASK_MS = 150;
-const RULES = `
-.wv-outdoor { position: relative; flex: 1; min-height: 200px; overflow: hidden; background: var(--wv-field);
-  border: 1px solid var(--wv-line); border-radius: var(--wv-radius) }
-.wv-outdoor canvas { position: absolute; inset: 0; width: 100%; height: 100%; cursor: grab; touch-action: none }
-.wv-outdoor-credit { position: absolute; right: 0; bottom: 0; max-width: 80%; padding: 1px 6px; font-size: 11px;
-  background: var(--wv-over); pointer-events: none }
-.wv-outdoor-place { position: absolute; left: 0; bottom: 0; padding: 1px 6px; font-size: 11px;
-  background: var(--wv-over); pointer-events: none; font-variant-numeric: tabular-nums }
-`;
 
 /** @param {Page} page */
 export default function install(page) {
-  page.style("outdoor", RULES);
   page.widget("outdoor map", (_, send) => outdoorMap(page, send));
 }
 

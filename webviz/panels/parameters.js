@@ -13,14 +13,6 @@
  */
 
 const ROW_PX = 46;
-const RULES = `
-.wv-parameter { display: grid; grid-template: 20px 20px / minmax(0, 3fr) minmax(0, 2fr); height: 46px; align-content: center;
-  column-gap: 8px; padding-left: var(--wv-edge) }
-.wv-parameter > :nth-child(2) { grid-row: span 2; align-self: center }
-.wv-parameter > :nth-child(3) { font-size: 12px; color: var(--wv-quiet) }
-.wv-parameter[data-level="error"] > :nth-child(3) { color: var(--wv-error) }
-.wv-parameter > [readonly] { border-color: transparent; background: none; color: var(--wv-quiet) }
-`;
 
 /** @param {Page} page */
 export default function install({
@@ -31,11 +23,9 @@ export default function install({
   set,
   setText,
   showText,
-  style,
   ...page
 }) {
   const { searchField, touchable, widget } = page;
-  style("parameters", RULES);
   widget("parameters", (_, send) => {
     /** @type {Values} */
     let shown = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, yaml: "" };

@@ -10,21 +10,10 @@
  * }} Form
  */
 
-const RULES = `
-.wv-sending { display: grid; gap: 8px }
-.wv-sending textarea { min-height: 140px; resize: vertical; padding: 6px 8px; height: auto;
-  font: 12px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; white-space: pre }
-.wv-sending-fields { display: grid; grid-template-columns: minmax(0, 1fr) minmax(0, 1fr); gap: 4px 8px; max-height: 40vh;
-  overflow: auto; align-items: center }
-.wv-sending-said[data-level="error"] { color: var(--wv-error) }
-.wv-sending .wv-plugin-bar > select { flex: none; width: auto }
-`;
-
 let forms = 0;
 
 /** @param {Page} page */
-export default function install({ el, messageRows, set, setText, style, textButton, widget }) {
-  style("sending", RULES);
+export default function install({ el, messageRows, set, setText, textButton, widget }) {
   widget("form", (_, send) => {
     forms += 1;
     /** @type {Form | null} */

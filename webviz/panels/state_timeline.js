@@ -4,13 +4,6 @@
 
 /** @typedef {{name: string, problem: string, times: number[], states: string[]}} Track */
 
-const RULES = `
-.wv-states canvas { display: block; width: 100%; height: 28px; cursor: pointer; margin: 2px 0 }
-.wv-states > div { margin-bottom: 8px }
-.wv-states-name { display: flex; gap: 8px; align-items: center }
-.wv-states-name > :nth-child(2) { flex: none; margin-left: auto }
-`;
-
 /**
  * The same colour for the same value, whatever else there is.
  *
@@ -31,11 +24,9 @@ export default function install({
   setChildren,
   setText,
   showText,
-  style,
   ...page
 }) {
   const { timeOfDay, widget } = page;
-  style("states", RULES);
   widget("states", (_, send) => {
     let [start, end] = [0, 1];
     const empty = el(

@@ -7,19 +7,6 @@
 const ROW_PX = 22;
 const LETTERS = [6, 40]; // of a column that are reserved
 const SAMPLE = 50; // rows that its width follows from
-const RULES = `
-.wv-table { overflow-x: auto; flex: 1; min-height: 0; display: flex; flex-direction: column }
-.wv-table > * { min-width: var(--wv-least) }
-.wv-table > .wv-rows { overflow-x: hidden }
-.wv-table > .wv-table-row { flex: none; overflow: hidden; padding-right: var(--wv-gutter); scrollbar-gutter: stable;
-  scrollbar-width: thin }
-.wv-table-row { display: grid; height: 22px; align-items: center; column-gap: 8px;
-  grid-template-columns: var(--wv-columns) }
-.wv-table-row > button { border: 0; padding: 0; background: none; color: var(--wv-quiet); font: inherit; font-size: 12px;
-  text-align: left; cursor: pointer }
-.wv-table-row > [aria-sort="ascending"]::after { content: " ↑" / "" }
-.wv-table-row > [aria-sort="descending"]::after { content: " ↓" / "" }
-`;
 
 /** @param {Page} page */
 export default function install({
@@ -31,11 +18,9 @@ export default function install({
   set,
   setText,
   showText,
-  style,
   ...page
 }) {
   const { touchable, widget } = page;
-  style("table", RULES);
 
   /** @param {number | string} cell */
   const textOf = (cell) =>

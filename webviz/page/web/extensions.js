@@ -183,7 +183,7 @@ export function install() {
 
 /**
  * @param {string} name of the plug-in
- * @param {[string, string][]} files names and texts of its module, the last, and those that it imports
+ * @param {[string, string][]} files names and texts of its module, the last, and of what it needs
  */
 async function add(name, files) {
   const folder = new URL(`webviz/plugin/${encodeURIComponent(name)}/`, location.href);
@@ -198,6 +198,10 @@ async function add(name, files) {
     toast(`The module of the ${name} failed: ${text}`, { level: "error" });
   };
   for (const [file, source] of files) {
+    if (file.endsWith(".css")) {
+      style(`${name}/${file}`, source);
+      continue;
+    }
     const text = source.replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`);
     const parts = [text, `\n//# sourceURL=${new URL(file, folder)}`];
     addresses.set(file, URL.createObjectURL(new Blob(parts, { type: "text/javascript" })));

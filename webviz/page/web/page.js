@@ -6,11 +6,6 @@ export function install() {
   // Colours as they were sent: no film curve (viser's page turns ACES on).
   Object.defineProperty(viser.gl(), "toneMapping", { get: () => 0, set: () => {} });
 
-  // viser's word of a browser without a graphics card is on its console too; here it hides robots.
-  const style = document.createElement("style");
-  style.textContent = "#webgl-software-rendering { display: none; }";
-  document.head.append(style);
-
   // Ctrl+S is a command; the camera of viser, which listens further out, would walk as well.
   document.documentElement.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) event.stopPropagation();

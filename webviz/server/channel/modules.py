@@ -9,8 +9,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -21,9 +20,6 @@ CHANNEL = "/webviz/channel"
 """Where the websocket of the channel is, below the page."""
 
 _FOLDER = Path(str(resources.files("webviz.page"))) / "web"
-_STYLE = re.compile(r'<link rel="stylesheet" href="webviz/([^"]+)">')
-_OWN_STYLE = re.compile(r"features/.*\.css")
-"""Names of the style sheets of features, which come after those of the page."""
 _MODULES = "$MODULES"
 """Stands in `head.html` for all modules, as JSON."""
 
@@ -72,12 +68,18 @@ def _built(constants: str) -> tuple[str, bytes]:
     shared = json.dumps({**json.loads(constants), "VERSION": version})
     modules = {name: text for name, text in files.items() if name.endswith(".js")}
     modules["constants.js"] = f"export default {shared};\n"
-    head = _STYLE.sub(lambda link: _style(files[link[1]]), files["head.html"])
-    head += "".join(
-        _style(text) for name, text in sorted(files.items()) if _OWN_STYLE.fullmatch(name)
-    )
+    head = files["head.html"] + "".join(_style(files[name]) for name in styles(files))
     # Nothing in a module may end the element that it is in.
     return version, head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
+
+
+def styles(names: Iterable[str]) -> list[str]:
+    """Return the style sheets among the files of a page, in the order in which they hold.
+
+    What concerns several folders comes first, and features come last.
+    """
+    sheets = [name for name in names if name.endswith(".css")]
+    return sorted(sheets, key=lambda name: (name.startswith("features/"), "/" in name, name))
 
 
 def _style(rules: str) -> str:
