@@ -263,6 +263,7 @@ LOADED = "until grep -q librmw_fast /proc/$node/maps; do sleep 0.05; done"
         ("NET010", f"{ETH}; {VPN}", ETH),
         ("NET006", f"{LO}; {sys.executable} -c '{FLOOD}'", LO),
         ("SHM004", f"{SHM} size=1g; touch /dev/shm/fastrtps_port7_el", f"{SHM} size=1g"),
+        ("SHM004", f"{SHM} size=1g; touch /dev/shm/fastdds_port7_el", f"{SHM} size=1g"),
         ("NET011", f"{LO}; {NODE} {QUIET}; {HEARD}; {ETH}", f"{ETH}; {NODE} {QUIET}; {HEARD}"),
         (
             "SHM005",

@@ -82,12 +82,15 @@ def networks() -> Iterator[Networks]:
 @pytest.fixture
 def discovery_server() -> tuple[list[str], dict[str, str]]:
     """The command that starts Fast DDS's server, and its environment."""
-    tool = shutil.which("fast-discovery-server", path=f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}")
-    if tool is None:
+    path = f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}"
+    if (tool := shutil.which("fast-discovery-server", path=path)) is None:
         pytest.skip("fast-discovery-server is not installed")
-    libraries = [SCRIPTS.parent / "lib", Path(sysconfig.get_path("purelib"), "ros_fastrtps.libs")]
+    # `fastdds discovery` starts it, but does not pass on signals; 42 is its "server" in Fast DDS 3.
+    packages = Path(sysconfig.get_path("purelib"))
+    libraries = [SCRIPTS.parent / "lib", *packages.glob("ros_fast*.libs")]
+    server = ["42"] if (packages / "ros_fastdds.libs").is_dir() else []
     before = os.environ.get("LD_LIBRARY_PATH", "")
-    return [tool, "-i", "0", "-p", PORT], {
+    return [tool, *server, "-i", "0", "-p", PORT], {
         "LD_LIBRARY_PATH": os.pathsep.join([*map(str, libraries), *filter(None, [before])])
     }
 

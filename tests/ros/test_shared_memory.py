@@ -49,7 +49,7 @@ def start() -> Iterator[Callable[[], subprocess.Popen[str]]]:
 def files(process: subprocess.Popen[str]) -> set[Path]:
     """The segments of a process and their lock files."""
     maps = Path(f"/proc/{process.pid}/maps").read_text()
-    segments = set(re.findall(r"/dev/shm/fastrtps_[0-9a-f]{16}\b", maps))
+    segments = set(re.findall(r"/dev/shm/fast(?:rtps|dds)_[0-9a-f]{16}\b", maps))
     return {Path(segment + suffix) for segment in segments for suffix in ("", "_el")}
 
 

@@ -12,8 +12,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 FOLDER = Path("/dev/shm")
-LOCK = re.compile(r"(fastrtps_[0-9a-f]{16})_el")
-SEGMENT = re.compile(rf"{FOLDER}/fastrtps_[0-9a-f]{{16}}\b")
+LOCK = re.compile(r"(fast(?:rtps|dds)_[0-9a-f]{16})_el")
+SEGMENT = re.compile(rf"{FOLDER}/fast(?:rtps|dds)_[0-9a-f]{{16}}\b")
+"""Fast DDS 3, of Kilted, has other names than 2, of Jazzy."""
 MIN_AGE_S = 60.0
 """Younger lock files are ignored, since Fast DDS locks them shortly after their creation."""
 

@@ -23,7 +23,7 @@ class FullSharedMemory(Check):
     Repair:
         Stop all nodes, and remove what they left:
 
-            rm /dev/shm/fastrtps_*
+            rm /dev/shm/fastrtps_* /dev/shm/fastdds_*
     """
 
     id = "SHM003"

@@ -22,7 +22,8 @@ PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT",
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")
 RMW_INDEX = "share/ament_index/resource_index/rmw_typesupport_cpp"
 SHM = Path("/dev/shm")
-PORT = "fastrtps_port"
+PORTS = "fastrtps_port", "fastdds_port"
+"""Begin the names of ports of Fast DDS 2, of Jazzy, and 3, of Kilted."""
 LOCK = "_el"
 """Ends the name of a lock file, which is otherwise that of its port."""
 SEGMENTS = "fastrtps_", "fastdds_"
@@ -152,7 +153,9 @@ def _shared_memory() -> SharedMemory | None:
     stale = sorted(
         name
         for name in segments
-        if name.startswith(PORT) and name.endswith(LOCK) and name.removesuffix(LOCK) not in segments
+        if name.startswith(PORTS)
+        and name.endswith(LOCK)
+        and name.removesuffix(LOCK) not in segments
     )
     size, free = status.f_blocks * status.f_frsize, status.f_bavail * status.f_frsize
     is_writable = os.access(SHM, os.W_OK)

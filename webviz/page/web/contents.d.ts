@@ -346,7 +346,7 @@ export interface Stores {
   properties: { own: { name?: string; type?: string; worst?: WorstStatus | null; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, number | string>; [key: `topic.${string}`]: LiveTopic }; items: never };
   rate: { own: { hz?: number }; items: never };
   recorded: { own: {  }; items: Array<number> };
-  recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null; held?: number }; items: never };
+  recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null; held?: number | null }; items: never };
   reported: { own: { things?: Array<ReportedThing> }; items: never };
   routes: { own: {  }; items: Route };
   selected: { own: {  }; items: [string, boolean] };
