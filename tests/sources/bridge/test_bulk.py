@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
+import time
 from contextlib import closing
 
 import foxglove  # pyright: ignore[reportMissingImports]
 import numpy as np
+import pytest
 from waiting import until
+from websockets.asyncio.server import ServerConnection, serve
 
 from webviz.api.declared import Topic
 from webviz.data.messages import definition, encode
 from webviz.sources import Subscription
 from webviz.sources.bridge.address import address
+from webviz.sources.bridge.bulk import BulkConnection
+from webviz.sources.bridge.opening import opened
+from webviz.sources.bridge.pacing import MAX_RATE, Pacer
 from webviz.sources.bridge.source import BridgeSource
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
@@ -38,3 +45,28 @@ def test_large_clouds_come_whole_over_loopback() -> None:
     with closing(source):
         until(has_come, lambda: f"{received} of 20 clouds")
     server.stop()
+
+
+@pytest.mark.parametrize(("rate", "least_s", "most_s"), [(1e6, 1.2, 2.4), (MAX_RATE, 0.0, 1.0)])
+def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be(
+    rate: float, least_s: float, most_s: float
+) -> None:
+    size, count = 50_000, 30
+
+    async def send(connection: ServerConnection) -> None:
+        for _ in range(count):
+            await connection.send(bytes(size))
+        await connection.wait_closed()
+
+    async def seconds() -> float:
+        async with serve(send, "127.0.0.1", 0, compression=None) as server:
+            port = next(iter(server.sockets)).getsockname()[1]
+            async with opened(address(f"ws://127.0.0.1:{port}"), BulkConnection) as connection:
+                connection.pacer = Pacer()
+                connection.pacer.rate = rate
+                start_s = time.monotonic()
+                for _ in range(count):
+                    assert len(await connection.recv()) == size
+                return time.monotonic() - start_s
+
+    assert least_s < asyncio.run(seconds()) < most_s
