@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import base64
 import io
+import os
+import re
+import time
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import PIL.Image
 import pytest
+from bench import Benches
 
 import webviz
-from webviz.commands import SaveReport
+from webviz.commands import ListReport, SaveReport
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
+from webviz.engine.commands import Refresh, Sender
+from webviz.features import reports
 from webviz.features.reports.writing import MAX_PICTURE, MAX_PIXELS, read_picture
+from webviz.files.report import read_report
 from webviz.shell.testing import header
 from webviz.shell.testing.source import SECOND, HandFedSource
 
@@ -78,3 +85,76 @@ def test_the_tree_of_transforms_is_a_member(tmp_path: Path, is_placed: bool) -> 
         said = members.read("frames.txt").decode()
     assert ("There are no transforms." in said) is not is_placed
     assert ("base_link" in said) is is_placed
+
+
+@pytest.fixture
+def live() -> Iterator[webviz.Viewer]:
+    """A viewer of live topics that has received a path."""
+    source = HandFedSource()
+    with webviz.Viewer(port=0, source=source) as viewer:
+        viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
+        viewer.do(Refresh())
+        source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
+        viewer.do(Refresh())
+        yield viewer
+
+
+def test_names_are_left_out_unless_they_are_asked_for(live: webviz.Viewer) -> None:
+    for command, said in (
+        (ListReport(), "are left out"),
+        (ListReport(with_names=False), "are left out"),
+        (ListReport(with_names=True), "are included"),
+    ):
+        assert f"Names of hosts, users and home folders {said}" in live.do(command)
+
+
+@pytest.mark.parametrize("with_names", [False, True])
+def test_a_report_says_whether_it_has_names_and_how_large_it_is(
+    live: webviz.Viewer, tmp_path: Path, with_names: bool
+) -> None:
+    path = tmp_path / "bug.zip"
+    image = base64.b64decode(picture()) + os.urandom(1_234_567)
+    sent = base64.b64encode(image).decode()
+    said = live.do(SaveReport(sent, path=str(path), with_names=with_names))
+    assert float(said.removeprefix("Saved bug.zip, ").removesuffix(" MB.")) == pytest.approx(
+        path.stat().st_size / 1e6, rel=0.01
+    )
+    assert read_report(path, tmp_path).report.has_names is with_names
+
+
+def test_a_small_report_has_not_zero_megabytes(live: webviz.Viewer, tmp_path: Path) -> None:
+    said = live.do(SaveReport(path=str(tmp_path / "bug.zip")))
+    size = (tmp_path / "bug.zip").stat().st_size
+    assert said == f"Saved bug.zip, {max(1, round(size / 1000)) / 1000:.3g} MB."
+    assert "0 MB" not in said
+
+
+def test_without_a_path_it_is_in_the_working_folder(
+    live: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    said = live.do(SaveReport())
+    (path,) = tmp_path.iterdir()
+    assert re.fullmatch(r"webviz_report_.*\.zip", path.name)
+    assert path.name in said
+
+
+def test_a_report_waits_for_some_rounds_of_the_doctor_but_not_for_long(
+    live: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(reports, "ROUNDS_S", 1.0)
+    monkeypatch.setattr(reports, "ROUNDS", 10**6)
+    begun_s = time.monotonic()
+    live.do(SaveReport(path=str(tmp_path / "late.zip")))
+    assert 1.0 <= time.monotonic() - begun_s < 5.0
+    monkeypatch.setattr(reports, "ROUNDS_S", 60.0)
+    monkeypatch.setattr(reports, "ROUNDS", 3)
+    live.do(SaveReport(path=str(tmp_path / "bug.zip")))
+    assert time.monotonic() - begun_s < 50.0
+
+
+def test_pages_choose_no_file(bench: Benches, tmp_path: Path) -> None:
+    b = bench()
+    answer = b.viewer.enqueue(SaveReport(path=str(tmp_path / "bug.zip")), Sender(1))
+    b.until_done(answer)
+    assert str(answer.exception(0)) == "Pages cannot choose the file of a report."
