@@ -146,9 +146,11 @@ def test_a_type_does_not_grow_by_one_that_another_definition_replaces() -> None:
     for use in (message_class, fields, definition, encode, lambda name: decode(name, CDR)):
         with pytest.raises(DefinitionError, match="fixed arrays of more than 100000 elements"):
             use(first)
-    register(second, msg("uint8 x", Part="First b"))
+    register(first, msg("Part[2] a", Part="uint8 x"))
     with pytest.raises(DefinitionError, match="cannot contain itself"):
-        message_class(first)
+        register(second, msg("Part a", Part="First b"))
+    register(second, msg("uint8 x", Part="First b"))
+    assert message_class(first)().a[0].x == 0, "types that are in no message of it are not taken"
 
 
 def test_a_definition_that_is_refused_changes_nothing() -> None:

@@ -261,17 +261,18 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
 
 
 def _learnt(name: str, text: str, fixed: Container[str]) -> tuple[Types, Collection[str]]:
-    """Return the types in a definition, and the names of all that its type consists of."""
-    learnt = types_in(name, text)
+    """Return those types in a definition of which its type consists, and the names of all."""
+    found = types_in(name, text)
+    reached: dict[str, Extent] = {}
+    extent(name, lambda key: (found.get(key) or KNOWN.get(key) or (None, None))[1], reached)
+    if len(reached) > MAX_TYPES:
+        raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
+    learnt = {key: found[key] for key in reached if key in found}
     for key in learnt:
         if key in fixed and fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
                 f"The definition of {name} contains a {key} that differs from ROS 2's."
             )
-    reached: dict[str, Extent] = {}
-    extent(name, lambda key: (learnt.get(key) or KNOWN.get(key) or (None, None))[1], reached)
-    if len(reached) > MAX_TYPES:
-        raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
     return learnt, reached
 
 
