@@ -62,5 +62,7 @@ def test_a_file_of_headers_is_a_small_file(tmp_path: Path) -> None:
     path.write_bytes(b"A: b\n" * 20_000)
     with pytest.raises(Error, match="larger than 64 kB"):
         address("ws://robot", path)
+    path.write_bytes(b"A: b\n".ljust(64 << 10))
+    assert address("ws://robot", path, {}).headers == [("A", "b")]
     path.write_text("A: b\n\nC-D:e f \n")
     assert address("ws://robot", path, {}).headers == [("A", "b"), ("C-D", "e f")]

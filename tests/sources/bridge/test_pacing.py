@@ -12,7 +12,7 @@ import pytest
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.sources import Subscription
-from webviz.sources.bridge.pacing import LARGE, MIN_RATE, Pacer, is_thinnable
+from webviz.sources.bridge.pacing import FIRST_STAY_S, LARGE, MIN_RATE, Pacer, is_thinnable
 
 TICK_S = 0.01
 CHUNK = 1448
@@ -208,6 +208,20 @@ def test_a_scan_that_does_not_fit_takes_turns_too() -> None:
     assert link.outcomes["/scan"].moments[-1] > since
 
 
+def test_a_scan_is_small_again_as_soon_as_all_fit() -> None:
+    """However long it would take turns otherwise, after it did several times."""
+    link = Link(0.3 * 125e3, {"/tf": POSE, "/scan": LASER, "/image": Published(IMAGE, 60_000, 0.5)})
+    for _ in range(3):
+        link.rate = 0.3 * 125e3
+        while "/scan" not in link.large:
+            link.run(0.1)
+        moved_s, link.rate = link.now, 20e6
+        while "/scan" in link.large:
+            link.run(0.1)
+    assert not link.pacer.is_in_turns
+    assert link.now - moved_s < 4 * FIRST_STAY_S - 5.0
+
+
 def test_a_fast_link_carries_all_within_seconds() -> None:
     """Also if the first messages take longer than the rate takes to grow."""
     link = Link(1e8, {"/tf": POSE, "/points": Published(CLOUD, 1_600_000, 10)}, delay_s=0.001)
@@ -358,3 +372,18 @@ def test_what_took_turns_goes_on_while_it_is_late_or_large(size: int, late_s: fl
     assert poses.is_moved
     assert poses.run(60.0, late_s) > 59.0
     assert poses.is_moved
+
+
+@pytest.mark.parametrize("part", [1500, 6000, 50_000])
+def test_large_messages_are_read_half_as_fast_again_as_the_link_brought_the_last(part: int) -> None:
+    """The link itself may be slow without any queue in it."""
+    pacer = Pacer()
+    pacer.large({"/points": Subscription(CLOUD, Topic("/points"))})
+    size, seconds = 100_000, 2.0
+    for at in range(0, size, part):
+        pacer.note_bytes(min(part, size - at), seconds * at / size)
+    pacer.note_large("/points", bytes(size), 0.0, seconds)
+    assert pacer.rate == pytest.approx(1.5 * size / seconds, rel=0.01)
+    pacer.note_bytes(size, 3.0)
+    pacer.note_large("/points", bytes(size), 0.0, 3.0)  # at once: as fast as the rate allows
+    assert pacer.rate == pytest.approx(1.5 * size / seconds, rel=0.01)

@@ -26,8 +26,8 @@ class LinkDelay:
 
     @property
     def least_s(self) -> float:
-        """The least difference between arrival and stamp; 0 before the first message."""
-        return self._least[0][1] if self._least else 0.0
+        """The least difference between arrival and stamp, once a message was noted."""
+        return self._least[0][1]
 
     def note(self, stamp_s: float, now_s: float) -> float:
         """Note a message; its delay in seconds."""

@@ -88,12 +88,12 @@ class Flow(msgspec.Struct):
     """A topic whose messages are large, or do not fit among the small ones.
 
     Args:
+        size: bytes of its last message, 0 before the first.
         window_s: for how long a subscription brings about one message.
     """
 
+    size: float
     window_s: float = FIRST_WINDOW_S
-    size: float = 0.0
-    """Bytes of its last message."""
     taken: float = 0.0
     """Bytes that were received in turns, by which topics are chosen."""
     digest: int = 0
