@@ -6,6 +6,7 @@ import base64
 import io
 import os
 import re
+import socket
 import time
 import zipfile
 from collections.abc import Iterator
@@ -106,6 +107,20 @@ def test_names_are_left_out_unless_they_are_asked_for(live: webviz.Viewer) -> No
         (ListReport(with_names=True), "are included"),
     ):
         assert f"Names of hosts, users and home folders {said}" in live.do(command)
+
+
+def test_the_name_of_the_machine_is_in_no_text_of_a_report(
+    live: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(socket, "gethostname", lambda: "alices-laptop.lab")
+    live.config = {
+        "displays": [{"type": "Path", "topic": "/plan", "name": "Seen by alices-laptop"}]
+    }
+    live.do(SaveReport(path=str(tmp_path / "bug.zip")))
+    with zipfile.ZipFile(tmp_path / "bug.zip") as members:
+        texts = {name: members.read(name) for name in members.namelist()}
+    assert b"Seen by xxxxxxxxxxxxx" in texts["config.yaml"]
+    assert not any(b"alices" in text for text in texts.values())
 
 
 @pytest.mark.parametrize("with_names", [False, True])

@@ -387,3 +387,94 @@ def test_large_messages_are_read_half_as_fast_again_as_the_link_brought_the_last
     pacer.note_bytes(size, 3.0)
     pacer.note_large("/points", bytes(size), 0.0, 3.0)  # at once: as fast as the rate allows
     assert pacer.rate == pytest.approx(1.5 * size / seconds, rel=0.01)
+
+
+def test_a_link_is_not_thought_to_be_faster_while_nothing_shows_it() -> None:
+    pacer = Pacer()
+    pacer.large({"/points": Subscription(CLOUD, Topic("/points"))})
+    pacer.note_bytes(LARGE, 1.0)
+    pacer.note_bytes(LARGE, 2.0)
+    pacer.note_large("/points", bytes(2 * LARGE), 0.0, 2.0)  # slower than the first rate
+    rate = pacer.rate
+    for i in range(200):
+        pacer.note_small("/pose", POSE_TYPE, 100, 0.0, 3.0 + i / 20)
+        pacer.step(3.0 + i / 20)
+    assert pacer.rate == rate
+    for i in range(60):
+        pacer.note_small("/pose", POSE_TYPE, 100, 0.0, 13.0 + i / 20)
+        pacer.note_bytes(round(0.6 * pacer.rate / 20), 13.0 + i / 20)
+        pacer.step(13.0 + i / 20)
+    assert pacer.rate > 1.5 * rate
+
+
+class Turns:
+    """Two topics with clouds that take turns, and the moments at which each is asked for.
+
+    Args:
+        trip_s: round trip of the link.
+        sizes: of the message of each that has come before, 0 for none.
+    """
+
+    def __init__(self, trip_s: float, sizes: tuple[int, int] = (0, 0)) -> None:
+        self.pacer = Pacer()
+        self.pacer.large({t: Subscription(CLOUD, Topic(t)) for t in ("/a", "/b")})
+        self.trip_s, self.now = trip_s, 0.0
+        for topic, size in zip(("/a", "/b"), sizes, strict=True):
+            if size:
+                self.pacer.note_large(topic, topic.encode() * (size // 2), 0.0, 0.0)
+
+    def until_asked(self, topic: str, bytes_per_s: float = 0.0) -> float:
+        """Wait until a topic is asked for, while bytes come; the time that takes."""
+        begun = self.now
+        while topic not in self.pacer.subscribed():
+            self.now += 0.02
+            self.pacer.note_trip(self.trip_s, self.trip_s, self.now)
+            if bytes_per_s:
+                self.pacer.note_bytes(round(bytes_per_s * 0.02), self.now)
+            self.pacer.step(self.now)
+            assert self.now < begun + 20.0
+        return self.now - begun
+
+
+@pytest.mark.parametrize("trip_s", [0.0, 0.3, 1.0, 2.0])
+def test_a_topic_that_brings_nothing_in_a_round_trip_and_a_half_second_is_over(
+    trip_s: float,
+) -> None:
+    turns = Turns(trip_s)
+    turns.until_asked("/a")
+    assert turns.until_asked("/b") == pytest.approx(0.1 + trip_s + 0.5, abs=0.08)
+    assert turns.until_asked("/a") == pytest.approx(0.1 + trip_s + 0.5, abs=0.08)
+    assert turns.until_asked("/b") == pytest.approx(0.15 + trip_s + 0.5, abs=0.08), "it is longer"
+
+
+@pytest.mark.parametrize("trip_s", [0.1, 0.3])
+def test_the_next_topic_is_asked_for_when_the_message_before_has_nearly_come(trip_s: float) -> None:
+    """So that the link has no rest; no earlier, as both would be on their way then."""
+    size, bytes_per_s = 60_000, 100_000
+    turns = Turns(trip_s, (size, size))
+    turns.until_asked("/a")
+    left_s = size / bytes_per_s - turns.until_asked("/b", bytes_per_s)
+    assert left_s == pytest.approx(trip_s + 0.1, abs=0.06)
+
+
+def test_what_the_link_carries_is_that_of_the_last_seconds() -> None:
+    pacer = Pacer()
+    for at_s in range(1, 21):
+        pacer.note_small("/pose", POSE_TYPE, 1000, 0.0, float(at_s))
+        pacer.note_bytes(9000, float(at_s))
+        pacer.step(float(at_s))
+    assert pacer.carried() == pytest.approx(10_000, rel=0.25)
+    pacer.step(30.0)
+    assert pacer.carried() == 0.0
+
+
+def test_the_rates_of_thinned_topics_are_those_of_their_last_messages() -> None:
+    link = Link(2 * 125e3, ROBOT)
+    link.run(60)
+    found = link.pacer.thinned(link.now)
+    assert found.keys() == {"/points", "/image"}
+    for topic, hz in found.items():
+        last = link.outcomes[topic].moments[-10:]
+        assert hz == pytest.approx(9 / (link.now - last[0]), rel=0.02)
+    later = link.pacer.thinned(link.now + 100.0)
+    assert all(0.0 < hz < 0.1 for hz in later.values()), "none came since"

@@ -144,7 +144,7 @@ class ReportsFeature(Feature):
             config,
             "\n".join([tree or "There are no transforms.", *problems, ""]),
             picked(picks, state),
-            PrivateNames(public, () if with_names else None),
+            PrivateNames(public),
             with_names,
         )
 

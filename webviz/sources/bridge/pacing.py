@@ -392,5 +392,5 @@ class Pacer:
 def _rate(arrived: Collection[float], now_s: float) -> float:
     """Return messages per second, from the last ones to now."""
     moments = list(arrived)[-10:]
-    spent_s = now_s - moments[0] if moments else 0.0
+    spent_s = now_s - moments[0]
     return (len(moments) - 1 or 1) / spent_s if spent_s > 0 else math.inf
