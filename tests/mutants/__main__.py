@@ -63,6 +63,7 @@ TESTS = {
         "tests/features/recording tests/features/black_box tests/playback/test_rewinding.py"
     ),
     "webviz/sources/bridge": "tests/sources/bridge/test_pacing.py tests/sources/bridge",
+    "webviz/sources/bridge/pacing.py": "tests/sources/bridge/test_pacing.py",
     "webviz/sources/gate.py": (
         "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
         "tests/pipeline/test_kept_sessions.py"

@@ -365,6 +365,14 @@ def test_what_took_turns_is_small_again_once_it_is_in_time_and_later_each_time()
     assert stays == pytest.approx([10, 20, 40, 80, 160, 300, 300], abs=0.3)
 
 
+def test_what_is_late_now_and_then_takes_no_turns() -> None:
+    poses = LatePose()
+    for _ in range(5):
+        poses.run(1.2, late_s=5.0)
+        poses.run(1.0, late_s=0.0)
+    assert not poses.is_moved
+
+
 @pytest.mark.parametrize(("size", "late_s"), [(100, 0.05), (LARGE, 0.0)])
 def test_what_took_turns_goes_on_while_it_is_late_or_large(size: int, late_s: float) -> None:
     poses = LatePose(size)
@@ -398,6 +406,7 @@ def test_a_link_is_not_thought_to_be_faster_while_nothing_shows_it() -> None:
     rate = pacer.rate
     for i in range(200):
         pacer.note_small("/pose", POSE_TYPE, 100, 0.0, 3.0 + i / 20)
+        pacer.note_bytes(100, 3.0 + i / 20)
         pacer.step(3.0 + i / 20)
     assert pacer.rate == rate
     for i in range(60):
