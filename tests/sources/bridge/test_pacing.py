@@ -487,3 +487,24 @@ def test_the_rates_of_thinned_topics_are_those_of_their_last_messages() -> None:
         assert hz == pytest.approx(9 / (link.now - last[0]), rel=0.02)
     later = link.pacer.thinned(link.now + 100.0)
     assert all(0.0 < hz < 0.1 for hz in later.values()), "none came since"
+
+
+def test_what_is_not_left_out_is_not_reported_as_thinned() -> None:
+    """Neither a map, nor a latched cloud, nor what has not come yet."""
+    link = Link(
+        2e5,
+        {
+            "/tf": POSE,
+            "/map": Published(MAP, 50_000, 0.2),
+            "/rare": Published(CLOUD, 50_000, 0.1),
+            "/silent": Published(CLOUD, 50_000, 0.001),
+            "/image": ROBOT["/image"],
+        },
+    )
+    link.run(5)
+    assert link.outcomes["/image"].moments
+    assert link.pacer.thinned(link.now).keys() <= {"/image", "/rare"}
+    link.run(60)
+    assert link.outcomes["/map"].moments
+    assert link.outcomes["/rare"].moments
+    assert link.pacer.thinned(link.now).keys() == {"/image"}

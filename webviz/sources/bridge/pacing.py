@@ -102,8 +102,8 @@ class Flow(msgspec.Struct):
     is latched; or messages are rare."""
     count: int = 0
     """Messages of the last turn."""
-    arrived: deque[float] = msgspec.field(default_factory=lambda: deque(maxlen=50))
-    """Moments of arrival."""
+    arrived: deque[float] = msgspec.field(default_factory=lambda: deque(maxlen=10))
+    """Moments of the last arrivals."""
 
     @property
     def need(self) -> float:
@@ -389,8 +389,7 @@ class Pacer:
             self._bytes.popleft()
 
 
-def _rate(arrived: Collection[float], now_s: float) -> float:
+def _rate(arrived: deque[float], now_s: float) -> float:
     """Return messages per second, from the last ones to now."""
-    moments = list(arrived)[-10:]
-    spent_s = now_s - moments[0]
-    return (len(moments) - 1 or 1) / spent_s if spent_s > 0 else math.inf
+    spent_s = now_s - arrived[0]
+    return (len(arrived) - 1 or 1) / spent_s if spent_s > 0 else math.inf
