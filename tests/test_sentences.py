@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from webviz.data.words import joined
-from webviz.engine.state.statuses import failures
+from webviz.engine.loop.loop import failures
 
 ROOT = Path(__file__).parents[1]
 FILES = [

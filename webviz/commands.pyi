@@ -15,7 +15,7 @@ from webviz.engine.commands import *  # noqa: F403
 from webviz.engine.commands import Picks
 from webviz.engine.commands.command import Command
 from webviz.engine.commands.files import FileCommand
-from webviz.engine.state.trace import Trace
+from webviz.engine.pipeline.trace import Trace
 from webviz.files.config import Layout
 from webviz.files.report import ReportedPick
 

@@ -161,7 +161,7 @@ class Loop:
 
     def _update(self) -> None:
         for feature in self.features:
-            feature.state()
+            feature.update()
         self._given.show(self.state)
         self.pages.update(self.state)
 

@@ -11,7 +11,7 @@ import pytest
 from bench import Bench, Benches
 
 from webviz.api.declared import Topic
-from webviz.engine.state.consistency import fit
+from webviz.engine.parts.scan_fit import fit
 from webviz.shell.testing.messages import header, stamped_transform, turned
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.map import Map

@@ -16,6 +16,7 @@ from webviz.commands import Pause, Reset
 from webviz.engine.commands import Command, FileCommand, Refresh, Sender
 from webviz.engine.commands.requests import Job, Refused
 from webviz.engine.feature import Feature
+from webviz.engine.loop.snapshot import READERS
 from webviz.engine.parts import Batches, Core, Handler, Part
 from webviz.engine.parts.part import overrides
 from webviz.engine.state import State
@@ -211,16 +212,9 @@ def test_every_command_and_every_field_of_the_state_has_one_owner(bench: Benches
     b = bench()
     parts = b.viewer._parts._parts
     of_features = [part for part in parts if isinstance(part, Feature)]
-    owned = [name for part in parts if part not in of_features for name in part.state()]
-    of_loop = (
-        "statuses",
-        "warned",
-        "findings",
-        "examined_ns",
-        "found",
-        "more",
-    )  # made of what all parts say
-    assert sorted([*owned, *of_loop]) == sorted(State.__struct_fields__)
+    assert not [name for part in parts if part not in of_features for name in part.state()]
+    read = [name for kind, read in READERS.items() for name in read(b.viewer.get(kind))]
+    assert sorted([*read, "more"]) == sorted(State.__struct_fields__)
     public = [getattr(commands, name) for name in commands.__all__]
     asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
     assert {kind for part in parts for kind in part.handles} == asked - {*KINDS, Refresh}

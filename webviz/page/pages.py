@@ -69,8 +69,9 @@ class Pages:
         made_by = (*parts, people, panels)
         self._makers = {name: each for each in made_by for name in stores_of(type(each))}
         """Those with stores, by the name of each store."""
+        self._with_stores = [part for part in parts if stores_of(type(part))]
         self._watched: dict[Part, set[str]] = {}
-        """The stores of each that are watched."""
+        """The stores of each part that are watched."""
         self._made: dict[str, tuple[object, PageStore | None]] = {}
         """The last of each store that is watched, and what it was made of."""
         self._types = display_types()
@@ -100,8 +101,7 @@ class Pages:
 
     def _note_watched(self, watched: set[str]) -> None:
         """Tell parts which of their stores are watched, if these are others than before."""
-        parts = [each for each in self._makers.values() if isinstance(each, Part)]
-        now: dict[Part, set[str]] = {part: set() for part in parts}
+        now: dict[Part, set[str]] = {part: set() for part in self._with_stores}
         for store in watched:
             if isinstance(part := self._makers.get(store.partition(":")[0]), Part):
                 now[part].add(store)

@@ -28,8 +28,8 @@ from webviz.engine.parts.declaring import store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.timeline import EventsStore, events_of
-from webviz.engine.state import State
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
 
@@ -158,15 +158,11 @@ class Doctor(Part):
         is_early = time.monotonic() - self.listening_since_s < DISCOVERED_S
         return not is_early or len(self.core.gate.nodes()) > 1
 
-    def is_settled(self, state: State) -> bool:
-        """Return whether two rounds have examined all that is wrong, and agree on it.
-
-        Args:
-            state: of this turn.
-        """
+    def is_settled(self) -> bool:
+        """Return whether two rounds have examined all that is wrong, and agree on it."""
         if len(self._examined_problems) < 2 or not self._is_confirmed:
             return False
-        return all(problems(state).keys() <= each for each in self._examined_problems)
+        return all(self._problems() <= each for each in self._examined_problems)
 
     def ask(self) -> None:
         """Examine for some seconds even if no browser is connected; thread-safe."""
@@ -176,28 +172,25 @@ class Doctor(Part):
         """Let the next round begin at once."""
         self._began = -EVERY_S, -EVERY_S
 
-    def examine(self, state: State) -> Sequence[Finding]:
-        """Continue the round, or begin another when it is time; return the findings of the last.
-
-        Args:
-            state: of this turn.
-        """
-        is_asked = time.monotonic() < self._asked_until_s or any(self._rules(state))
+    def examine(self) -> None:
+        """Continue the round, or begin another when it is time."""
+        is_asked = time.monotonic() < self._asked_until_s or any(self._rules())
         if not (self.core.is_watched() or is_asked):
             self._round = None
             self._clock.is_wanted = False
         elif self._round is not None or self._is_due():
-            self._round = self._round or self._examined(state)
+            self._round = self._round or self._examined()
             self._continue(self._round)
-        return self.findings
 
-    def _environment(self, state: State) -> Environment | None:
+    def _problems(self) -> Set[Symptom]:
+        return problems(self.core.statuses, self._displays.rows).keys()
+
+    def _environment(self) -> Environment | None:
         """Return this machine as it was some seconds ago; a thread looks at it.
 
         None with a bag or bridge, for which neither DDS nor ROS of this machine matters.
         """
-        is_recorded = state.playback is not None and state.playback.is_live is None
-        if is_recorded or self.core.player.bridges:
+        if self.core.get(PlaybackPart).is_recording or self.core.player.bridges:
             return None
         looking = self._looking
         if looking is not None and looking.done():
@@ -226,12 +219,12 @@ class Doctor(Part):
                 return
         self._round = None
 
-    def _examined(self, state: State) -> Iterator[None]:
+    def _examined(self) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
         core = self.core
-        wrong = problems(state).keys()
+        wrong = self._problems()
         load, cores = self._load.measure()
-        seen = observe(core, self._displays, state, self._environment(state), load, cores)
+        seen = observe(core, self._displays, self._environment(), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
         seen = replace(seen, findings=others, numbers=self._numbers(), clock=self._clock.seen())
         listened_s = time.monotonic() - self.listening_since_s
@@ -242,14 +235,15 @@ class Doctor(Part):
         if self._clock.is_wanted and not (seen.is_recorded or seen.bridges):
             nodes = (node for node in seen.stalled_nodes() if not is_own(node))
             seen = replace(seen, sim_time=self._sim_time.ask(nodes))
-        self.verdicts = self._judge.judge(self._rules(state), seen)
+        self.verdicts = self._judge.judge(self._rules(), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []
+        playback = core.get(PlaybackPart).playback
         for check in self._current():
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
             yield
         before, now_ns = self._since, seen.now_ns
-        now = now_ns, state.playback.position_s if state.playback else None
+        now = now_ns, playback.position_s if playback else None
         self._since = {key: before.get(key, now) for key in map(_key, found)}
         steady = [each for each in found if _key(each) in before]
         self._is_confirmed = all(
@@ -268,13 +262,14 @@ class Doctor(Part):
         )
         self.rounds += 1
         self.examined_ns = now_ns
-        if state.playback is not None:
-            at_ns = state.playback.start_ns + round(state.playback.position_s * 1e9)
+        if playback is not None:
+            at_ns = playback.start_ns + round(playback.position_s * 1e9)
             self._note(at_ns)
 
-    def _rules(self, state: State) -> Iterator[Rule]:
+    def _rules(self) -> Iterator[Rule]:
         yield from self.rules
-        yield from (rule.condition for rule in state.settings.watch if rule.condition)
+        watched = self.core.get(SettingsPart).settings.watch
+        yield from (rule.condition for rule in watched if rule.condition)
 
     def _current(self) -> Sequence[Check]:
         """Return the checks, those of files as they are now."""

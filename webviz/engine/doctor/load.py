@@ -6,7 +6,7 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from webviz.engine.state.trace import Tracer
+from webviz.engine.pipeline.trace import Tracer
 
 SCHEDULER = Path("/proc/thread-self/schedstat")
 BUSY = 0.5

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from types import MappingProxyType
 
@@ -18,7 +18,9 @@ from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
-from webviz.engine.state import Row, State
+from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.time import TimePart
+from webviz.engine.state import Row
 
 POINTS = 10_000
 """Of a cloud that are looked at for its extent."""
@@ -27,7 +29,6 @@ POINTS = 10_000
 def observe(
     core: Core,
     displays: DisplaysPart,
-    state: State,
     environment: Environment | None = None,
     load: float = 0.0,
     cores: Mapping[str, float] = MappingProxyType({}),
@@ -37,7 +38,6 @@ def observe(
     Args:
         core: has transforms, topics and time.
         displays: have the messages.
-        state: of this turn, with all statuses.
         environment: of this machine, None if unknown.
         load: share of a processor that the frame loop takes.
         cores: that of each display, by id.
@@ -58,9 +58,10 @@ def observe(
             core=cores.get(row.id, 0.0),
             order=order,
         )
-        for order, row in enumerate(state.rows)
+        for order, row in enumerate(displays.rows)
         if row.id in runners and isinstance(row.display, Display) and not _is_group(row)
     ]
+    times = core.get(TimePart).times
     browsers = core.guard.attempt("Scene", (), core.scene.browsers.seen)
     cameras = {each.id: camera for each in browsers if (camera := _camera(each, core.frames))}
     return Observation(
@@ -68,13 +69,13 @@ def observe(
         fixed_frame=core.frames.fixed_frame,
         buffer=core.buffer,
         displays=seen,
-        statuses=state.statuses,
+        statuses=core.statuses,
         offers=core.offers,
         nodes=core.gate.nodes(),
-        is_simulated=state.clock.is_simulated,
-        clock_hz=state.clock.clock_hz,
-        is_paused=state.clock.is_paused,
-        is_recorded=state.playback is not None and state.playback.is_live is None,
+        is_simulated=times.is_simulated,
+        clock_hz=times.clock_hz,
+        is_paused=times.is_paused,
+        is_recorded=core.get(PlaybackPart).is_recording,
         environment=environment,
         bridges=core.player.bridges,
         browsers=browsers,
@@ -83,10 +84,10 @@ def observe(
     )
 
 
-def problems(state: State) -> Mapping[Symptom, Status]:
+def problems(statuses: Mapping[str, Status], rows: Sequence[Row]) -> Mapping[Symptom, Status]:
     """Return the warnings and errors of the viewer and of its displays, without groups."""
-    owners = [("", state.statuses)]
-    owners += [(row.id, row.statuses) for row in state.rows if not _is_group(row)]
+    owners = [("", statuses)]
+    owners += [(row.id, row.statuses) for row in rows if not _is_group(row)]
     return {
         Symptom(id, key): status
         for id, statuses in owners

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 
-from msgspec.structs import replace
-
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot, robots_of
+from webviz.api.status import Level, Status
 from webviz.data.transforms import TransformBuffer
+from webviz.data.words import joined
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Requests
@@ -22,6 +22,7 @@ from webviz.engine.feature import broken_features, features
 from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
+from webviz.engine.loop.snapshot import snapshot
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.clock_watch import ClockWatchPart
@@ -44,7 +45,6 @@ from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.state import State
-from webviz.engine.state.statuses import failures, without
 from webviz.files.config import Config, Settings
 from webviz.sources import Advertisement, Gate, Rights, Source
 from webviz.sources.player import Player
@@ -339,17 +339,15 @@ class FrameLoop:
                 return
 
     def state(self) -> State:
-        """Return a snapshot for a panel, as of the last turn."""
-        state, statuses = self._parts.state(), self._parts.statuses()
+        """Return a snapshot for programs, as of the last turn."""
+        self._parts.update()
+        statuses = self._parts.statuses()
         self._core.verdicts = self.doctor.verdicts
-        statuses = statuses | failures(self._guard.crashes) | self._showing.statuses
-        statuses |= without(broken_features())
-        self._core.statuses = statuses
-        self._playback.note_warnings(state.rows)
-        seen = replace(state, statuses=statuses, warned=self._playback.warned)
-        doctor = self.doctor
-        found = self._guard.attempt("Doctor", (), doctor.examine, seen)
-        return replace(seen, findings=found, found=doctor.events, examined_ns=doctor.examined_ns)
+        statuses |= failures(self._guard.crashes) | self._showing.statuses
+        self._core.statuses = statuses | without(broken_features())
+        self._guard("Playback", self._playback.note_warnings, self._displays.rows)
+        self._guard("Doctor", self.doctor.examine)
+        return snapshot(self._core, self._parts.state())
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""
@@ -379,3 +377,23 @@ class FrameLoop:
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()
+
+
+def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
+    """Return the parts of the viewer that failed, by name."""
+    return {
+        part: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
+        for part, text in crashes.items()
+    }
+
+
+def without(broken: Mapping[str, str]) -> dict[str, Status]:
+    """Return which features cannot be loaded, by name.
+
+    Args:
+        broken: the reasons by name.
+    """
+    return {
+        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Install webviz anew.")
+        for name, reason in broken.items()
+    }

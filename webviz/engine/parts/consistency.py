@@ -16,11 +16,11 @@ from webviz.api.status import Level, Measurement, Status
 from webviz.data.rotations import conjugate, from_rpy, matrices
 from webviz.data.transforms import TransformException
 from webviz.data.transforms.reasons import in_words
+from webviz.engine.parts.alignment import Correction, align, distances
 from webviz.engine.parts.display_list import DisplayList
 from webviz.engine.parts.part import Core
+from webviz.engine.parts.scan_fit import C128, NEAR_M, OCCUPIED, POINTS, fit, in_the_way, thinned
 from webviz.engine.pipeline import Runner
-from webviz.engine.state.alignment import Correction, align, distances
-from webviz.engine.state.consistency import C128, NEAR_M, OCCUPIED, POINTS, fit, in_the_way, thinned
 
 EVERY_S = 1.0
 """Interval of the consistency check."""

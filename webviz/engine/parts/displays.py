@@ -38,8 +38,8 @@ from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.parts.status_lines import StatusesStore, causes, lines
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.pipeline import Runner, Services
+from webviz.engine.pipeline.trace import Trace
 from webviz.engine.state import Row, Traffic
-from webviz.engine.state.trace import Trace
 from webviz.files.config import ConfigError, mistakes, nearest, sentences
 from webviz.sources import Advertisement, Subscription, merged
 
@@ -94,11 +94,10 @@ class DisplaysPart(Part):
         for runner in self.list.runners():
             self.core.guard(self.name, runner.reset)
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the list of displays."""
+    def update(self) -> None:
+        """Make the rows of the list."""
         self.core.guard("Consistency check", self.consistency.update)
         self.rows = rows(self.list.entries, self._statuses_of, self.rows)
-        return {"rows": self.rows}
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core

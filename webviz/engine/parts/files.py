@@ -13,7 +13,7 @@ from typing import Any
 
 from webviz.api.panel import Panel
 from webviz.api.roles import Role
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
 from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.data.names import MAX_FILE_BYTES, MAX_NAME, file_problem_of, readable
@@ -28,7 +28,6 @@ from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Origin
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import ConfigFile
-from webviz.engine.state.statuses import import_status
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.files.config import Config, ConfigError, Template
@@ -136,13 +135,12 @@ class FilesPart(Part):
         path = str(self._path) if self._path else ""
         return ConfigFile(path, self._is_changed, str(self._folder), self._others)
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the file, and the others of its folder."""
-        return {"file": self.file()}
-
     def statuses(self) -> Mapping[str, Status]:
         """Return the unsupported parts of the open .rviz file."""
-        return {"Import": import_status(self._report)} if self._report else {}
+        if not self._report:
+            return {}
+        text = joined("Parts of this .rviz file are unsupported.", *self._report)
+        return {"Import": Status(Level.WARN, text)}
 
     def _list_folder(self) -> None:
         """Begin to list the config files of the folder; `file` takes the result."""

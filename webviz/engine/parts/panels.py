@@ -99,9 +99,9 @@ class PanelsPart(Part):
             if (advertisement := advertisement_of(self.core, *each))
         }
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the tabs."""
-        return {"panels": tuple(self._tabs())}
+    def tabs(self) -> tuple[PanelTab, ...]:
+        """Return the panels in their order."""
+        return tuple(self._tabs())
 
     def statuses(self) -> Mapping[str, Status]:
         """Return the statuses of unusable panels."""

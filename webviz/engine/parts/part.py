@@ -94,10 +94,12 @@ class Core:
         """Publishers and QoS by topic."""
         self.parts: Sequence[Part] = ()
         """All parts, once they are there."""
+        self._by_kind: dict[type[Part], Any] = {}
+        """Those that were asked for."""
         self.statuses: Mapping[str, Status] = {}
         """Those of the viewer as a whole, such as "Fixed Frame", as of the last turn."""
         self.shown = State()
-        """The last state that pages have seen."""
+        """The last state that programs have seen."""
         self.verdicts: Sequence[Verdict] = ()
         """Last verdicts on the rules of the config."""
 
@@ -107,9 +109,12 @@ class Core:
         Raises:
             LookupError: this viewer has none.
         """
-        found = next((part for part in self.parts if isinstance(part, kind)), None)
+        found: P | None = self._by_kind.get(kind)
         if found is None:
-            raise LookupError(f"This viewer has no {kind.__name__}.")
+            found = next((part for part in self.parts if isinstance(part, kind)), None)
+            if found is None:
+                raise LookupError(f"This viewer has no {kind.__name__}.")
+            self._by_kind[kind] = found
         return found
 
     def is_watched(self) -> bool:
@@ -118,7 +123,7 @@ class Core:
 
 
 class Part:
-    """One responsibility of a viewer: its commands, its stores, and some fields of `State`.
+    """One responsibility of a viewer: its commands, and its stores for pages.
 
     The frame loop calls all methods, so none may block. Exceptions become a status named after the
     part. Stores are made only while a page watches them.
@@ -175,8 +180,11 @@ class Part:
             stores: the names of those that are watched, with what stands behind the colon.
         """
 
+    def update(self) -> None:
+        """Note what there is to show, before stores are made."""
+
     def state(self) -> Mapping[str, Any]:
-        """Its fields of `State`."""
+        """Return its values for programs, by the names of fields of `webviz.State`."""
         return {}
 
     def statuses(self) -> Mapping[str, Status]:

@@ -11,13 +11,11 @@ from webviz.engine.commands import Command, FileCommand, Refresh, Sender
 from webviz.engine.commands.guard import Guard
 from webviz.engine.commands.requests import Job
 from webviz.engine.parts.part import Batches, Handler, Part, overrides
-from webviz.engine.state import State
 from webviz.sources import Advertisement, Subscription, merged
 
-_FIELDS = set(State.__struct_fields__)
 _HOOKS = (
-    *("subscriptions", "advertisements", "take", "reset", "keep_up", "state", "statuses"),
-    "close",
+    *("subscriptions", "advertisements", "take", "reset", "keep_up", "update", "state"),
+    *("statuses", "close"),
 )
 
 
@@ -88,14 +86,18 @@ class Parts:
         for part in self._overriding["keep_up"]:
             self._guard(part.name, part.keep_up, commanded)
 
-    def state(self) -> State:
-        """Return the fields of all parts; those of a part that fails have their defaults."""
+    def update(self) -> None:
+        """Have all parts note what there is to show."""
+        for part in self._overriding["update"]:
+            self._guard(part.name, part.update)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the values of features for programs."""
         found: dict[str, Any] = {}
         for part in self._overriding["state"]:
             own: Mapping[str, Any] = {}
             found |= self._guard.attempt(part.name, own, part.state)
-        more = {name: value for name, value in found.items() if name not in _FIELDS}
-        return State(**{name: value for name, value in found.items() if name in _FIELDS}, more=more)
+        return found
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the viewer as a whole, by key."""

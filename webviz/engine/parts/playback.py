@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.roles import Role
@@ -120,15 +119,14 @@ class PlaybackPart(Part):
         if self.is_seeking:
             self.core.frames.pass_by()
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the state of the player, and what is recorded when."""
+    def update(self) -> None:
+        """Note the state of the player, and what is recorded when."""
         player, history = self._player, self._player.history
         if player.absence:
             self.playback, self.recorded, self.logged = None, {}, ()
         else:
             self.playback, self.recorded = _state_of(player), history.histogram(BUCKETS)
             self.logged = history.logged()
-        return {"playback": self.playback, "recorded": self.recorded, "logged": self.logged}
 
     @store(name="playback")
     def shown(self, argument: str) -> PlaybackStore | None:
@@ -153,6 +151,11 @@ class PlaybackPart(Part):
     def recorded_by_topic(self, argument: str) -> RecordedStore:
         """Return counts of messages by topic."""
         return RecordedStore(self.recorded)
+
+    @property
+    def is_recording(self) -> bool:
+        """Return whether a recording is shown, and no live topics or their past."""
+        return self.playback is not None and self.playback.is_live is None
 
     @property
     def warned(self) -> Sequence[Event]:

@@ -210,11 +210,14 @@ class SelectionPart(Part):
     def _selection_of(self, browser: str) -> _Selection | None:
         return self._selections.get(int(browser)) if browser.isdecimal() else None
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the selections of all browsers."""
+    def held(self) -> Mapping[int, Mapping[int, tuple[str, bool]]]:
+        """Return what browsers have selected: the display of each thing, and whether it moves."""
+        return {id: each.held for id, each in self._selections.items()}
+
+    def described(self) -> Mapping[int, Mapping[str, Any]]:
+        """Return what is known of it, for the browsers that show it."""
         known, viewers = self._selections.items(), self._viewers
-        told = {id: each.values if id in viewers else {} for id, each in known}
-        return {"selected": {id: each.held for id, each in known}, "selections": told}
+        return {id: each.values if id in viewers else {} for id, each in known}
 
     @command(None)
     def inspect_selections(

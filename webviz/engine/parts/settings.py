@@ -69,10 +69,6 @@ class SettingsPart(Part):
         except msgspec.ValidationError as error:
             raise not_changed(error, Settings, key, value) from error
 
-    def state(self) -> Mapping[str, Any]:
-        """All settings."""
-        return {"settings": self.settings, "fixed_frame": self.settings.fixed_frame}
-
     @store(name="settings", of=lambda part: (part.settings, part.core.statuses))
     def shown(self, argument: str) -> SettingsStore:
         """Return the settings, and the statuses of the viewer as a whole."""

@@ -7,7 +7,8 @@ from msgspec.structs import replace
 
 from webviz.api.errors import Error
 from webviz.engine.commands import Sender
-from webviz.engine.state import State
+from webviz.engine.parts.part import Core
+from webviz.engine.parts.views import ViewsPart
 from webviz.files.config import Config
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
@@ -44,9 +45,10 @@ def slice_around(player: Player) -> tuple[Slice, str]:
     return MemorySlice(memory.recorded_channels, entries, shown_s), "live"
 
 
-def as_seen(config: Config, state: State, sender: Sender) -> Config:
+def as_seen(config: Config, core: Core, sender: Sender) -> Config:
     """Return a config that begins with the view of the browser that sent a command."""
-    view = state.views.get(sender.browser) if sender.browser is not None else None
+    views = core.get(ViewsPart).current()
+    view = views.get(sender.browser) if sender.browser is not None else None
     if view is None:
         return config
     return replace(config, settings=msgspec.structs.replace(config.settings, view=view))

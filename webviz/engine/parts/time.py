@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
@@ -73,8 +72,8 @@ class TimePart(Part):
         """ROS time to show."""
         return self.core.now_ns if self._paused_ns is None else self._paused_ns
 
-    def state(self) -> Mapping[str, Any]:
-        """Both clocks."""
+    def update(self) -> None:
+        """Read both clocks."""
         ros_ns, wall_s = self.core.frames.now_ns, time.time()
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
@@ -91,7 +90,6 @@ class TimePart(Part):
             messages is not None,
             self._clock_rate.step(messages or 0, self.core.clock()),
         )
-        return {"clock": self.times}
 
     @store()
     def clock(self, argument: str) -> ClockStore:

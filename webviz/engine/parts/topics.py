@@ -96,7 +96,7 @@ class TopicsPart(Part):
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self._offers: Mapping[str, Offer] | None = None
-        self._types: dict[str, tuple[str, ...]] = {}
+        self._types: Mapping[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
         self.traffic: Mapping[str, Traffic] = {}
         """Of the topics with a subscription here, over the last seconds."""
@@ -112,22 +112,21 @@ class TopicsPart(Part):
         """Forget delays, which another time makes meaningless."""
         self._delays.clear()
 
-    def state(self) -> Mapping[str, Any]:
-        """All topics."""
-        offers = self.core.offers
-        if offers is not self._offers:
-            self._offers = offers
-            self._types = {
-                topic: tuple(sorted({publisher.type for publisher in offer.publishers}))
-                for topic, offer in offers.items()
-            }
-        self._measure_traffic()
-        return {
-            "topics": self._types,
-            "offers": offers,
-            "services": self.core.gate.services(),
-            "traffic": self.traffic,
-        }
+    def update(self) -> None:
+        """Measure the rates anew now and then."""
+        now, counts = self.core.clock(), self.core.player.inbox.received()
+        if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
+            self.traffic = {topic: each for topic, each in self.traffic.items() if topic in counts}
+        else:
+            self.traffic = self._rates(now, counts)
+
+    @property
+    def types(self) -> Mapping[str, tuple[str, ...]]:
+        """The message types by topic."""
+        if self.core.offers is not self._offers:
+            self._offers = self.core.offers
+            self._types = _types_of(self._offers)
+        return self._types
 
     @store(name="topics", of=lambda part: part.core.offers)
     def topics_of_graph(self, argument: str) -> TopicsStore:
@@ -170,14 +169,6 @@ class TopicsPart(Part):
         delay = (raw.received_ns - header[1]) / 1e9 if header and header[1] else None
         self._delays[topic] = now, delay
 
-    def _measure_traffic(self) -> None:
-        """Measure the rates anew now and then."""
-        now, counts = self.core.clock(), self.core.player.inbox.received()
-        if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
-            self.traffic = {topic: each for topic, each in self.traffic.items() if topic in counts}
-        else:
-            self.traffic = self._rates(now, counts)
-
     def _rates(self, now: float, counts: dict[str, tuple[int, int]]) -> dict[str, Traffic]:
         self._counts.append((now, counts))
         while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
@@ -205,14 +196,18 @@ def type_of(offer: Offer) -> str:
 def _topics(
     offers: Mapping[str, Offer], displays: Mapping[str, type[Display]]
 ) -> Mapping[str, GraphTopic]:
-    types = {
-        name: tuple(sorted({publisher.type for publisher in offer.publishers}))
-        for name, offer in offers.items()
-    }
+    types = _types_of(offers)
     fits: dict[str, list[Pick]] = {}
     for pick in picks(types, displays):
         fits.setdefault(pick.topic, []).append(pick)
     return {name: _topic(offer, types[name], fits.get(name, [])) for name, offer in offers.items()}
+
+
+def _types_of(offers: Mapping[str, Offer]) -> Mapping[str, tuple[str, ...]]:
+    return {
+        name: tuple(sorted({publisher.type for publisher in offer.publishers}))
+        for name, offer in offers.items()
+    }
 
 
 def _topic(offer: Offer, types: Sequence[str], fits: Sequence[Pick]) -> GraphTopic:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 from webviz.api.robots import NamespacedRobot
-from webviz.api.status import Status
+from webviz.api.status import Level, OtherFixedFrame, Status
+from webviz.data.transforms import TransformBuffer
+from webviz.data.transforms.explain import unknown_fixed_frame
+from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.parts.declaring import store
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.pipeline.listener import TransformListener
-from webviz.engine.state.statuses import fixed_frame_status
 from webviz.engine.store import PageStore
 from webviz.sources import Subscription
 
@@ -57,13 +58,27 @@ class TransformsPart(Part):
         """Return all frame ids."""
         return FramesStore(tuple(sorted(self.core.buffer.frames())))
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the frames."""
-        return {"frames": self.frames().frames}
-
     def statuses(self) -> Mapping[str, Status]:
         """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""
         core = self.core
         fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
         found = self._listener.statuses(core.offers, core.frames.now_ns)
         return {"Fixed Frame": fixed, **found}
+
+
+def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
+    """Return whether the fixed frame is known."""
+    known = buffer.frames()
+    if fixed_frame in known:
+        return Status(Level.OK, "OK")
+    if known:
+        reason = unknown_fixed_frame(buffer, fixed_frame)
+        other = reason.near or buffer.largest_tree()[0]
+        return Status(Level.ERROR, reason.sentence, OtherFixedFrame(other), reason)
+    text = (
+        f"No transforms yet, so {fixed_frame} is unknown: {buffer.recorded}."
+        if buffer.recorded
+        else f"No transforms yet on /tf or /tf_static, so {fixed_frame} is unknown. Start a "
+        "publisher of transforms, such as robot_state_publisher."
+    )
+    return Status(Level.WARN, text, reason=Explanation(Kind.NO_TRANSFORMS, text))

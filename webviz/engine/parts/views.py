@@ -141,10 +141,6 @@ class ViewsPart(Part):
         ]
         return {"Target Frame": Status(Level.WARN, joined(*lost))} if lost else {}
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the current view of every browser."""
-        return {"views": self._cameras.views()}
-
     # Stores
 
     @store(is_private=True)
@@ -176,10 +172,14 @@ class ViewsPart(Part):
     @store()
     def watchers(self, argument: str) -> WatchersStore:
         """Return the number of browsers that watch the scene."""
-        return WatchersStore(len(self._cameras.views()))
+        return WatchersStore(len(self.current()))
+
+    def current(self) -> Mapping[int, View]:
+        """Return the current view of every browser."""
+        return self._cameras.views()
 
     def _view_of(self, browser: str) -> View | None:
-        return self._cameras.views().get(int(browser)) if browser.isdecimal() else None
+        return self.current().get(int(browser)) if browser.isdecimal() else None
 
     # Commands
 
@@ -315,7 +315,7 @@ class ViewsPart(Part):
         Raises:
             ConfigError: no browser is connected.
         """
-        views = self._cameras.views()
+        views = self.current()
         if browser is not None:
             views = {id_: view for id_, view in views.items() if id_ == browser}
         if not views:

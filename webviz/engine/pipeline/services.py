@@ -13,7 +13,7 @@ from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.history import HistoryBudget
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene_diff import SceneWriter
-from webviz.engine.state.trace import Tracer
+from webviz.engine.pipeline.trace import Tracer
 from webviz.sources import Gate
 
 

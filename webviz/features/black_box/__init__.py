@@ -180,7 +180,7 @@ class BlackBoxFeature(Feature):
             return {"Black box": Status(Level.WARN, self._problem)}
         if self._memory is None:
             return {}
-        names = [row.name for row in self.core.shown.rows]
+        names = [row.name for row in self.core.get(DisplaysPart).rows]
         for rule in self._watcher.rules:
             watched = rule.condition.subject if rule.condition else rule.display
             is_display = watched != DOCTOR and not watched.startswith("/")
@@ -216,7 +216,8 @@ class BlackBoxFeature(Feature):
         settled = self._settled(now_s)
         for row in settled if is_live else ():  # else they are about the past
             displays[row.name] = max(displays.get(row.name, Level.OK), row.level)
-        starting = {row.name for row in self.core.shown.rows} - {row.name for row in settled}
+        rows = self.core.get(DisplaysPart).rows
+        starting = {row.name for row in rows} - {row.name for row in settled}
         rates, levels = self._observer.rates(now_s), self._observer.levels(now_s)
         for rule in self._watcher.rules:
             name = self._resolved(rule)
@@ -243,7 +244,7 @@ class BlackBoxFeature(Feature):
         settled = {id_ for id_, at_s in heard.items() if now_s - at_s >= SETTLE_S}
         return [
             row
-            for row in self.core.shown.rows
+            for row in self.core.get(DisplaysPart).rows
             if row.id in settled or (row.type == type_name(DisplayGroup) and settled)
         ]
 

@@ -18,7 +18,7 @@ from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline.runner import Runner
-from webviz.engine.state.trace import Trace, Tracer
+from webviz.engine.pipeline.trace import Trace, Tracer
 from webviz.engine.store import PageStore
 from webviz.features.latency.painting import Painting
 from webviz.features.latency.stages import Latency, stages_of
@@ -69,10 +69,11 @@ class LatencyFeature(Feature):
         """Measure while a page shows the latencies."""
         self.inspect_latency(bool(stores))
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the latencies, none while no page shows them."""
+    def update(self) -> None:
+        """Measure the latencies, while a page shows them."""
         if not self._is_wanted:
-            return {"latencies": ()}
+            self._shown = ()
+            return
         runners = list(self.core.get(DisplaysPart).list.active())[:MAX_DISPLAYS]
         self._collect([runner.id for runner in runners])
         self.core.guard("Scene", self._painting.take)
@@ -82,6 +83,9 @@ class LatencyFeature(Feature):
             self.core.guard("Scene", self._painting.measure, now - self._shown_at)
             self._shown_at = now
             self._shown = tuple(self._latency(each) for each in runners if each.id in self._traces)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the latencies of displays."""
         return {"latencies": self._shown}
 
     @store()

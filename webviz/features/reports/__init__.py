@@ -132,7 +132,7 @@ class ReportsFeature(Feature):
 
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
         core, state = self.core, self.core.shown
-        config = as_seen(core.get(FilesPart).config(), state, sender)
+        config = as_seen(core.get(FilesPart).config(), core, sender)
         part, source = slice_around(core.player)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems

@@ -21,6 +21,7 @@ from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
+from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, HostProgram
 from webviz.engine.parts.shown_moment import as_seen, slice_around
@@ -124,7 +125,7 @@ class SharingFeature(Feature):
     def list_moment(self) -> str:
         """Answer with what `ShareMoment` would write, one line per part."""
         part, source = slice_around(self.core.player)
-        displays = sum(row.type != "Group" for row in self.core.shown.rows)
+        displays = sum(row.type != "Group" for row in self.core.get(DisplaysPart).rows)
         of = "memory" if source == "live" else "the bag"
         return "\n".join(
             (
@@ -151,7 +152,7 @@ class SharingFeature(Feature):
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
         part, _ = slice_around(core.player)
-        config = as_seen(files.config(), core.shown, sender)
+        config = as_seen(files.config(), core, sender)
         made = Path(path).absolute() if path else new_path("webviz_run", ".html")
         name = files.path.name if files.path else ""
         stopped = threading.Event()

@@ -6,7 +6,7 @@ import contextlib
 import functools
 import inspect
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any, ClassVar
 
@@ -58,6 +58,7 @@ class ToolsFeature(PageFeature):
         super().__init__(core)
         self.list = core.tools
         self._toolbar: Toolbar | None = None
+        self._shown: Sequence[ToolButton] = ()
 
     def attach(self, dispatcher: Dispatcher) -> None:
         """Show the tools on pages, and take their gestures."""
@@ -70,12 +71,15 @@ class ToolsFeature(PageFeature):
             each for tool in tools if tool.vehicle is None for each in self._advertisements(tool)
         ]
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the buttons of the toolbar, and show them."""
-        buttons = self.buttons()
+    def update(self) -> None:
+        """Show the buttons of the toolbar."""
+        self._shown = self.buttons()
         if self._toolbar is not None:
-            self._toolbar.show(buttons)
-        return {"tools": buttons}
+            self._toolbar.show(self._shown)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the buttons of the toolbar."""
+        return {"tools": self._shown}
 
     @store()
     def tool(self, id: str) -> ToolStore | None:

@@ -67,11 +67,14 @@ class TopicsFeature(Feature):
             if (newest := next(reversed(list(batches[topic])), None)) is not None:
                 self._last[topic] = newest, time.time()
 
-    def state(self) -> Mapping[str, Any]:
-        """Return the inspected topics."""
+    def update(self) -> None:
+        """Forget topics that nobody looks at any more."""
         for gone in self._last.keys() - self._inspected():
             del self._last[gone]
             self._read.pop(gone, None)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the inspected topics."""
         return {"inspected": {topic: self._look(topic) for topic in self._inspected()}}
 
     def inspection(self, topic: str) -> Inspected | None:

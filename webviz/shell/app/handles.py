@@ -24,8 +24,8 @@ from webviz.commands import (
 )
 from webviz.data.words import joined
 from webviz.engine.commands import Command
+from webviz.engine.pipeline.trace import Trace
 from webviz.engine.state import Row
-from webviz.engine.state.trace import Trace
 from webviz.shell.app.adding import NoSuchProperty, no_property
 
 if TYPE_CHECKING:

@@ -153,7 +153,7 @@ class Examination:
         is_frame_given = is_given
         while (now := time.monotonic()) < until_s or (self._is_open and now < until_s + MORE_S):
             self._state = self._turn()
-            self._is_open = self._loop.is_busy() or not self._loop.doctor.is_settled(self._state)
+            self._is_open = self._loop.is_busy() or not self._loop.doctor.is_settled()
             passed = now - began
             self._progress("examining", min(1.0, passed / (until_s - began)))
             if not is_frame_given and passed > FRAME_S:

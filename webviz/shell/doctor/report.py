@@ -110,7 +110,7 @@ def report_of(
     names = {row.id: row.name for row in rows}
     statuses = {("", key): status for key, status in (state.statuses if state else {}).items()}
     statuses |= {(row.id, key): status for row in rows for key, status in row.statuses.items()}
-    bad = problems(state) if state else {}
+    bad = problems(state.statuses, state.rows) if state else {}
 
     def reported(place: tuple[str, str]) -> ReportedStatus:
         status = statuses.get(place)

@@ -1,4 +1,4 @@
-"""The state of a viewer for panels: a snapshot made by the frame loop."""
+"""The state of a viewer for programs and plug-ins, and what it consists of."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
 from webviz.api.views import View
 from webviz.data.messages.tree import Tree
-from webviz.engine.state.config_file import ConfigFile
 from webviz.engine.store import PageStore
 from webviz.files.config import Settings
 from webviz.sources import Offer
@@ -169,8 +168,24 @@ class UndoHistory(PageStore, frozen=True):
     redo: tuple[HistoryStep, ...] = ()
 
 
+class ConfigFile(PageStore, frozen=True):
+    """The file of the config.
+
+    Args:
+        path: of the file, "" if there is none.
+        is_changed: whether there are unsaved changes.
+        folder: base of relative paths.
+        others: names of all config files in the folder, sorted.
+    """
+
+    path: str = ""
+    is_changed: bool = False
+    folder: str = ""
+    others: tuple[str, ...] = ()
+
+
 class State(msgspec.Struct, frozen=True, kw_only=True):
-    """A viewer at one moment; each part fills in the fields that it owns.
+    """A viewer at one moment, read from its parts; see `webviz.engine.loop.snapshot`.
 
     Args:
         rows: the displays in order.
