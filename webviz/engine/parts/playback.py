@@ -11,7 +11,6 @@ from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.names import problem_of
 from webviz.data.words import joined
-from webviz.engine.commands.requests import Job
 from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.parts.part import Batches, Core, Part
@@ -27,6 +26,7 @@ from webviz.engine.parts.timeline import (
     density_store,
     playback_store,
 )
+from webviz.engine.requests import Job
 from webviz.engine.state import Row
 from webviz.files.config import nearest
 from webviz.sources.bag.history import BagHistory
@@ -125,8 +125,8 @@ class PlaybackPart(Part):
         if player.absence:
             self.playback, self.recorded, self.logged = None, {}, ()
         else:
-            self.playback, self.recorded = _state_of(player), history.histogram(BUCKETS)
-            self.logged = history.logged()
+            self.recorded = history.histogram(BUCKETS)  # before the span that it counts is read
+            self.playback, self.logged = _state_of(player), history.logged()
 
     @store(name="playback")
     def shown(self, argument: str) -> PlaybackStore | None:
