@@ -20,8 +20,8 @@ from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
-from webviz.commands import AddDisplay, DuplicateDisplay, OpenPanels, SetProperty
-from webviz.engine.commands import Command, Refresh, Sender
+from webviz.commands import AddDisplay, DuplicateDisplay, OpenPanels, Refresh, SetProperty
+from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import Feature, store
 from webviz.engine.state import Row, State
@@ -197,7 +197,10 @@ class ShownFeatures(Feature):
 def _as_is(row: Row) -> Row:
     """A row with the name and the switch that its display has now."""
     display = row.display
-    return replace(row, name=display.name, enabled=display.enabled) if display else row
+    if display is None:
+        return row
+    changed = row.revision + 1  # the display is the same object
+    return replace(row, name=display.name, enabled=display.enabled, revision=changed)
 
 
 class Tab:
