@@ -44,6 +44,8 @@ FOLDERS = {
         "forms",
         "state",
         "commands",
+        "guard",
+        "requests",
         "driving",
         "watch",
         "playback",

@@ -12,11 +12,9 @@ from webviz.api.status import Status
 from webviz.api.tool import Position
 from webviz.api.views import View
 from webviz.engine.commands import *  # noqa: F403
-from webviz.engine.commands import Picks
-from webviz.engine.commands.command import Command
-from webviz.engine.commands.files import FileCommand
+from webviz.engine.commands import Command, FileCommand, Picks
 from webviz.engine.pipeline.trace import Trace
-from webviz.files.config import Layout
+from webviz.files.config import Config, Layout
 from webviz.files.report import ReportedPick
 
 __all__: list[str]
@@ -46,6 +44,27 @@ class AddPanel(Command, frozen=True):
 
     type: str
     values: dict[str, Any] = ...
+
+class CallService(Command, frozen=True):
+    """Call a service.
+
+    Args:
+        service: its name; remapped like a topic.
+        type: such as "std_srvs/srv/Trigger".
+        request: values by field; missing fields have their defaults.
+        definition: text of the .srv file, for types unknown to webviz.
+        answered: called with the response from another thread; must not block.
+        failed: called with a sentence in the same way if there is none.
+        timeout_s: for service and response to appear.
+    """
+
+    service: str
+    type: str
+    request: Mapping[str, Any]
+    definition: str = ...
+    answered: Callable[[Any], object] = ...
+    failed: Callable[[str], object] = ...
+    timeout_s: float = ...
 
 class CancelGoal(Command, frozen=True):
     """Ask the server of a goal to end it; see `webviz.features.goals.running.GoalProgress`."""
@@ -251,6 +270,23 @@ class Pause(Command, frozen=True):
 class Play(Command, frozen=True):
     """Play from the position, at the end of the span from its start; `Pause` stops it."""
 
+class Publish(Command, frozen=True):
+    """Publish a message.
+
+    Args:
+        topic: its name; remapped.
+        type: such as "std_msgs/msg/String".
+        values: of the message by field; missing fields have their defaults.
+        report: called with the result from any thread; must not block.
+        latched: whether subscriptions that come later get the message, too (transient local).
+    """
+
+    topic: str
+    type: str
+    values: Mapping[str, Any]
+    report: Callable[[Status], None] = ...
+    latched: bool = ...
+
 class Redo(Command, frozen=True):
     """Do again what was taken back.
 
@@ -261,6 +297,9 @@ class Redo(Command, frozen=True):
 
     steps: int = ...
     own: bool = ...
+
+class Refresh(Command, frozen=True):
+    """Update panels at once, such as after another tab was selected: all commands do."""
 
 class ReloadPlugin(Command, frozen=True):
     """Reload a plug-in file after it was saved."""
@@ -310,6 +349,17 @@ class ResetView(Command, frozen=True):
     """Reset the view to the defaults of its type, as RViz's Zero does."""
 
     browser: int | None = ...
+
+class Restore(Command, frozen=True):
+    """Show the unsaved changes of the last session; undo brings back the config as it is saved.
+
+    Args:
+        config: as it was shown.
+        path: of the config file that was open, None for none.
+    """
+
+    config: Config
+    path: Path | None
 
 class RestoreSelection(Command, frozen=True):
     """Let pages that join select what was selected when a report was made."""

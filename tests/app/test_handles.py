@@ -9,7 +9,7 @@ import pytest
 
 import webviz
 from webviz.api.registry import display_types
-from webviz.engine.commands import Refresh
+from webviz.commands import Refresh
 from webviz.shell.app.handles import DisplayHandle
 from webviz.shell.testing.source import HandFedSource
 

@@ -17,9 +17,8 @@ from waiting import until
 import webviz
 from webviz.api import registry
 from webviz.api.views import Orbit, TopDownOrtho
-from webviz.commands import Load
+from webviz.commands import Load, Refresh
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
 from webviz.shell.testing.messages import stamped_transform
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer

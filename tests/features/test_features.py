@@ -28,11 +28,21 @@ NEEDED_BY = {"recording": ("black_box",)}
 START = """
 import sys
 from pathlib import Path
-from webviz import Viewer
+from webviz import Error, Viewer, commands
 from webviz.shell.testing.source import HandFedSource
 viewer = Viewer(source=HandFedSource(), port=0)
 try:
     print({name: status.text for name, status in viewer.state.statuses.items()})
+    for name in sys.argv[1:]:
+        try:
+            getattr(commands, name)
+        except Error as error:
+            print(error)
+    if "UseTool" in sys.argv:
+        try:
+            viewer.tool("2D Goal Pose").send(0.0, 0.0)
+        except Error as error:
+            print(error)
 finally:
     viewer.close()
 """
@@ -150,8 +160,9 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
     for path in (PACKAGE / "features").iterdir():
         if path.name != name:
             (inner / "features" / path.name).symlink_to(path)
+    own = list(commands_of(feature.features()[name]))
     done = subprocess.run(
-        [sys.executable, "-c", START],
+        [sys.executable, "-c", START, *own],
         cwd=tmp_path,
         env={"PYTHONPATH": str(tmp_path), "PATH": "", "HOME": str(tmp_path)},
         capture_output=True,
@@ -162,3 +173,7 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
     assert done.returncode == 0, done.stderr
     missing = re.findall(r"(\w+) is missing: webviz\.features\.(?=\1:)", done.stdout)
     assert sorted(missing) == sorted({name, *NEEDED_BY.get(name, ())})
+    lost = ", ".join(sorted({name, *NEEDED_BY.get(name, ())}))
+    asked = [*own, *(["UseTool"] if "UseTool" in own else [])]
+    said = [f"There is no {each} without {lost}. Install webviz anew." for each in asked]
+    assert re.findall(r"^There is no .*", done.stdout, re.MULTILINE) == said

@@ -10,9 +10,8 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.declared import make
 from webviz.api.panel import Panel
-from webviz.commands import Seek, SetPanelProperty
+from webviz.commands import CallService, Publish, Seek, SetPanelProperty
 from webviz.data.messages import decode, encode
-from webviz.engine.commands import CallService, Publish
 from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.diagnostics import ARRAY, MAX_STATUSES, Diagnostics
 from webviz.panels.indicator import Indicator

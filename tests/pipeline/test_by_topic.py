@@ -8,7 +8,7 @@ from webviz.api.declared import Topic
 from webviz.api.display import Display, Input, inputs_of
 from webviz.api.ports import ANY, Namespace
 from webviz.api.registry import display_types
-from webviz.engine.commands.by_topic import Pick, no_display, picks
+from webviz.engine.parts.by_topic import Pick, no_display, picks
 
 GRID = "nav_msgs/msg/OccupancyGrid"
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"

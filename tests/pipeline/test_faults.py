@@ -33,8 +33,8 @@ from webviz.api.connection import GraphConnection
 from webviz.api.handles import Control, Drag, Handle
 from webviz.api.nodes import Pose
 from webviz.api.status import Level
-from webviz.commands import DragHandle, Identify, SetBackground, SetProperty
-from webviz.engine.commands import Picks, Refresh
+from webviz.commands import DragHandle, Identify, Refresh, SetBackground, SetProperty
+from webviz.engine.commands import Picks
 
 SECOND = 1_000_000_000
 T = 100 * SECOND

@@ -12,13 +12,13 @@ from bench import Benches
 
 from webviz import Error, commands
 from webviz.api.status import Level, Status
-from webviz.commands import Pause, Reset
-from webviz.engine.commands import Command, FileCommand, Refresh, Sender
-from webviz.engine.commands.requests import Job, Refused
+from webviz.commands import Pause, Refresh, Reset
+from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.feature import Feature
 from webviz.engine.loop.snapshot import READERS
 from webviz.engine.parts import Batches, Core, Handler, Part
 from webviz.engine.parts.part import overrides
+from webviz.engine.requests import Job, Refused
 from webviz.engine.state import State
 from webviz.shell.testing.source import SECOND
 
@@ -217,4 +217,4 @@ def test_every_command_and_every_field_of_the_state_has_one_owner(bench: Benches
     assert sorted([*read, "more"]) == sorted(State.__struct_fields__)
     public = [getattr(commands, name) for name in commands.__all__]
     asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
-    assert {kind for part in parts for kind in part.handles} == asked - {*KINDS, Refresh}
+    assert {kind for part in parts for kind in part.handles} == asked - {*KINDS}

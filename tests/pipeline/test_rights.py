@@ -12,10 +12,9 @@ from bench import Benches
 
 import webviz
 from webviz.api.status import Level, Status
-from webviz.commands import Load, Redo, Reset, SetToolProperty, Undo, UseTool
+from webviz.commands import Load, Redo, Refresh, Reset, SetToolProperty, Undo, UseTool
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2

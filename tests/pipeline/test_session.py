@@ -22,6 +22,7 @@ from webviz.commands import (
     Load,
     MoveDisplay,
     Open,
+    Refresh,
     ResetDisplay,
     Save,
     SaveImage,
@@ -32,8 +33,8 @@ from webviz.commands import (
     SetToolProperty,
     WriteDisplays,
 )
-from webviz.engine.commands import Command, Refresh, Sender
-from webviz.engine.commands.requests import MAX_FILES, MAX_REQUESTS
+from webviz.engine.commands import Command, Sender
+from webviz.engine.requests import MAX_FILES, MAX_REQUESTS
 from webviz.engine.state import ConfigFile, State
 from webviz.files.config import Branch, Unreadable, document
 from webviz.files.opening import load, parse

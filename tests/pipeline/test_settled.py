@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from bench import Benches
 
-from webviz.commands import Pause, RemoveDisplay, SetProperty, Undo
-from webviz.engine.commands import Refresh
+from webviz.commands import Pause, Refresh, RemoveDisplay, SetProperty, Undo
 from webviz_displays.grid import Grid
 
 

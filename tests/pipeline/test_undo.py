@@ -18,6 +18,7 @@ from webviz.commands import (
     Open,
     Pause,
     Redo,
+    Refresh,
     RemoveDisplay,
     RemoveView,
     RenameView,
@@ -30,7 +31,7 @@ from webviz.commands import (
     StartWithView,
     Undo,
 )
-from webviz.engine.commands import Command, Refresh, Sender
+from webviz.engine.commands import Command, Sender
 from webviz.engine.parts.history import MAX_STEPS, SAME_S
 from webviz.files.config import dump
 

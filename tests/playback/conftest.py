@@ -12,8 +12,8 @@ import pytest
 from bags import START_NS, Bag, ns
 from drives import CONFIG
 
-from webviz.commands import Seek
-from webviz.engine.commands import Command, Refresh
+from webviz.commands import Refresh, Seek
+from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene

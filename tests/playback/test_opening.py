@@ -13,9 +13,9 @@ from drives import CONFIG, recorded
 
 from tests.playback.conftest import Drive, Theater
 from webviz.api.errors import Error
-from webviz.commands import OpenRecording, Pause, ReturnToLive, SaveMemory, Seek
+from webviz.commands import OpenRecording, Pause, Refresh, ReturnToLive, SaveMemory, Seek
 from webviz.data.messages import encode
-from webviz.engine.commands import Command, Refresh, Sender
+from webviz.engine.commands import Command, Sender
 from webviz.engine.parts.playback import NO_LIVE, REWOUND
 from webviz.features.black_box.saved import FOLDER
 from webviz.files.config.model import MemorySettings

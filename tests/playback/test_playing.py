@@ -25,7 +25,7 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command
-from webviz.engine.commands.requests import Refused
+from webviz.engine.requests import Refused
 from webviz.files.config import dump
 from webviz.files.opening import parse
 from webviz.sources.bag.history import BagHistory

@@ -22,6 +22,7 @@ from webviz.api.vehicle import Velocity
 from webviz.commands import (
     Pause,
     Play,
+    Refresh,
     ReturnToLive,
     SaveMemory,
     Seek,
@@ -32,7 +33,6 @@ from webviz.commands import (
     StopRecording,
 )
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
 from webviz.engine.state import State

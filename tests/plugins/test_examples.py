@@ -21,9 +21,8 @@ from webviz.api import registry
 from webviz.api.check_registry import register_checks
 from webviz.api.display import Display
 from webviz.api.status import Status
-from webviz.commands import Load, UseTool
+from webviz.commands import Load, Refresh, UseTool
 from webviz.data.messages import decode, encode, register
-from webviz.engine.commands import Refresh
 from webviz.engine.pipeline.plugins import load
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.remembering_graph import RememberingGraph

@@ -12,15 +12,16 @@ from bench import Benches
 from webviz.api import registry
 from webviz.commands import (
     AddPanel,
+    CallService,
     Load,
     OpenPanels,
+    Publish,
     ReloadPlugin,
     RemovePanel,
     SetPanelProperty,
     Undo,
 )
 from webviz.data.messages import encode
-from webviz.engine.commands import CallService, Publish
 from webviz.engine.pipeline.plugins import load
 from webviz.files.config import ConfigError, Unreadable, document
 from webviz.files.config.overrides import override

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from webviz.api.errors import Error
+from webviz.commands import CallService
 from webviz.data.messages import encode, interfaces, message_class
 from webviz.data.parameters import KINDS
-from webviz.engine.commands import CallService
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.parameter_values import flat, to_yaml

@@ -9,10 +9,9 @@ from bench import Benches
 
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
-from webviz.commands import AddPanel, OpenPanels, SendGoal, SetPanelProperty
+from webviz.commands import AddPanel, CallService, OpenPanels, Publish, SendGoal, SetPanelProperty
 from webviz.data.messages import encode
-from webviz.engine.commands import CallService, Publish
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import PanelTab, State
 from webviz.files.config import Config

@@ -11,10 +11,9 @@ from bench import Benches
 
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
-from webviz.commands import SetProperty
+from webviz.commands import Refresh, SetProperty
 from webviz.data.messages import decode, encode, interfaces
-from webviz.engine.commands import Refresh
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import Row, State
 from webviz.files.config import Config

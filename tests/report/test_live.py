@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 import webviz
-from webviz.commands import SaveReport, Seek
+from webviz.commands import Refresh, SaveReport, Seek
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
 from webviz.files.report import BugReport, read_report
 from webviz.shell.testing import header
 from webviz.shell.testing.source import SECOND, HandFedSource

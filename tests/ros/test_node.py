@@ -26,7 +26,7 @@ from webviz.api.frames import Frames
 from webviz.api.status import Level
 from webviz.data.messages import decode
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.inputs import Inputs
 from webviz.ros import node
 from webviz.ros.node import RosSource

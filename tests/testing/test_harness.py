@@ -9,7 +9,7 @@ import pytest
 
 import webviz.testing
 from webviz import Level
-from webviz.engine.commands.requests import Refused
+from webviz.engine.requests import Refused
 from webviz.shell.testing import SECOND, Harness
 from webviz_displays.grid import Grid
 from webviz_displays.laser_scan import LaserScan

@@ -9,9 +9,10 @@ from typing import Any
 
 from webviz.api.registry import display_types
 from webviz.api.roles import Role
-from webviz.engine.commands import Command, Refresh, Sender
-from webviz.engine.commands.guard import Guard
+from webviz.commands import Refresh
+from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import stores
+from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import stores_of
 from webviz.engine.parts.part import Part
 from webviz.engine.state import State

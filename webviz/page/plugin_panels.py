@@ -20,8 +20,8 @@ from webviz.api.registry import broken_types, plugin_types
 from webviz.api.tool import Tool
 from webviz.commands import OpenPanels
 from webviz.engine.commands import PROGRAM, Command, Sender
-from webviz.engine.commands.guard import Guard
 from webviz.engine.forms import Form, form, values_of
+from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import store
 from webviz.engine.state import PanelTab, State
 from webviz.engine.store import PageStore

@@ -9,9 +9,9 @@ from webviz.api.declared import Prop
 from webviz.api.goal import goal_request
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
+from webviz.commands import CallService
 from webviz.data.messages import MessageError, interfaces, to_tree
 from webviz.data.words import joined
-from webviz.engine.commands import CallService
 from webviz.panels.sending import SendingPanel
 
 TIMEOUT_S = 30.0

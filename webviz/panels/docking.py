@@ -12,7 +12,7 @@ from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest, goal_request
 from webviz.api.panel import Panel, Send, Ui
 from webviz.api.status import Level, Status
-from webviz.engine.commands import CallService
+from webviz.commands import CallService
 from webviz.panels.fields import finite, keep
 
 NO_NUMBER = "Enter the pose of the dock, or use an id."

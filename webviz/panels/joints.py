@@ -14,8 +14,8 @@ import webviz_urdf
 from webviz.api.declared import Prop
 from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.api.status import Level, Status
+from webviz.commands import Publish
 from webviz.data.words import counted
-from webviz.engine.commands import Publish
 from webviz_urdf import Joint, RobotDescriptionError, leader_of
 
 STATE = "sensor_msgs/msg/JointState"

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 
 from webviz.api.declared import Prop
 from webviz.api.panel import Panel, Send, Ui
+from webviz.commands import CallService
 from webviz.data.messages import interfaces
-from webviz.engine.commands import CallService
 from webviz.tools.nav2_goal import progress
 
 ASK_S = 1.0

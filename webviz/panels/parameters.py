@@ -12,10 +12,10 @@ import msgspec
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
+from webviz.commands import CallService
 from webviz.data.names import readable
 from webviz.data.parameters import KINDS, Value, plain
 from webviz.data.words import counted, joined, listed
-from webviz.engine.commands import CallService
 from webviz.panels.parameter_values import fitting, flat, of_node, parse, to_yaml
 from webviz.panels.yaml_text import inline, read_yaml
 

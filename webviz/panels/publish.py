@@ -11,7 +11,7 @@ from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
-from webviz.engine.commands import Publish
+from webviz.commands import Publish
 from webviz.panels.sending import SendingPanel
 
 MAX_RATE_HZ = 10.0

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 from webviz.api.declared import Prop
 from webviz.api.panel import Choice, Panel, Send, Ui
 from webviz.api.status import Level, Status
+from webviz.commands import CallService, Publish
 from webviz.data.words import listed
-from webviz.engine.commands import CallService, Publish
 
 ASK_S = 5.0
 """Interval between requests to servers that have not answered."""

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
 from webviz.api.panel import Panel, Send, Ui
+from webviz.commands import CallService
 from webviz.data.rotations import normalized, to_rpy
-from webviz.engine.commands import CallService
 from webviz.panels.fields import finite, keep
 
 NO_NUMBER = "Enter the pose, or use 2D Pose Estimate."

@@ -9,7 +9,7 @@ from typing import Annotated
 from webviz.api.declared import Prop
 from webviz.api.panel import Panel, Send, Ui
 from webviz.api.status import Level, Status
-from webviz.engine.commands import Publish
+from webviz.commands import Publish
 
 BUTTONS = (
     ("Next", 1, "Let the program that waits take its next step."),

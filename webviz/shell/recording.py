@@ -11,7 +11,7 @@ from webviz.api.display import Display
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.inputs import Inputs
 from webviz.files.config import Branch, Config, Item
 from webviz.sources import Offer, Source, Subscription

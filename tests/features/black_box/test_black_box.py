@@ -15,9 +15,9 @@ import pytest
 from bench import Bench, Benches, benches
 
 from webviz.api.status import Level
+from webviz.commands import Refresh
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
-from webviz.engine.commands import Refresh
 from webviz.engine.state import State
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S

@@ -9,9 +9,8 @@ import pytest
 from bench import Benches
 
 from webviz.api.status import Level, Status
-from webviz.commands import CancelGoal, DismissGoal, UseTool
+from webviz.commands import CancelGoal, DismissGoal, Refresh, UseTool
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh
 from webviz.features.goals import MAX_ACTIVE, SHOWN_S
 from webviz.features.goals.running import ANSWER_S, SILENCE_S, GoalProgress
 from webviz.shell.testing.remembering_graph import RememberingGraph, SentGoal

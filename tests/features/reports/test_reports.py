@@ -17,9 +17,9 @@ import pytest
 from bench import Benches
 
 import webviz
-from webviz.commands import ListReport, SaveReport
+from webviz.commands import ListReport, Refresh, SaveReport
 from webviz.data.messages import encode
-from webviz.engine.commands import Refresh, Sender
+from webviz.engine.commands import Sender
 from webviz.features import reports
 from webviz.features.reports.writing import MAX_PICTURE, MAX_PIXELS, read_picture
 from webviz.files.report import read_report

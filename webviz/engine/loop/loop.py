@@ -14,11 +14,10 @@ from webviz.api.status import Level, Status
 from webviz.data.transforms import TransformBuffer
 from webviz.data.words import joined
 from webviz.engine.commands import PROGRAM, Command, Sender
-from webviz.engine.commands.guard import Guard
-from webviz.engine.commands.requests import Requests
 from webviz.engine.doctor import Doctor
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.feature import broken_features, features
+from webviz.engine.guard import Guard
 from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
@@ -44,6 +43,7 @@ from webviz.engine.pipeline import Runner, Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
+from webviz.engine.requests import Requests
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
 from webviz.sources import Advertisement, Gate, Rights, Source
@@ -236,7 +236,7 @@ class FrameLoop:
 
         Returns:
             Its answer, once its effect is drawn and shown; a
-            `webviz.engine.commands.requests.Refused` if it was refused.
+            `webviz.engine.requests.Refused` if it was refused.
         """
         answer = self._requests.put(command, sender)
         self._wake()

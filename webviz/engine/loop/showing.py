@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from webviz.api.declared import Color
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
-from webviz.engine.commands.guard import CRASHED, Guard
+from webviz.engine.guard import CRASHED, Guard
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.scene import Scene

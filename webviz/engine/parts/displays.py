@@ -13,7 +13,7 @@ from webviz.api.display import Display
 from webviz.api.registry import display_types
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
-from webviz.engine.commands.command import ignore
+from webviz.engine.commands import ignore
 from webviz.engine.parts.captions import (
     AttributionsStore,
     LegendStore,

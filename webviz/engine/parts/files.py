@@ -18,15 +18,15 @@ from webviz.api.tool import Tool
 from webviz.data.disk import in_thread
 from webviz.data.names import MAX_FILE_BYTES, MAX_NAME, file_problem_of, readable
 from webviz.data.words import counted, joined
-from webviz.engine.commands import Command, FileCommand, Restore, Sender
-from webviz.engine.commands.requests import Job
-from webviz.engine.parts.declaring import command, store
+from webviz.engine.commands import Command, FileCommand, Sender
+from webviz.engine.parts.declaring import command, commands_of, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Handler, Part
+from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.steps import Origin
 from webviz.engine.parts.views import ViewsPart
+from webviz.engine.requests import Job
 from webviz.engine.state import ConfigFile
 from webviz.files import config as config_file
 from webviz.files import opening
@@ -34,6 +34,8 @@ from webviz.files.config import Config, ConfigError, Template
 from webviz.files.config.files import SUFFIXES, refuse_too_large
 
 MAX_OTHERS = 200
+RESTORE = "Restore "
+"""Before the amount in the label of a step."""
 FOLDER_S = 2.0
 """Interval between listings of the config files of the folder."""
 
@@ -82,12 +84,6 @@ class FilesPart(Part):
         self._is_changed = False
         self._show(config, path)
         views.start_with(config.settings.view)
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        own = {Restore: self._restore}
-        return {**super().handles, **own}
 
     @property
     def path(self) -> Path | None:
@@ -184,14 +180,21 @@ class FilesPart(Part):
 
         return Job(work, then)
 
-    def _restore(self, command: Restore, sender: Sender) -> str:
+    @command(None, label=lambda each: f"{RESTORE}{_amount(each.config)}")
+    def restore(self, config: Config, path: Path | None) -> str:
+        """Show the unsaved changes of the last session; undo brings back the config as it is saved.
+
+        Args:
+            config: as it was shown.
+            path: of the config file that was open, None for none.
+        """
         saved, origin = self._saved, self.origin()
-        self._show(command.config, command.path)
-        if command.path == origin.path:
+        self._show(config, path)
+        if path == origin.path:
             self.set_origin(origin)
         self._saved, self._is_changed = saved, True
-        self.views.open(command.config.settings.view)
-        return f"Restored {counted(len(command.config.displays), 'display')} of the last session."
+        self.views.open(config.settings.view)
+        return f"Restored {_amount(config)} of the last session."
 
     @command(Role.OWNER, FileCommand, label=lambda each: f"Open {each.name}")
     def load(self, text: str, name: str) -> Job[Config]:
@@ -270,6 +273,15 @@ class FilesPart(Part):
         self._templates = config.templates
         self._saved = {path: config_file.document(self.config())}
         self._is_changed = False
+
+
+Restore: type[Command] = commands_of(FilesPart)["Restore"].type
+"""The command that brings back the last session."""
+
+
+def _amount(config: Config) -> str:
+    """Return the number of displays, in words."""
+    return counted(len(config.displays), "display")
 
 
 def _refuse_elsewhere(file: Path) -> None:

@@ -10,13 +10,13 @@ import msgspec
 from msgspec.structs import replace
 
 from webviz.api.roles import Role
-from webviz.engine.commands import Command, Restore, Sender
-from webviz.engine.commands.requests import Job
+from webviz.engine.commands import Command, Sender
 from webviz.engine.parts.declaring import command, store
-from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.files import RESTORE, FilesPart, Restore
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.rebasing import rebased
 from webviz.engine.parts.steps import Difference, Moment, difference
+from webviz.engine.requests import Job
 from webviz.engine.state import HistoryStep, UndoHistory
 from webviz.files.config import ConfigError
 
@@ -93,7 +93,7 @@ class HistoryPart(Part):
         if done.label:  # else it is as it was before
             self._count += 1
             label, by = command.label or done.label, sender.browser
-            restored = command.amount if isinstance(command, Restore) else ""
+            restored = label.removeprefix(RESTORE) if isinstance(command, Restore) else ""
             step = HistoryStep(self._count, label, by, done.removed, restored)
             self._undo.append(_Done(step, before, self._now))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
 import msgspec
@@ -14,10 +14,10 @@ from webviz.api.registry import plugin_types, type_name
 from webviz.api.roles import Role
 from webviz.api.status import Status
 from webviz.data.messages import MessageError, decode, encode, interfaces
-from webviz.engine.commands import CallService, Command, Publish, Sender
+from webviz.engine.commands import ignore
 from webviz.engine.parts.advertisements import advertisement_of, publish
 from webviz.engine.parts.declaring import command
-from webviz.engine.parts.part import Batches, Core, Handler, Part
+from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import PanelTab
@@ -47,12 +47,6 @@ class PanelsPart(Part):
         self.list = PluginList(Panel)
         self._open: frozenset[str] = frozenset()
         self._subscribers: dict[str, Subscriber] = {}
-
-    @property
-    def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        own = {Publish: self._publish, CallService: self._call}
-        return {**super().handles, **own}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the subscriptions of the open panels."""
@@ -191,29 +185,67 @@ class PanelsPart(Part):
         """
         self._open = panels
 
-    def _publish(self, command: Publish, sender: Sender) -> None:
+    @command(None)
+    def refresh(self) -> None:
+        """Update panels at once, such as after another tab was selected: all commands do."""
+
+    @command(None)
+    def publish(
+        self,
+        topic: str,
+        type: str,
+        values: Mapping[str, Any],
+        report: Callable[[Status], None] = ignore,
+        latched: bool = False,
+    ) -> None:
+        """Publish a message.
+
+        Args:
+            topic: its name; remapped.
+            type: such as "std_msgs/msg/String".
+            values: of the message by field; missing fields have their defaults.
+            report: called with the result from any thread; must not block.
+            latched: whether subscriptions that come later get the message, too (transient local).
+        """
         try:
-            payload = encode(command.type, command.values)
+            payload = encode(type, values)
         except MessageError as error:
             raise ConfigError(f"Not published: {error}") from error
-        durability, depth = ("transient_local", 1) if command.latched else ("auto", 0)
-        topic = Topic(command.topic, durability=durability, depth=depth)
-        publish(self.core, command.type, topic, payload, command.report)
+        durability, depth = ("transient_local", 1) if latched else ("auto", 0)
+        publish(self.core, type, Topic(topic, durability=durability, depth=depth), payload, report)
 
-    def _call(self, command: CallService, sender: Sender) -> None:
+    @command(None)
+    def call_service(
+        self,
+        service: str,
+        type: str,
+        request: Mapping[str, Any],
+        definition: str = "",
+        answered: Callable[[Any], object] = ignore,
+        failed: Callable[[str], object] = ignore,
+        timeout_s: float = 5.0,
+    ) -> None:
+        """Call a service.
+
+        Args:
+            service: its name; remapped like a topic.
+            type: such as "std_srvs/srv/Trigger".
+            request: values by field; missing fields have their defaults.
+            definition: text of the .srv file, for types unknown to webviz.
+            answered: called with the response from another thread; must not block.
+            failed: called with a sentence in the same way if there is none.
+            timeout_s: for service and response to appear.
+        """
         try:
-            name = self.core.player.resolve(command.service)
-            parts = interfaces.service(command.type, command.definition)
-            request = encode(parts.request, command.request)
+            name = self.core.player.resolve(service)
+            parts = interfaces.service(type, definition)
+            payload = encode(parts.request, request)
         except ValueError as error:  # the name, the type or a value
             raise ConfigError(f"Not called: {error}") from error
-
         gate = self.core.gate
-        call = gate.query if command.type in READING else gate.call
-        sent = call(name, command.type, request, command.timeout_s)
-        sent.add_done_callback(
-            interfaces.taker(name, parts.response, command.answered, command.failed)
-        )
+        call = gate.query if type in READING else gate.call
+        sent = call(name, type, payload, timeout_s)
+        sent.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
 
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:

@@ -14,12 +14,12 @@ from webviz.api.status import Status
 from webviz.api.tool import Tool
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
-from webviz.engine.commands.guard import Guard
-from webviz.engine.commands.requests import Job
 from webviz.engine.driving import VelocityControllers
+from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import DeclaredCommand, commands_of
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.pipeline.scene import Scene
+from webviz.engine.requests import Job
 from webviz.engine.state import State
 from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
 from webviz.sources.player import Player

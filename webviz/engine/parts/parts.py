@@ -7,10 +7,10 @@ from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.status import Status
-from webviz.engine.commands import Command, FileCommand, Refresh, Sender
-from webviz.engine.commands.guard import Guard
-from webviz.engine.commands.requests import Job
+from webviz.engine.commands import Command, FileCommand, Sender
+from webviz.engine.guard import Guard
 from webviz.engine.parts.part import Batches, Handler, Part, overrides
+from webviz.engine.requests import Job
 from webviz.sources import Advertisement, Subscription, merged
 
 _HOOKS = (
@@ -31,7 +31,7 @@ class Parts:
         self._parts = parts
         self._overriding = {hook: [p for p in parts if overrides(p, hook)] for hook in _HOOKS}
         self._guard = guard
-        self._handlers: dict[type[Command], Handler] = {Refresh: _refresh}
+        self._handlers: dict[type[Command], Handler] = {}
         for part in parts:
             for kind, handler in part.handles.items():
                 if kind in self._handlers:
@@ -111,7 +111,3 @@ class Parts:
         """Close all parts."""
         for part in self._overriding["close"]:
             self._guard(part.name, part.close)
-
-
-def _refresh(command: Refresh, sender: Sender) -> None:
-    """Do nothing: every command updates the state."""

@@ -12,9 +12,9 @@ import msgspec
 
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
-from webviz.engine.commands import Restore
+from webviz.engine.commands import Command
 from webviz.engine.parts.autosave import AutosavePart
-from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.files import FilesPart, Restore
 from webviz.engine.parts.part import Core
 from webviz.files import config as config_file
 from webviz.files import sessions
@@ -41,7 +41,7 @@ class SessionPart(AutosavePart):
         self._base = Base.of(files.saved(self._start) or {})
         self._problem = ""
 
-    def restored(self, is_wanted: bool) -> Restore | None:
+    def restored(self, is_wanted: bool) -> Command | None:
         """Read the session of the last viewer; one that does not fit is set aside.
 
         Args:
@@ -63,7 +63,8 @@ class SessionPart(AutosavePart):
             frame = self._files.config().settings.fixed_frame
             settings = msgspec.structs.replace(settings, fixed_frame=frame)
         session.config.settings = settings
-        return Restore(session.config, Path(session.path) if session.path else None)
+        path = Path(session.path) if session.path else None
+        return Restore(**{"config": session.config, "path": path})
 
     def statuses(self) -> Mapping[str, Status]:
         """Say why the last session is not shown."""

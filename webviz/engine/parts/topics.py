@@ -11,7 +11,7 @@ import msgspec
 from webviz.api.display import Display
 from webviz.api.registry import display_types
 from webviz.data.messages import MessageError, peek_header
-from webviz.engine.commands.by_topic import Pick, no_display, picks
+from webviz.engine.parts.by_topic import Pick, no_display, picks
 from webviz.engine.parts.declaring import store
 from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.state import Traffic

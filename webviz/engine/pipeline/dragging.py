@@ -9,7 +9,7 @@ from webviz.api.context import Context
 from webviz.api.display import Display
 from webviz.api.frames import Frames
 from webviz.api.handles import Drag, Handle
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.connection import DisplayConnection
 from webviz.engine.pipeline.services import Services
 from webviz.sources import Advertisement, Offer, Raw, Subscription

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from webviz.api.display import Display
 from webviz.api.sample import Sample
 from webviz.data.messages import MessageError, decode
-from webviz.engine.commands.guard import CRASHED, Guard
+from webviz.engine.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Workers, is_slow
 from webviz.sources import Raw
 

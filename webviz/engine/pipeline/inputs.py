@@ -13,7 +13,7 @@ from webviz.api.lookback import Lookback
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.input_subscription import (
     PATIENCE_S,
     Arrival,

@@ -10,7 +10,7 @@ from webviz.api.display import Display
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.files.config import Branch, Config, Item
 
 Plugin = Tool | Panel | Display

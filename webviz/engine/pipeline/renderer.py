@@ -18,7 +18,7 @@ from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
 from webviz.engine.commands import Picks
-from webviz.engine.commands.guard import CRASHED, Guard
+from webviz.engine.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.history import Held, Histories, SampleHistory, held_samples

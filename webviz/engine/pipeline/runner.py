@@ -17,7 +17,7 @@ from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import LOADING, Level, OtherFixedFrame, Status, worst
 from webviz.engine.commands import Picks
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.picking import Found, Shot

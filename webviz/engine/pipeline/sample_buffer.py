@@ -13,7 +13,7 @@ from webviz.api.observation import InputSeen
 from webviz.api.sample import KeepsNewest, Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode, is_message
-from webviz.engine.commands.guard import Guard
+from webviz.engine.guard import Guard
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.history import Histories, SampleHistory, held_samples
 from webviz.engine.pipeline.input_subscription import Arrival

@@ -23,12 +23,12 @@ from webviz.data.disk import in_thread
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
 from webviz.engine.commands import FileCommand, Sender
-from webviz.engine.commands.requests import Job
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.requests import Job
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES

@@ -12,7 +12,7 @@ from webviz.api.errors import Error
 from webviz.api.goal import GoalRequest
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
-from webviz.engine.commands.command import ignore
+from webviz.engine.commands import ignore
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import brief
 from webviz.engine.parts.part import Core

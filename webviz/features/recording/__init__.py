@@ -18,11 +18,11 @@ from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted, joined
 from webviz.engine.commands import FileCommand, Sender
-from webviz.engine.commands.requests import Job
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
 from webviz.files.config.model import MemorySettings
 from webviz.sources.recording import Recorder, library

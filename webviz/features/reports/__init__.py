@@ -14,12 +14,12 @@ from webviz.api.roles import Role
 from webviz.data.names import new_path
 from webviz.data.transforms import diagnose, tree_text
 from webviz.engine.commands import FileCommand, Picks, Sender
-from webviz.engine.commands.requests import Job
 from webviz.engine.doctor import Doctor
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.shown_moment import as_seen, slice_around
+from webviz.engine.requests import Job
 from webviz.engine.state import Row
 from webviz.engine.store import PageStore
 from webviz.features.reports.writing import (

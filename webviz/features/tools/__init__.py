@@ -16,8 +16,7 @@ from webviz.api.roles import Role
 from webviz.api.status import Status
 from webviz.api.tool import Gesture, Position, Tool, ToolContext, outputs
 from webviz.data.transforms.geometry import REACH_M
-from webviz.engine.commands import Sender
-from webviz.engine.commands.command import ignore
+from webviz.engine.commands import Sender, ignore
 from webviz.engine.feature import command, store
 from webviz.engine.forms import Form, form, sendable, values_of
 from webviz.engine.parts.advertisements import advertisement_of

@@ -11,7 +11,8 @@ from typing import Any
 from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.status import LOADING, Status
-from webviz.engine.commands import Command, Refresh
+from webviz.commands import Refresh
+from webviz.engine.commands import Command
 from webviz.engine.state import Inspected
 from webviz.files.config import nearest
 from webviz.page.dispatcher import command_of

@@ -11,7 +11,7 @@ from webviz.api.declared import make
 from webviz.api.errors import Error
 from webviz.api.registry import display_types
 from webviz.data.words import joined
-from webviz.engine.commands.by_topic import picks
+from webviz.engine.parts.by_topic import picks
 from webviz.files.config import mistakes, nearest, sentences
 
 

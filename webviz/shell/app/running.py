@@ -17,8 +17,8 @@ from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.api.views import View
-from webviz.commands import ShowView, StartWithView
-from webviz.engine.commands import PROGRAM, Command, Refresh, Sender, wrong_text
+from webviz.commands import Refresh, ShowView, StartWithView
+from webviz.engine.commands import PROGRAM, Command, Sender, wrong_text
 from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions

@@ -12,7 +12,7 @@ import msgspec
 
 from webviz.api.frames import Frames
 from webviz.api.views import FIXED_FRAME
-from webviz.engine.commands import Refresh
+from webviz.commands import Refresh
 from webviz.engine.pipeline.selectable import SelectableValues
 from webviz.engine.state import State
 from webviz.files.config import Config

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from webviz import commands
 from webviz.api.status import LOADING
-from webviz.commands import Play, Seek, SelectSpan, SetRate
-from webviz.engine.commands import Command, Refresh
+from webviz.commands import Play, Refresh, Seek, SelectSpan, SetRate
+from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import State
 from webviz.files.config import Config

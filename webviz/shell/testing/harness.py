@@ -114,7 +114,7 @@ class Harness(Shown):
         """Carry out a command, and return its answer.
 
         Raises:
-            webviz.engine.commands.requests.Refused: it was refused.
+            webviz.engine.requests.Refused: it was refused.
         """
         answer = self.viewer.enqueue(command, sender)
         deadline = time.monotonic() + LOADING_S
