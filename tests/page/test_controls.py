@@ -11,18 +11,26 @@ from tests.page.conftest import Tab
 
 MOUNT = """async ([path, name, options]) => {
   const module = await import(`/webviz/controls/${path}.js`);
+  const { signal } = await import("/webviz/signals.js");
   document.querySelector("#bench")?.remove();
   window.entered = [];
   window.refused = [];
   window.answer = undefined;
   const change = (value) => { entered.push(value); return window.answer };
   const refuse = (text) => refused.push(text);
-  window.control = module[name]({ ...options, change, refused: refuse });
+  window.given = { value: signal(options.value), options: signal(options.options) };
+  const read = { value: () => given.value.value, options: () => given.options.value };
+  const control = module[name]({ ...options, ...read, change, refused: refuse });
   const bench = document.createElement("div");
   bench.id = "bench";
   bench.style = "position: absolute; left: 420px; top: 80px; width: 240px";
   bench.append(control.element);
   document.querySelector("#webviz").append(bench);
+}"""
+
+
+UPDATE = """(changes) => {
+  for (const [name, value] of Object.entries(changes)) given[name].value = value;
 }"""
 
 
@@ -38,7 +46,7 @@ class Bench:
         self.page.evaluate(MOUNT, [path, name, options])
 
     def update(self, **changes: Any) -> None:
-        self.page.evaluate("(changes) => control.update(changes)", changes)
+        self.page.evaluate(UPDATE, changes)
 
     def refuse(self, text: str) -> None:
         """Refuse what is entered from now on; "" takes it."""

@@ -434,7 +434,7 @@ def options(tab: Tab) -> Iterator[Pane]:
       bench.id = "bench";
       bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
       document.querySelector("#webviz").append(bench);
-      window.ended = (await {module}).globalOptions(bench);
+      window.ended = (await {module}).properties(bench, "");
     }}""")
     pane = Pane(tab)
     tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate", "Robots"])

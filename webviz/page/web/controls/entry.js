@@ -10,8 +10,8 @@ const MAX_TEXT = 100_000;
 
 /**
  * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
- * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
- * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed,
+ * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after(value)` is called
+ * when the text has changed, with the value that the field stands for. Besides what all controls have, `put(value)` changes it as if typed,
  * `take()` takes over what is typed so far, and `current()` is what the field stands for.
  *
  * @template T
@@ -19,7 +19,7 @@ const MAX_TEXT = 100_000;
  * @param {Field} field
  * @param {{
  *   value: () => T | Mixed | undefined, change(value: T): unknown, refused: (text: string) => void,
- *   encode: (value: T) => string, decode: (text: string) => T, after?: () => void, help?: string,
+ *   encode: (value: T) => string, decode: (text: string) => T, after?: (value: T | Mixed | undefined) => void, help?: string,
  * }} options
  */
 export function entry(field, { value, change, refused, encode, decode, after = () => {}, help }) {
@@ -52,7 +52,7 @@ export function entry(field, { value, change, refused, encode, decode, after = (
     const text = textOf(current);
     if (field.value !== text) field.value = text;
     set(field, { placeholder: current === MIXED ? MIXED_TEXT : placeholder });
-    after();
+    after(current);
   }
 
   function take() {
@@ -87,7 +87,7 @@ export function entry(field, { value, change, refused, encode, decode, after = (
   element.addEventListener("input", () => {
     isTyped = true;
     state.hold();
-    after();
+    after(current);
   });
   element.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && (!isLong || event.ctrlKey || event.metaKey)) {

@@ -47,8 +47,8 @@ export function number(property, options) {
       if (property.kind !== "int" || Number.isInteger(value)) return value;
       throw new Error(`Not changed: expected a whole number, got ${format(value)}.`);
     },
-    after() {
-      const text = format(field.current());
+    after(value) {
+      const text = format(value);
       set(input, {
         "aria-valuenow": text,
         "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT,
