@@ -56,7 +56,8 @@ def shared_memory(family: list[psutil.Process]) -> set[Path]:
     for process in family:
         with suppress(FileNotFoundError, ProcessLookupError):  # it has ended
             maps = Path(f"/proc/{process.pid}/maps").read_text()
-            found |= {Path(name) for name in re.findall(r"/dev/shm/fast(?:rtps|dds)_[0-9a-f]{16}", maps)}
+            names = re.findall(r"/dev/shm/fast(?:rtps|dds)_[0-9a-f]{16}", maps)
+            found |= {Path(name) for name in names}
     return found
 
 
