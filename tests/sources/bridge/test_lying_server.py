@@ -25,6 +25,7 @@ from webviz.data.messages import definition, encode, type_exists
 from webviz.sources.bridge import definitions as bridge_definitions
 from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, source
 
+CLOUD = "sensor_msgs/msg/PointCloud2"
 NUMBER = "std_msgs/msg/Float64"
 Liar = Callable[..., Reader]
 
@@ -370,6 +371,24 @@ def test_refusals_are_explained(liar: Liar, status: int, body: str, said: str) -
     reader.until(lambda: said in reader.bridge.problem)
     assert reader.bridge.remedy
     assert body in reader.bridge.problem
+
+
+def test_large_messages_come_over_the_only_connection_that_a_bridge_accepts(liar: Liar) -> None:
+    requests = list[Request]()
+
+    def accept_one(connection: ServerConnection, request: Request) -> Response | None:
+        requests.append(request)
+        return refuse(503, "")(connection, request) if len(requests) > 1 else None
+
+    def script(connection: ServerConnection) -> None:
+        connection.send(advertise(channel(1, "/points", CLOUD)))
+        head = struct.pack("<BIQ", 1, next_subscription(connection), 5)
+        connection.send(head + encode(CLOUD, {"width": 7}))
+
+    reader = liar(script, process_request=accept_one)
+    reader.want(points=CLOUD)
+    assert reader.decoded("/points", CLOUD).width == 7
+    assert len(requests) > 1
 
 
 def test_no_redirection_is_followed(liar: Liar, tmp_path: Path) -> None:

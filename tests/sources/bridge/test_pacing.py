@@ -508,3 +508,14 @@ def test_what_is_not_left_out_is_not_reported_as_thinned() -> None:
     assert link.outcomes["/map"].moments
     assert link.outcomes["/rare"].moments
     assert link.pacer.thinned(link.now).keys() == {"/image"}
+
+
+@pytest.mark.parametrize(("delay_s", "is_in_turns"), [(0.9, False), (1.5, True)])
+def test_large_topics_take_turns_once_their_own_messages_are_a_second_late(
+    delay_s: float, is_in_turns: bool
+) -> None:
+    link = Link(50e6, ROBOT, delay_s=0.005)
+    link.run(5)
+    assert not link.pacer.is_in_turns
+    link.pacer.note_large("/points", bytes(LARGE), delay_s, link.now)
+    assert link.pacer.is_in_turns is is_in_turns
