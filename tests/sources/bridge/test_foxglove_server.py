@@ -168,6 +168,7 @@ def test_a_killed_server_is_connected_again_with_all_that_was_wanted() -> None:
         reader.source.graph.advertise([CMD_VEL]).result(20)
         first.kill()
         reader.until(lambda: not reader.bridge.is_up)
+        assert reader.bridge.was_up
         offer = reader.source.offers()["/scan"]
         assert offer.publishers[0].type == SCAN
         assert offer.problem.startswith("the link is broken. ")

@@ -448,6 +448,7 @@ def test_what_is_no_websocket_is_said() -> None:
         reader.until(lambda: reader.bridge.problem == f"Nothing listens on 127.0.0.1:{port}.")
     with reading("ws://no-such-robot.invalid:8765") as reader:
         reader.until(lambda: "is unknown" in reader.bridge.problem)
+        assert not reader.bridge.was_up
 
 
 def test_certificates_must_be_trusted(
