@@ -415,5 +415,10 @@ def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
         assert readout() == expected
     b.publish("/odom", ODOMETRY, {"twist": {"twist": {"linear": {"x": float("nan")}}}})
     assert readout().problem == "/odom has velocities that are not finite. Correct its publisher."
-    b.clock += 2.0
+    b.source.put("/odom", ODOMETRY, b"\0\1\0\0")
+    b.turn()
+    assert readout().problem.startswith("/odom cannot be read: Not a nav_msgs/msg/Odometry")
+    b.clock += 0.9
+    assert readout().problem.startswith("/odom cannot be read")
+    b.clock += 1.1
     assert readout() == Driving(problem=f"No message on /odom. {remedy}")
