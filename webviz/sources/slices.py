@@ -14,7 +14,7 @@ import msgspec
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.lookback import Lookback
-from webviz.data.messages import MessageError, decode
+from webviz.data.messages import KNOWN, MessageError, decode, defined
 from webviz.data.recordings import RecordedChannel
 from webviz.data.recordings.latched import TF
 from webviz.data.recordings.mcap_writing import McapFile
@@ -214,14 +214,14 @@ def write_slice(
         OSError: the file cannot be written.
     """
     file = McapFile(path, library())
-    lines: deque[tuple[int, str, bytes]] = deque(maxlen=LOG_LINES)
+    lines: deque[SliceMessage] = deque(maxlen=LOG_LINES)
     is_whole = False
     try:
         for channel, stamp_ns, data in part.messages():
             data = changed(data)
             file.add(channel, stamp_ns, data)
             if channel.topic == ROSOUT:
-                lines.append((stamp_ns, channel.type, data))
+                lines.append((channel, stamp_ns, data))
             _refuse_large(file.size, max_bytes)
         is_whole = True
     finally:
@@ -242,13 +242,14 @@ def _refuse_large(size: int, max_bytes: int) -> None:
         )
 
 
-def _line(entry: tuple[int, str, bytes]) -> str:
+def _line(entry: SliceMessage) -> str:
     """Return a message of /rosout as a line, "" if it cannot be read."""
-    stamp_ns, type_name, data = entry
-    if type_name != LOG:
+    channel, stamp_ns, data = entry
+    if channel.type != LOG:
         return ""
+    types = defined(LOG, channel.definition) if channel.definition else KNOWN
     try:
-        message = decode(LOG, data)
+        message = decode(LOG, data, types)
     except MessageError:
         return ""
     level = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(message.level, "?")

@@ -17,7 +17,7 @@ from webviz.api.errors import Error
 from webviz.api.finding import Finding, Severity
 from webviz.api.offer import Offer, Publisher
 from webviz.api.status import Level, Status
-from webviz.data.messages import decode, encode
+from webviz.data.messages import decode, defined, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.engine.commands import Picks
 from webviz.engine.state import Row, State
@@ -174,6 +174,21 @@ def test_names_of_people_are_in_no_member_unless_they_are_wanted(
     with contextlib.closing(open_recording(read_report(path, tmp_path).bag)) as recording:
         first, _ = recording.messages(recording.channels, START_NS, START_NS + 3 * 10**9)
     assert decode(STRING, first.data).data == "of " + ("alicexyz" if with_names else "x" * 8)
+
+
+def test_the_log_is_read_by_the_definition_of_the_slice(tmp_path: Path) -> None:
+    log, text = "rcl_interfaces/msg/Log", "uint8 level\nstring msg\nstring name\n"
+    entry = {"level": 40, "name": "driver", "msg": "It is hot."}
+
+    class LogSlice(TextSlice):
+        def messages(self) -> Iterator[SliceMessage]:
+            channel = RecordedChannel("/rosout", log, "cdr", text, "")
+            yield channel, START_NS, encode(log, entry, defined(log, text))
+
+    write(tmp_path / "bug.zip", replace(moment(), part=LogSlice()), STATE, None)
+    with zipfile.ZipFile(tmp_path / "bug.zip") as archive:
+        line = archive.read("log.txt").decode()
+    assert line == "2023-11-14T22:13:20.000+00:00 ERROR driver: It is hot.\n"
 
 
 def test_the_graph_has_topics_with_the_qos_of_their_publishers(tmp_path: Path) -> None:
