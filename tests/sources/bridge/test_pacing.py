@@ -335,7 +335,7 @@ class LatePose:
 
     @property
     def is_moved(self) -> bool:
-        """Whether they take turns with large messages."""
+        """Return whether they take turns with large messages."""
         return "/pose" in self.pacer.large(self.wishes)
 
     def run(self, seconds: float, late_s: float) -> float:
