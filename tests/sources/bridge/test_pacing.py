@@ -211,6 +211,7 @@ def test_a_scan_that_does_not_fit_takes_turns_too() -> None:
 def test_a_scan_is_small_again_as_soon_as_all_fit() -> None:
     """However long it would take turns otherwise, after it did several times."""
     link = Link(0.3 * 125e3, {"/tf": POSE, "/scan": LASER, "/image": Published(IMAGE, 60_000, 0.5)})
+    moved_s = link.now
     for _ in range(3):
         link.rate = 0.3 * 125e3
         while "/scan" not in link.large:
