@@ -137,6 +137,7 @@ setup(
             "plugins = webviz.features.plugins:PluginsFeature",
             "recording = webviz.features.recording:RecordingFeature",
             "reports = webviz.features.reports:ReportsFeature",
+            "selection = webviz.features.selection:SelectionFeature",
             "sharing = webviz.features.sharing:SharingFeature",
             "tools = webviz.features.tools:ToolsFeature",
             "topics = webviz.features.topics:TopicsFeature",

@@ -22,7 +22,7 @@ from tests.support.guest import Guest
 from webviz.api.roles import Role
 from webviz.commands import DragHandle, UseTool
 from webviz.engine.commands import Command
-from webviz.engine.parts.selection import MAX_SELECTED
+from webviz.features.selection import MAX_SELECTED
 from webviz.page.dispatcher import NOT_OF_PAGES
 from webviz.scene import open_server
 from webviz.scene.browsers import HasPainted, Vitals

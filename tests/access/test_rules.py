@@ -12,7 +12,7 @@ from webviz import commands
 from webviz.api.roles import Role
 from webviz.engine.commands import Command
 from webviz.engine.parts.declaring import stores_of
-from webviz.engine.parts.selection import MAX_SELECTED
+from webviz.features.selection import MAX_SELECTED
 from webviz.page.people import People
 from webviz.server.access import rules
 from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget

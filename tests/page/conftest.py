@@ -20,7 +20,14 @@ from webviz.api.declared import Color, Prop, Topic, set_property
 from webviz.api.display import Display, Input
 from webviz.api.status import Status
 from webviz.api.vehicle import Velocity
-from webviz.commands import AddDisplay, DuplicateDisplay, OpenPanels, Refresh, SetProperty
+from webviz.commands import (
+    AddDisplay,
+    DuplicateDisplay,
+    InspectSelections,
+    OpenPanels,
+    Refresh,
+    SetProperty,
+)
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import Feature, store
@@ -44,6 +51,9 @@ TIDY = """() => {
   localStorage.clear();
 }"""
 """Removes what tests put beside the panels, and forgets widths and folds."""
+
+NOT_CLICKED = (InspectSelections, OpenPanels, Refresh)
+"""Commands that follow from what pages watch."""
 
 CATCH_UP = """async () => {
   const { on, send } = await import("/webviz/channel.js");
@@ -134,7 +144,7 @@ class Loop:
         """Collect the commands, obey the property changes that are valid, and update the pages."""
         while not self._queue.empty():
             command, sender, answer = self._queue.get()
-            if not isinstance(command, Refresh | OpenPanels):  # which nobody has clicked
+            if not isinstance(command, NOT_CLICKED):
                 self.commands.append(command)
                 self.senders.append(sender)
             reply = self.answer

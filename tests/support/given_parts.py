@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
-
-import msgspec
 
 from tests.support.stand_ins import stand_in
 from webviz.engine.doctor import Doctor
@@ -17,7 +15,6 @@ from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.playback import PlaybackPart
-from webviz.engine.parts.selection import SelectionPart, SelectionStore
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
@@ -26,7 +23,7 @@ from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import HistoryStep, State
 
 KINDS = (
-    *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SelectionPart, SettingsPart),
+    *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SettingsPart),
     *(TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
@@ -40,7 +37,6 @@ class GivenParts:
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
         self._give(Doctor, _displays=displays)
-        self._give(SelectionPart, _displays=displays, inspect_selections=lambda *asked: None)
         self._give(PlaybackPart, _settings=settings)
         self._give(ViewsPart, _settings=settings)
         self.show(State())
@@ -79,11 +75,6 @@ class GivenParts:
             _others=file.others,
         )
         self._give(HistoryPart, _undo=_steps(history.undo), _redo=_steps(history.redo))
-        selections = {id: SimpleNamespace(held=held) for id, held in state.selected.items()}
-        for id, told in state.selections.items():
-            known = selections.setdefault(id, SimpleNamespace(held={}))
-            known.told = _selection(told)
-        self._give(SelectionPart, _selections=selections, _viewers=state.selections.keys())
 
     def _give(self, kind: type[Part], **values: Any) -> None:
         vars(self._by_kind[kind]).update(values)
@@ -91,9 +82,3 @@ class GivenParts:
 
 def _steps(steps: Sequence[HistoryStep]) -> list[SimpleNamespace]:
     return [SimpleNamespace(step=step) for step in reversed(steps)]
-
-
-def _selection(told: Mapping[str, Any]) -> SelectionStore:
-    things = {id: each for id, each in told.items() if id != "/info"}
-    info = {"/info": told["/info"]} if "/info" in told else {}
-    return msgspec.convert({"things": things, **info}, SelectionStore)

@@ -14,6 +14,7 @@ from webviz.features.bridges import BridgesFeature
 from webviz.features.driving import DrivingFeature
 from webviz.features.goals import GoalsFeature
 from webviz.features.handles import HandlesFeature
+from webviz.features.selection import SelectionFeature
 from webviz.features.tools import ToolsFeature
 from webviz.features.topics import TopicsFeature
 from webviz.features.transforms import TransformsFeature
@@ -58,5 +59,11 @@ def stand_ins(
         stand_in(HandlesFeature, found=lambda: given("handles", {}), _shown=None),
         stand_in(GoalsFeature, progress=lambda: given("goals", ())),
         stand_in(DrivingFeature, vehicles=lambda: given("driving", {}), steer=steer),
+        stand_in(
+            SelectionFeature,
+            core=SimpleNamespace(get=lambda kind: SimpleNamespace(rows=())),
+            _selections={},
+            inspect_selections=lambda *looked_at: do(commands.InspectSelections(*looked_at)),
+        ),
         stand_in(ToolsFeature, list=tools, buttons=lambda: given("tools", ())),
     ]

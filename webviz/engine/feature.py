@@ -41,7 +41,6 @@ from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.playback import PlaybackPart
-from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
@@ -57,7 +56,6 @@ PARTS: tuple[type[Part], ...] = (
     HistoryPart,
     PanelsPart,
     PlaybackPart,
-    SelectionPart,
     SettingsPart,
     TimePart,
     TopicsPart,

@@ -209,8 +209,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         findings: of the doctor, the one to repair first at the beginning.
         examined_ns: ROS time of that examination; 0 before the first, or while it is unknown.
         found: when findings began, as far as a recording was shown, by time.
-        selected: by browser, ids of things with those of their displays, and whether they move.
-        selections: what is known of it, for the browsers that show it.
         more: fields of features, by name; they can be read as those of the state, too.
     """
 
@@ -235,8 +233,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     findings: Sequence[Finding] = ()
     examined_ns: int = 0
     found: Sequence[Event] = ()
-    selected: Mapping[int, Mapping[int, tuple[str, bool]]] = msgspec.field(default_factory=dict)
-    selections: Mapping[int, Mapping[str, Any]] = msgspec.field(default_factory=dict)
     more: Mapping[str, Any] = msgspec.field(default_factory=dict)
 
     def __getattr__(self, name: str) -> Any:

@@ -32,7 +32,6 @@ from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.rule_numbers import RuleNumbersPart
-from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
@@ -202,7 +201,6 @@ class FrameLoop:
             files,
             history,
             TopicsPart(core),
-            SelectionPart(core, displays),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *([kept] if kept else ()),
         ]

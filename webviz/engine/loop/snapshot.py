@@ -12,7 +12,6 @@ from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.playback import PlaybackPart
-from webviz.engine.parts.selection import SelectionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
@@ -41,10 +40,6 @@ def _of_playback(part: PlaybackPart) -> Mapping[str, Any]:
     return {**known, "logged": part.logged, "warned": part.warned}
 
 
-def _of_selection(part: SelectionPart) -> Mapping[str, Any]:
-    return {"selected": part.held(), "selections": part.described()}
-
-
 def _of_doctor(part: Doctor) -> Mapping[str, Any]:
     known = {"findings": part.findings, "examined_ns": part.examined_ns}
     return {**known, "found": part.events}
@@ -55,7 +50,6 @@ READERS: Mapping[type[Part], Callable[[Any], Mapping[str, Any]]] = {
     SettingsPart: _of_settings,
     TopicsPart: _of_topics,
     PlaybackPart: _of_playback,
-    SelectionPart: _of_selection,
     Doctor: _of_doctor,
     TransformsPart: lambda part: {"frames": part.frames().frames},
     FilesPart: lambda part: {"file": part.file()},

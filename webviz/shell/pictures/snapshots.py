@@ -82,7 +82,7 @@ class Snapshots:
             at: the pixel, from the top left.
 
         Returns:
-            What is known of it, see `webviz.engine.parts.selection`; empty if nothing is there.
+            What is known of it, see `webviz.features.selection`; empty if nothing is there.
 
         Raises:
             Error: no browser is installed, or the browser does not finish.

@@ -12,15 +12,15 @@ from webviz.api.picking import Details
 from webviz.api.roles import Role
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.commands import Picks, Sender
-from webviz.engine.parts.declaring import command, store
+from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
 from webviz.engine.pipeline.picking import Found
-from webviz.engine.pipeline.statistics import Statistics, ValueRange
 from webviz.engine.state import Row
 from webviz.engine.store import PageStore
+from webviz.features.selection.statistics import Statistics, ValueRange
 
 MAX_SELECTED = 1000
 """Things that one browser selects."""
@@ -138,19 +138,13 @@ class _Selection(msgspec.Struct):
         return {id: (each.runner.id, each.is_moving) for id, each in self.things.items()}
 
 
-class SelectionPart(Part):
-    """Finds what browsers pick, and asks its displays about it while somebody looks.
-
-    Args:
-        core: shared by all parts.
-        displays: all of them.
-    """
+class SelectionFeature(Feature):
+    """Finds what browsers pick, and asks its displays about it while somebody looks."""
 
     name = "Selection"
 
-    def __init__(self, core: Core, displays: DisplaysPart) -> None:
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._displays = displays
         self._holders: frozenset[int] = frozenset()
         self._viewers: frozenset[int] = frozenset()
         self._is_picking = False
@@ -207,17 +201,18 @@ class SelectionPart(Part):
         """Return the list of displays."""
         return self._displays.rows
 
+    @property
+    def _displays(self) -> DisplaysPart:
+        return self.core.get(DisplaysPart)
+
     def _selection_of(self, browser: str) -> _Selection | None:
         return self._selections.get(int(browser)) if browser.isdecimal() else None
 
-    def held(self) -> Mapping[int, Mapping[int, tuple[str, bool]]]:
-        """Return what browsers have selected: the display of each thing, and whether it moves."""
-        return {id: each.held for id, each in self._selections.items()}
-
-    def described(self) -> Mapping[int, Mapping[str, Any]]:
-        """Return what is known of it, for the browsers that show it."""
+    def state(self) -> Mapping[str, Any]:
+        """Return what browsers have selected, and what is known of it for those that show it."""
         known, viewers = self._selections.items(), self._viewers
-        return {id: each.values if id in viewers else {} for id, each in known}
+        told = {id: each.values if id in viewers else {} for id, each in known}
+        return {"selected": {id: each.held for id, each in known}, "selections": told}
 
     @command(None)
     def inspect_selections(

@@ -12,7 +12,7 @@ import pytest
 from webviz import Context, Details, Display, Hit, Input, Quantity, Sample, Topic
 from webviz.commands import Identify, InspectSelections, RemoveDisplay, Select, SetProperty
 from webviz.engine.commands import Picks, Sender
-from webviz.engine.parts.selection import MAX_PAST, MAX_SELECTED
+from webviz.features.selection import MAX_PAST, MAX_SELECTED
 
 SECOND = 1_000_000_000
 PAGE, OTHER = Sender(1), Sender(2)
