@@ -174,7 +174,8 @@ def test_a_message_that_changes_changes_only_its_values(loop: Loop, panel: Tab) 
     panel.wait_for(lambda: values.all_inner_texts() == ["'one'", "1"])
     panel.page.evaluate(
         "window.mutated = []; new MutationObserver((all) => mutated.push(...all.map("
-        "({ target }) => target.className))).observe(document.querySelector('.wv-inspected'),"
+        "({ target }) => target.className ?? target.parentElement.className)))"
+        ".observe(document.querySelector('.wv-inspected'),"
         "{ subtree: true, childList: true, attributes: true, characterData: true })"
     )
     loop.show(inspected={"/text": Inspected("x", {"fields": {"first": "'one'", "second": "2"}})})
