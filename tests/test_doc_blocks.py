@@ -24,7 +24,7 @@ from webviz_sim.world import load_world
 NEEDS = {
     "With an apt ROS 2": r"\bros2 ",
     "With the network": r"\b(pip|pipx|uvx) ",
-    "With another machine": r"\bssh|ROS_(AUTOMATIC|STATIC|DISCOVERY)|fast-discovery-server",
+    "With another machine": r"\bssh|ROS_(AUTOMATIC|STATIC|DISCOVERY)|fastdds discovery",
     "With Podman": r"\bpodman ",
     "With a public bag": r"--bag macfirst",
     "Takes minutes": r"\bmake |/python ",

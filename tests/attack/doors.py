@@ -101,6 +101,7 @@ DOORS: Mapping[str, Door] = {
             "webviz/page/*",
             "webviz/panels/*",
             "webviz/features/transforms/__init__.py",
+            "webviz/engine/parts/display_types.py",
         ),
     ),
     "agents": Door(("agents",), ("webviz/shell/agents/*",)),

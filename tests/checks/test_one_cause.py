@@ -175,6 +175,8 @@ def test_a_robot_that_ended_as_a_whole_has_left(
     webviz_harness: Make, monkeypatch: pytest.MonkeyPatch, has_begun: bool
 ) -> None:
     monkeypatch.setattr(Observation, "is_alone", lambda seen: True)
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)  # it would be the cause
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7")
     stage = webviz_harness(LaserScan(), Map(), fixed_frame="map")
     stage.source.now = WALL_NS
     if has_begun:
@@ -185,4 +187,4 @@ def test_a_robot_that_ended_as_a_whole_has_left(
     ids(stage)
     (empty,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH001"]
     said = "All other ROS nodes have left" if has_begun else "No other ROS node is visible in"
-    assert empty.cause == f"{said} domain 0."
+    assert empty.cause == f"{said} domain 7."
