@@ -32,6 +32,7 @@ TASKS = {
         "Finding faults": "doctor/README.md",
         "ROS": "ros/README.md",
         "Several robots": "ros/robots.md",
+        "Your ROS": "ros/distributions.md",
         "Far away": "ros/far_away.md",
         "Bridges": "ros/bridge.md",
         "A course": "ros/course.md",
