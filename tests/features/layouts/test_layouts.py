@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from bench import Benches
+from msgspec.structs import replace
 
 from webviz.commands import (
     AddPanel,
@@ -19,6 +20,7 @@ from webviz.commands import (
     SetLayout,
     Undo,
 )
+from webviz.features.layouts import layout_store
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
 from webviz.files.config.layout import MAX_DOCKED, MAX_LAYOUTS
@@ -125,6 +127,31 @@ def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) ->
     b.do(Undo())
     assert layouts(b) == (arranged, {"lab": arranged})
     assert len(b.states[-1].panels) == 3
+
+
+def test_the_others_stay_when_a_layout_is_removed(b: Any) -> None:
+    for name in ("a", "m", "z"):
+        b.do(SaveLayout(name))
+    b.do(RemoveLayout("m"))
+    assert list(layouts(b)[1]) == ["lab", "a", "z"]
+
+
+def test_pages_see_a_layout_and_which_of_the_saved_ones_is_shown() -> None:
+    settings = read(CONFIG, "x.yaml").settings
+    settings = replace(settings, layouts={"lab": LAB, "now": SHOWN, "other": LAB})
+    shown = layout_store(settings, "")
+    assert [(each.name, each.is_shown) for each in shown.saved] == [
+        ("lab", False),
+        ("now", True),
+        ("other", False),
+    ]
+    assert [(each.panel, each.weight) for each in shown.beside] == [("doctor", 1.0)]
+    assert [(each.panel, each.left) for each in shown.over] == [("Plot 2", 0.1)]
+    assert (shown.below, shown.height) == ([], 200.0)
+    assert [(each.panel, each.weight) for each in layout_store(settings, "lab").below] == [
+        ("Log", 2.0)
+    ]
+    assert layout_store(settings, "unknown").over == shown.over
 
 
 def test_what_cannot_be_is_refused(b: Any) -> None:

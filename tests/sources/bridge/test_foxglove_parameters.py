@@ -145,6 +145,26 @@ def test_lies_about_parameters_are_bounded(
     assert "does not answer within 0.5 s" in str(get_all(reader).exception(20))
 
 
+def test_a_change_that_the_bridge_does_not_confirm_has_failed(liar: Callable[..., Reader]) -> None:
+    speed = {"name": "/base.speed", "value": 0.5, "type": "float64"}
+
+    def script(connection: ServerConnection) -> None:
+        connection.send(json.dumps({"op": "serverInfo", "capabilities": ["parameters"]}))
+        connection.send(parameters(speed))
+        while True:
+            asked = json.loads(connection.recv())
+            if asked["op"] == "setParameters":
+                connection.send(parameters(id=asked["id"]))
+
+    reader = liar(script)
+    reader.until(lambda: reader.bridge.parameters.nodes)
+    refused = change(reader, "speed", type=3, double_value=0.2)
+    assert (refused.successful, refused.reason) == (
+        False,
+        "The bridge does not return this parameter.",
+    )
+
+
 def get_all(reader: Reader) -> Future[bytes]:
     type = "rcl_interfaces/srv/ListParameters"
     request = encode(interfaces.service(type).request, {})
