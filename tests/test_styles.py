@@ -18,7 +18,7 @@ COLOR = re.compile(
 KINDS = {
     "border-radius": ("radius", "round", "pill"),
     "font-size": ("tiny", "small", "large"),
-    "box-shadow": ("lift", "lift-strong", "shadow"),
+    "box-shadow": ("lift", "lift-alarm", "lift-strong", "shadow"),
     "font": ("mono",),
     "transition": ("fold",),
 }

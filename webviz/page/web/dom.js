@@ -5,6 +5,14 @@ import { effect, Source } from "./signals.js";
 /** @import {Attribute, Child, Children} from "./types.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
+const ids = { count: 0 };
+
+/**
+ * An id that no other element has.
+ *
+ * @param {string} name
+ */
+export const newId = (name) => `wv-${name}-${(ids.count += 1)}`;
 
 /**
  * An element with attributes and children: strings and elements, null for none.
@@ -83,30 +91,33 @@ function follow(parent, read) {
       : made.map(
           (child) => /** @type {ChildNode} */ (child instanceof Node ? child : new Text(child)),
         );
-    arrange(shown, next, end);
+    if (end.parentNode) arrange(end.parentNode, shown, next, end);
     shown = next;
   });
 }
 
 /**
- * Puts nodes in order before one that stays, in place of others. What has the focus is never moved.
+ * Puts nodes in order into an element, in place of others, before `end`. What has the focus is never
+ * moved, and nothing changes if they are in order.
  *
+ * @param {Node} parent
  * @param {ChildNode[]} before
  * @param {ChildNode[]} next
- * @param {ChildNode} end
+ * @param {ChildNode} [end]
  */
-function arrange(before, next, end) {
+function arrange(parent, before, next, end) {
   const kept = new Set(next);
   for (const node of before) if (!kept.has(node)) node.remove();
-  const all = [...next, end];
+  const all = end ? [...next, end] : next;
+  if (!all.length) return;
   const focused = document.activeElement;
-  const isInside = end.parentNode?.contains(focused);
-  const fixed = isInside ? all.findIndex((node) => node.contains(focused)) : -1;
-  const start = fixed < 0 ? next.length : fixed;
+  const fixed = parent.contains(focused) ? all.findIndex((node) => node.contains(focused)) : -1;
+  const start = fixed < 0 ? all.length - 1 : fixed;
+  if (all[start].parentNode !== parent) parent.appendChild(all[start]);
   for (let i = start - 1; i >= 0; i--) {
     if (all[i].nextSibling !== all[i + 1]) all[i + 1].before(all[i]);
   }
-  for (let i = start + 1; i < next.length; i++) {
+  for (let i = start + 1; i < all.length; i++) {
     if (all[i].previousSibling !== all[i - 1]) all[i - 1].after(all[i]);
   }
 }
@@ -142,30 +153,12 @@ export function showText(element, text) {
 }
 
 /**
- * Puts these children into an element, in this order. Others are removed first; what has the focus is
- * never moved, and nothing changes if they are in order.
+ * Puts these children into an element, in this order, in place of others.
  *
  * @param {Element} element
  * @param {Element[]} children
  */
-export function setChildren(element, children) {
-  const wanted = new Set(children);
-  for (const child of [...element.children]) if (!wanted.has(child)) child.remove();
-  if (!children.length) return;
-  let start = children.findIndex((child) => child.contains(document.activeElement));
-  if (start < 0) {
-    start = 0;
-    if (element.firstElementChild !== children[0]) element.prepend(children[0]);
-  }
-  for (let i = start - 1; i >= 0; i--) {
-    const next = children[i + 1];
-    if (next.previousElementSibling !== children[i]) next.before(children[i]);
-  }
-  for (let i = start + 1; i < children.length; i++) {
-    const before = children[i - 1];
-    if (before.nextElementSibling !== children[i]) before.after(children[i]);
-  }
-}
+export const setChildren = (element, children) => arrange(element, [...element.children], children);
 
 /**
  * An element of a drawing, with attributes and children as for `el`.

@@ -1,20 +1,18 @@
 // Dialogs over everything else: they have the focus until they are closed.
 
 import { textField } from "./fields.js";
-import { el } from "../dom.js";
+import { el, newId } from "../dom.js";
 import { iconButton } from "../icons.js";
 
 /** @import {Child} from "../types.js" */
 
 /**
- * @typedef {{label: string, value: unknown, primary?: boolean, danger?: boolean, focused?: boolean,
+ * @typedef {{label: string | (() => string), value: unknown, primary?: boolean, danger?: boolean, focused?: boolean,
  *   accept?: () => unknown}} DialogButton
  * @typedef {(value?: unknown) => void} Close
  * @typedef {{title: string, content: Child | Child[] | ((close: Close) => Child | Child[]),
  *   buttons?: DialogButton[], isLight?: boolean, className?: string}} DialogOptions
  */
-
-let count = 0;
 
 /**
  * Opens a dialog; resolves with the value of the button that was chosen, null on Escape.
@@ -29,8 +27,7 @@ let count = 0;
  * @returns {Promise<any>}
  */
 export function openDialog({ title, content, buttons = [], isLight = false, className = "" }) {
-  count += 1;
-  const id = `wv-dialog-${count}`;
+  const id = newId("dialog");
   /** @type {unknown} */
   let answer = null;
   let isBusy = false;

@@ -1,6 +1,6 @@
 // The list below a combobox, over everything else.
 
-import { el, set } from "../dom.js";
+import { el, newId, set } from "../dom.js";
 import { effect, owned, untracked } from "../signals.js";
 import { wordsOf } from "../words.js";
 
@@ -9,7 +9,6 @@ import { wordsOf } from "../words.js";
 /** @import {Readable, Signal} from "../signals.js" */
 
 const MAX_SHOWN = 100;
-let count = 0;
 
 /**
  * A list of options for an input that is its combobox, there while `isOpen`; `choose` is called with
@@ -20,8 +19,7 @@ let count = 0;
  * @param {{isOpen: Signal<boolean>, options: Readable<Choice[]>, choose: (value: string) => void}} options
  */
 export function listbox(input, label, { isOpen, options, choose }) {
-  count += 1;
-  const id = `wv-list-${count}`;
+  const id = newId("list");
   // In the top layer, where neither the panel's edge nor a dialog cuts it off.
   const element = el("div", {
     id,

@@ -1,6 +1,6 @@
 // A list below a search field: the field keeps the focus, arrow keys walk through the list.
 
-import { el, set, setChildren } from "../dom.js";
+import { el, newId, set, setChildren } from "../dom.js";
 import { icon } from "../icons.js";
 import { wordsOf } from "../words.js";
 import { keyText } from "../keys.js";
@@ -12,8 +12,6 @@ import { keyText } from "../keys.js";
  *   label?: string, checked?: boolean, disabled?: boolean, refusal?: string,
  * }} OptionRow
  */
-
-let count = 0;
 
 /**
  * A list of rows that a field searches; `choose(row)` is called by Enter and by a click.
@@ -28,8 +26,7 @@ let count = 0;
  * @param {(row: OptionRow, event: MouseEvent | KeyboardEvent) => void} choose
  */
 export function optionList(input, label, choose) {
-  count += 1;
-  const prefix = `wv-options-${count}-`;
+  const prefix = newId("options");
   const element = el("div", {
     class: "wv-picks",
     role: "listbox",
@@ -83,11 +80,8 @@ export function optionList(input, label, choose) {
   /** @param {OptionRow["id"] | null} id */
   const elementOf = (id) => (id === null ? undefined : made.get(id)?.element);
 
-  /**
-   * @param {OptionRow} row
-   * @param {number} number
-   */
-  function rowOf(row, number) {
+  /** @param {OptionRow} row */
+  function rowOf(row) {
     const { title, icon: name, picture, line, note, key, label, checked, disabled, refusal } = row;
     return el(
       "div",
@@ -95,7 +89,7 @@ export function optionList(input, label, choose) {
         class: row.isWithin ? "wv-pick wv-pick-within" : "wv-pick",
         "aria-label": label,
         role: "option",
-        id: prefix + number,
+        id: newId("option"),
         "aria-selected": "false",
         "aria-disabled": disabled ? "true" : null,
         "data-why": refusal || null,
@@ -128,8 +122,7 @@ export function optionList(input, label, choose) {
     for (const row of rows) {
       const text = JSON.stringify(row);
       const known = before.get(row.id);
-      count += known ? 0 : 1;
-      const one = known?.text === text ? known : { text, element: rowOf(row, count) };
+      const one = known?.text === text ? known : { text, element: rowOf(row) };
       made.set(row.id, one);
       if (row.group?.title !== group?.title && row.group) children.push(headOf(row.group));
       group = row.group;

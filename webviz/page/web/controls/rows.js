@@ -2,7 +2,7 @@
 //
 // The list has the focus; arrow keys move the row that is marked, which screen readers announce.
 
-import { el, set } from "../dom.js";
+import { el, newId, set } from "../dom.js";
 import { batch, effect, owned, root, signal, untracked } from "../signals.js";
 
 /** @import {Signal} from "../signals.js" */
@@ -38,8 +38,6 @@ const BEYOND = 6; // rows above and below what is seen that are there too
 const INDENT_PX = 14;
 const FINGER_PX = 40;
 
-let lists = 0;
-
 /**
  * Returns `{element, show(items), resize(height), mark(key), marked(), close()}`; `height` is of a row
  * in pixels, and `marked()` is read in effects.
@@ -66,7 +64,7 @@ export function rowList(options) {
  * @template {HTMLElement} E
  */
 class RowList {
-  #id = `wv-rows-${(lists += 1)}`;
+  #id = newId("rows");
   #numbers = 0;
   #height;
   #options;

@@ -1,7 +1,7 @@
 // The head of the side: the config file, and what is done with it.
 
 import { needs, why } from "../access.js";
-import { el, set } from "../dom.js";
+import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { actions, added, item, submenuItems } from "./actions.js";
 import * as files from "./files.js";
@@ -92,25 +92,24 @@ function badge() {
  * @param {Command & {icon: string}} action
  */
 function step(way, action) {
+  const label = () => history.next(way);
+  const isLocked = action.needs && why(action.needs) !== ""; // then a click says why
+  /** @param {Event} event */
+  const openSteps = (event) => {
+    event.preventDefault();
+    history.openSteps(made);
+  };
+  /** @type {HTMLButtonElement} */
   const made = iconButton(action.icon, action.name, action.run, {
     "data-key": [action.key].flat()[0],
+    disabled: () => !isLocked && label() === undefined,
+    tip: null,
+    "data-tip": () => (label() === undefined ? action.name : `${action.name}: ${label()}`),
+    oncontextmenu: openSteps,
+    onkeydown: (/** @type {KeyboardEvent} */ event) =>
+      event.key === "ArrowDown" && openSteps(event),
   });
-  if (action.needs && why(action.needs)) return needs(action.needs, made);
-  history.onSteps(() => {
-    const label = history.next(way);
-    made.disabled = label === undefined;
-    set(made, { "data-tip": label === undefined ? action.name : `${action.name}: ${label}` });
-  });
-  made.addEventListener("contextmenu", (event) => {
-    event.preventDefault();
-    history.openSteps(made);
-  });
-  made.addEventListener("keydown", (event) => {
-    if (event.key !== "ArrowDown") return;
-    event.preventDefault();
-    history.openSteps(made);
-  });
-  return made;
+  return action.needs ? needs(action.needs, made) : made;
 }
 
 /** @returns {(MenuItem | null)[]} */

@@ -3,8 +3,7 @@
 import { why } from "../access.js";
 import { act } from "../act.js";
 import * as channel from "../channel.js";
-import { listeners } from "../listeners.js";
-import { watch } from "../stores.js";
+import { store, watch } from "../stores.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { toast } from "../toasts.js";
 
@@ -14,42 +13,29 @@ import { toast } from "../toasts.js";
 /** @typedef {"undo" | "redo"} Way */
 
 const MAX_LISTED = 30;
-/** @type {Record<Way, HistoryStep[]>} */
-const steps = { undo: [], redo: [] };
-const changes = listeners();
+const history = store("history");
+/** @param {Way} way */
+const steps = (way) => history.get(way) ?? [];
 /** @type {number | null} */
 let newest = null;
 
 export function install() {
   // Steps of a viewer that was started anew have other numbers.
   channel.onOpen(() => (newest = null));
-  watch("history", (values) => {
-    for (const way of /** @type {const} */ (["undo", "redo"])) steps[way] = values.get(way) ?? [];
-    changes.tell();
-    tell();
-  });
+  watch("history", tell);
 }
 
 /**
- * Calls `listener` now and whenever there are other steps.
- *
- * @param {() => void} listener
- */
-export function onSteps(listener) {
-  changes.on(listener);
-  listener();
-}
-
-/**
- * The subject of the next step of a way, "undo" or "redo"; undefined if there is none.
+ * The subject of the next step of a way, "undo" or "redo"; undefined if there is none. It is read in
+ * effects.
  *
  * @param {Way} way
  */
-export const next = (way) => (steps[way].find(isOwn) ?? steps[way][0])?.label;
+export const next = (way) => (steps(way).find(isOwn) ?? steps(way)[0])?.label;
 
 /** Takes back the newest step of this page; without one, the newest of all. */
-export const undo = () => steps.undo.length && act("Undo", { own: true });
-export const redo = () => steps.redo.length && act("Redo", { own: true });
+export const undo = () => steps("undo").length && act("Undo", { own: true });
+export const redo = () => steps("redo").length && act("Redo", { own: true });
 
 /** @param {HistoryStep} step */
 const isOwn = ({ browser }) => browser === window.webviz.browser;
@@ -60,28 +46,32 @@ const isOwn = ({ browser }) => browser === window.webviz.browser;
  * @param {HTMLElement} button
  */
 export function openSteps(button) {
-  const redos = steps.redo.slice(0, MAX_LISTED).map(({ label }, index) => ({
-    label: `Redo ${label}`,
-    icon: "arrow-forward",
-    run: () => act("Redo", { steps: index + 1 }),
-  }));
-  const undos = steps.undo.slice(0, MAX_LISTED).map(({ label }, index) => ({
-    label: `Undo ${label}`,
-    icon: "arrow-back",
-    run: () => act("Undo", { steps: index + 1 }),
-  }));
+  const redos = steps("redo")
+    .slice(0, MAX_LISTED)
+    .map(({ label }, index) => ({
+      label: `Redo ${label}`,
+      icon: "arrow-forward",
+      run: () => act("Redo", { steps: index + 1 }),
+    }));
+  const undos = steps("undo")
+    .slice(0, MAX_LISTED)
+    .map(({ label }, index) => ({
+      label: `Undo ${label}`,
+      icon: "arrow-back",
+      run: () => act("Undo", { steps: index + 1 }),
+    }));
   const all = [...redos.reverse(), ...(redos.length && undos.length ? [null] : []), ...undos];
   openMenuBelow(button, all.length ? all : [{ label: "Nothing to undo", disabled: true }]);
 }
 
 // Steps have numbers that grow, also when they are taken back.
 function tell() {
-  const [last] = [...steps.undo, ...steps.redo].toSorted((a, b) => b.number - a.number);
+  const [last] = [...steps("undo"), ...steps("redo")].toSorted((a, b) => b.number - a.number);
   const before = newest;
   newest = Math.max(newest ?? -1, last?.number ?? -1);
-  if (before === null) return tellRestored(steps.undo[0]);
+  if (before === null) return tellRestored(steps("undo")[0]);
   if (newest === before || !last) return;
-  const isUndone = steps.redo.includes(last);
+  const isUndone = steps("redo").includes(last);
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
     toast(text, { topic: "others" }); // dragging a slider makes many steps

@@ -7,7 +7,7 @@
 // `isLean`, whether its button is an icon only.
 // Interact is the default.
 
-import { batch, computed, effect, signal, untracked } from "../signals.js";
+import { batch, computed, effect, root, signal } from "../signals.js";
 import { canvas } from "../viser_page.js";
 import { tell } from "./hint.js";
 
@@ -25,16 +25,18 @@ const current = signal(/** @type {Tool | null} */ (null));
  * @param {Tool[]} tools
  * @returns {void}
  */
-export const provide = (origin, tools) =>
-  batch(() => {
+export function provide(origin, tools) {
+  const refusal = batch(() => {
     sets.value = new Map(sets.value).set(origin, tools);
     const before = current.value;
     if (!before || all().includes(before)) return;
     const same = all().find((tool) => tool.id === before.id);
     if (same && !same.refusal) current.value = same;
     else select(null);
-    if (same?.refusal) tell("warn", same.refusal);
+    return same?.refusal;
   });
+  if (refusal) tell("warn", refusal); // in place of the hint of the tool that is active now
+}
 
 /** All tools in the order of the toolbar. */
 export const all = () => ordered.value;
@@ -83,7 +85,7 @@ export const toggle = (tool) => select(tool === current.value ? null : tool);
 export function onChange(listener) {
   let isFirst = true;
   return effect(() => {
-    if (all() && active() !== undefined && !isFirst) untracked(listener);
+    if (all() && active() !== undefined && !isFirst) root(listener); // what it makes stays
     isFirst = false;
   });
 }

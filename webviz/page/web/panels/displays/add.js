@@ -2,13 +2,16 @@
 
 import { act, newStep } from "../../act.js";
 import { textField } from "../../controls/fields.js";
-import { el, set, setText, showText } from "../../dom.js";
+import { el } from "../../dom.js";
 import { recall, remember } from "../../remember.js";
-import { watch } from "../../stores.js";
+import { computed, effect, root, signal } from "../../signals.js";
+import { store } from "../../stores.js";
 import { openDialog } from "../../controls/dialog.js";
 import { optionList, search } from "../../controls/option_list.js";
 import { topicEntries } from "./topic_entries.js";
 
+/** @import {Close} from "../../controls/dialog.js" */
+/** @import {Signal} from "../../signals.js" */
 /** @import {AddRow, Choice, Entry, Known} from "./topic_entries.js" */
 
 const MAX_SHOWN = 200;
@@ -21,120 +24,124 @@ const WAYS = { topic: "By topic", type: "By display" };
  */
 export function openAdd({ group = "" } = {}) {
   if (document.querySelector(".wv-add[open]")) return;
-  /** @type {Known & {way: string}} */
-  const state = {
-    way: recall("add", "topic"),
-    types: null,
-    topics: null,
-    traffic: null,
-    shown: null,
-  };
-  /** @type {Map<string, Choice>} */
-  const checked = new Map();
-  const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
-  const note = el("p", { class: "wv-quiet wv-nothing", hidden: true });
-  let show = () => {};
-  /** @type {() => Choice[] | null} */
-  let taken = () => null; // what Add would add
+  root(async (end) => {
+    const way = signal(recall("add", "topic"));
+    const checked = signal(/** @type {Map<string, Choice>} */ (new Map()));
+    /** @type {() => Choice[] | null} */
+    let taken = () => null; // what Add would add
+    const chosen = await openDialog({
+      title: "Add display",
+      className: "wv-add",
+      content(close) {
+        const { content, taken: own } = chooser(way, checked, close);
+        taken = own;
+        return content;
+      },
+      buttons: [
+        { label: "Cancel", value: null },
+        {
+          label: () => (checked.value.size > 1 ? `Add ${checked.value.size} displays` : "Add"),
+          value: "add",
+          primary: true,
+          accept: () => taken() !== null,
+        },
+      ],
+    });
+    const picks = chosen === "add" ? taken() : chosen;
+    end();
+    const step = newStep();
+    for (const { type, values } of picks ?? [])
+      act("AddDisplay", { type, values, group }, { step });
+  });
+}
 
-  const tabs = Object.entries(WAYS).map(([way, label]) =>
+/**
+ * @param {Signal<string>} way
+ * @param {Signal<Map<string, Choice>>} checked
+ * @param {Close} close
+ */
+function chooser(way, checked, close) {
+  const text = signal("");
+  const known = computed(knownNow);
+  const all = computed(() =>
+    way.value === "type" ? typeEntries(known.value) : topicEntries(known.value, checked.value),
+  );
+  const found = computed(() => matches(all.value, text.value));
+  const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
+  const list = optionList(input, "Displays", ({ id: row }, event) => {
+    const { id, pick } = found.value.find((one) => one.id === row) ?? {};
+    if (!id || !pick) return;
+    if (way.value === "type") return close([pick]);
+    const isToggled = event.type === "click" && event.detail < 2;
+    const next = new Map(checked.value);
+    if (isToggled && next.delete(id)) checked.value = next;
+    else if (event.type === "click" || !next.size) checked.value = next.set(id, pick);
+    if (!isToggled) close([...checked.value.values()]);
+  });
+  // After that of the list, which then begins with the best match.
+  input.addEventListener("input", () => (text.value = input.value));
+  effect(() => list.show(found.value.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row)));
+  const note = () => remark({ ...known.value, way: way.value }, all.value, found.value.length);
+  const tabs = Object.entries(WAYS).map(([name, label]) =>
     el(
       "button",
       {
         type: "button",
         class: "wv-tab",
         role: "tab",
-        "data-way": way,
-        onclick: () => {
-          state.way = way;
-          remember("add", way);
-          show();
+        "data-way": name,
+        "aria-selected": () => String(way.value === name),
+        onclick() {
+          remember("add", (way.value = name));
           input.focus();
         },
       },
       label,
     ),
   );
-  const ends = [
-    watch("types", (types) => {
-      state.types = [...types];
-      show();
-    }),
-    watch("topics", (topics) => {
-      state.topics = [...topics].sort(([a], [b]) => (a < b ? -1 : 1));
-      show();
-    }),
-    watch("traffic", (traffic) => {
-      state.traffic = traffic;
-      show();
-    }),
-    watch("displays", (displays) => {
-      const topics = [...displays.values()].flatMap((display) => display.topics ?? []);
-      state.shown = new Set(topics.map(absolute));
-      show();
-    }),
+  const content = [
+    input,
+    el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Add" }, tabs),
+    list.element,
+    el("p", { class: "wv-quiet wv-nothing", hidden: () => !note() }, note),
   ];
-
-  openDialog({
-    title: "Add display",
-    className: "wv-add",
-    content(close) {
-      const list = optionList(input, "Displays", (row, event) => {
-        const { id, pick } = found.find((one) => one.id === row.id) ?? {};
-        if (!id || !pick) return;
-        if (state.way === "type") return close([pick]);
-        if (event.type === "click" && event.detail < 2) {
-          if (!checked.delete(id)) checked.set(id, pick);
-          return show();
-        }
-        if (event.type === "click" || !checked.size) checked.set(id, pick);
-        return close([...checked.values()]);
-      });
-      /** @type {AddRow[]} */
-      let found = [];
-      show = () => {
-        for (const tab of tabs) {
-          const isShown = tab.dataset.way === state.way;
-          set(tab, { "aria-selected": String(isShown) });
-        }
-        const all = state.way === "type" ? typeEntries(state) : topicEntries(state, checked);
-        found = search(all, input.value, ({ words }) => words).flatMap(({ words, rows }) => {
-          const narrow = search(rows, input.value, ({ title, note: more }) => [
-            words[0],
-            `${title} ${more}`,
-          ]);
-          return narrow.length ? narrow : rows;
-        });
-        list.show(found.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row));
-        showText(note, remark(state, all, found.length));
-        const button = input.closest("dialog")?.querySelector(".wv-primary");
-        if (button) setText(button, checked.size > 1 ? `Add ${checked.size} displays` : "Add");
-      };
-      input.addEventListener("input", () => show());
-      show();
-      taken = () => {
-        const active = found.find(({ id, disabled }) => !disabled && id === list.active());
-        return checked.size ? [...checked.values()] : active?.pick ? [active.pick] : null;
-      };
-      return [
-        input,
-        el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Add" }, tabs),
-        list.element,
-        note,
-      ];
-    },
-    buttons: [
-      { label: "Cancel", value: null },
-      { label: "Add", value: "add", primary: true, accept: () => taken() !== null },
-    ],
-  }).then((chosen) => {
-    ends.forEach((end) => end());
-    const picks = chosen === "add" ? taken() : chosen;
-    const step = newStep();
-    for (const { type, values } of picks ?? [])
-      act("AddDisplay", { type, values, group }, { step });
-  });
+  const taken = () => {
+    if (checked.value.size) return [...checked.value.values()];
+    const active = found.value.find(({ id, disabled }) => !disabled && id === list.active());
+    return active?.pick ? [active.pick] : null;
+  };
+  return { content, taken };
 }
+
+/**
+ * What there is to choose from, null before it is known.
+ *
+ * @returns {Known}
+ */
+function knownNow() {
+  const [types, topics, traffic] = [store("types"), store("topics"), store("traffic")];
+  const displays = store("displays");
+  const shown = [...displays.all().values()].flatMap((display) => display.topics ?? []);
+  return {
+    types: types.isThere() ? [...types.all()] : null,
+    topics: topics.isThere() ? [...topics.all()].sort(([a], [b]) => (a < b ? -1 : 1)) : null,
+    traffic: traffic.isThere() ? traffic.all() : null,
+    shown: displays.isThere() ? new Set(shown.map(absolute)) : null,
+  };
+}
+
+/**
+ * The rows that fit a text.
+ *
+ * @param {Entry[]} entries
+ * @param {string} text
+ * @returns {AddRow[]}
+ */
+const matches = (entries, text) =>
+  search(entries, text, ({ words }) => words).flatMap(({ words, rows }) => {
+    const narrow = search(rows, text, ({ title, note }) => [words[0], `${title} ${note}`]);
+    return narrow.length ? narrow : rows;
+  });
 
 /**
  * @param {Pick<Known, "types">} known

@@ -2,15 +2,13 @@
 
 import { needs } from "../../access.js";
 import { act } from "../../act.js";
-import { el, set } from "../../dom.js";
+import { el, newId, set } from "../../dom.js";
 import { icon, textButton } from "../../icons.js";
 import { computed, each, effect, signal } from "../../signals.js";
 import { explaining, findingLink, keyOf } from "../findings.js";
 
 /** @import {Commands} from "../../messages.js" */
 /** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
-
-let count = 0;
 
 /**
  * Sends a command that a remedy names.
@@ -67,8 +65,7 @@ export function fillHelp(element, remedy, finding) {
  * }} options
  */
 export function statuses({ display, worst, lines, more }) {
-  count += 1;
-  const id = `wv-statuses-${count}`;
+  const id = newId("statuses");
   const chosen = signal(/** @type {boolean | null} */ (null));
   const level = () => worst()?.level ?? "ok";
   const isOpen = computed(() => chosen.value ?? level() !== "ok");
