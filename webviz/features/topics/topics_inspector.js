@@ -21,7 +21,7 @@ import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
 const OLD_S = 2; // until then, an age says nothing that the rate does not say
 
 /**
- * What there is to know of a topic, read by `topic()`.
+ * All that is known of a topic, which is read by `topic()`.
  *
  * @param {string} name
  * @param {() => TopicRow | undefined} topic

@@ -114,7 +114,7 @@ function frameList(folded) {
 }
 
 /**
- * What is known of the frame that is marked, and what can be done with it.
+ * The facts about the frame that is marked, and the actions on it.
  *
  * @param {() => FrameRow | null} row
  */

@@ -7,7 +7,7 @@
 /** @typedef {import("./types.js").End} End */
 
 /**
- * What has a value that can be read.
+ * A thing with a value that can be read.
  *
  * @template T
  * @typedef {Source & {readonly value: T}} Readable
@@ -15,7 +15,7 @@
 
 const MAX_ROUNDS = 100; // effects that write what they read themselves would never come to rest
 
-/** What is going on now: who reads, who owns what is made, and which effects are due. */
+/** The state of now: who reads, who owns what is made, and which effects are due. */
 const now = {
   /** @type {Reader | null} */
   reader: null,
@@ -27,7 +27,7 @@ const now = {
   due: new Set(),
 };
 
-/** What can be read: it counts its changes, and knows the effects and computed values that read it. */
+/** A thing that can be read: it counts its changes, and knows the effects and computed values that read it. */
 export class Source {
   version = 0;
   /** @type {Set<Reader>} */
@@ -86,7 +86,7 @@ export class Signal extends Source {
   }
 }
 
-/** What reads: it remembers what it has read, and in which version. */
+/** A function that reads: it remembers what it has read, and in which version. */
 export class Reader extends Source {
   /** @type {Map<Source, number>} */
   #sources = new Map();
@@ -369,7 +369,7 @@ export function batch(write) {
 export const untracked = (read) => within(null, now.owner, read);
 
 /**
- * What `makeRow(item, key)` makes for each item of a list, in the order of the list: for `el`, a child.
+ * Makes rows by `makeRow(item, key)`, in the order of the items of a list: a child for `el`.
  * Rows are made once for each key, and end when their key goes; `item` is a signal.
  *
  * @template T

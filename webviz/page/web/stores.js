@@ -72,7 +72,7 @@ class Store {
     return this.#values;
   }
 
-  /** Whether the values have come. */
+  /** True once the values have come. */
   isThere() {
     this.#all.track();
     return this.#isThere;
@@ -92,7 +92,7 @@ class Store {
     this.open();
   }
 
-  /** What is read again at once, such as by an effect that runs again, is not sent anew. */
+  /** Values that are read again at once, as by an effect that runs again, are not sent anew. */
   release() {
     this.#holders -= 1;
     queueMicrotask(() => {

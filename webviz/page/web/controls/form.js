@@ -10,7 +10,7 @@ import { row } from "./property_row.js";
 /** @import {Child, FormValues, SendProperty} from "../types.js" */
 
 /**
- * What a form is made with.
+ * The values of a form, and how they are sent.
  *
  * @typedef {{
  *   values: FormValues, send: SendProperty, name: string, marks: boolean, command: string,

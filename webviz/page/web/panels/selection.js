@@ -93,7 +93,7 @@ function openFrame(name) {
   openPanel("transforms");
 }
 
-/** What is shown besides the rows, "" if they are all. */
+/** A sentence on values that the rows lack, "" without any. */
 function note() {
   const { total = 0, count = 0, live = 0 } = values.get("/info") ?? {};
   const notes = [

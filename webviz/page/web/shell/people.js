@@ -48,7 +48,7 @@ export const openPeople = () =>
     end();
   });
 
-/** What only the owner sees: invitations, links, and what others did. */
+/** The part that only the owner sees: invitations, links, and what others did. */
 function ownersPart() {
   const links = store("links");
   const journal = store("journal");

@@ -20,7 +20,7 @@ import { keyText } from "../keys.js";
 
 /** All tools in the order of the toolbar; read in effects. */
 export const all = registry.all;
-/** Whether there are tools besides those that are icons. */
+/** True if there are tools besides those that are icons. */
 export const hasButtons = () => all().some(({ isLean }) => !isLean);
 
 /** The buttons of the tools; those that are icons may go into a menu. */

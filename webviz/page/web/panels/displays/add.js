@@ -114,7 +114,7 @@ function chooser(way, checked, close) {
 }
 
 /**
- * What there is to choose from, null before it is known.
+ * Everything there is to choose from, null before it is known.
  *
  * @returns {Known}
  */

@@ -47,7 +47,7 @@ export function propertiesOf(id) {
   ];
 }
 
-/** What holds for the whole viewer. */
+/** The statuses and settings of the whole viewer. */
 export function globalOptions() {
   const values = store("settings");
   const lines = () => values.get("statuses") ?? [];
