@@ -41,6 +41,20 @@ def test_a_message_passes_at_once_if_its_transform_is_there(
     assert messages.ready(buffer, "map") == ["m"]
 
 
+def test_the_first_message_since_the_last_that_was_ready_is_known(
+    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+) -> None:
+    assert messages.stuck_since is None
+    put("map", "laser", 1.0)
+    for name, at_s in (("ready", 1), ("first", 2), ("second", 3)):
+        messages.add(name, "laser", at_s * S)
+        messages.ready(buffer, "map")
+    assert messages.stuck_since == "first"
+    put("map", "laser", 3.0)
+    assert messages.ready(buffer, "map") == ["first", "second"]
+    assert messages.stuck_since is None
+
+
 def test_a_message_passes_when_its_transform_comes_and_only_once(
     buffer: TransformBuffer, messages: MessageFilter[str], put: Put
 ) -> None:

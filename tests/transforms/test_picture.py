@@ -62,7 +62,11 @@ def test_every_frame_has_a_place_of_its_own(links: list[tuple[str, str]]) -> Non
     for edge in layout.edges:
         parent, child = layout.places[edge.parent], layout.places[edge.child]
         assert edge.is_extra or child.column == parent.column + 1
-    drawn = ElementTree.fromstring(draw_tree(diagnosis, "Frames").svg)
+    picture = draw_tree(diagnosis, "Frames")
+    drawn = ElementTree.fromstring(picture.svg)
+    for text in drawn.iter(f"{SVG}text"):
+        assert 0.0 < float(text.get("x", 0)) < picture.width
+        assert 0.0 < float(text.get("y", 0)) < picture.height
     assert len([*drawn.iter(f"{SVG}path")]) == len(layout.edges) >= len(diagnosis.frames)
 
 

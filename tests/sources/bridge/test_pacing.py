@@ -520,3 +520,10 @@ def test_large_topics_take_turns_once_their_own_messages_are_a_second_late(
     assert not link.pacer.is_in_turns
     link.pacer.note_large("/points", bytes(LARGE), delay_s, link.now)
     assert link.pacer.is_in_turns is is_in_turns
+
+
+def test_a_topic_that_has_come_once_has_the_rate_of_one_message_since() -> None:
+    turns = Turns(0.1)
+    turns.until_asked("/a")
+    turns.pacer.note_large("/a", bytes(LARGE), 0.0, turns.now)
+    assert turns.pacer.thinned(turns.now + 10.0) == {"/a": pytest.approx(0.1)}
