@@ -485,3 +485,5 @@ def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(tab: Tab) -> None:
     tree.fold("a")
     tab.wait_for(lambda: labels.count() > 5)
     assert labels.evaluate_all(BROKEN) == [], "in the tree"
+    tab.button("List options").click()
+    tab.page.get_by_text("Properties below the tree").click()
