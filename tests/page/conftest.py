@@ -266,8 +266,9 @@ class Tab:
             if condition():
                 return
             self.page.wait_for_timeout(20)
-        side = self.page.locator(".wv-side").all_inner_texts()
-        raise AssertionError(f"timed out; beside the scene there is {side}")
+        tabs = self.page.get_by_role("tab", include_hidden=True)
+        told = tabs.evaluate_all("(all) => all.map((one) => [one.id, one.hidden, one.offsetWidth])")
+        raise AssertionError(f"timed out; the tabs are {told}, and the page says {self.text()}")
 
     def wait_for_command(self, command: Command) -> None:
         """Wait until the newest command is this one."""

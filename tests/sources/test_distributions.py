@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from filled_messages import filled
 from rosbags.interfaces import Nodetype
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -37,30 +38,6 @@ NESTED = (
     "visualization_msgs/msg/InteractiveMarkerInit",
 )
 """Types that contain one that has changed."""
-
-
-def filled(store: Any, name: str, numbers: Iterator[int]) -> Any:
-    """Return a message of a distribution in which each value differs from the others."""
-    values = {}
-    for field, (kind, value) in store.fielddefs[name][1]:
-        values[field] = _value(store, kind, value, numbers)
-    return store.types[name](**values)
-
-
-def _value(store: Any, kind: Nodetype, value: Any, numbers: Iterator[int]) -> Any:
-    if kind == Nodetype.NAME:
-        return filled(store, value, numbers)
-    if kind == Nodetype.BASE:
-        if value[0] == "string":
-            return f"text {next(numbers)}"
-        return bool(next(numbers) % 2) if value[0] == "bool" else next(numbers) % 100
-    (inner, base), size = value
-    length = size if kind == Nodetype.ARRAY else 2
-    several = [_value(store, inner, base, numbers) for _ in range(length)]
-    if inner == Nodetype.BASE and base[0] != "string":
-        dtype = {"byte": "uint8", "char": "uint8", "octet": "uint8"}.get(base[0], base[0])
-        return np.array(several, dtype)
-    return several
 
 
 def check_same(store: Any, name: str, written: Any, read: Any) -> None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import time
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 
 import foxglove  # pyright: ignore[reportMissingImports]
 import numpy as np
-import pytest
 from waiting import until
 from websockets.asyncio.server import ServerConnection, serve
 
@@ -47,10 +47,7 @@ def test_large_clouds_come_whole_over_loopback() -> None:
     server.stop()
 
 
-@pytest.mark.parametrize(("rate", "least_s", "most_s"), [(1e6, 1.2, 2.4), (MAX_RATE, 0.0, 1.0)])
-def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be(
-    rate: float, least_s: float, most_s: float
-) -> None:
+def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be() -> None:
     size, count = 50_000, 30
 
     async def send(connection: ServerConnection) -> None:
@@ -58,7 +55,7 @@ def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be(
             await connection.send(bytes(size))
         await connection.wait_closed()
 
-    async def seconds() -> float:
+    async def seconds(rate: float) -> float:
         async with serve(send, "127.0.0.1", 0, compression=None) as server:
             port = next(iter(server.sockets)).getsockname()[1]
             async with opened(address(f"ws://127.0.0.1:{port}"), BulkConnection) as connection:
@@ -69,4 +66,10 @@ def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be(
                     assert len(await connection.recv()) == size
                 return time.monotonic() - start_s
 
-    assert least_s < asyncio.run(seconds()) < most_s
+    # In a thread of its own: that of the tests may have the loop of a browser.
+    with ThreadPoolExecutor(1) as threads:
+        slow_s, fast_s = (
+            threads.submit(asyncio.run, seconds(rate)).result() for rate in (1e6, MAX_RATE)
+        )
+    assert slow_s > 1.2
+    assert fast_s < slow_s / 2

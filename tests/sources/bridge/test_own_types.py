@@ -7,10 +7,13 @@ import struct
 import time
 from collections.abc import Callable, Mapping
 from contextlib import closing
+from itertools import count
 from typing import Any
 
 import pytest
 from bridges import Reader
+from filled_messages import filled
+from rosbags.typesys import Stores, get_typestore
 from waiting import until
 from websockets.sync.server import ServerConnection
 
@@ -176,3 +179,14 @@ def test_stamps_in_types_of_a_robot_are_corrected(liar: Liar) -> None:
     with closing(fleet):
         fleet.want({"/r1/ripe": Subscription(name, Topic("/r1/ripe"))})
         until(lambda: (s := late_s()) is not None and abs(s) < 1.0, lambda: fleet.bridges)
+
+
+def test_messages_of_an_older_distribution_have_defaults_for_what_they_lack(liar: Liar) -> None:
+    """Galactic's Marker has no textures, which its class here has."""
+    store, name = get_typestore(Stores.ROS2_GALACTIC), "visualization_msgs/msg/Marker"
+    text, _ = store.generate_msgdef(name, ros_version=2)
+    written = filled(store, name, count(1))
+    cdr = bytes(store.serialize_cdr(written, name))
+    marker = read(liar(served({"/marker": (name, text, cdr[4:])})), "marker", name)
+    assert (marker.id, marker.text, marker.scale.x) == (written.id, written.text, written.scale.x)
+    assert (marker.texture_resource, marker.mesh_file.filename) == ("", "")

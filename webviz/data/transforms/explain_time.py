@@ -61,13 +61,13 @@ def _apart(
     """Name a link that stopped so long ago that others have forgotten its last time."""
     newest_ns, child = min((cache.stamps[-1], name) for name, cache in links)
     oldest_ns, other = max((cache.stamps[0], name) for name, cache in links)
-    if not 0 < oldest_ns - newest_ns < HOUR_NS:
-        return None
-    age = f"{in_words(now_ns - newest_ns)} old, " if now_ns else ""
+    age_ns = now_ns - newest_ns
+    if not STALE_NS < oldest_ns - newest_ns < HOUR_NS or age_ns < STALE_NS or oldest_ns > now_ns:
+        return None  # not known to have stopped; others may come from the future
     return Explanation(
         Kind.NO_DATA,
-        f"The transform {_link(buffer, child)} has stopped: its last is {age}older than all that "
-        f"are kept of {_link(buffer, other)}. Restart its publisher.",
+        f"The transform {_link(buffer, child)} has stopped: its last is {in_words(age_ns)} old, "
+        f"older than all that are kept of {_link(buffer, other)}. Restart its publisher.",
         link=child,
     )
 

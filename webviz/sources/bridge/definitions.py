@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from webviz.data.messages import (
     KNOWN,
+    DefinitionError,
     MessageError,
     MessageTypes,
     defined,
@@ -14,6 +15,7 @@ from webviz.data.messages import (
     prepare,
     type_exists,
 )
+from webviz.data.messages.distributions import OtherLayout
 
 MAX_SERVICE_TEXT = 8 << 20
 """Characters of the definitions of services that are read, a second for each million; those of
@@ -27,12 +29,14 @@ class TopicTypes(NamedTuple):
         type: of its messages.
         text: the definition of the type.
         types: of that definition, or those of this process.
+        layout: of its messages, if that of `types` has more or fewer fields.
         problem: why its messages cannot be read, "" if they can.
     """
 
     type: str = ""
     text: str = ""
     types: MessageTypes = KNOWN
+    layout: OtherLayout | None = None
     problem: str = ""
 
 
@@ -81,9 +85,16 @@ class Definitions:
         with contextlib.suppress(MessageError):
             interfaces.learn(type, request, response)
 
-    def types(self, topic: str) -> MessageTypes:
-        """Return the types by which a topic is read."""
-        return self._topics.get(topic, TopicTypes()).types
+    def read(self, topic: str, cdr: bytes) -> tuple[bytes, MessageTypes]:
+        """Return a message of a topic, and the types by which it is read.
+
+        One that does not fit its definition stays as it is.
+        """
+        known = self._topics.get(topic, TopicTypes())
+        if known.layout is not None:
+            with contextlib.suppress(MessageError):
+                cdr = known.layout.to_cdr(cdr)
+        return cdr, known.types
 
     def problem(self, topic: str) -> str:
         """Why messages of a topic cannot be read, "" if they can or it is not read."""
@@ -103,7 +114,12 @@ def _types(type: str, text: str) -> TopicTypes:
         return TopicTypes(type, text, problem="" if type_exists(type) else missing)
     try:
         types = defined(type, text)
-        prepare(type, types)
+        try:
+            prepare(type, types)
+        except DefinitionError:  # of another distribution, if its types have fewer fields
+            if not type_exists(type):
+                raise
+            return TopicTypes(type, text, layout=OtherLayout(type, text))
     except MessageError as error:
         return TopicTypes(type, text, problem=str(error).rstrip("."))
     return TopicTypes(type, text, types)

@@ -202,7 +202,7 @@ class BridgeSource:
             is_thinned = is_large and self._pacer.is_thinned(topic)
             delay_s = self._health.note_message(topic, stamp_ns, is_thinned)
             self.clock.note(stamp_ns, time.time_ns())
-        types = self._definitions.types(topic)
+        cdr, types = self._definitions.read(topic, cdr)
         self.inbox.put(topic, Raw(cdr, self.now_ns(), types=types))
         return delay_s
 
