@@ -160,5 +160,5 @@ def test_a_bridge_builds_the_decoder_of_what_is_wanted() -> None:
     assert definitions.learn("/wide", "prepared_msgs/msg/Wide", text) == ""
     start_s = time.process_time()
     message = b"\0\1\0\0" + bytes(4 * 19_999)
-    decode("prepared_msgs/msg/Wide", message, definitions.types("/wide"))
+    decode("prepared_msgs/msg/Wide", *definitions.read("/wide", message))
     assert time.process_time() - start_s < 0.1
