@@ -71,9 +71,7 @@ class OtherLayout:
         self.name = name
         self._fields = {key: typestore.fields_of(types[key]) for key in reached if key in types}
         self._differs = {key for key, own in self._fields.items() if _differs(key, own)}
-        while outer := {key for key, own in self._fields.items() if self._contains(own)}:
-            if outer <= self._differs:
-                break
+        while outer := self._outer() - self._differs:
             self._differs |= outer
         store = get_typestore(Stores.EMPTY)
         for key in reached:
@@ -101,8 +99,13 @@ class OtherLayout:
         """
         return encode(self.name, self._values(decode(self._called_here, cdr, self._types)))
 
-    def _contains(self, fields: list[MessageField]) -> bool:
-        return any(field.is_message and field.base in self._differs for field in fields)
+    def _outer(self) -> set[str]:
+        """Return the types with a field of a type that differs."""
+        return {
+            key
+            for key, own in self._fields.items()
+            if any(field.is_message and field.base in self._differs for field in own)
+        }
 
     def _called(self, name: str) -> str:
         package, _, own = name.rpartition("/")
@@ -211,5 +214,5 @@ def _differs(name: str, own: list[MessageField]) -> bool:
     ours, theirs = ({field.name: field for field in each} for each in (known, own))
     common = ours.keys() & theirs.keys()
     if any(ours[key] != theirs[key] for key in common) or len(common) < min(len(ours), len(theirs)):
-        raise DefinitionError(f"{name} differs from ROS 2's in more than fields that it lacks.")
+        raise DefinitionError(f"{name} differs from ROS 2's in types of fields. Rename the type.")
     return True

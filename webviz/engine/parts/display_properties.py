@@ -169,7 +169,7 @@ def topic_offers(
 
 
 def rate(row: Row | None, traffic: Mapping[str, Traffic]) -> RateStore:
-    """Return the rate of messages of a display, None if it is gone."""
+    """Return the rate of messages of a display."""
     known = (traffic[name].rate_hz for name in topics_of_row(row) if name in traffic)
     hz = next(known, None)
     return RateStore() if hz is None else RateStore(_rounded(hz))

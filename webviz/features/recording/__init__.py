@@ -254,7 +254,7 @@ class RecordingFeature(Feature):
                 entries[-1],
             )  # latched ones have the time of the first
             span = f"{(last.received_ns - first.received_ns) / 1e9:.0f} s"
-            what = f"all {span} that are looked back on" if is_held else f"the last {span}"
+            what = f"all {span} of the timeline" if is_held else f"the last {span}"
             return f"Saved {what} to {recorder.path.name}."
 
         return Job(work, then)

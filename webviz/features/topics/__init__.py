@@ -68,7 +68,7 @@ class TopicsFeature(Feature):
                 self._last[topic] = newest, time.time()
 
     def update(self) -> None:
-        """Forget topics that nobody looks at any more."""
+        """Forget topics that no page shows."""
         for gone in self._last.keys() - self._inspected():
             del self._last[gone]
             self._read.pop(gone, None)
