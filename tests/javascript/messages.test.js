@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { rowsOf, textOf } from "../../webviz/page/web/panels/message_tree.js";
-import { statisticsRows, statisticsText } from "../../webviz/page/web/panels/statistics.js";
+import { statisticsRows, statisticsText } from "../../webviz/features/selection/statistics.js";
 
 const stamp = { fields: { sec: "5", nanosec: "0" } };
 const header = { fields: { stamp, frame_id: "'base'" } };

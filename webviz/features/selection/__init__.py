@@ -142,6 +142,7 @@ class SelectionFeature(Feature):
     """Finds what browsers pick, and asks its displays about it while somebody looks."""
 
     name = "Selection"
+    module = "selection.js"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)

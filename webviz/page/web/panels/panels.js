@@ -7,7 +7,6 @@
 import { listeners } from "../listeners.js";
 import { displays } from "./displays/displays.js";
 import { doctor } from "./doctor.js";
-import { selectionPanel } from "./selection.js";
 import { views } from "./views.js";
 
 /** @import {Panel} from "../types.js" */
@@ -34,4 +33,4 @@ export function panel(added) {
 /** Calls a listener whenever there is another panel. */
 export const onPanel = changes.on;
 
-for (const own of [displays, selectionPanel, views, doctor]) panel(own);
+for (const own of [displays, views, doctor]) panel(own);

@@ -8,7 +8,7 @@ import { focusCamera, interact, moveCamera } from "../handles/camera_tools.js";
 import { hint, tell } from "../tools/hint.js";
 import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
-import * as selecting from "../tools/select.js";
+import * as selection from "../tools/selection.js";
 import * as preview from "../tools/preview.js";
 import { each, effect } from "../signals.js";
 import { canvas } from "../viser_page.js";
@@ -40,10 +40,10 @@ const EVENTS = /** @type {const} */ ([
 
 export function install() {
   registry.setDefault(interact);
-  registry.provide("page", [interact, moveCamera, selecting.select, focusCamera, measure]);
+  registry.provide("page", [interact, moveCamera, focusCamera, measure]);
   gesture.install();
   glow.install();
-  selecting.install();
+  selection.install();
   provide(() =>
     registry.all().map((tool) => ({
       name: tool.name,

@@ -1,13 +1,13 @@
 // Marks what is selected, over the scene of this page alone.
 
-import { contextOf, el } from "../dom.js";
-import { outlineOf } from "../scene/picking/outline.js";
-import { finder } from "../scene/picking/things.js";
-import * as viser from "../viser_page.js";
-import { makeLayer } from "./layer.js";
-import * as selection from "./selection.js";
+import { contextOf, el } from "../../dom.js";
+import { outlineOf } from "../../scene/picking/outline.js";
+import { finder } from "../../scene/picking/things.js";
+import * as viser from "../../viser_page.js";
+import { makeLayer } from "../../tools/layer.js";
+import * as selection from "../../tools/selection.js";
 
-/** @import {Outline, Three, Vec2} from "../types.js" */
+/** @import {Outline, Three, Vec2} from "../../types.js" */
 
 const COLOR = "#00e5ff";
 const BACK = "rgba(0, 0, 0, 0.65)";

@@ -1,23 +1,24 @@
 // The panel "Selection": what this page has selected in the scene, as a tree of values.
 
-import { copyAndTell } from "../clipboard.js";
-import { rowList, touchable } from "../controls/rows.js";
-import { el } from "../dom.js";
-import { iconButton, textButton } from "../icons.js";
-import { openPanel } from "../docks/layout.js";
-import { ownStore } from "../own_store.js";
-import { computed, effect, signal } from "../signals.js";
-import { store } from "../stores.js";
-import { select } from "../tools/registry.js";
-import * as tool from "../tools/select.js";
-import * as selection from "../tools/selection.js";
-import { foldByKey, foldMark, showFold } from "./folds.js";
-import { rowsOf, textOf } from "./message_tree.js";
+import { copyAndTell } from "../../clipboard.js";
+import { rowList, touchable } from "../../controls/rows.js";
+import { el } from "../../dom.js";
+import { iconButton, textButton } from "../../icons.js";
+import { openPanel } from "../../docks/layout.js";
+import { ownStore } from "../../own_store.js";
+import { computed, effect, signal } from "../../signals.js";
+import { store } from "../../stores.js";
+import { select } from "../../tools/registry.js";
+import * as tool from "./select.js";
+import * as selection from "../../tools/selection.js";
+import { panel } from "../../panels/panels.js";
+import { foldByKey, foldMark, showFold } from "../../panels/folds.js";
+import { rowsOf, textOf } from "../../panels/message_tree.js";
 import { statisticsRows, statisticsText } from "./statistics.js";
-import { showFrame } from "./frame_actions.js";
+import { showFrame } from "../../panels/frame_actions.js";
 
-/** @import {Panel} from "../types.js" */
-/** @import {Fields, MessageRow} from "./message_tree.js" */
+/** @import {Panel} from "../../types.js" */
+/** @import {Fields, MessageRow} from "../../panels/message_tree.js" */
 
 /**
  * A row of a thing, of one of its values, or of statistics.
@@ -32,8 +33,13 @@ const FRAMES = new Set(["Frame", "Parent", "Parent frame", "Child frame", "Refer
 const values = ownStore("selection");
 const frames = store("frames");
 
+export function install() {
+  tool.install();
+  panel(selectionPanel);
+}
+
 /** @type {Panel} */
-export const selectionPanel = {
+const selectionPanel = {
   name: "selection",
   title: "Selection",
   order: 10,

@@ -1,20 +1,21 @@
 // The tool that selects: a click, or a box. Shift adds, Ctrl removes, and Alt leaves the mouse to the
 // camera, as in RViz.
 
-import { el } from "../dom.js";
-import { focus } from "../scene/mouse.js";
-import { outlineOf } from "../scene/picking/outline.js";
-import { pickAt, pickIn } from "../scene/picking/pick.js";
-import { finder } from "../scene/picking/things.js";
-import { openPanel } from "../docks/layout.js";
-import { watch } from "../stores.js";
-import { canvas } from "../viser_page.js";
+import { el } from "../../dom.js";
+import { focus } from "../../scene/mouse.js";
+import { outlineOf } from "../../scene/picking/outline.js";
+import { pickAt, pickIn } from "../../scene/picking/pick.js";
+import { finder } from "../../scene/picking/things.js";
+import { openPanel } from "../../docks/layout.js";
+import { watch } from "../../stores.js";
+import { canvas } from "../../viser_page.js";
 import { install as installHighlight, middle } from "./highlight.js";
-import { tell } from "./hint.js";
-import { makeLayer } from "./layer.js";
-import * as selection from "./selection.js";
+import { tell } from "../../tools/hint.js";
+import { makeLayer } from "../../tools/layer.js";
+import { provide } from "../../tools/registry.js";
+import * as selection from "../../tools/selection.js";
 
-/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../types.js" */
+/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../../types.js" */
 
 const CLICK_PX = 4;
 const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";
@@ -52,7 +53,7 @@ export const select = {
 };
 
 export function install() {
-  selection.install();
+  provide("selection", [select]);
   installHighlight();
 }
 
