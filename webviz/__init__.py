@@ -22,7 +22,14 @@ if TYPE_CHECKING:
     from webviz.api.declared import Color, Prop, Topic
     from webviz.api.display import Display, Keep, Sync
     from webviz.api.errors import Error
-    from webviz.api.finding import ChangeDisplay, Finding, Severity, Symptom
+    from webviz.api.finding import (
+        ChangeDisplay,
+        Finding,
+        HideDisplays,
+        Severity,
+        Symptom,
+        TryYaw,
+    )
     from webviz.api.frames import FramePoses, Frames, compose
     from webviz.api.lookback import Lookback
     from webviz.api.nodes import (
@@ -74,6 +81,7 @@ __all__ = [
     "Gesture",
     "Glb",
     "Group",
+    "HideDisplays",
     "Hit",
     "Image",
     "Input",
@@ -116,6 +124,7 @@ __all__ = [
     "Tool",
     "ToolContext",
     "Topic",
+    "TryYaw",
     "Ui",
     "Viewer",
     "capture",
@@ -137,7 +146,10 @@ _HOMES = {
     "webviz.api.declared": ("Color", "Prop", "Topic"),
     "webviz.api.display": ("Display", "Keep", "Sync"),
     "webviz.api.errors": ("Error",),
-    "webviz.api.finding": ("ChangeDisplay", "Finding", "Severity", "Symptom"),
+    "webviz.api.finding": (
+        *("ChangeDisplay", "Finding", "HideDisplays"),
+        *("Severity", "Symptom", "TryYaw"),
+    ),
     "webviz.api.frames": ("FramePoses", "Frames", "compose"),
     "webviz.api.lookback": ("Lookback",),
     "webviz.api.nodes": (

@@ -623,9 +623,15 @@ class TraceDisplay(Command, frozen=True):
     answer: Future[Trace]
 
 class TryFrame(Command, frozen=True):
-    """Take hold of a static frame; another one that is tried returns to its place."""
+    """Take hold of a static frame; another one that is tried returns to its place.
+
+    Args:
+        frame: its id.
+        yaw: by which it is turned about its own z axis at first, in radians.
+    """
 
     frame: str
+    yaw: float = ...
 
 class Undo(Command, frozen=True):
     """Take back the newest steps that changed displays, tools, settings or saved views.

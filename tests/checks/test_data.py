@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import itertools
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -15,7 +16,7 @@ import pytest
 from examining import HERE, SCAN, display, look
 
 import webviz
-from webviz import Finding, Severity, Symptom, Topic
+from webviz import Finding, Severity, Symptom, Topic, TryYaw
 from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.shell.testing.harness import Harness
@@ -31,6 +32,12 @@ from webviz_sim.pose import Pose2D
 
 ROBOT = """<robot name="r"><link name="map"><visual><geometry>
 <mesh filename="package://nowhere/part.stl"/></geometry></visual></link></robot>"""
+
+PROOF = {
+    "DATA001": r"\d+% of its points lie on walls of /map; turned by -90°, (9\d|100)% would\.",
+    "DATA003": r"\d+% of its points lie on walls of /map; moved by \(.*\) m, (9\d|100)% would\.",
+    "DATA004": r"\d+% of its points lie on walls of /map\.",
+}
 
 Make = Callable[..., Harness]
 
@@ -54,8 +61,19 @@ def test_scans_beside_the_map(webviz_harness: Make, id: str, pose: Pose2D, scan:
     found = examined(stage)
     assert [*found] == [f"{id} Scan"]
     assert found[f"{id} Scan"].explains == (Symptom(display(stage, "Scan"), "Map"),)
+    assert re.fullmatch(PROOF[id], found[f"{id} Scan"].proof)
     look(stage, HERE)
     assert examined(stage) == {}
+
+
+def test_the_button_of_a_turned_scan_tries_the_yaw_with_which_it_fits(
+    webviz_harness: Make,
+) -> None:
+    stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
+    look(stage, Pose2D(HERE.x, HERE.y, 0.3), building.scan(HERE))
+    (found,) = examined(stage).values()
+    assert isinstance(found.button, TryYaw)
+    assert (found.button.frame, found.button.yaw) == ("laser", pytest.approx(-0.3, abs=0.05))
 
 
 def test_a_mirrored_scan(webviz_harness: Make) -> None:
@@ -64,7 +82,9 @@ def test_a_mirrored_scan(webviz_harness: Make) -> None:
     measured = building.scan(here)
     upside_down = measured | {"ranges": np.roll(measured["ranges"][::-1], 1)}
     look(stage, here, upside_down)
-    assert [*examined(stage)] == ["DATA002 Scan"]
+    (found,) = examined(stage).values()
+    assert found.id == "DATA002"
+    assert "; mirrored, " in found.proof
     look(stage, here, upside_down, roll=math.pi)
     assert examined(stage) == {}
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import msgspec
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.page.conftest import Tab
-from webviz import Finding, OtherFixedFrame, Severity, Symptom
+from webviz import Finding, HideDisplays, OtherFixedFrame, Severity, Symptom, TryYaw
 from webviz.api.status import Level, Status
-from webviz.commands import Seek, SetFixedFrame
+from webviz.commands import Seek, SetFixedFrame, SetProperty, TryFrame
 from webviz.engine.doctor.findings import findings_store
 from webviz.engine.state import Row
 from webviz.features.latency.stages import BrowserLatency, Latency, Stage
@@ -28,6 +28,7 @@ MISSPELT = Finding(
     command="ros2 run tf2_tools view_frames",
     button=OtherFixedFrame("map"),
     explains=(Symptom("", "Fixed Frame"), Symptom("1", "Transform")),
+    proof="It is not one of 2 frames.",
     evidence={"fixed_frame": "mapp", "known": ("map", "odom")},
     began_s=100.0,
     first_ns=3_600_000_000_000,
@@ -39,6 +40,11 @@ NOTE = Finding(
     subject="eth0",
     severity=Severity.NOTE,
 )
+
+
+def severe(page: Page) -> Locator:
+    """The findings above a note."""
+    return page.locator(".wv-doctor > .wv-findings > .wv-finding")
 
 
 @pytest.fixture
@@ -70,17 +76,19 @@ def test_findings_have_causes_remedies_and_what_they_explain(panel: Tab) -> None
     expect(page.get_by_text("All is well")).to_be_visible()
     show(panel, MISSPELT, NOTE)
     expect(page.locator(".wv-finding-examined")).to_have_text("As of 1:00:07.")
-    expect(page.locator(".wv-finding")).to_have_count(2)
-    first = page.locator(".wv-finding").first
-    expect(first).to_contain_text('TF002The fixed frame "mapp" does not exist, but "map" does.')
-    expect(first).to_contain_text("Explains Fixed Frame, Scan: Transform.")
+    expect(severe(page)).to_have_count(1)
+    first = severe(page).first
+    cause = 'The fixed frame "mapp" does not exist, but "map" does.'
+    expect(first.locator("p").nth(1)).to_have_text(cause)
+    expect(first).to_contain_text("It is not one of 2 frames.")
+    expect(first).to_contain_text("Seen in Fixed Frame, Scan.")
     expect(first.locator("code").first).to_have_text("ros2 run tf2_tools view_frames")
-    expect(first).to_contain_text("Since 1:00:00. Evidence: fixed frame mapp; known map, odom.")
     first.get_by_role("button", name="Go to 0:01:40").click()
     panel.wait_for(lambda: panel.loop.commands[-1:] == [Seek(100.0)])
-    expect(page.locator(".wv-finding").last).to_contain_text(HOSTILE)
-    first.get_by_text("Why, and how to repair it").click()
+    first.get_by_role("button", name="Why, and how to repair it").click()
     expect(first.get_by_text("Everything is drawn in the fixed frame")).to_be_visible()
+    expect(first).to_contain_text("Measured: fixed frame mapp; known map, odom.")
+    expect(first).to_contain_text("Check TF002, since 1:00:00.")
     first.get_by_role("button", name="Use map").click()
     panel.wait_for(lambda: panel.loop.commands[-1:] == [SetFixedFrame("map")])
     show(panel)
@@ -96,29 +104,82 @@ def test_the_badge_counts_what_is_more_than_a_note(panel: Tab) -> None:
     show(panel, MISSPELT, NOTE)
     expect(badge).to_have_accessible_name("Doctor: 1 finding")
     badge.click()
-    expect(page.locator(".wv-finding")).to_have_count(2)
+    expect(severe(page)).to_have_count(1)
+
+
+def test_notes_are_folded(panel: Tab) -> None:
+    page = panel.page
+    show(panel, NOTE)
+    expect(page.get_by_text("All is well")).to_be_visible()
+    notes = page.get_by_role("list", name="Notes")
+    expect(notes).to_have_count(0)
+    page.get_by_role("button", name="1 note").click()
+    expect(notes.locator(".wv-finding")).to_contain_text(HOSTILE)
+    page.get_by_role("button", name="1 note").click()
+    expect(notes).to_be_hidden()
+    show(panel, NOTE, replace(NOTE, subject="eth1"))
+    expect(page.get_by_role("button", name="2 notes")).to_be_visible()
+
+
+def test_a_finding_shows_what_it_found_and_hides_what_draws_nothing(panel: Tab) -> None:
+    page = panel.page
+    turned = replace(NOTE, severity=Severity.WARNING, button=TryYaw("laser", -0.3))
+    show(panel, turned)
+    page.get_by_role("button", name="Show me").click()
+    panel.wait_for(lambda: panel.loop.commands[-1:] == [TryFrame("laser", -0.3)])
+    lacks = replace(turned, subject="bag", button=HideDisplays(("1", "2")))
+    show(panel, lacks)
+    page.get_by_role("button", name="Hide both").click()
+    hidden = [SetProperty(id, "enabled", False) for id in ("1", "2")]
+    panel.wait_for(lambda: panel.loop.commands[-2:] == hidden)
+    first, second = panel.loop.senders[-2:]
+    assert first.step == second.step != 0
+
+
+def test_a_cause_behind_several_displays_stands_above_them_once(panel: Tab) -> None:
+    page = panel.page
+    panel.show_tab("Displays")
+    show(panel, MISSPELT, NOTE)
+    causes = page.locator(".wv-causes > .wv-finding")
+    expect(causes).to_have_count(1)
+    expect(causes).to_contain_text("It is not one of 2 frames.")
+    scan = page.get_by_role("treeitem", name="Scan")
+    expect(scan.locator(".wv-tree-status")).to_be_hidden()
+    expect(scan).to_have_attribute("aria-description", MISSPELT.cause)
+    causes.get_by_role("button", name="Use map").click()
+    panel.wait_for(lambda: panel.loop.commands[-1:] == [SetFixedFrame("map")])
+    causes.get_by_role("button", name="Why?").click()
+    expect(severe(page).first).to_be_focused()
+    panel.show_tab("Displays")
+    own = replace(NOTE, severity=Severity.WARNING, explains=(Symptom("1", "Transform"),))
+    show(panel, own)
+    expect(causes).to_have_count(0)
+    expect(scan.locator(".wv-tree-status")).to_have_text(own.cause)
+    shared = [replace(MISSPELT, subject=str(number)) for number in range(4)]
+    show(panel, *shared)
+    expect(causes).to_have_count(2)
+    page.get_by_role("button", name="2 more causes").click()
+    expect(severe(page)).to_have_count(4)
 
 
 def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: Tab) -> None:
     page = panel.page
     panel.show_tab("Displays")
     other = replace(NOTE, severity=Severity.ERROR, explains=(Symptom("1", "Points"),))
-    show(panel, other, MISSPELT)
+    own = replace(MISSPELT, explains=(Symptom("1", "Transform"),), button=None)
+    show(panel, other, own)
     scan = page.get_by_role("treeitem", name="Scan")
-    link = scan.get_by_role("button", name="Cause: TF002")
+    link = scan.get_by_role("button", name=f"Why? {MISSPELT.cause}")
     expect(link).to_be_visible()
-    expect(page.get_by_role("button", name="Cause: TF002")).to_have_count(2)  # and of the viewer
     scan.get_by_role("button", name="Unfold Scan").click()
     lines = page.locator(".wv-statuses-lines > li")
     panel.wait_for(lambda: lines.count() == 2)
-    expect(lines).to_have_text(
-        ["Transform: No transform.Cause: TF002", "Points: No transform.Cause: NET005"]
-    )
+    expect(lines).to_have_text(["Transform: No transform.Why?", "Points: No transform.Why?"])
     lines.first.get_by_role("button").click()
-    led = page.locator(".wv-finding").nth(1)
+    led = severe(page).nth(1)
     expect(led).to_be_focused()
-    expect(page.locator(".wv-finding").first).to_contain_text("Fix this first:NET005")
-    led.get_by_role("button", name="Scan: Transform").click()
+    expect(severe(page).first).to_contain_text(f"Fix this first:{HOSTILE}")
+    led.get_by_role("button", name="Scan").click()
     expect(scan).to_have_attribute("aria-selected", "true")
     show(panel)
     expect(page.locator(".wv-finding-link")).to_have_count(0)

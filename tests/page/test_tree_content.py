@@ -51,7 +51,7 @@ def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
     remedy = Remedy("topic.name", "/front", "Use /front")
     statuses = {"Topic": Status(Level.WARN, "No publisher.", remedy), "Later": STATUSES["Topic"]}
     fields = {"display": "a", "path": "topic.name", "value": "/front"}
-    told = {"label": "Use /front", "command": "SetProperty", "arguments": fields}
+    told = {"label": "Use /front", "command": "SetProperty", "arguments": [fields]}
     assert row_of(make_row("a", statuses=statuses))["remedy"] == told
     statuses["Later"] = STATUSES["Transform"]
     assert "remedy" not in row_of(make_row("a", statuses=statuses)), "it would not help yet"
@@ -73,7 +73,7 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
     assert (shown["a"]["line"], shown["a"]["level"]) == ("", "error")
     assert shown["b"]["line"] == "No transform."
     assert shown_by("displays", State(rows=rows))["a"]["line"] == few.text
-    told = {"label": "Use odom", "command": "SetFixedFrame", "arguments": {"frame": "odom"}}
+    told = {"label": "Use odom", "command": "SetFixedFrame", "arguments": [{"frame": "odom"}]}
     state = State(rows=rows, statuses={"Fixed Frame": cause})
     assert shown_by("statuses", state, "a")["statuses"][1] == ["Transform", "error", own.text, told]
     assert shown_by("settings", state)["statuses"][0][3] == told

@@ -7,6 +7,7 @@ is a fault that no display finds alone. A display returns one of these from
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -122,3 +123,18 @@ class MapFit:
     map_topic: str
     map_frame: str
     is_placed: bool
+
+    @property
+    def proof(self) -> str:
+        """A sentence with the share of points on walls, as it is and as it would be."""
+        fit = self.fit
+        cure = ""
+        if fit.turn is not None:
+            cure = f"turned by {math.degrees(fit.turn):.0f}°"
+        elif fit.shift is not None:
+            x, y = fit.shift
+            cure = f"moved by ({x:.1f}, {y:.1f}) m"
+        elif fit.is_mirrored:
+            cure = "mirrored"
+        now = f"{fit.share:.0%} of its points lie on walls of {self.map_topic}"
+        return f"{now}; {cure}, {fit.cured:.0%} would." if cure else f"{now}."

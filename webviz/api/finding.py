@@ -90,6 +90,43 @@ class ChangeDisplay(NamedTuple):
         return self.remedy.label
 
 
+class HideDisplays(NamedTuple):
+    """Displays that draw nothing, which a click hides.
+
+    Args:
+        displays: their ids.
+    """
+
+    displays: tuple[str, ...]
+
+    @property
+    def label(self) -> str:
+        """Of the button that hides them."""
+        count = len(self.displays)
+        return "Hide it" if count == 1 else "Hide both" if count == 2 else f"Hide all {count}"
+
+
+class TryYaw(NamedTuple):
+    """A static frame that a click tries in another yaw, as "What if" does; nothing is published.
+
+    Args:
+        frame: its id.
+        yaw: rotation about its own z axis, in radians.
+    """
+
+    frame: str
+    yaw: float
+
+    @property
+    def label(self) -> str:
+        """Of the button that tries it."""
+        return "Show me"
+
+
+Button = ChangeDisplay | HideDisplays | OtherFixedFrame | TryYaw
+"""The change that a click on the button of a finding makes."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Finding:
     """One cause that a check has found.
@@ -98,11 +135,12 @@ class Finding:
         id: of the check, such as GRAPH003.
         cause: one sentence.
         remedy: what to do, a sentence.
+        proof: what was measured, a sentence; "" if the cause says it all.
         subject: the topic, frame, display or device it is about; a check has one finding for each.
         severity: whether anything is broken by it.
         evidence: what was observed, by name.
         command: to type in a terminal, "" if none repairs it.
-        button: a change of the viewer that repairs it, None if none does.
+        button: a change of the viewer that repairs it or shows it, None if none does.
         explains: the statuses that follow from it.
         causes: level of the symptoms that it comes before, if that affects more than its own; time
             that stands still is the cause of silent topics.
@@ -114,11 +152,12 @@ class Finding:
     id: str
     cause: str
     remedy: str
+    proof: str = ""
     subject: str = ""
     severity: Severity = Severity.WARNING
     evidence: Mapping[str, Fact] = field(default_factory=dict)
     command: str = ""
-    button: ChangeDisplay | OtherFixedFrame | None = None
+    button: Button | None = None
     explains: tuple[Symptom, ...] = ()
     causes: CauseLevel | None = None
     first_ns: int = field(default=0, compare=False)

@@ -99,6 +99,21 @@ def test_a_frame_is_found_and_returns(robot: Harness) -> None:
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + WRONG_X)
 
 
+def test_a_yaw_is_tried_and_the_fit_before_it_is_said(robot: Harness) -> None:
+    robot.clock += 1.1
+    robot.turn()
+    robot.viewer.snapshot()  # compares the scan as it is published
+    robot.do(TryFrame("laser", -WRONG_YAW))
+    assert to_rpy(mounting(robot).wxyz) == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert mounting(robot).position == (WRONG_X, 0.0, 0.2)
+    share(robot)
+    after, before = (int(each) for each in re.findall(r"(\d+)%", shown(robot).fits[0]))
+    assert before < 40 < after
+    robot.do(EndTrial())
+    with pytest.raises(Error, match="not a number"):
+        robot.do(TryFrame("laser", math.nan))
+
+
 def test_dragging_moves_what_hangs_below(robot: Harness) -> None:
     robot.do(TryFrame("laser"))
     ((key, (handle, _)),) = robot.viewer.snapshot().handles.items()

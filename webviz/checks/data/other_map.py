@@ -33,6 +33,7 @@ class OtherMap(Check):
                 f"The scan of '{found.frame}' does not fit the map.",
                 "Check that the map is of this place, and where the laser is mounted.",
                 subject=display.display.name,
+                proof=found.proof,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},
                 explains=display.symptom("Map"),
             )

@@ -80,6 +80,7 @@ class RobotMisplaced(Check):
                 else "Give the pose of the robot with the tool 2D Pose Estimate. If the scan is "
                 "off in another direction after a turn, correct the transform of its laser.",
                 subject=display.display.name,
+                proof=found.proof,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},
                 explains=display.symptom("Map"),
             )

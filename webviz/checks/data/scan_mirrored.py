@@ -33,6 +33,7 @@ class ScanMirrored(Check):
                 f"The scan of '{found.frame}' is mirrored against the map.",
                 f"Give '{found.frame}' a roll of 180° in the robot description.",
                 subject=display.display.name,
+                proof=found.proof,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},
                 explains=display.symptom("Map"),
             )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from webviz.api.check import Check
-from webviz.api.finding import Finding
+from webviz.api.finding import Finding, TryYaw
 from webviz.api.observation import Observation
 
 
@@ -33,7 +33,9 @@ class ScanTurned(Check):
             yield self.found(
                 f"The scan of '{found.frame}' is rotated by {-math.degrees(found.fit.turn):.0f}°.",
                 f"Correct the yaw of '{found.frame}' in the robot description.",
+                proof=found.proof,
                 subject=display.display.name,
                 evidence={"share": found.fit.share, "cured": found.fit.cured},
                 explains=display.symptom("Map"),
+                button=TryYaw(found.frame, found.fit.turn),
             )

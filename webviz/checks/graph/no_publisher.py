@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from webviz.api.check import Check
-from webviz.api.finding import ChangeDisplay, Finding
-from webviz.api.observation import Observation
+from webviz.api.finding import ChangeDisplay, Finding, HideDisplays
+from webviz.api.observation import DisplaySeen, InputSeen, Observation
 from webviz.api.status import Remedy
 from webviz.checks.graph.names import suggested
 from webviz.data.words import joined
+
+LISTED = 4
+"""Topics that the sentence names."""
 
 
 class NoPublisher(Check):
     """Topic without a publisher.
 
     A display subscribes to a topic that no node publishes, and no topic of its type has a similar
-    name.
+    name. Displays of a bag that lacks their topics are one finding.
 
     Why:
         A subscription without a publisher is valid in ROS: it waits, and nothing reports an error.
@@ -31,17 +34,24 @@ class NoPublisher(Check):
     id = "GRAPH010"
 
     def find(self, seen: Observation) -> Iterator[Finding]:
-        """Yield a finding for each topic without a publisher."""
-        for display, each, offer in seen.starved():
-            if offer.publishers or offer.problem or each.received or suggested(display, each):
-                continue
+        """Yield a finding for each topic without a publisher, one for all of a bag."""
+        found = [
+            (display, each)
+            for display, each, offer in seen.starved()
+            if not (offer.publishers or offer.problem or each.received or suggested(display, each))
+        ]
+        if seen.is_recorded and len({display.id for display, _ in found}) > 1:
+            yield self._missing(found)
+            return
+        hiding = seen.environment.local_only if seen.environment else ""
+        for display, each in found:
             status = display.problem(each.status)
             remedy = status and status.remedy
-            hiding = seen.environment.local_only if seen.environment else ""
+            change = ChangeDisplay(display.id, remedy) if isinstance(remedy, Remedy) else None
             place = "The bag has no messages on" if seen.is_recorded else "No node publishes"
             yield self.found(
                 f"{place} {each.topic}.",
-                "Choose another topic."
+                "Choose another topic, or hide the display."
                 if seen.is_recorded
                 else joined(
                     "Start the node that publishes it, or choose another topic.",
@@ -50,6 +60,20 @@ class NoPublisher(Check):
                 subject=each.topic,
                 evidence={"topic": each.topic, "types": each.types},
                 command=f"ros2 topic find {each.types[0]}",
-                button=ChangeDisplay(display.id, remedy) if isinstance(remedy, Remedy) else None,
+                button=change or (HideDisplays((display.id,)) if seen.is_recorded else None),
                 explains=display.symptom(each.status),
             )
+
+    def _missing(self, found: Sequence[tuple[DisplaySeen, InputSeen]]) -> Finding:
+        """Return the one finding for all topics that a bag lacks."""
+        ids = tuple(dict.fromkeys(display.id for display, _ in found))
+        topics = tuple(dict.fromkeys(each.topic for _, each in found))
+        more = f" and {len(topics) - LISTED} more" if len(topics) > LISTED else ""
+        return self.found(
+            f"{len(ids)} displays read topics that this bag lacks.",
+            "Choose other topics, or hide the displays.",
+            proof=f"It has no messages on {', '.join(topics[:LISTED])}{more}.",
+            evidence={"topics": topics},
+            button=HideDisplays(ids),
+            explains=tuple(s for display, each in found for s in display.symptom(each.status)),
+        )

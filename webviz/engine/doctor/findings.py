@@ -8,10 +8,10 @@ import msgspec
 
 from webviz.api.check import CheckText
 from webviz.api.check_registry import known_checks
-from webviz.api.finding import ChangeDisplay, Fact, Finding, Severity
-from webviz.api.status import Level, Status
+from webviz.api.finding import ChangeDisplay, Fact, Finding, HideDisplays, Severity, TryYaw
+from webviz.api.status import Level, OtherFixedFrame, Status
 from webviz.engine.forms import brief
-from webviz.engine.parts.status_lines import RemedyButton, remedy_of
+from webviz.engine.parts.status_lines import RemedyButton, button, remedy_of
 from webviz.engine.store import PageStore
 
 NS_PER_S = 1e9
@@ -53,6 +53,7 @@ class ShownFinding(msgspec.Struct, frozen=True):
     since: float | None
     evidence: Sequence[tuple[str, str]]
     began: tuple[float, float] | None
+    proof: str
     remedy: str
     command: str
     explains: Sequence[ExplainedStatus]
@@ -100,6 +101,7 @@ def _finding(finding: Finding, names: Mapping[str, str], start_s: float) -> Show
             (name.replace("_", " "), brief(_fact(v))) for name, v in finding.evidence.items()
         ],
         began=None if began_s is None else (round(start_s + began_s, 3), round(began_s, 3)),
+        proof=brief(finding.proof),
         remedy=brief(finding.remedy),
         command=brief(finding.command),
         explains=[
@@ -122,11 +124,19 @@ def _fact(value: Fact) -> str:
 
 
 def _button(finding: Finding) -> RemedyButton | None:
-    """Return the change that repairs it, as for statuses."""
-    button = finding.button
-    if isinstance(button, ChangeDisplay):
-        return remedy_of(Status(Level.WARN, "", button.remedy), button.display)
-    return remedy_of(Status(Level.WARN, "", button), "") if button else None
+    """Return the button that repairs or shows it."""
+    match finding.button:
+        case None:
+            return None
+        case ChangeDisplay(display, remedy):
+            return remedy_of(Status(Level.WARN, "", remedy), display)
+        case HideDisplays(displays) as hide:
+            hidden = {"path": "enabled", "value": False}
+            return button(hide.label, "SetProperty", *({"display": id} | hidden for id in displays))
+        case TryYaw(frame, yaw) as trial:
+            return button(trial.label, "TryFrame", {"frame": frame, "yaw": yaw})
+        case OtherFixedFrame() as other:
+            return remedy_of(Status(Level.WARN, "", other), "")
 
 
 def _texts(id: str) -> tuple[Sequence[str], Sequence[str]]:

@@ -28,12 +28,13 @@ class RemedyButton(msgspec.Struct, frozen=True):
 
     Args:
         label: of the button.
-        command, arguments: sent by it.
+        command: sent by it.
+        arguments: those of each time that it is sent; all are undone together.
     """
 
     label: str
     command: str
-    arguments: Mapping[str, Any]
+    arguments: Sequence[Mapping[str, Any]]
 
 
 class StatusLine(msgspec.Struct, frozen=True, array_like=True):
@@ -79,7 +80,12 @@ def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> Rem
     else:
         command = "SetProperty"
         fields = {"display": display, "path": remedy.path, "value": remedy.value}
-    return RemedyButton(str(sendable(remedy.label)), command, sendable(fields))
+    return button(remedy.label, command, fields)
+
+
+def button(label: str, command: str, *arguments: Mapping[str, Any]) -> RemedyButton:
+    """Return a button as pages get it, of a command that it sends with each of these arguments."""
+    return RemedyButton(str(sendable(label)), command, [sendable(each) for each in arguments])
 
 
 def follows(status: Status, cause: Status) -> bool:

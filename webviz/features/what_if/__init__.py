@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 
 from webviz.api.errors import Error
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
 from webviz.api.roles import Role
-from webviz.data.rotations import conjugate, w_last
+from webviz.data.rotations import conjugate, from_rpy, w_last
 from webviz.data.transforms import TransformException
 from webviz.data.transforms.pinned import is_pinned, pin, unpin
 from webviz.data.transforms.tree import ancestors
@@ -34,7 +35,7 @@ class WhatIfStore(PageStore, frozen=True):
 
     Args:
         frame, parent: ids.
-        fits: how well each scan of the frame lies on walls, sentences.
+        fits: how well each scan of the frame lies on walls, and did before, sentences.
         urdf: the origin of its joint in a URDF.
         command: publishes it as a static transform.
         browser: that tries it, None for a program.
@@ -58,6 +59,8 @@ class WhatIfFeature(Feature):
         super().__init__(core)
         self._trial: FrameTrial | None = None
         self._browser: int | None = None
+        self._shares: Mapping[str, float] = {}
+        """Of points on walls before the trial, by the ids of displays."""
 
     @property
     def _displays(self) -> DisplaysPart:
@@ -84,7 +87,7 @@ class WhatIfFeature(Feature):
             parent=trial.parent,
             fits=[
                 f"{names[id]}: {fit.fit.share:.0%} of {fit.fit.points} points on walls of "
-                f"{fit.map_topic}"
+                f"{fit.map_topic}{self._before(id)}"
                 for id, fit in self._displays.consistency.fits.items()
                 if id in names and self._carries(fit.frame)
             ],
@@ -97,9 +100,20 @@ class WhatIfFeature(Feature):
         """End the trial."""
         self._leave()
 
+    def _before(self, display: str) -> str:
+        share = self._shares.get(display)
+        return "" if share is None else f" ({share:.0%} before)"
+
     @command(Role.OPERATOR)
-    def try_frame(self, frame: str, sender: Sender) -> None:
-        """Take hold of a static frame; another one that is tried returns to its place."""
+    def try_frame(self, frame: str, sender: Sender, yaw: float = 0.0) -> None:
+        """Take hold of a static frame; another one that is tried returns to its place.
+
+        Args:
+            frame: its id.
+            yaw: by which it is turned about its own z axis at first, in radians.
+        """
+        if not math.isfinite(yaw):
+            raise Error("The yaw is not a number. Give it in radians.")
         self._leave()
         buffer = self.core.buffer
         link = buffer.link(frame)
@@ -110,7 +124,8 @@ class WhatIfFeature(Feature):
             raise Error(f"'{frame}' is too far away, or its pose is not finite.")
         trial = FrameTrial(frame, link.parent, pose, pose, self._move)
         self._trial, self._browser = trial, sender.browser
-        self._move(pose)
+        self._shares = {id: fit.fit.share for id, fit in self._displays.consistency.fits.items()}
+        self._move(compose(pose, Pose(wxyz=from_rpy(0.0, 0.0, yaw))) if yaw else pose)
         self._displays.list.aids[:] = [
             Runner(ID, FrameHandle(trial=trial), self._displays.services)
         ]

@@ -6,9 +6,10 @@ import { copyAndTell } from "../../clipboard.js";
 import { el, set, setText } from "../../dom.js";
 import { textButton } from "../../icons.js";
 import { overlay } from "../../overlay/overlay.js";
+import { doctorSection } from "../../panels/doctor_sections.js";
 import { frameAction } from "../../panels/frame_actions.js";
 import { command } from "../../commands.js";
-import { watch } from "../../stores.js";
+import { store, watch } from "../../stores.js";
 import * as registry from "../../tools/registry.js";
 
 const BESIDE =
@@ -31,6 +32,17 @@ export function install() {
     run: tryFrame,
   });
   overlay("scene", "what if", banner());
+  doctorSection(() => ({ element: warning(), close() {} }));
+}
+
+/** Says in the doctor that it examines what is tried. */
+function warning() {
+  const frame = () => store("what_if").get("frame");
+  return el(
+    "p",
+    { class: "wv-quiet", hidden: () => frame() === undefined },
+    () => `${frame()} is tried in another pose: these are the findings with it.`,
+  );
 }
 
 /** The banner; hidden while no frame is tried. */

@@ -175,7 +175,7 @@ export interface Person {
 export interface RemedyButton {
   label: string;
   command: string;
-  arguments: Record<string, unknown>;
+  arguments: Array<Record<string, unknown>>;
 }
 
 export interface ReportedThing {
@@ -241,6 +241,7 @@ export interface ShownFinding {
   since: number | null;
   evidence: Array<[string, string]>;
   began: [number, number] | null;
+  proof: string;
   remedy: string;
   command: string;
   explains: Array<ExplainedStatus>;

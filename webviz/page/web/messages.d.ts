@@ -257,7 +257,7 @@ export interface Commands {
   StepMessage: { topic?: string; is_forward?: boolean };
   StopRecording: Record<string, never>;
   StopSharing: Record<string, never>;
-  TryFrame: { frame: string };
+  TryFrame: { frame: string; yaw?: number };
   Undo: { steps?: number; own?: boolean };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
   UseWidget: { panel: string; widget: string; value?: boolean | string | null };

@@ -56,7 +56,7 @@ def explanation(state: State, display: str = "") -> Iterator[str]:
 def _findings(findings: Sequence[Finding], names: dict[str, str]) -> Iterator[str]:
     yield "Findings, in the order of repair:" if findings else "The doctor found no problems."
     for each in findings:
-        told = f"{each.severity.name} {each.id}: {joined(each.cause, each.remedy)}"
+        told = f"{each.severity.name} {each.id}: {joined(each.cause, each.proof, each.remedy)}"
         command = f" Command: `{each.command}`." if each.command else ""
         explained = [f"{names.get(s.display, 'viewer')}/{s.status}" for s in each.explains]
         yield told + command + (f" Explains {', '.join(explained)}." if explained else "")

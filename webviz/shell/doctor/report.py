@@ -49,6 +49,7 @@ class ReportedFinding(msgspec.Struct, kw_only=True):
     severity: Annotated[str, Meta(description="error, warning or note; a note breaks nothing.")]
     subject: Annotated[str, Meta(description="The topic, frame or device that it is about.")]
     cause: Annotated[str, Meta(description="One sentence.")]
+    proof: Annotated[str, Meta(description='What was measured, a sentence; "" for none.')] = ""
     remedy: Annotated[str, Meta(description="What to do, a sentence.")]
     command: Annotated[str, Meta(description='To type in a terminal; "" if there is none.')]
     evidence: Annotated[Mapping[str, Fact], Meta(description="What was observed, by name.")]
@@ -138,6 +139,7 @@ def report_of(
                 severity=each.severity.name.lower(),
                 subject=each.subject,
                 cause=each.cause,
+                proof=each.proof,
                 remedy=each.remedy,
                 command=each.command,
                 evidence=dict(each.evidence),
@@ -190,6 +192,8 @@ def _lines(report: DoctorReport, is_colored: bool) -> Iterator[str]:
     for finding in report.findings:
         head = f"{paint(finding.severity, finding.severity)}[{paint(finding.id, 'id')}]"
         yield f"{head}: {finding.cause}"
+        if finding.proof:
+            yield from _wrapped("  measured: ", finding.proof)
         yield from _wrapped("  help: ", finding.remedy)
         if finding.command:
             yield f"        $ {finding.command}"

@@ -3,128 +3,158 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { copyAndTell } from "../clipboard.js";
-import { el, set, setText } from "../dom.js";
+import { disclosure } from "../controls/disclosure.js";
+import { el } from "../dom.js";
 import { iconButton, textButton } from "../icons.js";
 import { timeOfDay } from "../time_text.js";
 import { openPanel } from "../docks/layout.js";
-import { watch } from "../stores.js";
+import { computed, each, effect, signal } from "../signals.js";
+import { store } from "../stores.js";
 import { GLOBAL } from "./displays/model.js";
 import * as selection from "./displays/selection.js";
 import { remedyButton } from "./displays/statuses.js";
 import { doctorSections } from "./doctor_sections.js";
 import { isSevere, keyOf, takeWanted } from "./findings.js";
 
+/** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
+/** @import {Readable} from "../signals.js" */
+/** @import {Panel} from "../types.js" */
+
 const WELL = "All is well: no check found a problem.";
 const EXAMINING = "The doctor examines the viewer.";
+const LISTED = 3; // displays that a finding names at once
 
-/** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
+const findings = store("findings");
 
+/** @type {Panel} */
 export const doctor = {
   name: "doctor",
   title: "Doctor",
   order: 60,
   isOnDemand: true,
-  /** @param {HTMLElement} element */
   open(element) {
-    const list = el("ol", { class: "wv-findings", "aria-label": "Findings" });
-    const empty = el("p", { class: "wv-empty", role: "status" }, EXAMINING);
-    const examined = el("p", { class: "wv-quiet wv-finding-examined" });
+    const all = () => findings.get("all") ?? [];
+    const severe = computed(() => all().filter(isSevere));
+    const notes = computed(() => all().filter((one) => !isSevere(one)));
+    const at = () => findings.get("examined") ?? null;
     const sections = doctorSections.map((make) => make());
+    const list = listOf("Findings", () => severe.value);
+    const count = () => notes.value.length;
+    const isUnfolded = signal(false);
+    const isExamined = computed(() => at() !== null);
     element.append(
       el(
         "section",
         { class: "wv-doctor", "aria-label": "Doctor" },
-        empty,
-        examined,
+        el(
+          "p",
+          { class: "wv-doctor-well", role: "status", hidden: () => severe.value.length > 0 },
+          () => (isExamined.value ? WELL : EXAMINING),
+        ),
         list,
+        disclosure(
+          el("span", {}, () => (count() === 1 ? "1 note" : `${count()} notes`)),
+          () => listOf("Notes", () => notes.value),
+          { class: "wv-doctor-notes", hidden: () => count() === 0 },
+          isUnfolded,
+        ),
+        el(
+          "p",
+          { class: "wv-quiet wv-finding-examined", hidden: () => !isExamined.value },
+          () => `As of ${clock(at() ?? 0)}.`,
+        ),
         sections.map(({ element: section }) => section),
       ),
     );
-    /** @type {Set<string>} */
-    const unfolded = new Set();
-    let shown = "";
-
-    const end = watch("findings", (values) => {
-      const all = values.get("all") ?? [];
-      const at = values.get("examined") ?? null;
-      set(empty, { hidden: all.length > 0 });
-      setText(empty, at === null ? EXAMINING : WELL);
-      set(examined, { hidden: at === null });
-      setText(examined, at === null ? "" : `As of ${clock(at)}.`);
-      if (JSON.stringify(all) === shown) return;
-      shown = JSON.stringify(all);
-      const isFirst = all.filter(isSevere).length > 1;
-      list.replaceChildren(...all.map((one, i) => item(one, unfolded, isFirst && i === 0)));
+    effect(() => {
+      if (!all().length) return;
       const key = takeWanted();
-      const led = [...list.children].find((each) => each.getAttribute("data-finding") === key);
-      if (led instanceof HTMLElement) led.focus();
+      if (notes.value.some((one) => keyOf(one) === key)) isUnfolded.value = true;
+      const made = /** @type {NodeListOf<HTMLElement>} */ (element.querySelectorAll(".wv-finding"));
+      [...made].find((one) => one.dataset.finding === key)?.focus();
     });
     return () => {
-      end();
       for (const { close } of sections) close();
     };
   },
 };
 
 /**
- * @param {ShownFinding} finding
- * @param {Set<string>} unfolded
- * @param {boolean} isFirst whether it is to be repaired before others
+ * @param {string} label
+ * @param {() => ShownFinding[]} shown
  */
-function item(finding, unfolded, isFirst) {
-  const { id, level, cause, since, evidence, began, remedy, command } = finding;
-  const { explains, button, why, repair } = finding;
-  const key = keyOf(finding);
-  const more = el(
-    "details",
-    { open: unfolded.has(key) },
-    el("summary", {}, "Why, and how to repair it"),
-    ...[...why, ...repair].map(paragraph),
+const listOf = (label, shown) =>
+  el(
+    "ol",
+    { class: "wv-findings", "aria-label": label },
+    each(shown, keyOf, (finding, key) =>
+      card(finding, key, () => {
+        const [first, second] = shown();
+        return isSevere(first) && second !== undefined && keyOf(first) === key;
+      }),
+    ),
   );
-  more.addEventListener("toggle", () => unfolded[more.open ? "add" : "delete"](key));
+
+/**
+ * @param {Readable<ShownFinding>} finding
+ * @param {string} key
+ * @param {() => boolean} isFirst whether it is to be repaired before others
+ */
+function card(finding, key, isFirst) {
+  const of = (/** @type {(one: ShownFinding) => unknown} */ read) =>
+    computed(() => JSON.stringify(read(finding.value)));
+  const button = of((one) => one.button);
+  const began = of((one) => one.began);
+  const explains = of((one) => one.explains);
+  const text = (/** @type {"cause" | "proof" | "remedy"} */ name) => () => finding.value[name];
   return el(
     "li",
-    { class: "wv-finding", "data-level": level, "data-finding": key, tabindex: -1 },
-    isFirst ? el("p", { class: "wv-quiet" }, "Fix this first:") : "",
+    {
+      class: "wv-finding",
+      "data-level": () => finding.value.level,
+      "data-finding": key,
+      tabindex: -1,
+    },
+    el("p", { class: "wv-quiet", hidden: () => !isFirst() }, "Fix this first:"),
+    el("p", { class: "wv-finding-cause" }, text("cause")),
+    el("p", { hidden: () => !finding.value.proof }, text("proof")),
+    el("p", {}, text("remedy")),
+    () => (finding.value.command ? typed(finding.value.command) : null),
     el(
       "div",
-      { class: "wv-finding-head" },
-      el("span", { class: "wv-dot" }),
-      el("b", {}, id),
-      el("span", {}, cause),
+      { class: "wv-finding-acts", hidden: () => button.value === "null" && began.value === "null" },
+      () => (button.value === "null" ? null : remedyButton(JSON.parse(button.value))),
+      () => (began.value === "null" ? null : goTo(JSON.parse(began.value))),
     ),
-    el("p", {}, remedy),
-    command ? typed(command) : "",
-    button || began
-      ? el(
-          "div",
-          { class: "wv-finding-acts" },
-          button ? remedyButton(button) : "",
-          began ? goTo(began) : "",
-        )
-      : "",
-    since || evidence.length ? el("p", { class: "wv-quiet" }, seen(since, evidence)) : "",
-    explains.length
-      ? el("p", { class: "wv-quiet" }, "Explains ", ...explains.flatMap(explained), ".")
-      : "",
-    more,
+    () => seenIn(JSON.parse(explains.value)),
+    disclosure("Why, and how to repair it", () => reasons(finding)),
   );
+}
+
+/**
+ * The documentation of a finding, what was measured, and the id by which others know it.
+ *
+ * @param {Readable<ShownFinding>} finding
+ */
+function reasons(finding) {
+  const { id, why, repair } = finding.value;
+  const facts = () => finding.value.evidence.map(([name, value]) => `${name} ${value}`);
+  return [
+    ...[...why, ...repair].map(paragraph),
+    el(
+      "p",
+      { class: "wv-quiet", hidden: () => !facts().length },
+      () => `Measured: ${facts().join("; ")}.`,
+    ),
+    el("p", { class: "wv-quiet" }, () => {
+      const { since } = finding.value;
+      return `Check ${id}${since === null ? "" : `, since ${clock(since)}`}.`;
+    }),
+  ];
 }
 
 /** @param {number} at in seconds since 1970 */
 const clock = (at) => timeOfDay(at).split(" ").at(-1);
-
-/**
- * @param {number | null} since when it was first seen
- * @param {ReadonlyArray<readonly [string, string]>} evidence
- */
-function seen(since, evidence) {
-  const time = since === null ? "" : `Since ${clock(since)}. `;
-  return time + (evidence.length ? `Evidence: ${evidence.map(fact).join("; ")}.` : "");
-}
-
-/** @param {readonly [string, string]} evidence a name and a value */
-const fact = ([name, value]) => `${name} ${value}`;
 
 /**
  * The button that shows the moment at which a finding began.
@@ -132,21 +162,25 @@ const fact = ([name, value]) => `${name} ${value}`;
  * @param {readonly [number, number]} began in seconds since 1970, and from the start
  */
 function goTo([at, position]) {
-  const text = `Go to ${clock(at)}`;
   const onclick = () => act("Seek", { at_s: position });
-  return needs("Seek", textButton(text, onclick));
+  return needs("Seek", textButton(`Go to ${clock(at)}`, onclick));
 }
 
 /**
- * A status that a finding explains, with a link to its display.
+ * Links to the displays whose statuses a finding explains; of many, the first ones and their number.
  *
- * @param {ExplainedStatus} status
- * @param {number} index
+ * @param {ExplainedStatus[]} explains
  */
-function explained({ display, status, name }, index) {
-  const link = el("button", { type: "button", class: "wv-link", onclick: () => show(display) });
-  setText(link, name ? `${name}: ${status}` : status);
-  return index ? [", ", link] : [link];
+function seenIn(explains) {
+  const displays = new Map(explains.map((one) => [one.display, one]));
+  if (!displays.size) return null;
+  const some = [...displays.values()].slice(0, LISTED);
+  const links = some.flatMap(({ display, status, name }, index) => {
+    const link = textButton(name || status, () => show(display), { class: "wv-link" });
+    return index ? [", ", link] : [link];
+  });
+  const more = displays.size - some.length;
+  return el("p", { class: "wv-quiet" }, "Seen in ", links, more ? ` and ${more} more.` : ".");
 }
 
 /** @param {string} display */
@@ -164,12 +198,10 @@ const paragraph = (text) => (text.startsWith("    ") ? typed(text.trim()) : el("
 
 /** @param {string} command */
 function typed(command) {
-  const made = el("code", { class: "wv-finding-command" });
-  setText(made, command);
   return el(
     "div",
     { class: "wv-finding-typed" },
-    made,
+    el("code", { class: "wv-finding-command" }, command),
     iconButton("copy", "Copy the command", () => copyAndTell(command), { tip: "Copy" }),
   );
 }

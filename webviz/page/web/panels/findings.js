@@ -23,6 +23,21 @@ export const isSevere = ({ level }) => level !== "ok";
  */
 export const keyOf = ({ id, subject }) => `${id} ${subject}`;
 
+/** The displays whose statuses a finding explains, the viewer as a whole being "". @param {ShownFinding} finding */
+const displaysOf = ({ explains }) => new Set(explains.map(({ display }) => display));
+
+/**
+ * Returns true if a finding is behind statuses of several displays, or of the viewer: it is said once
+ * for all of them.
+ *
+ * @param {ShownFinding} finding
+ */
+export const isShared = (finding) =>
+  isSevere(finding) && (displaysOf(finding).size > 1 || displaysOf(finding).has(""));
+
+/** The findings that are said once for several displays; read in effects. */
+export const shared = () => (findings.get("all") ?? []).filter(isShared);
+
 /**
  * The finding to repair first of those that explain a status, or any status of the display without
  * one; read in effects. The viewer as a whole is the display "".
@@ -49,10 +64,10 @@ export function findingLink(finding) {
     wanted = keyOf(finding);
     openPanel("doctor");
   };
-  return textButton(`Cause: ${finding.id}`, open, {
+  return textButton("Why?", open, {
     class: "wv-link wv-finding-link",
+    "aria-label": `Why? ${finding.cause}`,
     "data-finding": keyOf(finding),
-    tip: finding.cause,
   });
 }
 

@@ -9,6 +9,7 @@ import { command } from "../../commands.js";
 import { keyText } from "../../keys.js";
 import { openMenuBelow } from "../../controls/menu.js";
 import * as actions from "./actions.js";
+import { causes } from "../causes.js";
 import { buildDetails } from "./details.js";
 import * as folding from "./folding.js";
 import { topmost } from "./model.js";
@@ -56,6 +57,7 @@ export const displays = {
         el("div", { class: "wv-tree-search" }, field, hint),
         more,
       ),
+      causes(),
       tree.element,
       details.element,
     );

@@ -6,7 +6,7 @@ import { icon } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
 import { effect, signal } from "../../signals.js";
 import { watch } from "../../stores.js";
-import { explaining } from "../findings.js";
+import { explaining, isSevere, isShared } from "../findings.js";
 import { properties } from "./properties.js";
 import { fillHelp } from "./statuses.js";
 
@@ -128,7 +128,6 @@ export function makeRow(first, look) {
       "aria-posinset": position,
       "aria-setsize": count,
       "aria-label": text,
-      "aria-describedby": said ? line.id : null,
       "aria-checked": isGlobal ? null : String(enabled),
       tabindex: isTabStop ? 0 : -1,
       "data-off": !item.isActive,
@@ -144,8 +143,6 @@ export function makeRow(first, look) {
     setText(name, text);
     set(more, { "aria-label": `Actions for ${text}` });
     set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
-    setText(line, said);
-    set(line, { "data-tip": said || null, hidden: !said });
     // A group repeats a status of a display in it.
     shown.value = {
       said,
@@ -167,7 +164,22 @@ export function makeRow(first, look) {
   // Without a line the viewer says it on top, or the group's displays do.
   const forget = effect(() => {
     const { said, status, remedy: own } = shown.value;
-    fillHelp(remedy, said ? own : null, said ? explaining(isGlobal ? "" : id, status) : undefined);
+    const finding = said ? explaining(isGlobal ? "" : id, status) : undefined;
+    const cause = finding && isSevere(finding) ? finding.cause : "";
+    // One that is behind several displays stands above all of them, once.
+    const isAbove = finding !== undefined && isShared(finding);
+    setText(line, cause || said);
+    set(line, { "data-tip": cause ? null : said || null, hidden: !said || isAbove });
+    line.toggleAttribute("data-cause", cause !== "");
+    set(row, {
+      "aria-describedby": said && !isAbove ? line.id : null,
+      "aria-description": isAbove ? cause : null,
+    });
+    fillHelp(
+      remedy,
+      said && !isAbove ? (finding?.button ?? own) : null,
+      isAbove ? undefined : finding,
+    );
   });
   return { element, row, name, update, close };
 }

@@ -1,7 +1,7 @@
 // Statuses of a display, or of the viewer: a line each, folded to the worst.
 
 import { needs } from "../../access.js";
-import { act } from "../../act.js";
+import { act, newStep } from "../../act.js";
 import { el, newId, set } from "../../dom.js";
 import { icon, textButton } from "../../icons.js";
 import { computed, each, effect, signal } from "../../signals.js";
@@ -11,26 +11,29 @@ import { explaining, findingLink, keyOf } from "../findings.js";
 /** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
 
 /**
- * Sends a command that a remedy names.
+ * Sends a command that a remedy names with each of its arguments, as one step to undo.
  *
- * @param {string} command
- * @param {RemedyButton["arguments"]} fields
+ * @param {RemedyButton} remedy
  */
-const run = (command, fields) =>
-  act(
-    /** @type {keyof Commands} */ (command),
-    /** @type {Commands[keyof Commands]} */ (/** @type {object} */ (fields)),
-  );
+function run({ command, arguments: all }) {
+  const step = all.length > 1 ? newStep() : 0;
+  for (const fields of all)
+    act(
+      /** @type {keyof Commands} */ (command),
+      /** @type {Commands[keyof Commands]} */ (/** @type {object} */ (fields)),
+      { step },
+    );
+}
 
 /**
  * A button that does what helps.
  *
  * @param {RemedyButton} remedy
  */
-export const remedyButton = ({ label, command, arguments: fields }) =>
+export const remedyButton = (remedy) =>
   needs(
-    command,
-    textButton(label, () => run(command, fields), { class: "wv-button wv-remedy" }),
+    remedy.command,
+    textButton(remedy.label, () => run(remedy), { class: "wv-button wv-remedy" }),
   );
 
 /**

@@ -1,0 +1,44 @@
+// The causes behind the statuses of several displays, each said once above the list of displays.
+
+import { el } from "../dom.js";
+import { textButton } from "../icons.js";
+import { openPanel } from "../docks/layout.js";
+import { computed, each } from "../signals.js";
+import { remedyButton } from "./displays/statuses.js";
+import { findingLink, keyOf, shared } from "./findings.js";
+
+/** @import {ShownFinding} from "../contents.js" */
+/** @import {Readable} from "../signals.js" */
+
+const LISTED = 2; // the doctor has the others
+
+export function causes() {
+  const more = () => shared().length - LISTED;
+  const text = () => (more() === 1 ? "1 more cause" : `${more()} more causes`);
+  const others = textButton("", () => openPanel("doctor"), { class: "wv-link" });
+  others.append(el("span", {}, text));
+  return el(
+    "div",
+    { class: "wv-causes", role: "status", hidden: () => !shared().length },
+    each(() => shared().slice(0, LISTED), keyOf, card),
+    el("div", { hidden: () => more() <= 0 }, others),
+  );
+}
+
+/** @param {Readable<ShownFinding>} finding */
+function card(finding) {
+  const button = computed(() => JSON.stringify(finding.value.button));
+  const cause = computed(() => finding.value.cause);
+  return el(
+    "div",
+    { class: "wv-finding", "data-level": () => finding.value.level },
+    el("p", { class: "wv-finding-cause" }, cause),
+    el("p", { hidden: () => !finding.value.proof }, () => finding.value.proof),
+    el(
+      "div",
+      { class: "wv-finding-acts" },
+      () => (button.value === "null" ? null : remedyButton(JSON.parse(button.value))),
+      () => cause.value && findingLink(finding.value),
+    ),
+  );
+}
