@@ -93,14 +93,21 @@ def test_a_click_opens_the_list_and_another_chooses(frames: Bench) -> None:
 def test_the_list_is_searched_by_typing_and_walked_by_arrow_keys(frames: Bench) -> None:
     frames.field().focus()
     frames.keyboard.type("B")
-    assert frames.options() == ["base_link"]
-    frames.keyboard.press("ArrowDown")
-    frames.keyboard.press("Enter")
+    assert frames.options() == ["base_link", "“B”\nas typed"]
+    frames.keyboard.press("Enter")  # what is marked
     assert frames.entered() == ["base_link"]
     frames.keyboard.press("ArrowDown")
     frames.keyboard.press("ArrowDown")
     frames.keyboard.press("Enter")
     assert frames.entered() == ["base_link", "map"]
+
+
+def test_the_text_itself_is_below_the_option_that_begins_with_it(frames: Bench) -> None:
+    frames.field().focus()
+    frames.keyboard.type("base_l")
+    frames.keyboard.press("ArrowDown")
+    frames.keyboard.press("Enter")
+    assert frames.entered() == ["base_l"]
 
 
 def test_any_text_may_be_typed(frames: Bench) -> None:
@@ -151,7 +158,7 @@ def test_what_somebody_else_changes_waits_while_one_types(frames: Bench) -> None
     frames.keyboard.type("x")
     frames.update(value="odom", options=[*FRAMES, {"value": "x1"}])
     assert frames.field().input_value() == "x"
-    assert frames.options() == ["x1"]
+    assert frames.options() == ["x1", "“x”\nas typed"]
     frames.keyboard.press("Escape")
     frames.wait_for_text("odom")
 

@@ -28,6 +28,7 @@ from webviz.commands import (
 from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, Traffic
 from webviz.scene.server import Server
+from webviz_displays.grid import Grid
 
 MakeRow = Callable[..., Row]
 LOST = {"Topic": Status(Level.ERROR, "No publisher on /scan. Start the laser driver.")}
@@ -49,6 +50,18 @@ def test_rows_stand_in_order_below_the_global_options(
     tree.wait_for_names("c", "b", "a")
     assert [tree.box(name).is_checked() for name in "cba"] == [False, True, True]
     assert "map, 60 Hz" in tree.row("Global Options").inner_text()
+
+
+def test_an_id_of_another_display_gets_its_icon(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
+    """As when a viewer starts again with another config under an open page."""
+    icon = tree.row("a").locator(".wv-tree-type").first
+    loop.show(make_row("a"))
+    tree.wait_for_names("a")
+    assert icon.get_attribute("data-icon") == "plug"
+    loop.show(Row("a", "Grid", Grid(name="a"), "a", {}))
+    tree.tab.wait_for(lambda: icon.get_attribute("data-tip") == "Grid")
+    assert icon.get_attribute("data-icon") == "grid"
+    assert icon.locator("svg").count() == 1
 
 
 def test_an_empty_list_explains_itself_above_the_button_that_adds(

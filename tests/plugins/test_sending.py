@@ -197,6 +197,10 @@ def test_the_defaults_of_a_form_can_be_sent(type_: str) -> None:
     assert fields_of(values)
 
 
+def test_a_message_without_fields_has_none_in_its_form() -> None:
+    assert template("std_msgs/msg/Empty") == {}
+
+
 def test_nothing_is_published_to_a_read_only_source(bench: Benches) -> None:
     b = bench()
     b.do(AddPanel("PublishMessage", {"topic": "/cmd", "message_type": STRING}))

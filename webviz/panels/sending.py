@@ -217,6 +217,8 @@ def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]
     for field in typestore.fields(type_name):
         if next(made) >= MAX_FIELDS:
             break
+        if field.name == typestore.PLACEHOLDER[0]:
+            continue
         if field.is_message:
             if field.size is None and depth > 0:
                 found[field.name] = _template(field.base, depth - 1, made)

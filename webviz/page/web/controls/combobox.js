@@ -60,7 +60,7 @@ export function combobox({ label, value, options: read, free = true, placeholder
     onblur: () => (isTyped ? take() : close()),
   });
   const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
-  const list = listbox(input, label, { isOpen, options, choose });
+  const list = listbox(input, label, { isOpen, options, free, choose });
   const isInvalid = () => input.getAttribute("aria-invalid") !== null;
   const state = sync({
     ...rest,
@@ -112,11 +112,10 @@ export function combobox({ label, value, options: read, free = true, placeholder
     if (isNew) state.edit(chosen);
   }
 
-  // What was typed: an option by its text, or the text itself.
+  // What was typed: the option that is marked, or the text itself.
   function take() {
     const text = input.value.trim();
-    const exact = options.value.find((one) => (one.label ?? one.value) === text);
-    if (exact) choose(exact.value);
+    if (list.active()) choose(list.active().value);
     else if (free) choose(text);
     else if (list.first()) choose(list.first().value);
     else back();
@@ -136,8 +135,8 @@ export function combobox({ label, value, options: read, free = true, placeholder
       back();
       input.select();
     } else if (event.key === "Enter") {
-      if (list.active()) choose(list.active().value);
-      else if (isTyped) take();
+      if (isTyped) take();
+      else if (list.active()) choose(list.active().value);
       else return;
       input.select();
     } else if (step && isOpen.value) list.move(step);

@@ -12,13 +12,16 @@ const MAX_SHOWN = 100;
 
 /**
  * A list of options for an input that is its combobox, there while `isOpen`; `choose` is called with
- * the value picked.
+ * the value picked, which may be the text as it was typed if that is `free`.
  *
  * @param {HTMLInputElement} input
  * @param {string} label
- * @param {{isOpen: Signal<boolean>, options: Readable<Choice[]>, choose: (value: string) => void}} options
+ * @param {{
+ *   isOpen: Signal<boolean>, options: Readable<Choice[]>, free: boolean,
+ *   choose: (value: string) => void,
+ * }} options
  */
-export function listbox(input, label, { isOpen, options, choose }) {
+export function listbox(input, label, { isOpen, options, free, choose }) {
   const id = newId("list");
   // In the top layer, where neither the panel's edge nor a dialog cuts it off.
   const element = el("div", {
@@ -40,6 +43,11 @@ export function listbox(input, label, { isOpen, options, choose }) {
     const words = wordsOf(search);
     const matches = options.value.filter((one) => fits(one, words));
     shown = matches.slice(0, MAX_SHOWN);
+    const typed = search.trim();
+    // Enter takes what is marked: the text itself is still to be had.
+    const marked = typed ? shown[likely(typed)] : undefined;
+    if (free && marked && textOf(marked) !== typed)
+      shown.push({ value: typed, label: `“${typed}”`, note: "as typed" });
     active = shown.findIndex(({ value }) => value === chosen);
     const rest = matches.length - MAX_SHOWN;
     const note = rest > 0 ? `${rest} more. Type to search.` : shown.length ? "" : "No match.";
@@ -68,6 +76,17 @@ export function listbox(input, label, { isOpen, options, choose }) {
       name,
       note ? el("span", { class: "wv-list-note", "data-level": level }, note) : null,
     );
+  }
+
+  /**
+   * The option of that text, or the first that begins with it; -1 for none.
+   *
+   * @param {string} text
+   */
+  function likely(text) {
+    const exact = shown.findIndex((one) => textOf(one) === text);
+    if (exact >= 0) return exact;
+    return shown.findIndex((one) => textOf(one).toLowerCase().startsWith(text.toLowerCase()));
   }
 
   function mark() {
@@ -111,7 +130,7 @@ export function listbox(input, label, { isOpen, options, choose }) {
   return {
     element,
     /**
-     * Shows the options that fit a text, with one of them marked.
+     * Shows the options that fit a text, with the first that begins with it marked, or the value.
      *
      * @param {string | Mixed | null} value
      * @param {string} [text]
@@ -120,7 +139,7 @@ export function listbox(input, label, { isOpen, options, choose }) {
       search = text;
       isOpen.value = true;
       fill();
-      active = shown.findIndex((one) => one.value === value);
+      active = text.trim() ? likely(text.trim()) : shown.findIndex((one) => one.value === value);
       place();
       mark();
     },
@@ -138,6 +157,9 @@ export function listbox(input, label, { isOpen, options, choose }) {
     first: () => shown[0] ?? null,
   };
 }
+
+/** @param {Choice} choice */
+const textOf = ({ value, label }) => label ?? value;
 
 /**
  * @param {Choice} choice

@@ -54,6 +54,7 @@ export function makeRow(first, look) {
     },
     icon("dots"),
   );
+  const kind = el("span", { class: "wv-tree-type" });
   const dot = el("span", { class: "wv-tree-dot" });
   const line = el("div", { class: "wv-tree-status", id: `wv-status-${id}` });
   const head = el(
@@ -63,11 +64,7 @@ export function makeRow(first, look) {
     isGlobal
       ? el("span", { class: "wv-tree-box" })
       : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
-    el(
-      "span",
-      { class: "wv-tree-type", "data-tip": isGlobal ? null : sanitized(type) || null },
-      icon(first.icon),
-    ),
+    kind,
     name,
     note,
     isGlobal ? null : more,
@@ -140,6 +137,11 @@ export function makeRow(first, look) {
       disabled: (!isGlobal && !item.can_edit) || why("SetProperty", { path: "enabled" }) !== "",
     });
     if (box.checked !== enabled) box.checked = enabled;
+    if (kind.dataset.icon !== item.icon) {
+      set(kind, { "data-icon": item.icon });
+      kind.replaceChildren(icon(item.icon));
+    }
+    set(kind, { "data-tip": isGlobal ? null : sanitized(item.type) || null });
     setText(name, text);
     set(more, { "aria-label": `Actions for ${text}` });
     set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
