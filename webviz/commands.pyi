@@ -132,7 +132,7 @@ class FocusDisplay(Command, frozen=True):
     """Fit the view to everything that a display or group draws.
 
     Args:
-        display: id of the display or group.
+        display: id of the display or group; "" for all.
         browser: on which it acts; by default the one that sends this, or all for a program.
     """
 

@@ -283,3 +283,10 @@ def test_displays_are_selected_and_looked_at_by_name(
     run(tab, "select map")
     row = tab.page.get_by_role("treeitem", name="Map")
     playwright.expect(row).to_have_attribute("aria-selected", "true")
+
+
+def test_shift_f_looks_at_everything_and_ctrl_d_bookmarks_nothing(tab: Tab) -> None:
+    tab.page.keyboard.press("Shift+f")
+    tab.wait_for_command(FocusDisplay(""))
+    tab.page.keyboard.press("Control+d")
+    playwright.expect(tab.page.get_by_text("Select a display to duplicate it.")).to_be_visible()

@@ -169,6 +169,21 @@ def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: Tab) -> None:
     tab.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 
 
+def test_the_hint_goes_once_the_camera_was_moved_some_times(tab: Tab) -> None:
+    hint = tab.page.locator(".wv-pointer")
+    forget = "localStorage.removeItem('webviz.camera-moves')"
+    tab.page.evaluate(forget)
+    tab.page.mouse.move(WIDTH - 5, 20)
+    tab.page.mouse.move(5, HEIGHT // 2)  # off the scene
+    tab.wait_for(lambda: "Left: turn" in hint.inner_text())
+    tab.page.mouse.move(*CENTER)
+    for _ in range(5):
+        tab.page.mouse.wheel(0, 1)
+    tab.page.mouse.move(5, HEIGHT // 2)
+    tab.wait_for(lambda: hint.inner_text() == "")
+    tab.page.evaluate(forget)
+
+
 def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
     rates = tab.page.locator(".wv-rates")
     tab.wait_for(lambda: " ms" in rates.inner_text())

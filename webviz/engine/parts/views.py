@@ -41,6 +41,7 @@ from webviz.files.config import ConfigError, nearest
 
 DIGITS = 3
 """Decimals that are shown; a view moved by hand has more."""
+NOTHING_DRAWN = "This display draws nothing to focus on. Check its statuses."
 FRAME_M = 0.5
 """Half of the edge of the cube around a frame that is looked at."""
 
@@ -217,14 +218,15 @@ class ViewsPart(Part):
         """Fit the view to everything that a display or group draws.
 
         Args:
-            display: id of the display or group.
+            display: id of the display or group; "" for all.
             browser: on which it acts; by default the one that sends this, or all for a program.
         """
-        ids = self._displays.list.within(display)
+        shown = self._displays.list
+        ids = shown.within(display) if display else [each.id for each in shown.active()]
         boxes = (self._scene.bounds(f"{id}/") for id in ids)
         box = union(box for box in boxes if box is not None)
         if box is None:
-            raise ConfigError("This display draws nothing to focus on. Check its statuses.")
+            raise ConfigError(NOTHING_DRAWN if display else "Nothing is drawn yet.")
         self._look_at(box, _browser(browser, sender))
 
     @command(Role.WATCHER)

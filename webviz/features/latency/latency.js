@@ -1,8 +1,10 @@
 // "Stamp to screen": for each display, where the time from a stamp to the browsers goes.
 
+import { disclosure } from "../../controls/disclosure.js";
 import { el } from "../../dom.js";
 import { doctorSection } from "../../panels/doctor_sections.js";
-import { watch } from "../../stores.js";
+import { signal } from "../../signals.js";
+import { store } from "../../stores.js";
 
 /** @import {BrowserLatency, Latency, Stage} from "../../contents.js" */
 
@@ -22,26 +24,16 @@ export const install = () => doctorSection(stampToScreen);
 
 /** The section; nothing is measured while it is folded. */
 function stampToScreen() {
-  const list = el("div", { class: "wv-latencies", role: "status" }, NOTHING);
-  const section = el(
-    "details",
-    { class: "wv-latency" },
-    el("summary", {}, "Stamp to screen"),
-    list,
-  );
-  let end = () => {};
-  section.addEventListener("toggle", () => {
-    end();
-    end = section.open ? watch("latency", show) : () => {};
-  });
-
-  /** @param {{get(key: "all"): Latency[] | undefined}} values */
-  function show(values) {
-    const all = values.get("all") ?? [];
-    list.replaceChildren(...(all.length ? all.map(waterfall) : [NOTHING]));
-  }
-
-  return { element: section, close: () => end() };
+  const isOpen = signal(false);
+  const latencies = store("latency");
+  const list = () => {
+    if (!isOpen.value) return null;
+    const all = latencies.get("all") ?? [];
+    return all.length ? all.map(waterfall) : [el("span", {}, NOTHING)];
+  };
+  const content = () => el("div", { class: "wv-latencies", role: "status" }, list);
+  const element = disclosure("Stamp to screen", content, { class: "wv-latency" }, isOpen);
+  return { element, close() {} };
 }
 
 /** @param {Latency} latency */

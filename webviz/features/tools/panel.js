@@ -3,21 +3,28 @@
 import { act } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
 import { declaredForm, form } from "../../controls/form.js";
+import { disclosure } from "../../controls/disclosure.js";
 import { el } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { ask } from "../../controls/dialog.js";
-import { each } from "../../signals.js";
+import { each, signal } from "../../signals.js";
 import { store } from "../../stores.js";
 import { tell, tellLive } from "../../tools/hint.js";
 import * as history from "./history.js";
 import { fixed } from "../../numbers.js";
 import * as registry from "../../tools/registry.js";
 import * as preview from "../../tools/preview.js";
+import { timeOfDay } from "../../time_text.js";
 import { yaml } from "../../tools/yaml.js";
 
 /** @import {Panel, SendProperty} from "../../types.js" */
 /** @import {SentGesture} from "./history.js" */
 
+/** @param {Date} time */
+const clock = (time) =>
+  timeOfDay(time.getTime() / 1000)
+    .split(" ")
+    .at(-1) ?? "";
 const NONE = "Nothing sent from this page yet. Choose a tool over the scene.";
 
 /** @type {Panel} */
@@ -52,7 +59,7 @@ function sentRow(entry) {
     const parts = several ? [`${points.length} waypoints`, several] : where;
     return [...parts, frame].filter(Boolean).join(" · ");
   };
-  const head = () => `${entry().tool.name} · ${entry().time.toLocaleTimeString()}`;
+  const head = () => `${entry().tool.name} · ${clock(entry().time)}`;
   return el(
     "li",
     { "data-level": () => entry().level || null },
@@ -112,11 +119,11 @@ const sections = () =>
     () => registry.all().filter(({ gesture }) => gesture),
     ({ id }) => id,
     (tool, id) =>
-      el(
-        "details",
-        { class: "wv-tool-properties", open: true },
-        el("summary", {}, () => tool.value.name),
-        el("div", {}, properties(id)),
+      disclosure(
+        el("span", {}, () => tool.value.name),
+        () => el("div", {}, properties(id)),
+        { class: "wv-tool-properties" },
+        signal(true),
       ),
   );
 

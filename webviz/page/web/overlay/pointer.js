@@ -2,6 +2,7 @@
 
 import { act } from "../act.js";
 import { el, setText } from "../dom.js";
+import { recall, remember } from "../remember.js";
 import { groundAt, toFixedFrame } from "../scene/ground.js";
 import { hit } from "../scene/mouse.js";
 import * as views from "../scene/view.js";
@@ -18,8 +19,12 @@ const LOCKED = "Camera locked · Unlock it in the view's settings";
 const LOOKS = "Left: look around · Middle or Shift: move · Right or wheel: walk · F: look at";
 const TURNS = "Left: turn · Middle or Shift: move · Right or wheel: zoom · F: ";
 
+/** Hints go once somebody has moved the camera that often. */
+const LEARNED = 5;
+
 function hintOf() {
   if (views.options().lock_camera) return LOCKED;
+  if (recall("camera-moves", 0) >= LEARNED) return "";
   if (views.isFPS()) return LOOKS;
   return TURNS + (views.type() === "TopDownOrtho" ? "centre" : "look at");
 }
@@ -90,7 +95,14 @@ export function build() {
     setText(text, [`x ${x} y ${y}${height} m`, frame, name].filter(Boolean).join(" · "));
   }
 
+  function learn() {
+    const moves = recall("camera-moves", 0) + 1;
+    if (moves <= LEARNED) remember("camera-moves", moves);
+  }
+
   const events = viser.canvas().parentElement;
+  events.addEventListener("pointerdown", learn);
+  events.addEventListener("wheel", learn, { passive: true });
   events.addEventListener("pointermove", move);
   events.addEventListener("pointerleave", leave);
   views.onShow(() => mouse ?? hint());

@@ -68,7 +68,7 @@ export function shownAt(chunk, frame) {
 }
 
 /**
- * The ids of a display and of those in it, if it is a group.
+ * The ids of a display and of those in it, if it is a group; of all for "".
  *
  * @param {Map<string, any>} rows the store of displays
  * @param {string} display
@@ -77,6 +77,7 @@ export function shownAt(chunk, frame) {
 export function within(rows, display) {
   /** @type {string[]} */
   const order = rows.get("order") ?? [];
+  if (!display) return order;
   const first = order.indexOf(display);
   const depth = rows.get(display)?.depth ?? 0;
   const end = order.findIndex((id, at) => at > first && rows.get(id).depth <= depth);

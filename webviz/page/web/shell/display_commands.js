@@ -1,11 +1,30 @@
 // Displays in the list of commands: to select one, or to look at it.
 
 import { act } from "../act.js";
+import { command } from "../commands.js";
 import * as selection from "../panels/displays/selection.js";
 import { provideFrom } from "./command_list.js";
 import { openPanel } from "../docks/layout.js";
+import { toast } from "../toasts.js";
+
+const ALL = ""; // displays
 
 export function install() {
+  command({
+    name: "Look at everything",
+    icon: "focus",
+    key: "Shift+f",
+    group: "View",
+    run: () => act("FocusDisplay", { display: ALL }),
+  });
+  // A browser would bookmark the page.
+  command({
+    name: "Duplicate display",
+    key: "Ctrl+d",
+    isHidden: true,
+    group: "Displays",
+    run: () => toast("Select a display to duplicate it.", { level: "warn" }),
+  });
   provideFrom(["displays"], ({ displays }) =>
     (displays.get("order") ?? []).flatMap((id) => {
       const display = displays.get(id);

@@ -1,5 +1,6 @@
 // Who is connected and what they did, and how the owner invites others.
 
+import { timeOfDay } from "../time_text.js";
 import { onRole, self, why } from "../access.js";
 import { act } from "../act.js";
 import { copyAndTell } from "../clipboard.js";
@@ -117,7 +118,7 @@ function personRow(id, person, isOwner) {
     name,
     () => person().role,
     ...(isOwner ? [() => addresses.get(id) ?? ""] : []),
-    () => timeOf(person().since_s),
+    () => clock(person().since_s),
     latency,
     () => person().drives.join(", "),
     ...(isOwner ? [isYou(id) ? null : endings(Number(id), person())] : []),
@@ -175,14 +176,14 @@ function linkRow([name, { role, expires_s }]) {
   return line(
     isOwn ? `${name} (you)` : name,
     role,
-    expires_s === null ? "never" : new Date(expires_s * 1000).toLocaleString(),
+    expires_s === null ? "never" : timeOfDay(expires_s),
     isOwn ? null : textButton("Revoke link", onclick, { tip: CLOSES_ALL }),
   );
 }
 
 /** @param {JournalLine} entry */
 const entryRow = ({ time_s, name, role, address, text }) =>
-  line(timeOf(time_s), [name, role, address].filter(Boolean).join(", "), text);
+  line(clock(time_s), [name, role, address].filter(Boolean).join(", "), text);
 
-/** @param {number} seconds */
-const timeOf = (seconds) => new Date(seconds * 1000).toLocaleTimeString();
+/** @param {number} seconds since 1970 */
+const clock = (seconds) => timeOfDay(seconds).split(" ").at(-1) ?? "";

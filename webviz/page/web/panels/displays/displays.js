@@ -121,6 +121,7 @@ export const displays = {
       }),
       about("Duplicate display", {
         icon: "copy",
+        key: "Ctrl+d",
         needs: "DuplicateDisplay",
         run: () => actions.duplicate(chosen()),
       }),
