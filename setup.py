@@ -134,6 +134,8 @@ setup(
             "handles = webviz.features.handles:HandlesFeature",
             "latency = webviz.features.latency:LatencyFeature",
             "layouts = webviz.features.layouts:LayoutsFeature",
+            "panels = webviz.features.panels:PluginPanels",
+            "people = webviz.features.people:People",
             "plugins = webviz.features.plugins:PluginsFeature",
             "recording = webviz.features.recording:RecordingFeature",
             "reports = webviz.features.reports:ReportsFeature",

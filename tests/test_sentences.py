@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from webviz.data.words import joined
-from webviz.engine.loop.loop import failures
+from webviz.engine.guard import Guard
 
 ROOT = Path(__file__).parents[1]
 FILES = [
@@ -37,8 +37,10 @@ def test_a_sentence_without_an_end_gets_a_full_stop(texts: tuple[str, ...], whol
 
 
 def test_a_failure_ends_before_its_remedy() -> None:
-    text = failures({"TF": "TF failed: ValueError: boom"})["TF"].text
-    assert text.startswith("TF failed: ValueError: boom. The log has")
+    guard = Guard("", strict=False)
+    guard("TF", int, "boom")
+    text = guard.statuses()["TF"].text
+    assert "literal for int() with base 10: 'boom'. The log has" in text
 
 
 def test_texts_from_elsewhere_are_joined_by_the_helper() -> None:

@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from webviz.api.sample import Sample
     from webviz.api.status import Level, Measurement, OtherFixedFrame, Remedy, Status
     from webviz.api.tool import Gesture, Tool, ToolContext
-    from webviz.engine.state import State
+    from webviz.engine.state import PanelTimes, Row, State, Traffic
     from webviz.shell.app.viewer import Viewer
     from webviz.shell.pictures.capture import capture
 
@@ -101,6 +101,7 @@ __all__ = [
     "Output",
     "Pane",
     "Panel",
+    "PanelTimes",
     "Placement",
     "Points",
     "Pose",
@@ -109,6 +110,7 @@ __all__ = [
     "Quantity",
     "Remedy",
     "Rgb",
+    "Row",
     "Sample",
     "Selective",
     "SelfPlacing",
@@ -124,6 +126,7 @@ __all__ = [
     "Tool",
     "ToolContext",
     "Topic",
+    "Traffic",
     "TryYaw",
     "Ui",
     "Viewer",
@@ -177,7 +180,7 @@ _HOMES = {
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Measurement", "OtherFixedFrame", "Remedy", "Status"),
     "webviz.api.tool": ("Gesture", "Stroke", "Tool", "ToolContext"),
-    "webviz.engine.state": ("State",),
+    "webviz.engine.state": ("PanelTimes", "Row", "State", "Traffic"),
     "webviz.shell.pictures.capture": ("capture",),
 }
 """Where each name comes from: imported when it is asked for, since all of it takes a while."""

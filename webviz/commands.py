@@ -9,9 +9,10 @@ from webviz.api.errors import Error
 from webviz.engine.commands import *  # noqa: F403
 from webviz.engine.commands import __all__ as _of_the_engine
 from webviz.engine.feature import broken_features
-from webviz.engine.feature import commands as _of_features
+from webviz.engine.feature import commands as _all
 
-__all__ = sorted([*_of_the_engine, *_of_features()])  # pyright: ignore[reportUnsupportedDunderAll]
+_of_features = {n: each.type for n, each in _all().items() if issubclass(each.type, Command)}  # noqa: F405
+__all__ = sorted([*_of_the_engine, *_of_features])  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 class MissingCommand(Error, AttributeError):
@@ -19,8 +20,8 @@ class MissingCommand(Error, AttributeError):
 
 
 def __getattr__(name: str) -> Any:
-    if (found := _of_features().get(name)) is not None:
-        return found.type
+    if (found := _of_features.get(name)) is not None:
+        return found
     if missing := ", ".join(broken_features()):
         raise MissingCommand(f"There is no {name} without {missing}. Install webviz anew.")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import cast
 
 import pytest
 
 import webviz.page
 from webviz import commands
 from webviz.api.roles import Role
-from webviz.engine.commands import Command
-from webviz.engine.parts.declaring import stores_of
+from webviz.engine import feature
+from webviz.engine.commands import Command, PageCommand
 from webviz.features.selection import MAX_SELECTED
-from webviz.page.people import People
 from webviz.server.access import rules
-from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
 from webviz.server.access.roles import LIMITS, LINKS
 from webviz.server.channel import messages
 from webviz.server.channel.messages import FromPage
@@ -66,14 +63,14 @@ OWNING = {
 }
 OWNING |= {"Dismiss", "Invite", "ListReport", "Revoke", "SaveReport"}
 OWNING |= {"ListMoment", "ShareMoment", "StopSharing"}
-OF_THE_SERVER = (Dismiss, Invite, Revoke, UseWidget)
+OF_THE_SERVER = ("Dismiss", "Invite", "Revoke", "UseWidget")
 """Done by itself, without the frame loop."""
 
 
 def every_command() -> set[str]:
     public = [getattr(commands, name) for name in commands.__all__]
     found = {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
-    return found | {each.__name__ for each in OF_THE_SERVER}
+    return found | {*OF_THE_SERVER}
 
 
 def every_message() -> set[str]:
@@ -95,8 +92,20 @@ def test_every_message_to_viser_is_one_that_viser_knows() -> None:
     assert rules.MESSAGES.keys().isdisjoint(rules.SCENE)
 
 
-def test_stores_with_a_role_of_their_own_exist() -> None:
-    assert rules.STORES.keys() <= stores_of(People).keys()
+def test_programs_have_no_commands_that_the_server_carries_out_itself() -> None:
+    found = {n for n, each in feature.commands().items() if issubclass(each.type, PageCommand)}
+    assert found == {*OF_THE_SERVER}
+    assert found.isdisjoint(commands.__all__)
+
+
+def test_what_people_did_is_for_owners() -> None:
+    of_owners = {name for name, each in feature.stores().items() if each.role is Role.OWNER}
+    assert of_owners >= {"addresses", "journal", "links"}
+
+
+def test_what_others_may_want_to_know_is_noted_for_the_owner() -> None:
+    noted = {name for name, each in feature.commands().items() if each.is_noted}
+    assert noted == {"Dismiss", "Invite", "Load", "Open", "Revoke", "Save", "UseTool"}
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))
@@ -133,11 +142,10 @@ def test_a_refusal_is_one_sentence_with_a_remedy() -> None:
     )
 
 
-def test_a_store_of_owners_is_for_owners(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(cast(dict[str, Role], rules.STORES), "secret", Role.OWNER)
-    assert rules.refusal(Role.OPERATOR, "Watch", store="secret:1")
-    assert not rules.refusal(Role.OWNER, "Watch", store="secret")
-    assert not rules.refusal(Role.WATCHER, "Watch", store="secrets")
+def test_a_store_of_owners_is_for_owners() -> None:
+    assert rules.refusal(Role.OPERATOR, "Watch", store="journal:1")
+    assert not rules.refusal(Role.OWNER, "Watch", store="journal")
+    assert not rules.refusal(Role.WATCHER, "Watch", store="journals")
 
 
 def test_what_is_answered_is_refused_in_words() -> None:

@@ -112,12 +112,10 @@ class Loop:
         """Public fields of features."""
         self.watched: Set[str] = set()
         """Stores of features that pages watch."""
-        self.features = [
-            ShownFeatures(self),
-            *stand_ins(self._field, self._steer, self._note),
-        ]
         self._given = GivenParts()
-        parts = [*self.features, *self._given.parts]
+        own = [ShownFeatures(self), *stand_ins(self._field, self._steer, self._note)]
+        self.features = [*own, *self._given.features]
+        parts = [*own, *self._given.parts]
         self.pages = Pages(server.channel, self._enqueue, access, parts=parts)
 
     def _enqueue(self, command: Command, sender: Sender) -> Future[str]:
@@ -170,10 +168,10 @@ class Loop:
         self._enqueue(command, Sender())
 
     def _update(self) -> None:
+        self._given.show(self.state)
         for feature in self.features:
             feature.update()
-        self._given.show(self.state)
-        self.pages.update(self.state)
+        self.pages.update()
 
 
 class ShownFeatures(Feature):

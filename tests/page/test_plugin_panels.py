@@ -17,7 +17,7 @@ from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.pipeline.plugins import load
 from webviz.engine.state import PanelTab, PanelTimes, State, Traffic
-from webviz.page.plugin_panels import MAX_WAITING
+from webviz.features.panels import MAX_WAITING
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import MAX_HTML, MAX_LINES
 

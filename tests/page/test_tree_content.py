@@ -121,7 +121,7 @@ def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(make_row: MakeRo
 
     def shown_after(state: State) -> int:
         given.show(state)
-        pages.update(state)
+        pages.update()
         return channel.shown
 
     state = State(rows=(make_row("a"),))

@@ -14,6 +14,7 @@ from bags import START_NS, Bag, ns, strings
 from drives import CONFIG, recorded
 from rosbags.rosbag2 import StoragePlugin
 
+from tests.support.panel_facts import show as show_panel
 from webviz import Context, Display, Input, Lookback, Sample, Topic
 from webviz.api.display import inputs
 from webviz.commands import OpenPanels, Play, Seek, SelectSpan, SetRate, StepMessage
@@ -172,7 +173,7 @@ def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
 
     def plotted(viewer: Any) -> list[tuple[float, float]]:
         (tab,) = viewer.loop.state().panels
-        tab.panel.show(viewer.loop.state())
+        show_panel(tab.panel, viewer.loop.state())
         (series,) = tab.panel.series.values()
         newest_s, _ = series.history.newest
         return [point for point in series.history.points() if point[0] > newest_s - 2.0]
@@ -181,7 +182,7 @@ def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
         viewer = theater(bag, config)
         (tab,) = viewer.loop.state().panels
         tab.panel.build(RecordedUi(), lambda *_: None)
-        tab.panel.show(viewer.loop.state())
+        show_panel(tab.panel, viewer.loop.state())
         viewer.do(OpenPanels(frozenset({tab.tab})))
         return viewer
 

@@ -9,6 +9,7 @@ import pytest
 from bench import Benches
 from waiting import until
 
+from tests.support.panel_facts import show as show_panel
 from webviz.commands import AddPanel, OpenPanels
 from webviz.engine.commands import Sender
 from webviz.page.recorded_ui import RecordedUi
@@ -63,7 +64,7 @@ class Bench:
         self.viewer.until_done(self.viewer.viewer.enqueue(command, Sender(browser)))
 
     def show(self) -> None:
-        self.panel.show(self.viewer.viewer.state())
+        show_panel(self.panel, self.viewer.viewer.state())
 
     def describe(self, text: str) -> None:
         before = self.panel.reading

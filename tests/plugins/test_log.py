@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.data.messages import decode, encode
 from webviz.engine.state import State
@@ -30,7 +31,7 @@ def widget(log: Any) -> CustomWidget:
 
 
 def texts(log: Log) -> list[str]:
-    log.show(State())
+    show_panel(log, State())
     first, end = widget(log).values["values"]["chunks"]
     parts = [widget(log).parts[str(number)] for number in range(first, end)]
     return [text for part in parts for text in part["texts"]]
@@ -65,19 +66,19 @@ def test_neither_many_nor_long_lines_fill_the_memory(
 
 def test_a_log_of_ros_1_has_the_levels_of_ros_2(log: Log) -> None:
     offer = Offer((Publisher("/node", ROS_1_LOG, "reliable", "volatile"),))
-    log.show(State(offers={"/rosout": offer}))
+    show_panel(log, State(offers={"/rosout": offer}))
     assert log.subscriptions() == {"/rosout": ROS_1_LOG}
 
 
 def test_a_time_is_sought_only_in_a_recording(log: Log) -> None:
     log.add((0.0, 20, "node", "text", ""), 5)
-    log.show(State())
+    show_panel(log, State())
     with pytest.raises(Error, match="There is no recording to seek in"):
         log.use([0, 0], 1)
 
 
 def test_no_publisher_is_named(log: Log) -> None:
-    log.show(State())
+    show_panel(log, State())
     values = widget(log).values["values"]
     assert values["problem"].startswith("No publisher on /rosout.")
     assert values["total"] == 0

@@ -12,6 +12,7 @@ import PIL.Image
 import pytest
 from waiting import until
 
+from tests.support.panel_facts import show as show_panel
 from webviz.data.messages import decode, encode
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
@@ -36,7 +37,7 @@ class Bench:
         self.show()
 
     def show(self) -> Any:
-        self.panel.show(self.state)
+        show_panel(self.panel, self.state)
         (self.widget,) = self.ui.widgets.values()
         return self.widget.values["values"]
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.commands import CallService
 from webviz.data.messages import encode, interfaces, message_class
@@ -84,7 +85,7 @@ def opened() -> Callable[..., tuple[Parameters, Node, Callable[[], dict[str, Any
         offer = Offer((Publisher("/base", "", "reliable", "volatile"),))
 
         def shown() -> dict[str, Any]:
-            panel.show(State(offers={"/parameter_events": offer}))
+            show_panel(panel, State(offers={"/parameter_events": offer}))
             return dict(ui.widgets["1"].values["values"])
 
         return panel, node, shown

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.panel_facts import show as show_panel
 from webviz.data.messages import JointState, LaserScan, String, message_class
 from webviz.engine.state import PanelTimes, State
 from webviz.page.recorded_ui import RecordedUi
@@ -35,7 +36,7 @@ def built(panel: Any) -> Any:
 
 def shown(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
     offer = Offer((Publisher("/node", "std_msgs/msg/String", "reliable", "volatile"),))
-    panel.show(State(offers={"/t": offer}, clock=PanelTimes(ros_ns=ros_ns)))
+    show_panel(panel, State(offers={"/t": offer}, clock=PanelTimes(ros_ns=ros_ns)))
     return panel
 
 

@@ -11,6 +11,7 @@ import pytest
 from bench import Benches
 from msgspec.structs import replace
 
+from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
 from webviz.data.messages import (
@@ -52,7 +53,7 @@ class Bench:
 
     def show(self, **changes: Any) -> None:
         self.state = replace(self.state, **changes)
-        self.panel.show(self.state)
+        show_panel(self.panel, self.state)
 
     def send(self, value: float, at_s: float, stamp_s: float = 0.0) -> None:
         header = Header(Time(int(stamp_s), round(stamp_s % 1 * SECOND)))
@@ -298,7 +299,7 @@ def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: 
     publisher = Publisher("/driver", TWIST, "reliable", "volatile")
     b.source.known["/cmd_vel"] = Offer((publisher,))
     b.do(OpenPanels(frozenset({"Plot"})))
-    plot.show(b.viewer.state())
+    show_panel(plot, b.viewer.state())
     b.turn()
     assert b.source.wanted["/cmd_vel"].type == TWIST
     for speed in (0.5, 0.7):

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from bench import Benches
 
+from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.commands import AddPanel, CallService, OpenPanels, Publish, SendGoal, SetPanelProperty
@@ -37,7 +38,7 @@ class Opened:
 
     def show(self) -> dict[str, Any]:
         tabs = (PanelTab("id", "Panel", self.panel),)
-        self.panel.show(State(topics=TOPICS, panels=tabs))
+        show_panel(self.panel, State(topics=TOPICS, panels=tabs))
         return dict(self.ui.widgets["0"].values["values"])
 
 
@@ -45,7 +46,7 @@ def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
     opened = Opened(PublishMessage(topic="/goal_pose"))
     reader = Endpoint("/planner", POSE, "reliable", "volatile")
     offers = {"/goal_pose": Offer((), readers=(reader,))}
-    opened.panel.show(State(topics={"/goal_pose": ()}, offers=offers))
+    show_panel(opened.panel, State(topics={"/goal_pose": ()}, offers=offers))
     values = opened.ui.widgets["0"].values["values"]
     assert (values["about"], values["names"]) == (POSE, ["/goal_pose"])
 
@@ -159,14 +160,14 @@ def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     assert isinstance(goal.sent[0], SendGoal)
     state = State(services={"/light": "std_srvs/srv/SetBool", "/a/list_parameters": "x/srv/Y"})
     untyped = Opened(ServiceCall(service="/light"))
-    untyped.panel.show(state)
+    show_panel(untyped.panel, state)
     shown = untyped.ui.widgets["0"].values["values"]
     assert (shown["about"], shown["names"]) == ("std_srvs/srv/SetBool", ["/light"])
     untyped.panel.use({}, 1)
     assert untyped.sent[0].type == "std_srvs/srv/SetBool"
     unnamed = Opened(ActionGoal(action="/undock"))
     server = Publisher("/dock", "nav2_msgs/action/UndockRobot_FeedbackMessage", *RELIABLE)
-    unnamed.panel.show(State(offers={"/undock/_action/feedback": Offer((server,))}))
+    show_panel(unnamed.panel, State(offers={"/undock/_action/feedback": Offer((server,))}))
     shown = unnamed.ui.widgets["0"].values["values"]
     assert (shown["about"], shown["names"]) == ("nav2_msgs/action/UndockRobot", ["/undock"])
     unnamed.panel.use({}, 1)

@@ -9,6 +9,7 @@ import msgspec
 import pytest
 from bench import Benches
 
+from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.commands import Refresh, SetProperty
@@ -36,7 +37,7 @@ class Bench(OpenedPanel):
     def __init__(self, bench: Benches, cls: type[Panel], **values: Any) -> None:
         self.graph = RememberingGraph()
         self.viewer = bench(graph=self.graph)
-        super().__init__(cls, self.viewer.do, self.viewer.viewer.state, **values)
+        super().__init__(cls, self.viewer.do, self.viewer.viewer, **values)
 
     def offers(self, service: str, *lists: list[str]) -> None:
         values = [{"type": 9, "string_array_value": each} for each in lists]
@@ -257,7 +258,7 @@ def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
     panel.build(ui, lambda command, browser=None: sent.append((command, browser)))
 
     def shown(*rows: Row) -> str:
-        panel.show(State(rows=rows))
+        show_panel(panel, State(rows=rows))
         return str([widget.values for widget in ui.widgets.values()])
 
     assert "Add one to see the stages" in shown()

@@ -31,7 +31,7 @@ from webviz.api.declared import Topic
 from webviz.api.status import Level, OtherFixedFrame
 from webviz.data.messages import decode, encode
 from webviz.engine.commands import Command
-from webviz.engine.state import ConfigFile, State
+from webviz.files.config import Settings
 from webviz.ros.node import RosSource
 from webviz.ros.types import message_class
 from webviz.shell.testing.messages import stamped_transform
@@ -316,11 +316,14 @@ class SlowViewer:
     """Takes a picture for as long as a test wants."""
 
     def __init__(self) -> None:
-        self.state = State(file=ConfigFile("/somewhere.yaml"))
+        self.settings, self.path = Settings(), "/somewhere.yaml"
         self.ready = threading.Event()
 
     def do(self, command: Command) -> str:
         return "Done."
+
+    def fact(self, name: str, otherwise: object = None) -> object:
+        return otherwise
 
     def doctor(self) -> list[webviz.Finding]:
         return []

@@ -38,7 +38,10 @@ class Looking:
         self.source = RosSource(domain_id=domain)
         config = Config(Settings(fixed_frame="base"), [RobotModel(), RobotModel()])
         scene = RecordingScene()
-        self.loop = FrameLoop(config, self.source, scene, self.states.append, strict=True)
+        self.loop = FrameLoop(config, self.source, scene, self._note, strict=True)
+
+    def _note(self) -> None:
+        self.states.append(self.loop.last_state())
 
     def describe(self, name: str) -> None:
         self.publisher.publish(encode(STRING, {"data": urdf(name)}))

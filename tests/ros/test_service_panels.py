@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 from waiting import until
 
+from tests.support.panel_facts import show as show_panel
+
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from nodes import SpunNode
@@ -55,7 +57,7 @@ def test_a_behavior_tree_that_comes_later_gets_the_choice(
         choice: Any = next(w for w in ui.widgets.values() if w.values.get("label") == "Planner")
 
         def is_offered() -> bool:
-            panel.show(viewer.state)
+            show_panel(panel, viewer.state)
             return "Smac" in choice.values["options"]
 
         until(is_offered)

@@ -9,7 +9,6 @@ from bench import HandFedSource
 from rviz_trees import lost, texts
 
 from webviz.engine.loop import FrameLoop
-from webviz.engine.state import State
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.cli import main as cli
@@ -127,13 +126,11 @@ def test_a_command_without_a_target_says_what_is_missing(
 
 
 def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
-    states: list[State] = []
-    source, scene = HandFedSource(), RecordingScene()
-    viewer = FrameLoop(opening.load(small), source, scene, states.append)
+    viewer = FrameLoop(opening.load(small), HandFedSource(), RecordingScene())
     viewer.turn()
-    status = states[-1].statuses["Import"]
+    status = viewer.statuses["Import"]
     assert (status.level.name, "my_plugins/Laser" in status.text) == ("WARN", True)
-    assert [(row.name, row.level.name) for row in states[-1].rows][1] == ("Mine", "ERROR")
+    assert [(row.name, row.level.name) for row in viewer.state().rows][1] == ("Mine", "ERROR")
     # Saving keeps what the import could not use.
     assert "my_plugins/Laser" in config_file.dump(viewer.config())
     assert "my_plugins/Brush" in config_file.dump(viewer.config())

@@ -56,7 +56,7 @@ class Bench:
             config,
             self.source,
             self.scene,
-            self.states.append,
+            lambda: self.states.append(self.viewer.last_state()),
             may_publish=may_publish,
             allow_publish=allow_publish,
             autosave=autosave,

@@ -13,6 +13,7 @@ from webviz.engine.parts.display_rows import TreeRows
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.history import HistoryPart
+from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
@@ -21,10 +22,12 @@ from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import HistoryStep, State
+from webviz.features.panels import PluginPanels
+from webviz.features.people import People
 
 KINDS = (
     *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SettingsPart),
-    *(TimePart, TopicsPart, TransformsPart, ViewsPart),
+    *(PanelsPart, TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
 
@@ -32,8 +35,16 @@ class GivenParts:
     """The parts with stores."""
 
     def __init__(self) -> None:
-        self._core = SimpleNamespace(get=lambda kind: self._by_kind[kind])
+        self._state = State()
+        self._core: Any = SimpleNamespace(
+            get=lambda kind: self._by_kind[kind],
+            fact=lambda name, other: getattr(self._state, name, other),
+            state=lambda: self._state,
+        )
         self._by_kind: dict[type[Part], Any] = {k: stand_in(k, core=self._core) for k in KINDS}
+        self._give(PanelsPart, tabs=lambda: self._state.panels)
+        self.features = (People(self._core), PluginPanels(self._core))
+        """Those that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
         self._give(Doctor, _displays=displays)
@@ -44,10 +55,11 @@ class GivenParts:
     @property
     def parts(self) -> Sequence[Part]:
         """All of them."""
-        return list(self._by_kind.values())
+        return [*self._by_kind.values(), *self.features]
 
     def show(self, state: State) -> None:
         """Let them have the values of a state."""
+        self._state = state
         self._core.offers, self._core.statuses = state.offers, state.statuses
         self._core.buffer = SimpleNamespace(frames=lambda: state.frames)
         self._give(DisplaysPart, rows=state.rows)

@@ -9,8 +9,8 @@
             ui.button("Reset", lambda browser: send(Reset(), browser))
             self.frames = ui.area()
 
-        def show(self, state):
-            self.frames.table([(frame,) for frame in state.frames])
+        def show(self, frames):
+            self.frames.table([(frame,) for frame in frames])
 
 All browsers share a panel. Commands are those of `webviz.commands`. Properties are declared as
 those of displays, edited in the tab, and kept in the config under `panels`.
@@ -229,8 +229,11 @@ class Panel(Declared, kw_only=True, dict=True):
     def build(self, ui: Ui, send: Send) -> None:
         """Build the tab. Called once, before the first `show`."""
 
-    def show(self, state: Any) -> None:
-        """Show the state of the viewer, a read-only `webviz.State`.
+    def show(self, *args: Any, **kwargs: Any) -> None:
+        """Show what its parameters name of the viewer: `show(self, frames, clock)`.
+
+        These are fields of `webviz.State`, read-only. A parameter with a default may be one that
+        not every viewer has.
 
         Called by the frame loop a few times a second while the tab is open in a browser, so it must
         be fast.

@@ -37,6 +37,10 @@ class FileCommand(Command, frozen=True):
     """A command that reads or writes a config; these run in a thread, in order."""
 
 
+class PageCommand(msgspec.Struct, frozen=True):
+    """Base of what the server carries out for pages by itself, without the frame loop."""
+
+
 def wrong_text(command: Command) -> str:
     """Return which field of a command is not the text that it must be, as a sentence; "" if none.
 

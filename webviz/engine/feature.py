@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from webviz.api.entry_points import installed
+from webviz.api.status import Level, Status
 from webviz.engine import commands as engine_commands
 from webviz.engine.doctor import Doctor
 from webviz.engine.parts.declaring import (
@@ -81,6 +82,14 @@ def features() -> Mapping[str, type[Feature]]:
 def broken_features() -> Mapping[str, str]:
     """Return those that cannot be loaded by name, each with the reason."""
     return _loaded()[1]
+
+
+def missing_features() -> Mapping[str, Status]:
+    """Return statuses of the same."""
+    return {
+        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Install webviz anew.")
+        for name, reason in broken_features().items()
+    }
 
 
 @functools.cache

@@ -9,6 +9,9 @@ import traceback
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
+from webviz.api.status import Level, Status
+from webviz.data.words import joined
+
 log = logging.getLogger("webviz")
 
 T = TypeVar("T")
@@ -52,6 +55,13 @@ class Guard:
         """Recent exceptions, one sentence per scope."""
         since = -math.inf if self._shown_s is None else self._clock() - self._shown_s
         return {scope: text for scope, (text, at) in self._crashes.items() if at >= since}
+
+    def statuses(self) -> dict[str, Status]:
+        """Return the same as errors of a viewer."""
+        return {
+            scope: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
+            for scope, text in self.crashes.items()
+        }
 
     def __call__(self, scope: str, call: Callable[..., Any], *args: Any) -> Any:
         """Return the result of a call, or `CRASHED`; `scope` distinguishes calls."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import queue
+import threading
 from collections.abc import Callable
 from concurrent.futures import Future, wait
 from typing import Any, Generic, TypeVar
@@ -41,6 +42,51 @@ class Job(msgspec.Struct, Generic[T], frozen=True):
 
     work: Callable[[], T]
     then: Callable[[T], str]
+
+
+class LoopCalls:
+    """Calls that wait for a moment between two turns of the frame loop.
+
+    They need no bound: each thread waits for its own.
+
+    Args:
+        wake: called from any thread when one waits.
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._waiting: queue.SimpleQueue[tuple[Callable[[], Any], Future[Any]]]
+        self._waiting = queue.SimpleQueue()
+        self._thread: int | None = None
+
+    def begin(self) -> None:
+        """Note that this thread runs the frame loop from now on."""
+        self._thread = threading.get_ident()
+
+    def end(self) -> None:
+        """Note that none does any more."""
+        self._thread = None
+        self.answer()
+
+    def put(self, call: Callable[[], T]) -> Future[T]:
+        """Call something as soon as no turn is under way; from any thread."""
+        done: Future[T] = Future()
+        self._waiting.put((call, done))
+        if self._thread in (None, threading.get_ident()):
+            self.answer()
+        else:
+            self._wake()
+        return done
+
+    def answer(self) -> None:
+        """Do what waits."""
+        with contextlib.suppress(queue.Empty):
+            while True:
+                call, done = self._waiting.get_nowait()
+                try:
+                    done.set_result(call())
+                except Exception as error:
+                    done.set_exception(error)
 
 
 Request = tuple[Command, Sender, Future[str]]

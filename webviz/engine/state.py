@@ -1,4 +1,4 @@
-"""The state of a viewer for programs and plug-ins, and what it consists of."""
+"""The state of a viewer for programs, and what it consists of."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class PanelTimes(msgspec.Struct, frozen=True):
         wall_s: seconds since 1970.
         ros_elapsed_ns, wall_elapsed_s: since the viewer started or was reset.
         is_paused: whether time is paused.
-        pace: how the time that is shown goes on.
+        clock_rate: how the time that is shown goes on.
         is_simulated: whether ROS time comes from /clock or a bag instead of this machine.
         clock_hz: messages per second on /clock, 0 while ROS time is wall time.
     """
@@ -185,7 +185,7 @@ class ConfigFile(PageStore, frozen=True):
 
 
 class State(msgspec.Struct, frozen=True, kw_only=True):
-    """A viewer at one moment, read from its parts; see `webviz.engine.loop.snapshot`.
+    """All that can be read of a viewer, at one moment.
 
     Args:
         rows: the displays in order.
@@ -209,7 +209,7 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         findings: of the doctor, the one to repair first at the beginning.
         examined_ns: ROS time of that examination; 0 before the first, or while it is unknown.
         found: when findings began, as far as a recording was shown, by time.
-        more: fields of features, by name; they can be read as those of the state, too.
+        more: what features have, by name; it can be read as if it were fields, too.
     """
 
     rows: tuple[Row, ...] = ()
@@ -239,3 +239,9 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         if name in (more := self.more):
             return more[name]
         raise AttributeError(f"a State has no field {name}")
+
+
+def snapshot(values: Mapping[str, Any]) -> State:
+    """Return a state of these values by name; those that are missing have their defaults."""
+    own = {name: values[name] for name in State.__struct_fields__ if name in values}
+    return State(**own, more={name: each for name, each in values.items() if name not in own})

@@ -5,26 +5,27 @@ from __future__ import annotations
 import functools
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from typing import Any
 
 import msgspec
 
-from webviz.engine.commands import Command, Sender
-from webviz.engine.feature import Feature
+from webviz.engine import feature
+from webviz.engine.commands import Command, PageCommand, Sender
 from webviz.engine.forms import MAX_TEXT
+from webviz.engine.parts.declaring import commands_of
+from webviz.engine.parts.part import Part
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
 from webviz.page.asked import Asked
+from webviz.server.access.access import Access
+from webviz.server.access.journal import Journal
 from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Download
 
 NOT_OF_PAGES = frozenset({"browser", "made", "deliver", "report", "published"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
-
-NOTED = frozenset({"Dismiss", "Invite", "Load", "Open", "Revoke", "Save"})
-"""Commands noted for the owner, besides those of features."""
 
 LARGE = frozenset({"text", "picture"})
 """Fields that have checks of their own; a message is bounded as a whole."""
@@ -33,7 +34,7 @@ Handler = Callable[[Asked, Any], object]
 """Carries out a command that a page has asked for, on the event loop."""
 
 
-class PageFeature(Feature):
+class PageFeature(feature.Feature):
     """A feature that takes messages of pages which do not simply wait for the frame loop."""
 
     def attach(self, dispatcher: Dispatcher) -> None:
@@ -46,8 +47,9 @@ class Dispatcher:
     Args:
         channel: to the pages.
         enqueue: takes commands, from any thread.
-        note: is told what browsers did that owners may want to know, from any thread.
-        handlers: of commands that do not simply wait for the frame loop.
+        parts: of the viewer; those with a `PageCommand` carry it out.
+        access: knows the tokens.
+        journal: of what browsers did that owners may want to know.
         clock: monotonic time in seconds.
     """
 
@@ -55,16 +57,22 @@ class Dispatcher:
         self,
         channel: Channel,
         enqueue: Callable[[Command, Sender], Future[str]],
-        note: Callable[[int, str], None],
-        handlers: Mapping[type[Any], Handler],
+        parts: Sequence[Part],
+        access: Access,
+        journal: Journal,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.channel = channel
         self.enqueue = enqueue
-        self.note = note
-        self._handlers = {kind.__name__: handler for kind, handler in handlers.items()}
+        self.access = access
+        self.journal = journal
+        self._handlers = {
+            name: _handler(getattr(part, each.method))
+            for part in parts
+            for name, each in commands_of(type(part)).items()
+            if issubclass(each.type, PageCommand)
+        }
         self._most: dict[str, Callable[[Any], int]] = {}
-        self._noted = set(NOTED)
         self._clock = clock
         self._recent: dict[tuple[int, str], deque[float]] = {}
         """When each browser sent its last commands that are limited."""
@@ -75,8 +83,6 @@ class Dispatcher:
         command: str,
         handler: Handler,
         most: Callable[[Any], int] | None = None,
-        *,
-        is_noted: bool = False,
     ) -> None:
         """Have a command carried out that does not simply wait for the frame loop.
 
@@ -84,13 +90,14 @@ class Dispatcher:
             command: its name.
             handler: carries it out.
             most: how many such commands a browser may send within a second, 0 for no limit.
-            is_noted: whether it is noted for the owner.
         """
         self._handlers[command] = handler
         if most is not None:
             self._most[command] = most
-        if is_noted:
-            self._noted.add(command)
+
+    def note(self, browser: int, text: str) -> None:
+        """Note what a browser did, from any thread."""
+        self.journal.note(self.channel.visitors().get(browser), text)
 
     def _do(self, browser: int, do: Do) -> None:
         made: dict[str, str] = {}
@@ -104,7 +111,8 @@ class Dispatcher:
         except ValueError as error:
             Asked(self.channel, browser, do).refuse(str(error))
             return
-        note = functools.partial(self.note, browser) if do.command in self._noted else None
+        is_noted = feature.commands()[do.command].is_noted
+        note = functools.partial(self.note, browser) if is_noted else None
         asked = Asked(self.channel, browser, do, note)
         limit = self._most.get(do.command)
         if limit and (most := limit(command)) and self._is_flood(browser, do.command, most):
@@ -132,6 +140,11 @@ class Dispatcher:
         if not is_flood:
             times.append(now)
         return is_flood
+
+
+def _handler(method: Callable[..., object]) -> Handler:
+    """Return what calls a method with the fields of its command."""
+    return lambda asked, command: method(asked=asked, **msgspec.structs.asdict(command))
 
 
 def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:

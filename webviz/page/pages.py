@@ -5,24 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Any
 
 from webviz.api.registry import display_types
 from webviz.api.roles import Role
 from webviz.commands import Refresh
-from webviz.engine.commands import Command, Sender
+from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.feature import stores
 from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import stores_of
 from webviz.engine.parts.part import Part
-from webviz.engine.state import State
 from webviz.engine.store import PageStore
-from webviz.page.dispatcher import Dispatcher, Handler, PageFeature
-from webviz.page.people import People
-from webviz.page.plugin_panels import PluginPanels
+from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
-from webviz.server.access.requests import Dismiss, Invite, Revoke, UseWidget
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Shell, ShowPictures
 
@@ -47,28 +42,16 @@ class Pages:
         parts: Sequence[Part] = (),
     ) -> None:
         self._channel = channel
+        self._enqueue = enqueue
         self._guard = Guard("The page", strict=False)
-        self.journal = journal = Journal(keep)
+        self.journal = Journal(keep)
         """Who did what."""
-
-        def note(browser: int, text: str) -> None:
-            journal.note(channel.visitors().get(browser), text)
 
         def request(command: Command, sender: Sender) -> Future[str]:
             return enqueue(command, _ranked(channel, sender))
 
-        self._panels = panels = PluginPanels(request)
-        people = People(channel, journal, access or Access())
-        handlers: dict[type[Any], Handler] = {
-            Dismiss: people.dismiss,
-            Invite: people.invite,
-            Revoke: people.revoke,
-            UseWidget: panels.use,
-        }
-        self._dispatcher = Dispatcher(channel, request, note, handlers)
-        self._people = people
-        made_by = (*parts, people, panels)
-        self._makers = {name: each for each in made_by for name in stores_of(type(each))}
+        dispatcher = Dispatcher(channel, request, parts, access or Access(), self.journal)
+        self._makers = {name: part for part in parts for name in stores_of(type(part))}
         """Those with stores, by the name of each store."""
         self._with_stores = [part for part in parts if stores_of(type(part))]
         self._watched: dict[Part, set[str]] = {}
@@ -78,7 +61,7 @@ class Pages:
         self._types = display_types()
         for part in parts:
             if isinstance(part, PageFeature):
-                self._guard(part.name, part.attach, self._dispatcher)
+                self._guard(part.name, part.attach, dispatcher)
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
@@ -90,11 +73,9 @@ class Pages:
         """Show viser's own panel, too."""
         self._channel.send(Shell(debug=True))
 
-    def update(self, state: State) -> None:
+    def update(self) -> None:
         """Show the viewer as it is; sends only what is new. To be called by the frame loop."""
         watched = self._channel.watched()
-        self._panels.update(state, watched)
-        self._people.update(state)
         self._forget(watched)
         self._note_watched(watched)
         for store in watched:
@@ -107,9 +88,11 @@ class Pages:
             if isinstance(part := self._makers.get(store.partition(":")[0]), Part):
                 now[part].add(store)
         before, self._watched = self._watched, now
-        for part, own in now.items():
-            if own != before.get(part, set()):
-                self._guard(part.name, part.watched, own)
+        changed = [part for part, own in now.items() if own != before.get(part, set())]
+        for part in changed:
+            self._guard(part.name, part.watched, now[part])
+        if changed:
+            self._enqueue(Refresh(), PROGRAM)  # what they read for it is received from then on
 
     def _fill(self, store: str) -> None:
         name, _, argument = store.partition(":")

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from webviz import commands
 from webviz.api.declared import Prop
 from webviz.api.goal import goal_request
+from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
 from webviz.commands import CallService
 from webviz.data.messages import MessageError, interfaces, to_tree
 from webviz.data.words import joined
+from webviz.engine.state import PanelTab
 from webviz.panels.sending import SendingPanel
 
 TIMEOUT_S = 30.0
@@ -50,9 +53,9 @@ class ServiceCall(SendingPanel):
         self.response: Any = None
         self.type = ""
 
-    def show(self, state: Any) -> None:
+    def show(self, services: Mapping[str, str], panels: Sequence[PanelTab]) -> None:
         """Show the form and the response."""
-        self.type = self.service_type or state.services.get(self.service, "")
+        self.type = self.service_type or services.get(self.service, "")
         about = self.type or "No node offers this service. Start one, or choose another."
         request = ""
         try:
@@ -60,9 +63,9 @@ class ServiceCall(SendingPanel):
                 request = interfaces.service(self.type, self.definition).request
         except MessageError as error:
             about = joined(str(error), REMEDY)
-        names = sorted(name for name in state.services if not name.endswith(OF_PARAMETERS))
+        names = sorted(name for name in services if not name.endswith(OF_PARAMETERS))
         form = {"verb": "Call", "name": self.service, "label": "Service", "names": names[:2000]}
-        self.show_form(state, request, {**form, "about": about, "response": self.response})
+        self.show_form(panels, request, {**form, "about": about, "response": self.response})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Call the service."""
@@ -103,9 +106,9 @@ class ActionGoal(SendingPanel):
         self.build_form(ui, send)
         self.type = ""
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the form."""
-        offered = actions_of(state)
+        offered = actions_of(offers)
         self.type = self.action_type or offered.get(self.action, "")
         about = self.type or "No node offers this action. Start one, or choose another."
         goal = ""
@@ -115,7 +118,7 @@ class ActionGoal(SendingPanel):
         except MessageError as error:
             about = joined(str(error), REMEDY)
         form = {"verb": "Send goal", "name": self.action, "label": "Action"}
-        self.show_form(state, goal, {**form, "names": sorted(offered)[:2000], "about": about})
+        self.show_form(panels, goal, {**form, "names": sorted(offered)[:2000], "about": about})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Send the goal."""
@@ -124,11 +127,11 @@ class ActionGoal(SendingPanel):
         self.send(commands.SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
 
 
-def actions_of(state: Any) -> dict[str, str]:
+def actions_of(offers: Mapping[str, Offer]) -> dict[str, str]:
     """Return the types of the actions that nodes offer, by name: those of their feedback."""
     feedback = {
         topic.removesuffix(FEEDBACK): offer.publishers[0].type
-        for topic, offer in state.offers.items()
+        for topic, offer in offers.items()
         if topic.endswith(FEEDBACK) and offer.publishers
     }
     return {name: type_.removesuffix(MESSAGE) for name, type_ in feedback.items()}

@@ -8,9 +8,11 @@ from typing import Annotated, Any
 import msgspec
 
 from webviz.api.declared import Prop
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.names import readable
 from webviz.data.words import counted
+from webviz.engine.state import PanelTimes
 
 ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 STALE = 3
@@ -108,9 +110,9 @@ class Diagnostics(Panel):
         """Show why a message cannot be read."""
         self.problems[topic] = reason
 
-    def show(self, state: Any) -> None:
+    def show(self, clock: PanelTimes, offers: Mapping[str, Offer]) -> None:
         """Show the tree, and why there is none."""
-        oldest_ns = state.clock.ros_ns - self.stale_after * NS_PER_S
+        oldest_ns = clock.ros_ns - self.stale_after * NS_PER_S
         for key, each in self.known.items():
             is_stale = each.received_ns < oldest_ns
             if is_stale != each.is_stale:
@@ -126,16 +128,16 @@ class Diagnostics(Panel):
                 for at, part in enumerate(self.parts)
             ]
         parts = {str(at): part for at, part in enumerate(self.parts) if part is not None}
-        values = {"parts": len(parts), "problem": self._problem(state)}
+        values = {"parts": len(parts), "problem": self._problem(offers)}
         self.tree.show(values, parts)
 
-    def _problem(self, state: Any) -> str:
+    def _problem(self, offers: Mapping[str, Offer]) -> str:
         for problem in self.problems.values():
             return problem
         if self.ignored:
             limit = f"the limit is {MAX_STATUSES}. Publish fewer."
             return f"{counted(self.ignored, 'diagnostic')} not shown; {limit}"
-        if not self.known and not any(topic in state.offers for topic in self._topics()):
+        if not self.known and not any(topic in offers for topic in self._topics()):
             return f"No publisher on {' or '.join(self._topics())}. Start a diagnostic updater."
         return "" if self.known else "No message yet."
 

@@ -95,7 +95,7 @@ class Docking(Panel):
         """Its actions, and the service of the parameters."""
         return self._full(DOCK), self._full(UNDOCK), self._parameters
 
-    def show(self, state: Any) -> None:
+    def show(self) -> None:
         """Ask the server for its types until it answers, and show the newest outcome."""
         if self.types is None and time.monotonic() - self.asked_s > ASK_S:
             self.asked_s = time.monotonic()

@@ -52,9 +52,8 @@ class NodeGraph(Panel):
         """Show the graph."""
         self.graph = ui.widget("graph", {}, lambda value, browser: None)
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer]) -> None:
         """Show the graph, made anew if it has changed."""
-        offers: Mapping[str, Offer] = state.offers
         if self.made_of[1:] != (tuple(self.hide), self.hidden) or self.made_of[0] is not offers:
             self.made_of = offers, tuple(self.hide), self.hidden
             self._make(offers)

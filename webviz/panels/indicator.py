@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 import msgspec
 
 from webviz.api.declared import Prop
+from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.data.messages.paths import FILTERS, as_number
 from webviz.data.names import readable
+from webviz.engine.state import PanelTab
 from webviz.panels.one_path import PathPanel
 
 COLORS = ("green", "yellow", "orange", "red", "blue", "grey")
@@ -41,9 +44,9 @@ class Indicator(PathPanel):
         self.build_path(ui, send)
         self.lamp = ui.widget("indicator", {}, lambda value, browser: None)
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the value, and the first rule that fits."""
-        problem = self.follow(state)
+        problem = self.follow(offers, panels)
         if not problem and len(self.found) != 1:
             problem = f"Expected one value, got {len(self.found)}. Add [0] or a filter."
         rules: list[Rule] = []

@@ -16,6 +16,7 @@ from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.api.status import Level, Status
 from webviz.commands import Publish
 from webviz.data.words import counted
+from webviz.engine.state import PanelTimes
 from webviz_urdf import Joint, RobotDescriptionError, leader_of
 
 STATE = "sensor_msgs/msg/JointState"
@@ -89,11 +90,11 @@ class Joints(Panel):
 
         threading.Thread(target=read, name="webviz-joints", daemon=True).start()
 
-    def show(self, state: Any) -> None:
+    def show(self, clock: PanelTimes) -> None:
         """Show the joints, and publish their positions again."""
         now_s = time.monotonic()
         with self.lock:
-            self.now_ns = state.clock.ros_ns
+            self.now_ns = clock.ros_ns
             if now_s - self.shown_s > PAUSE_S:
                 self.switch.show(False)
                 self.sender = None

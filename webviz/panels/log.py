@@ -9,9 +9,12 @@ from typing import Annotated, Any, Literal
 
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.names import readable
+from webviz.engine.state import PanelTimes
 from webviz.panels.seeking import seek_to
+from webviz.sources.past_state import PlaybackState
 
 LOG, ROS_1_LOG = "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"
 ROS_1_LEVELS = {1: 10, 2: 20, 4: 30, 8: 40, 16: 50}
@@ -50,7 +53,8 @@ class Log(Panel):
         """Without lines."""
         self.type = LOG
         self.problem = ""
-        self.state: Any = None
+        self.clock = PanelTimes()
+        self.playback: PlaybackState | None = None
         self.lock = threading.Lock()
         self.clear()
 
@@ -127,10 +131,12 @@ class Log(Panel):
         """Forget all lines."""
         self.clear()
 
-    def show(self, state: Any) -> None:
+    def show(
+        self, offers: Mapping[str, Offer], clock: PanelTimes, playback: PlaybackState | None = None
+    ) -> None:
         """Show the lines, and why there are none."""
-        self.state = state
-        offer = state.offers.get(self.topic)
+        self.clock, self.playback = clock, playback
+        offer = offers.get(self.topic)
         types = [each.type for each in offer.publishers] if offer else []
         self.type = ROS_1_LOG if ROS_1_LOG in types and LOG not in types else LOG
         with self.lock:
@@ -152,7 +158,7 @@ class Log(Panel):
         with self.lock:
             times = self.times[chunk - self.first] if chunk >= self.first else []
             received_ns = times[place]
-        self.send(seek_to(self.state, received_ns), browser)
+        self.send(seek_to(self.playback, self.clock, received_ns), browser)
 
 
 def _columns(lines: list[Line]) -> dict[str, Any]:

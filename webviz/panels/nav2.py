@@ -105,7 +105,7 @@ class Nav2(Panel):
             feedback = self.goals.get(name, {}) if newest in UNDER_WAY else {}
             self.goals[name] = {**feedback, "State": state}
 
-    def show(self, state: Any) -> None:
+    def show(self) -> None:
         """Ask the managers now and then, and show what is known."""
         if time.monotonic() - self.asked_s > ASK_S:
             self.asked_s = time.monotonic()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
-from webviz.panels.reading import PathReading, subscribed, types_of
+from webviz.engine.state import PanelTab
+from webviz.panels.reading import PathReading, id_of, subscribed, types_of
 
 NOTHING = ""
 
@@ -57,10 +59,10 @@ class PathPanel(Panel):
         self.revision += 1
         self.reading = PathReading(self.path)
 
-    def follow(self, state: Any) -> str:
+    def follow(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> str:
         """Follow the properties and topics; return why there is nothing to show."""
-        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
-        self.types = types_of(state)
+        self.id = id_of(self, panels)
+        self.types = types_of(offers)
         if self.reading.text != self.path:
             self.start_over()
         self.topics.offer([NOTHING, *sorted(self.types)], self.reading.topic)

@@ -10,6 +10,7 @@ import msgspec
 
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.data.geo import MAX_LATITUDE
 from webviz.data.words import counted
@@ -143,9 +144,9 @@ class OutdoorMap(Panel):
         """Forget all places."""
         self.tracks = {topic: _Track() for topic in self.tracks}
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer]) -> None:
         """Show the tracks and the tiles."""
-        known = types_of(state)
+        known = types_of(offers)
         self.types = {topic: type_ for topic, type_ in known.items() if type_ in (FIX, PATH)}
         wanted = list(dict.fromkeys(self.topics or sorted(self.types)))[:MAX_TOPICS]
         self.tracks = {topic: self.tracks.get(topic) or _Track() for topic in wanted}

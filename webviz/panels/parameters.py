@@ -11,6 +11,7 @@ import msgspec
 
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import CallService
 from webviz.data.names import readable
@@ -70,11 +71,10 @@ class Parameters(Panel):
         nodes = dict.fromkeys([*self.editable])
         return tuple(f"{node}/set_parameters" for node in nodes if node.startswith("/"))
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer], bridges: Sequence[Any] = ()) -> None:
         """Show the parameters, and ask for them if another node was chosen."""
-        offer = state.offers.get(EVENTS)
+        offer = offers.get(EVENTS)
         nodes = {each.node for each in offer.publishers if each.node} if offer else set[str]()
-        bridges = state.more.get("bridges", ())
         nodes.update(node for bridge in bridges for node in bridge.parameters.nodes)
         self.nodes.offer([NOTHING, *sorted(nodes)], self.chosen)
         changes = [bridge.parameters.changes for bridge in bridges]

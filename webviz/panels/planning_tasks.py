@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
 
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetProperty
+from webviz.engine.state import Row
 
 DISPLAY = "MotionPlanningTasks"
 NEWEST = "Newest"
@@ -30,9 +31,9 @@ class MotionPlanningTasks(Panel):
         )
         self.stages = ui.area()
 
-    def show(self, state: Any) -> None:
+    def show(self, rows: Sequence[Row]) -> None:
         """Show the stages of the first display."""
-        row = next((row for row in state.rows if row.type == DISPLAY and row.display), None)
+        row = next((row for row in rows if row.type == DISPLAY and row.display), None)
         if row is None:
             self.display, self.ids = "", {}
             self.choice.offer([NEWEST], NEWEST)
@@ -40,14 +41,14 @@ class MotionPlanningTasks(Panel):
             return
         self.display, self.ids = row.id, {NEWEST: 0, **row.offered.get("solution", {})}
         by_id = {id: name for name, id in self.ids.items()}
-        chosen = row.display.solution
+        chosen = getattr(row.display, "solution", 0)
         self.choice.offer(list(self.ids), by_id.get(chosen, str(chosen)))
         solved, failed = row.offered.get("stages", {}), row.offered.get("failed", {})
         if not solved:
             self.stages.text(WAITING)
             return
-        rows = [(name, str(count), str(failed.get(name, 0))) for name, count in solved.items()]
-        self.stages.table([("Stage", "Solutions", "Failed"), *rows])
+        stages = [(name, str(count), str(failed.get(name, 0))) for name, count in solved.items()]
+        self.stages.table([("Stage", "Solutions", "Failed"), *stages])
 
     def _choose(self, name: str, browser: int | None) -> None:
         if self.display and name in self.ids:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
 from webviz.api.errors import Error
+from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.api.status import Level, Status
 from webviz.commands import Publish
+from webviz.engine.state import PanelTab
 from webviz.panels.sending import SendingPanel
 
 MAX_RATE_HZ = 10.0
@@ -45,15 +47,20 @@ class PublishMessage(SendingPanel):
         type_ = self.message_type or self.type_shown
         return {self.topic: type_} if self.topic.startswith("/") and type_ else {}
 
-    def show(self, state: Any) -> None:
+    def show(
+        self,
+        offers: Mapping[str, Offer],
+        topics: Mapping[str, Sequence[str]],
+        panels: Sequence[PanelTab],
+    ) -> None:
         """Show the form, and publish if it is time."""
         # A topic that is published by hand, such as /cmd_vel, often has subscriptions only.
         read = {
             topic: tuple(each.type for each in offer.readers)
-            for topic, offer in state.offers.items()
+            for topic, offer in offers.items()
             if offer.readers
         }
-        types = state.topics.get(self.topic) or read.get(self.topic, ())
+        types = topics.get(self.topic) or read.get(self.topic, ())
         type_ = self.message_type or (types[0] if types else "")
         now_s = time.monotonic()
         if now_s - self.shown_s > PAUSE_S:
@@ -62,12 +69,12 @@ class PublishMessage(SendingPanel):
         if self.is_repeating and now_s >= self.next_s:
             self.next_s = now_s + (1.0 / self.rate if self.rate > 0 else math.inf)
             self._publish_or_stop()
-        named = {name for name, found in state.topics.items() if found} | read.keys()
-        topics = sorted(named)[:2000]
+        named = {name for name, found in topics.items() if found} | read.keys()
         about = type_ or "Nothing publishes or reads this topic. Enter its type in Properties."
-        form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": topics}
+        names = sorted(named)[:2000]
+        form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": names}
         repeating = {"repeats": self.is_repeating, "rate": self.rate}
-        self.show_form(state, type_, {**form, "about": about, **repeating})
+        self.show_form(panels, type_, {**form, "about": about, **repeating})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Publish once, or begin or end to repeat."""

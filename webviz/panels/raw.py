@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.data.messages import to_tree
+from webviz.engine.state import PanelTab
 from webviz.panels.one_path import PathPanel
 
 
@@ -23,9 +26,9 @@ class RawMessage(PathPanel):
         self.drawn = -1
         self.shown: Any = None
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the newest values."""
-        problem = self.follow(state)
+        problem = self.follow(offers, panels)
         if self.drawn != self.revision:
             self.drawn, self.shown = self.revision, self._tree()
         self.tree.show({"path": self.path, "tree": self.shown, "problem": problem})

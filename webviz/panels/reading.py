@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from webviz.api.offer import Offer
+from webviz.api.panel import Panel
 from webviz.data.messages.message_paths import MessagePath
 from webviz.data.messages.paths import PathError
+from webviz.engine.state import PanelTab
 
 
-def types_of(state: Any) -> dict[str, str]:
+def types_of(offers: Mapping[str, Offer]) -> dict[str, str]:
     """Return the message types of all topics with a publisher, as they are or would be read."""
     return {
         topic: offer.type or offer.publishers[0].type
-        for topic, offer in state.offers.items()
+        for topic, offer in offers.items()
         if offer.publishers
     }
+
+
+def id_of(panel: Panel, panels: Sequence[PanelTab]) -> str:
+    """Return the id of a panel for commands, "" until it is known."""
+    return next((tab.id for tab in panels if tab.panel is panel), "")
 
 
 class PathReading:

@@ -2,28 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from webviz.api.errors import Error
 from webviz.commands import Seek
+from webviz.engine.state import PanelTimes
+from webviz.sources.past_state import PlaybackState
 
 NS_PER_S = 1e9
 
 
-def seek_to(state: Any, received_ns: int) -> Seek:
+def seek_to(playback: PlaybackState | None, clock: PanelTimes, received_ns: int) -> Seek:
     """Return the command that shows a time.
 
     Args:
-        state: of the viewer.
+        playback, clock: of the viewer.
         received_ns: ROS time at which a message was received.
 
     Raises:
         Error: there is no recording or memory, or the time is not in it.
     """
-    playback = state.playback
     if playback is None:
         raise Error("There is no recording to seek in. Open a bag, or turn on the memory.")
-    if playback.is_live is not None and state.clock.is_simulated:
+    if playback.is_live is not None and clock.is_simulated:
         raise Error("Simulated time cannot be found in the memory. Drag the timeline instead.")
     at_s = (received_ns - playback.start_ns) / NS_PER_S
     end_s = (playback.end_ns - playback.start_ns) / NS_PER_S

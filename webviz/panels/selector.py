@@ -72,7 +72,7 @@ class Selector(Panel):
         topics = (self._full(topic) for _, topic, _, _ in KINDS)
         return (*topics, *(self._service(node) for node in PARAMETERS))
 
-    def show(self, state: Any) -> None:
+    def show(self) -> None:
         """Ask the servers that have not answered, and offer what is known."""
         if time.monotonic() - self.asked_s > ASK_S:
             self.asked_s = time.monotonic()

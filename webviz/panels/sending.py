@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 
 import msgspec
@@ -18,6 +18,8 @@ from webviz.commands import SetPanelProperty
 from webviz.data.messages import MessageError, encode, message_class, typestore
 from webviz.data.messages.classes import attribute
 from webviz.data.names import readable
+from webviz.engine.state import PanelTab
+from webviz.panels.reading import id_of
 from webviz.panels.yaml_text import inline, read_yaml, write_yaml
 
 MAX_DEPTH = 8
@@ -72,18 +74,18 @@ class SendingPanel(Panel):
         self.send = send
         self.form = ui.widget("form", {}, self.use)
 
-    def show_form(self, state: Any, type_: str, extra: Mapping[str, Any]) -> None:
+    def show_form(self, panels: Sequence[PanelTab], type_: str, extra: Mapping[str, Any]) -> None:
         """Show the form of a message type.
 
         Args:
-            state: of the viewer.
+            panels: all of them.
             type_: of the message, "" if it is unknown.
             extra: what else pages need: `verb` of the button, `name` and `label` of the target,
                 other `names` to choose from, and `about`, its type or why it has no form.
         """
         if not extra["name"]:
             extra = {**extra, "about": f"Enter the name of the {self.target}."}
-        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
+        self.id = id_of(self, panels)
         with self.lock:
             if type_ != self.type_shown:
                 self.type_shown = type_

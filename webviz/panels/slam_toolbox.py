@@ -121,7 +121,7 @@ class SlamToolbox(Panel):
             self.start = AT_POSE
             self.choice.offer(list(STARTS), AT_POSE)
 
-    def show(self, state: Any) -> None:
+    def show(self) -> None:
         """Ask for the state now and then, and show it."""
         if time.monotonic() - self.asked_s > ASK_S:
             self._ask()

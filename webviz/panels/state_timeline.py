@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 import msgspec
 
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
 from webviz.data.messages.paths import as_number, leaf_paths
 from webviz.data.names import readable
+from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.field_chooser import FieldChooser
-from webviz.panels.reading import PathReading, subscribed, types_of
+from webviz.panels.reading import PathReading, id_of, subscribed, types_of
 from webviz.panels.seeking import seek_to
+from webviz.sources.past_state import PlaybackState
 
 MAX_PATHS = 16
 MAX_CHANGES = 1000
@@ -67,7 +70,8 @@ class StateTimeline(Panel):
         self.types: Mapping[str, str] = {}
         self.chooser = FieldChooser(leaf_paths, self._add)
         self.tracks: dict[str, _Track] = {}
-        self.state: Any = None
+        self.clock = PanelTimes()
+        self.playback: PlaybackState | None = None
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the bands, and two lists that add one."""
@@ -102,15 +106,21 @@ class StateTimeline(Panel):
         """Forget all changes."""
         self.tracks = {text: _Track(text) for text in self.tracks}
 
-    def show(self, state: Any) -> None:
+    def show(
+        self,
+        offers: Mapping[str, Offer],
+        clock: PanelTimes,
+        panels: Sequence[PanelTab],
+        playback: PlaybackState | None = None,
+    ) -> None:
         """Show the bands."""
-        self.state = state
-        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
-        self.types = types_of(state)
+        self.clock, self.playback = clock, playback
+        self.id = id_of(self, panels)
+        self.types = types_of(offers)
         self.chooser.offer(self.types)
         wanted = list(dict.fromkeys(self.paths))[:MAX_PATHS]
         self.tracks = {text: self.tracks.get(text) or _Track(text) for text in wanted}
-        now_s = state.clock.ros_ns / NS_PER_S
+        now_s = clock.ros_ns / NS_PER_S
         start_s = now_s - self.window
         for track in self.tracks.values():
             while len(track.changes) > 1 and track.changes[1][0] < start_s:
@@ -131,7 +141,7 @@ class StateTimeline(Panel):
         if isinstance(value, str):
             self._set([path for path in self.paths if path != value], browser)
         else:
-            self.send(seek_to(self.state, round(float(value) * NS_PER_S)), browser)
+            self.send(seek_to(self.playback, self.clock, round(float(value) * NS_PER_S)), browser)
 
     def _add(self, path: str, browser: int | None) -> None:
         if path not in self.paths:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
 import numpy as np
 
+from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.data.messages.paths import as_number
 from webviz.data.messages.tree import field_names
 from webviz.data.names import readable
 from webviz.data.words import counted
+from webviz.engine.state import PanelTab
 from webviz.panels.one_path import PathPanel
 
 MAX_ROWS, MAX_COLUMNS = 1000, 30
@@ -41,9 +43,9 @@ class MessageTable(PathPanel):
         self.drawn = -1
         self.shown: dict[str, Any] = {"columns": [], "rows": [], "note": ""}
 
-    def show(self, state: Any) -> None:
+    def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the newest values."""
-        problem = self.follow(state)
+        problem = self.follow(offers, panels)
         if self.drawn != self.revision:
             self.drawn, self.shown = self.revision, table_of(self.found)
         self.table.show({**self.shown, "problem": problem})

@@ -47,7 +47,7 @@ class RvizVisualToolsGui(Panel):
         """Return the buttons."""
         return {self.topic: JOY}
 
-    def show(self, state: object) -> None:
+    def show(self) -> None:
         """Say why the newest press had no effect, if so."""
         self.result.text(self.outcome.text if self.outcome.level > Level.OK else "")
 

@@ -20,7 +20,7 @@ from webviz.api.errors import Error
 from webviz.api.finding import Finding
 from webviz.commands import Open, Reset, Save, SetFixedFrame, ShowView, StartWithView
 from webviz.engine.commands import Command
-from webviz.engine.state import State
+from webviz.files.config import Settings
 from webviz.files.config.files import SUFFIXES
 
 if TYPE_CHECKING:
@@ -52,8 +52,17 @@ class Controlled(Protocol):
     """The part of `webviz.Viewer` that is used here; thread-safe."""
 
     @property
-    def state(self) -> State:
-        """A snapshot of the viewer."""
+    def settings(self) -> Settings:
+        """Everything in the config except its lists."""
+        ...
+
+    @property
+    def path(self) -> str:
+        """The config file, or ""."""
+        ...
+
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of its state."""
         ...
 
     def do(self, command: Command) -> str:
@@ -136,7 +145,7 @@ class ControlNode:
         for service in self._services:
             service.turn()
         self._follow_diagnostics(self._viewer)
-        if (values := _values(self._viewer.state)) != self._mirrored:
+        if (values := _values(self._viewer)) != self._mirrored:
             self._mirror(values)
             self._mirrored = values
 
@@ -207,14 +216,14 @@ class ControlNode:
 
         Links are not resolved, since creating one takes the same permission as writing a config.
         """
-        file = self._require_viewer().state.file
-        path = Path(os.path.normpath(Path(file.folder, value)))
-        is_allowed = str(path.parent) == os.path.normpath(file.folder) or any(
+        own = self._require_viewer().fact("file").folder
+        path = Path(os.path.normpath(Path(own, value)))
+        is_allowed = str(path.parent) == os.path.normpath(own) or any(
             path.is_relative_to(folder) for folder in self._folders
         )
         if not is_allowed:
             raise Error(
-                f"{path} is outside {file.folder}. Start webviz with --config-folder {path.parent} "
+                f"{path} is outside {own}. Start webviz with --config-folder {path.parent} "
                 "to allow it."
             )
         if path.suffix.lower() not in SUFFIXES:
@@ -236,17 +245,17 @@ class ControlNode:
             return []
 
         def load() -> str:
-            path = _absolute(viewer.state.file.path)
+            path = _absolute(viewer.path)
             if not path:
                 raise Error("No config file to load. Set the parameter config_file.")
             viewer.do(Open(path))
             return f"Opened {path}."
 
         def save() -> str:
-            if not viewer.state.file.path:
+            if not viewer.path:
                 raise Error("The config has no file yet. Save it on the page first.")
             viewer.do(Save())
-            return f"Saved {_absolute(viewer.state.file.path)}."
+            return f"Saved {_absolute(viewer.path)}."
 
         def reset() -> str:
             viewer.do(Reset())
@@ -370,12 +379,13 @@ def _say(response: Any, done: Future[Any]) -> None:
         response.message = str(error) if error is not None else done.result()
 
 
-def _values(state: State) -> dict[str, str]:
+def _values(viewer: Controlled) -> dict[str, str]:
     """Return the values of the parameters."""
-    start, saved = state.settings.view, state.settings.views
+    settings = viewer.settings
+    start, saved = settings.view, settings.views
     return {
-        CONFIG_FILE: _absolute(state.file.path),
-        FIXED_FRAME: state.fixed_frame,
+        CONFIG_FILE: _absolute(viewer.path),
+        FIXED_FRAME: settings.fixed_frame,
         VIEW: next((name for name, view in saved.items() if view == start), ""),
     }
 

@@ -12,6 +12,7 @@ import textwrap
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from webviz.engine.commands import Command
 from webviz.engine.feature import PARTS, features
 from webviz.engine.parts.declaring import SENDER, DeclaredCommand, commands_of
 
@@ -27,6 +28,8 @@ def stubs() -> str:
     imports: set[tuple[str, str]] = set()
     for part in (*PARTS, *features().values()):
         for name, declared in commands_of(part).items():
+            if not issubclass(declared.type, Command):
+                continue
             classes.append(_stub(name, part, declared))
             base = declared.type.__mro__[1]
             imports.add((base.__module__, base.__name__))

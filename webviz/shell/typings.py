@@ -13,11 +13,8 @@ from msgspec import inspect
 
 from webviz import page
 from webviz.engine import feature
-from webviz.engine.parts.declaring import stores_of
 from webviz.engine.store import PageStore
 from webviz.page.dispatcher import form_of
-from webviz.page.people import People
-from webviz.page.plugin_panels import PluginPanels
 from webviz.scene import browsers, capacity
 from webviz.scene.constants import CONSTANTS
 from webviz.server.access import rules
@@ -73,8 +70,7 @@ def _messages() -> str:
 
 
 def _stores() -> str:
-    declared = {**feature.stores(), **stores_of(People), **stores_of(PluginPanels)}
-    makers = {name: each.make for name, each in declared.items()}
+    makers = {name: each.make for name, each in feature.stores().items()}
     names = _Names()
     lines = [f"  {name}: {_store(makers[name], names)};" for name in sorted(makers)]
     body = "\n".join(lines)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from webviz import Panel, Send, State, Ui
+from webviz import Panel, Send, Ui
 
 
 class BatteryDial(Panel):
@@ -30,6 +30,6 @@ class BatteryDial(Panel):
         """Warn below this charge from now on."""
         self.limit = min(1.0, max(0.0, float(value)))
 
-    def show(self, state: State) -> None:
+    def show(self) -> None:
         """Show the charge and the limit."""
         self.dial.show({"charge": self.charge, "limit": self.limit})

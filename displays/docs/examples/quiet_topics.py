@@ -1,6 +1,8 @@
 """A panel of your own: `webviz --plugin quiet_topics.py`."""
 
-from webviz import Panel, Send, State, Ui
+from collections.abc import Mapping
+
+from webviz import Panel, Send, Traffic, Ui
 from webviz.commands import InspectTopic
 
 
@@ -15,8 +17,8 @@ class QuietTopics(Panel):
         self.topics = ui.area()
         ui.button("Look into none", lambda browser: send(InspectTopic(""), browser))
 
-    def show(self, state: State) -> None:
-        """Show the current state; called a few times per second."""
-        quiet = [name for name, traffic in state.traffic.items() if traffic.rate_hz == 0.0]
+    def show(self, traffic: Mapping[str, Traffic]) -> None:
+        """Show what the parameters name; called a few times per second."""
+        quiet = [name for name, measured in traffic.items() if measured.rate_hz == 0.0]
         self.said.text("" if quiet else "Every topic that is shown has messages.")
         self.topics.table([(name, "no messages") for name in sorted(quiet)])

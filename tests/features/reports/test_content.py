@@ -6,13 +6,14 @@ import contextlib
 import json
 import re
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 from msgspec.structs import replace
 
+from tests.support.stand_ins import stand_in
 from webviz.api.errors import Error
 from webviz.api.finding import Finding, Severity
 from webviz.api.offer import Offer, Publisher
@@ -20,6 +21,7 @@ from webviz.api.status import Level, Status
 from webviz.data.messages import decode, defined, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.engine.commands import Picks
+from webviz.engine.doctor import Doctor
 from webviz.engine.state import Row, State
 from webviz.features.reports import ReportedThing, reported_store
 from webviz.features.reports.writing import (
@@ -77,14 +79,35 @@ STATE = State(
 
 def moment(state: State = STATE, *, with_names: bool = False, source: str = "run") -> ReportMoment:
     names = PrivateNames(state.offers, () if with_names else ("alice", "alicexyz"), "/root")
-    return ReportMoment(TextSlice(), source, state, Config(), "map\n", (), names, with_names)
+    return ReportMoment(
+        TextSlice(),
+        source,
+        state.rows,
+        state.statuses,
+        state.offers,
+        state.logged,
+        state.warned,
+        Config(),
+        "map\n",
+        len(state.frames),
+        (),
+        names,
+        with_names,
+    )
+
+
+def doctor(*findings: Finding, events: Sequence[Event] = ()) -> Doctor:
+    return stand_in(Doctor, findings=findings, events=events)
+
+
+NO_FINDINGS = doctor()
 
 
 @pytest.fixture
 def written(tmp_path: Path) -> Callable[..., BugReport]:
     """Write a report, and read it."""
 
-    def written(given: ReportMoment, later: State = STATE) -> BugReport:
+    def written(given: ReportMoment, later: Doctor = NO_FINDINGS) -> BugReport:
         (folder := tmp_path / "read").mkdir()
         path = tmp_path / "bug.zip"
         size = write(path, given, later, None)
@@ -117,7 +140,7 @@ def test_the_findings_are_the_last_ones_with_their_times(written: Callable[..., 
         first_ns=START_NS,
         last_ns=START_NS + 1_500_000_000,
     )
-    report = written(moment(), replace(STATE, findings=(finding,)))
+    report = written(moment(), doctor(finding))
     (entry,) = report.findings
     assert (entry.id, entry.severity, entry.subject) == ("TF001", "error", "base")
     assert (entry.cause, entry.remedy) == ("It is off.", "Turn it.")
@@ -132,7 +155,7 @@ def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugRepo
         ]
 
     state = replace(STATE, logged=events("driver", 0, 300), warned=events("Plan", 100, 250))
-    report = written(moment(state), replace(STATE, found=events("TF001", 349, 1)))
+    report = written(moment(state), doctor(events=events("TF001", 349, 1)))
     texts = [int(each.text) for each in report.moments]
     assert len(texts) == MAX_MOMENTS == 500
     assert texts == sorted(texts)
@@ -164,7 +187,7 @@ def test_names_of_people_are_in_no_member_unless_they_are_wanted(
     tmp_path: Path, with_names: bool
 ) -> None:
     path = tmp_path / "bug.zip"
-    write(path, moment(with_names=with_names), STATE, ("picture.png", b"alice"))
+    write(path, moment(with_names=with_names), NO_FINDINGS, ("picture.png", b"alice"))
     with zipfile.ZipFile(path) as archive:
         members = {name: archive.read(name) for name in archive.namelist()}
     assert members.pop("picture.png") == b"alice", "a picture stays as it is"
@@ -185,7 +208,7 @@ def test_the_log_is_read_by_the_definition_of_the_slice(tmp_path: Path) -> None:
             channel = RecordedChannel("/rosout", log, "cdr", text, "")
             yield channel, START_NS, encode(log, entry, defined(log, text))
 
-    write(tmp_path / "bug.zip", replace(moment(), part=LogSlice()), STATE, None)
+    write(tmp_path / "bug.zip", replace(moment(), part=LogSlice()), NO_FINDINGS, None)
     with zipfile.ZipFile(tmp_path / "bug.zip") as archive:
         line = archive.read("log.txt").decode()
     assert line == "2023-11-14T22:13:20.000+00:00 ERROR driver: It is hot.\n"
@@ -193,7 +216,7 @@ def test_the_log_is_read_by_the_definition_of_the_slice(tmp_path: Path) -> None:
 
 def test_the_graph_has_topics_with_the_qos_of_their_publishers(tmp_path: Path) -> None:
     path = tmp_path / "bug.zip"
-    write(path, moment(), STATE, None)
+    write(path, moment(), NO_FINDINGS, None)
     with zipfile.ZipFile(path) as archive:
         graph: dict[str, Any] = json.loads(archive.read("graph.json"))
     assert graph["nodes"] == ["/a", "/ns/talker"]
@@ -230,8 +253,8 @@ def test_a_selection_is_found_by_the_number_of_its_display() -> None:
     item = (5, 7, (1.0, 2.0, 3.0), (9, 8, 7))
     picks = Picks("plan/poses/0", "k", (item, item)), Picks("gone/poses", "k", (item,))
     found = ReportedPick(1, "poses/0", "k", 7, (1.0, 2.0, 3.0), (9, 8, 7))
-    assert picked(picks, STATE) == (found, found)
-    things = reported_store(picked(picks[:1], STATE), STATE.rows)
+    assert picked(picks, STATE.rows) == (found, found)
+    things = reported_store(picked(picks[:1], STATE.rows), STATE.rows)
     assert things is not None
     assert things.things[0] == ReportedThing("plan", "k", 7, (1.0, 2.0, 3.0))
 
@@ -244,4 +267,4 @@ def test_only_displays_that_are_there_show_what_was_selected(display: int, is_sh
 
 def test_a_report_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(Error, match=r"Cannot write .*bug.zip: No such file .* another place\.$"):
-        write(tmp_path / "none" / "bug.zip", moment(), STATE, None)
+        write(tmp_path / "none" / "bug.zip", moment(), NO_FINDINGS, None)

@@ -11,6 +11,7 @@ import pytest
 from bridges import FoxgloveServer, Reader, reading
 from websockets.sync.server import ServerConnection
 
+from tests.support.panel_facts import show as show_panel
 from webviz.data.messages import decode, encode, interfaces
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
@@ -90,7 +91,7 @@ def test_the_panel_shows_them_and_every_change(server: FoxgloveServer, reader: R
         future.add_done_callback(lambda f: command.answered(decode(parts.response, f.result())))
 
     def text(name: str) -> str:
-        panel.show(State(more={"bridges": tuple(reader.source.bridges)}))
+        show_panel(panel, State(more={"bridges": tuple(reader.source.bridges)}))
         rows = ui.widgets["1"].values["values"]["rows"]
         return next((row["text"] for row in rows if row["name"] == name), "")
 

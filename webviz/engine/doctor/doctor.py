@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from concurrent.futures import Future
 from dataclasses import replace
+from typing import Any
 
 from webviz.api.check import Check
 from webviz.api.check_registry import known_checks
@@ -120,6 +121,14 @@ class Doctor(Part):
         """ROS time of the last round, 0 before the first."""
         self.findings: Sequence[Finding] = ()
         """Of the last round, the one to repair first at the beginning."""
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the findings, and when they began."""
+        return {
+            "findings": self.findings,
+            "examined_ns": self.examined_ns,
+            "found": self.events,
+        }
 
     @store(name="findings", of=lambda part: part.made_of)
     def shown(self, argument: str) -> FindingsStore:

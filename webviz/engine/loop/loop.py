@@ -7,21 +7,20 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
+from typing import Any, TypeVar
 
 from webviz.api.nodes import POINTS_HELD
 from webviz.api.robots import NamespacedRobot, robots_of
-from webviz.api.status import Level, Status
+from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
-from webviz.data.words import joined
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.doctor import Doctor
 from webviz.engine.driving import VelocityControllers
-from webviz.engine.feature import broken_features, features
+from webviz.engine.feature import features, missing_features
 from webviz.engine.guard import Guard
 from webviz.engine.loop.arrivals import Arrivals
 from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
-from webviz.engine.loop.snapshot import snapshot
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.clock_watch import ClockWatchPart
@@ -42,7 +41,7 @@ from webviz.engine.pipeline import Runner, Services, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
-from webviz.engine.requests import Requests
+from webviz.engine.requests import LoopCalls, Requests
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
 from webviz.sources import Advertisement, Gate, Rights, Source
@@ -60,6 +59,8 @@ SEEKING_S = 0.1
 FAILURE_S = 15.0
 """Duration for which the failure of a part is shown."""
 
+T = TypeVar("T")
+
 
 class FrameLoop:
     """Draws the configured displays of a source in a scene.
@@ -68,7 +69,7 @@ class FrameLoop:
         config: what to show first.
         source: where messages come from; live topics are remembered, so that they can be rewound.
         scene: where to draw.
-        show: called with the state whenever panels should be updated.
+        show: called whenever pages should be updated.
         path: the file of the config, None if it has none.
         autoplay: play a recording as soon as a browser is connected; else it is paused first.
         may_publish: whether tools may publish, call services and send goals.
@@ -88,7 +89,7 @@ class FrameLoop:
         config: Config,
         source: Source,
         scene: Scene,
-        show: Callable[[State], None] = lambda state: None,
+        show: Callable[[], object] = lambda: None,
         *,
         path: Path | None = None,
         autoplay: bool = False,
@@ -108,6 +109,7 @@ class FrameLoop:
         waiting, clock = clock or time.monotonic, clock or player.clock
         self._show = show
         self._stop = threading.Event()
+        self._calls = LoopCalls(self._wake)
         self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
         self._requests = Requests(self._guard, self._wake)
         self._workers = Workers(self._wake)
@@ -249,6 +251,7 @@ class FrameLoop:
     def run(self) -> None:
         """Run until `stop`: a turn whenever something arrives, at most `frame_rate` per second."""
         arrived, pace = self._source.inbox.arrived, FramePacing()
+        self._calls.begin()
         try:
             while not self._stop.is_set():
                 pace.begin(time.monotonic(), 1.0 / self.settings.frame_rate)
@@ -262,6 +265,7 @@ class FrameLoop:
                     self._stop.wait(rest)
         finally:
             self.close()
+            self._calls.end()
 
     def close(self) -> None:
         """Stop all vehicles, and end all threads and autosave."""
@@ -281,6 +285,7 @@ class FrameLoop:
     def _advance(self) -> None:
         """Carry out commands, take what has arrived, and draw it."""
         core = self._core
+        self._calls.answer()
         self._owed += self._requests.obey(self._do)
         self._receive()
         is_seeking = self._playback.is_seeking
@@ -302,7 +307,8 @@ class FrameLoop:
         self._subscribe()
         self._parts.keep_up(commanded)
         self._guard("Publishers", self._advertise)
-        self._guard("Panel", self._show_state)
+        self._guard("Panel", self.update)
+        self._guard("Panel", self._show)
 
     def _subscribe(self) -> None:
         self._offers = self._core.offers
@@ -336,16 +342,37 @@ class FrameLoop:
             if is_late or not self._playback.is_seeking or time.monotonic() > until:
                 return
 
-    def state(self) -> State:
-        """Return a snapshot for programs, as of the last turn."""
+    def update(self) -> None:
+        """Have all parts note what there is to show, as of the last turn."""
         self._parts.update()
         statuses = self._parts.statuses()
         self._core.verdicts = self.doctor.verdicts
-        statuses |= failures(self._guard.crashes) | self._showing.statuses
-        self._core.statuses = statuses | without(broken_features())
+        statuses |= self._guard.statuses() | self._showing.statuses
+        self._core.statuses = {**statuses, **missing_features()}
         self._guard("Playback", self._playback.note_warnings, self._displays.rows)
         self._guard("Doctor", self.doctor.examine)
-        return snapshot(self._core, self._parts.state())
+
+    def state(self) -> State:
+        """Return all that programs may read, as of the last turn."""
+        self.update()
+        return self._core.state()
+
+    def last_state(self) -> State:
+        """Return the same, as of the last `update`."""
+        return self._core.state()
+
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of the state, as of the last `update`; see `Core.fact`."""
+        return self._core.fact(name, otherwise)
+
+    @property
+    def statuses(self) -> Mapping[str, Status]:
+        """Those of the viewer as a whole, as of the last `update`."""
+        return self._core.statuses
+
+    def call(self, read: Callable[[], T]) -> Future[T]:
+        """Call something between two turns, from any thread."""
+        return self._calls.put(read)
 
     def is_busy(self) -> bool:
         """Return whether a display is loading something that it has not drawn yet."""
@@ -354,10 +381,6 @@ class FrameLoop:
     def config(self) -> Config:
         """Return the current config."""
         return self._files.config()
-
-    def _show_state(self) -> None:
-        self._core.shown = self.state()
-        self._show(self._core.shown)
 
     def _move_on(self) -> None:
         """Look up frames at the time that is shown now."""
@@ -375,23 +398,3 @@ class FrameLoop:
 
     def _wake(self) -> None:
         self._source.inbox.arrived.set()
-
-
-def failures(crashes: Mapping[str, str]) -> dict[str, Status]:
-    """Return the parts of the viewer that failed, by name."""
-    return {
-        part: Status(Level.ERROR, joined(text, "The log has the details; please report this."))
-        for part, text in crashes.items()
-    }
-
-
-def without(broken: Mapping[str, str]) -> dict[str, Status]:
-    """Return which features cannot be loaded, by name.
-
-    Args:
-        broken: the reasons by name.
-    """
-    return {
-        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Install webviz anew.")
-        for name, reason in broken.items()
-    }

@@ -15,11 +15,13 @@ from typing import Any, TypeVar, get_type_hints
 import msgspec
 
 from webviz.api.roles import Role
-from webviz.engine.commands import Command
+from webviz.engine.commands import Command, PageCommand
 from webviz.engine.store import PageStore
 
 SENDER = "sender"
 """The parameter of a command that receives its sender; it is not a field."""
+ASKED = "asked"
+"""The parameter of a `PageCommand` that receives what a page asks for; it is not a field."""
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -28,16 +30,18 @@ class DeclaredCommand(msgspec.Struct, frozen=True):
     """A method that is a command.
 
     Args:
-        type: its class, whose instances are sent.
+        type: its class, a `Command` or `PageCommand`, whose instances are sent.
         role: of pages that may send it; None if none may.
         method: its name.
         has_sender: whether it gets its sender.
+        is_noted: whether owners read in the journal who did it.
     """
 
-    type: type[Command]
+    type: type[Any]
     role: Role | None
     method: str
     has_sender: bool
+    is_noted: bool
 
 
 class DeclaredStore(msgspec.Struct, frozen=True):
@@ -63,28 +67,33 @@ class _Mark(msgspec.Struct, frozen=True):
     """Notes of `command` about a method."""
 
     role: Role | None
-    base: type[Command]
+    base: type[Command | PageCommand]
     label: Callable[[Any], str] | None
     name: str
+    is_noted: bool
 
 
 def command(
     role: Role | None,
-    base: type[Command] = Command,
+    base: type[Command | PageCommand] = Command,
     label: Callable[[Any], str] | None = None,
     name: str = "",
+    *,
+    is_noted: bool = False,
 ) -> Callable[[F], F]:
     """Make a method a command.
 
     Args:
         role: of pages that may send it; None if only programs may.
-        base: `FileCommand` if it may answer with a slow part.
+        base: `FileCommand` if it may answer with a slow part; `PageCommand` if it is called on the
+            event loop, and answers the page through its parameter `asked`.
         label: of the step that undoes it, from the command; None derives it from what has changed.
         name: of its class; "" is that of the method.
+        is_noted: whether owners read in the journal who did it.
     """
 
     def declare(method: F) -> F:
-        vars(method)["command"] = _Mark(role, base, label, name)
+        vars(method)["command"] = _Mark(role, base, label, name, is_noted)
         return method
 
     return declare
@@ -135,7 +144,7 @@ def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
     fields: list[Any] = []
     for each in parameters:
         default = () if each.default is each.empty else (each.default,)
-        if each.name != SENDER:
+        if each.name not in (SENDER, ASKED):
             fields.append((each.name, types[each.name], *default))
     label = {"label": property(mark.label)} if mark.label else {}
     made: Any = msgspec.defstruct(
@@ -146,4 +155,5 @@ def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
         namespace={"__doc__": method.__doc__, **label},
         frozen=True,
     )
-    return DeclaredCommand(made, mark.role, name, any(each.name == SENDER for each in parameters))
+    has_sender = any(each.name == SENDER for each in parameters)
+    return DeclaredCommand(made, mark.role, name, has_sender, mark.is_noted)

@@ -71,6 +71,10 @@ class DisplaysPart(Part):
         self.tree = TreeRows()
         """The rows of the page's tree."""
 
+    def state(self) -> Mapping[str, Any]:
+        """Return the displays, and the statuses of the viewer."""
+        return {"rows": self.rows, "statuses": self.core.statuses}
+
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the displays' subscriptions. The first decides on type and QoS of a topic."""
         active = self.list.active()

@@ -131,6 +131,10 @@ class FilesPart(Part):
         path = str(self._path) if self._path else ""
         return ConfigFile(path, self._is_changed, str(self._folder), self._others)
 
+    def state(self) -> Mapping[str, Any]:
+        """Return the file."""
+        return {"file": self.file()}
+
     def statuses(self) -> Mapping[str, Status]:
         """Return the unsupported parts of the open .rviz file."""
         if not self._report:
@@ -163,7 +167,12 @@ class FilesPart(Part):
         is_free = sender.browser is None or file == self._path
         return (lambda: None) if is_free else functools.partial(_refuse_elsewhere, file)
 
-    @command(Role.OWNER, FileCommand, label=lambda each: f"Open {PurePath(each.path).name}")
+    @command(
+        Role.OWNER,
+        FileCommand,
+        label=lambda each: f"Open {PurePath(each.path).name}",
+        is_noted=True,
+    )
     def open(self, sender: Sender, path: str) -> Job[Config]:
         """Replace the current config by that of a file."""
         wanted = self._in_folder(path, sender)
@@ -196,7 +205,7 @@ class FilesPart(Part):
         self.views.open(config.settings.view)
         return f"Restored {_amount(config)} of the last session."
 
-    @command(Role.OWNER, FileCommand, label=lambda each: f"Open {each.name}")
+    @command(Role.OWNER, FileCommand, label=lambda each: f"Open {each.name}", is_noted=True)
     def load(self, text: str, name: str) -> Job[Config]:
         """Replace the current config by that of a text.
 
@@ -216,7 +225,12 @@ class FilesPart(Part):
 
         return Job(lambda: opening.parse(text, name), then)
 
-    @command(Role.OWNER, FileCommand, label=lambda each: f"Save as {PurePath(each.path).name}")
+    @command(
+        Role.OWNER,
+        FileCommand,
+        label=lambda each: f"Save as {PurePath(each.path).name}",
+        is_noted=True,
+    )
     def save(self, sender: Sender, path: str = "") -> Job[list[str]]:
         """Save the current config to a file; "" is the file it came from."""
         target = self._in_folder(path, sender) if path else self._path

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
 import msgspec
@@ -61,6 +61,10 @@ class HistoryPart(Part):
         undo = tuple(done.step for done in reversed(self._undo))
         redo = tuple(done.step for done in reversed(self._redo))
         return UndoHistory(undo, redo)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the steps that can be undone and redone."""
+        return {"history": self.history()}
 
     def noting(self, do: Do) -> Do:
         """Like `do`, which carries out commands, but notes what they change."""

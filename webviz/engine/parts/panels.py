@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
@@ -96,6 +98,26 @@ class PanelsPart(Part):
     def tabs(self) -> tuple[PanelTab, ...]:
         """Return the panels in their order."""
         return tuple(self._tabs())
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the panels in their order."""
+        return {"panels": self.tabs()}
+
+    def show(self, panel: Panel) -> None:
+        """Let a panel show the viewer: it gets what the parameters of its `show` name.
+
+        Raises:
+            TypeError: there is no such thing.
+        """
+        named = parameters_of(type(panel))
+        values = {name: self.core.fact(name, default) for name, default in named.items()}
+        unknown = [name for name, value in values.items() if value is inspect.Parameter.empty]
+        if len(named) == len(unknown) == 1:  # as before webviz 0.3
+            values = dict.fromkeys(unknown, self.core.state())
+        elif unknown:
+            names = ", ".join(unknown)
+            raise TypeError(f"`show` asks for {names}, which this viewer does not have")
+        panel.show(*values.values())
 
     def statuses(self) -> Mapping[str, Status]:
         """Return the statuses of unusable panels."""
@@ -246,6 +268,14 @@ class PanelsPart(Part):
         call = gate.query if type in READING else gate.call
         sent = call(name, type, payload, timeout_s)
         sent.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
+
+
+@functools.cache
+def parameters_of(panel: type[Panel]) -> Mapping[str, Any]:
+    """Return the names of what a panel shows, with their defaults."""
+    _, *own = inspect.signature(panel.show).parameters.values()
+    variable = inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD
+    return {each.name: each.default for each in own if each.kind not in variable}
 
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:

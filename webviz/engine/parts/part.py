@@ -20,7 +20,7 @@ from webviz.engine.parts.declaring import DeclaredCommand, commands_of
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import Job
-from webviz.engine.state import State
+from webviz.engine.state import State, snapshot
 from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
 from webviz.sources.player import Player
 
@@ -96,10 +96,10 @@ class Core:
         """All parts, once they are there."""
         self._by_kind: dict[type[Part], Any] = {}
         """Those that were asked for."""
+        self._by_fact: dict[str, Part] = {}
+        """Those of the facts that were asked for."""
         self.statuses: Mapping[str, Status] = {}
         """Those of the viewer as a whole, such as "Fixed Frame", as of the last turn."""
-        self.shown = State()
-        """The last state that programs have seen."""
         self.verdicts: Sequence[Verdict] = ()
         """Last verdicts on the rules of the config."""
 
@@ -116,6 +116,32 @@ class Core:
                 raise LookupError(f"This viewer has no {kind.__name__}.")
             self._by_kind[kind] = found
         return found
+
+    def fact(self, name: str, otherwise: Any) -> Any:
+        """Return what a part lets others read by a name, see `Part.state`.
+
+        Args:
+            name: of the value.
+            otherwise: what to return if no part has it.
+        """
+        owner = self._by_fact.get(name)
+        if owner is None:
+            owner = next((part for part in self.parts if name in self._state_of(part)), None)
+            if owner is None:
+                return otherwise
+            self._by_fact[name] = owner
+        return self._state_of(owner).get(name, otherwise)
+
+    def state(self) -> State:
+        """Return all of this for programs; what a part that fails has is as without it."""
+        found: dict[str, Any] = {}
+        for part in self.parts:
+            found |= self._state_of(part)
+        return snapshot(found)
+
+    def _state_of(self, part: Part) -> Mapping[str, Any]:
+        own: Mapping[str, Any] = {}
+        return self.guard.attempt(part.name, own, part.state)
 
     def is_watched(self) -> bool:
         """Return whether any browser is connected."""
@@ -140,14 +166,18 @@ class Part:
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:
-        """The handler of each command."""
-        return {each.type: self._handler(each) for each in commands_of(type(self)).values()}
+        """The handler of each command, besides those of the server."""
+        return {
+            each.type: self._handler(each)
+            for each in commands_of(type(self)).values()
+            if issubclass(each.type, Command)
+        }
 
     def _handler(self, declared: DeclaredCommand) -> Handler:
         method = getattr(self, declared.method)
 
         def obey(command: Command, sender: Sender) -> Any:
-            fields = {name: getattr(command, name) for name in command.__struct_fields__}
+            fields = msgspec.structs.asdict(command)
             return method(**fields, sender=sender) if declared.has_sender else method(**fields)
 
         return obey
@@ -184,7 +214,10 @@ class Part:
         """Note what there is to show, before stores are made."""
 
     def state(self) -> Mapping[str, Any]:
-        """Return its values for programs, by the names of fields of `webviz.State`."""
+        """Return what programs, panels and other parts may read of it, by name.
+
+        The names are those of fields of `webviz.State`, and always the same.
+        """
         return {}
 
     def statuses(self) -> Mapping[str, Status]:

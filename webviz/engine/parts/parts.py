@@ -14,7 +14,7 @@ from webviz.engine.requests import Job
 from webviz.sources import Advertisement, Subscription, merged
 
 _HOOKS = (
-    *("subscriptions", "advertisements", "take", "reset", "keep_up", "update", "state"),
+    *("subscriptions", "advertisements", "take", "reset", "keep_up", "update"),
     *("statuses", "close"),
 )
 
@@ -90,14 +90,6 @@ class Parts:
         """Have all parts note what there is to show."""
         for part in self._overriding["update"]:
             self._guard(part.name, part.update)
-
-    def state(self) -> Mapping[str, Any]:
-        """Return the values of features for programs."""
-        found: dict[str, Any] = {}
-        for part in self._overriding["state"]:
-            own: Mapping[str, Any] = {}
-            found |= self._guard.attempt(part.name, own, part.state)
-        return found
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the viewer as a whole, by key."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from webviz.api.errors import Error
 from webviz.api.roles import Role
@@ -168,6 +169,15 @@ class PlaybackPart(Part):
         # On the way to a position, and before the first message, displays lack their messages.
         if not player.is_seeking and player.reached_ns >= player.history.start_ns:
             found.note(player.position_ns, rows)
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the recording, the counts of its messages, and its events."""
+        return {
+            "playback": self.playback,
+            "recorded": self.recorded,
+            "logged": self.logged,
+            "warned": self.warned,
+        }
 
     def statuses(self) -> Mapping[str, Status]:
         """Return what is missing, unusual or damaged in the recording."""

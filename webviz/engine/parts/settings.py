@@ -57,6 +57,10 @@ class SettingsPart(Part):
         self.settings = Settings()
         """Everything in the config except displays and tools."""
 
+    def state(self) -> Mapping[str, Any]:
+        """Return the settings."""
+        return {"settings": self.settings, "fixed_frame": self.settings.fixed_frame}
+
     def set(self, key: str, value: Any) -> None:
         """Change a setting.
 

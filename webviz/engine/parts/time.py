@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from webviz.api.roles import Role
 from webviz.api.status import Level, Status
@@ -107,6 +108,10 @@ class TimePart(Part):
             is_simulated=times.is_simulated,
             hz=float(f"{times.clock_hz:.2g}"),
         )
+
+    def state(self) -> Mapping[str, Any]:
+        """Return the time."""
+        return {"clock": self.times}
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether time runs."""

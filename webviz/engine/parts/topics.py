@@ -112,6 +112,15 @@ class TopicsPart(Part):
         """Forget delays, which another time makes meaningless."""
         self._delays.clear()
 
+    def state(self) -> Mapping[str, Any]:
+        """Return topics, services, and the traffic of what is subscribed to."""
+        return {
+            "topics": self.types,
+            "offers": self.core.offers,
+            "services": self.core.gate.services(),
+            "traffic": self.traffic,
+        }
+
     def update(self) -> None:
         """Measure the rates anew now and then."""
         now, counts = self.core.clock(), self.core.player.inbox.received()

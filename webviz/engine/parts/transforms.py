@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from webviz.api.robots import NamespacedRobot
 from webviz.api.status import Level, OtherFixedFrame, Status
@@ -57,6 +58,10 @@ class TransformsPart(Part):
     def frames(self, argument: str = "") -> FramesStore:
         """Return all frame ids."""
         return FramesStore(tuple(sorted(self.core.buffer.frames())))
+
+    def state(self) -> Mapping[str, Any]:
+        """Return all frame ids."""
+        return {"frames": self.frames().frames}
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""

@@ -132,6 +132,10 @@ class ViewsPart(Part):
             self._scene.remove_group(target_group(frame))
         self._placed = targets
 
+    def state(self) -> Mapping[str, Any]:
+        """Return the current view of every browser."""
+        return {"views": self.current()}
+
     def statuses(self) -> Mapping[str, Status]:
         """Return views whose target frame has no pose."""
         frames = self.core.frames

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from webviz.api.group import PATH
 from webviz.api.properties import Property, properties_of
@@ -12,7 +12,7 @@ MAX_NAMES = 1000
 """Displays that get a switch in the page."""
 
 
-def paths(rows: tuple[Row, ...]) -> Iterator[tuple[Row, str]]:
+def paths(rows: Sequence[Row]) -> Iterator[tuple[Row, str]]:
     """Each row, with the names of its groups before its own."""
     groups: list[str] = []
     for row in rows:
@@ -30,7 +30,7 @@ def enabled(rows: Iterable[Row]) -> Iterator[Row]:
                 yield row
 
 
-def names(rows: tuple[Row, ...], own: Row) -> Mapping[str, str]:
+def names(rows: Sequence[Row], own: Row) -> Mapping[str, str]:
     """Return the names of switches, and the type of each display; its own display has none."""
     found = {path: row.type for row, path in paths(rows) if row is not own}
     return dict(list(found.items())[:MAX_NAMES])
@@ -43,7 +43,7 @@ def switches_of(row: Row) -> list[Property]:
     return [each for each in properties_of(type(row.display)) if each.widget == "displays"]
 
 
-def hidden_in(panes: Iterable[Row], rows: tuple[Row, ...]) -> dict[str, list[str]]:
+def hidden_in(panes: Iterable[Row], rows: Sequence[Row]) -> dict[str, list[str]]:
     """Ids of the displays that a pane leaves out, by its own; only those that draw the scene."""
     found: dict[str, list[str]] = {}
     for row in panes:
@@ -53,7 +53,7 @@ def hidden_in(panes: Iterable[Row], rows: tuple[Row, ...]) -> dict[str, list[str
     return found
 
 
-def _hidden(rows: tuple[Row, ...], switches: Mapping[str, bool]) -> list[str]:
+def _hidden(rows: Sequence[Row], switches: Mapping[str, bool]) -> list[str]:
     """Ids of the displays that are switched off, by themselves or with a group."""
     found: list[str] = []
     off: int | None = None

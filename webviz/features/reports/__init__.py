@@ -16,6 +16,7 @@ from webviz.data.transforms import diagnose, tree_text
 from webviz.engine.commands import FileCommand, Picks, Sender
 from webviz.engine.doctor import Doctor
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.shown_moment import as_seen, slice_around
@@ -76,7 +77,7 @@ class ReportsFeature(Feature):
     @store()
     def reported(self, argument: str) -> ReportedStore | None:
         """Return the selection of the bug report that is shown, None without one."""
-        return reported_store(self._reported, self.core.shown.rows)
+        return reported_store(self._reported, self.core.get(DisplaysPart).rows)
 
     @command(None)
     def restore_selection(self, picks: tuple[ReportedPick, ...]) -> None:
@@ -116,7 +117,7 @@ class ReportsFeature(Feature):
             raise Error("Pages cannot choose the file of a report.")
         image = read_picture(picture)
         moment = self._moment(sender, selection, with_names)
-        core, doctor = self.core, self.core.get(Doctor)
+        doctor = self.core.get(Doctor)
 
         def work() -> str:
             until_s = time.monotonic() + ROUNDS_S
@@ -125,25 +126,31 @@ class ReportsFeature(Feature):
                 time.sleep(REST_S)
                 doctor.ask()
             file = Path(path) if path else new_path("webviz_report", ".zip")
-            size = write(file, moment, core.shown, image)
+            size = write(file, moment, doctor, image)
             return f"Saved {file.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
 
         return Job(work, lambda answer: answer)
 
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
-        core, state = self.core, self.core.shown
+        core, rows = self.core, self.core.get(DisplaysPart).rows
+        frames = core.buffer.frames()
         config = as_seen(core.get(FilesPart).config(), core, sender)
         part, source = slice_around(core.player)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems
-        public = {*state.offers, *state.frames, *namespaces(state.offers)}
+        public = {*core.offers, *frames, *namespaces(core.offers)}
         return ReportMoment(
             part,
             source,
-            state,
+            rows,
+            core.statuses,
+            core.offers,
+            core.fact("logged", ()),
+            core.fact("warned", ()),
             config,
             "\n".join([tree or "There are no transforms.", *problems, ""]),
-            picked(picks, state),
+            len(frames),
+            picked(picks, rows),
             PrivateNames(public),
             with_names,
         )

@@ -18,10 +18,12 @@ import PIL.Image
 
 from webviz.api.errors import Error
 from webviz.api.offer import Offer
+from webviz.api.status import Status
 from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Picks
-from webviz.engine.state import State
+from webviz.engine.doctor import Doctor
+from webviz.engine.state import Row
 from webviz.files import config as config_file
 from webviz.files.config import Config
 from webviz.files.report import (
@@ -48,13 +50,27 @@ VARIABLES = ("ROS_DISTRO", "RMW_IMPLEMENTATION")
 
 
 class ReportMoment(msgspec.Struct, frozen=True):
-    """All that a report is made of, as it was when it was asked for."""
+    """All that a report is made of, as it was when it was asked for.
+
+    Args:
+        part, source: the messages, and whether they are live.
+        rows, statuses, offers, logged, warned: see `webviz.State`.
+        config: what is shown.
+        frames, frame_count: the tree as text, and the number of its frames.
+        selection: of the page that asked for it.
+        names, with_names: what is private, and whether it is kept.
+    """
 
     part: Slice
     source: str
-    state: State
+    rows: Sequence[Row]
+    statuses: Mapping[str, Status]
+    offers: Mapping[str, Offer]
+    logged: Sequence[Event]
+    warned: Sequence[Event]
     config: Config
     frames: str
+    frame_count: int
     selection: tuple[ReportedPick, ...]
     names: PrivateNames
     with_names: bool
@@ -62,18 +78,18 @@ class ReportMoment(msgspec.Struct, frozen=True):
 
 def listing(moment: ReportMoment) -> list[str]:
     """Return the content of a report, a line per member."""
-    state, part, names = moment.state, moment.part, moment.names
+    part, names = moment.part, moment.names
     topics = counted(part.topics, "topic")
     whose = "the bag" if moment.source != "live" else "memory"
-    statuses = sum(len(row.statuses) for row in state.rows) + len(state.statuses)
+    statuses = sum(len(row.statuses) for row in moment.rows) + len(moment.statuses)
     lines = [
         f"{SLICE}: {part.seconds:.1f} s of {topics} from {whose}, latched messages first",
         f"{CONFIG}: {counted(len(moment.config.displays), 'display')} and settings as they are now",
         "picture: the scene as it is shown",
         f"{REPORT}: {statuses} statuses, findings of the "
         "doctor with their times, selection, versions of programs",
-        f"{FRAMES}: the tree of {counted(len(state.frames), 'frame')}",
-        f"{GRAPH}: nodes, {counted(len(state.offers), 'topic')}, types and QoS",
+        f"{FRAMES}: the tree of {counted(moment.frame_count, 'frame')}",
+        f"{GRAPH}: nodes, {counted(len(moment.offers), 'topic')}, types and QoS",
         f"{LOG}: the last lines of /rosout",
     ]
     if moment.with_names:
@@ -82,8 +98,10 @@ def listing(moment: ReportMoment) -> list[str]:
     return [*lines, f"Names of hosts, users and home folders are left out{kept}."]
 
 
-def write(path: Path, moment: ReportMoment, later: State, picture: tuple[str, bytes] | None) -> int:
-    """Write a report; its size in bytes.
+def write(
+    path: Path, moment: ReportMoment, doctor: Doctor, picture: tuple[str, bytes] | None
+) -> int:
+    """Write a report with the newest findings of the doctor; its size in bytes.
 
     Raises:
         Error: it cannot be written.
@@ -95,12 +113,12 @@ def write(path: Path, moment: ReportMoment, later: State, picture: tuple[str, by
             file = folder / SLICE
             change = (lambda data: data) if keep else names.message
             written = write_slice(moment.part, file, MAX_BYTES, change)
-            report = _report(moment, written, later)
+            report = _report(moment, written, doctor)
             members: dict[str, bytes | Path] = {
                 REPORT: _encoded(report),
                 CONFIG: config_file.dump(moment.config).encode(),
                 FRAMES: moment.frames.encode(),
-                GRAPH: _encoded(_graph(moment.state)),
+                GRAPH: _encoded(_graph(moment.offers)),
                 LOG: "".join(f"{line}\n" for line in written.log).encode(),
             }
             if not keep:
@@ -119,12 +137,11 @@ def _private(names: PrivateNames, data: bytes) -> bytes:
     return names.text(data.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
 
 
-def _report(moment: ReportMoment, written: WrittenSlice, later: State) -> BugReport:
-    state = moment.state
-    began = {(event.name, event.text): event.at_ns / 1e9 for event in reversed(state.warned)}
-    rows = [row for row in state.rows if row.type != "Group"]
-    places = [("", state.statuses), *((row.name, row.statuses) for row in rows)]
-    events = [*state.logged, *state.warned, *later.found]
+def _report(moment: ReportMoment, written: WrittenSlice, doctor: Doctor) -> BugReport:
+    began = {(event.name, event.text): event.at_ns / 1e9 for event in reversed(moment.warned)}
+    rows = [row for row in moment.rows if row.type != "Group"]
+    places = [("", moment.statuses), *((row.name, row.statuses) for row in rows)]
+    events = [*moment.logged, *moment.warned, *doctor.events]
     return BugReport(
         source=moment.source,
         made=time.time(),
@@ -153,7 +170,7 @@ def _report(moment: ReportMoment, written: WrittenSlice, later: State) -> BugRep
                 each.first_ns / 1e9,
                 each.last_ns / 1e9,
             )
-            for each in later.findings
+            for each in doctor.findings
         ),
         moments=tuple(_told(each) for each in sorted(events, key=_time)[-MAX_MOMENTS:]),
         selection=moment.selection,
@@ -169,9 +186,9 @@ def _time(event: Event) -> int:
     return event.at_ns
 
 
-def picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
+def picked(picks: Sequence[Picks], rows: Sequence[Row]) -> tuple[ReportedPick, ...]:
     """Return a selection, with the numbers of displays instead of their ids, which differ later."""
-    places = {row.id: number for number, row in enumerate(state.rows)}
+    places = {row.id: number for number, row in enumerate(rows)}
     found: list[ReportedPick] = []
     for each in picks:
         id, _, rest = each.group.partition("/")
@@ -182,8 +199,7 @@ def picked(picks: Sequence[Picks], state: State) -> tuple[ReportedPick, ...]:
     return tuple(found)
 
 
-def _graph(state: State) -> dict[str, Any]:
-    offers = state.offers
+def _graph(offers: Mapping[str, Offer]) -> dict[str, Any]:
     nodes = sorted({p.node for offer in offers.values() for p in offer.publishers if p.node})
     topics = [
         {

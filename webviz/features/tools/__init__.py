@@ -109,7 +109,7 @@ class ToolsFeature(PageFeature):
         """Return the statuses of unusable tools."""
         return self.list.statuses()
 
-    @command(Role.OPERATOR)
+    @command(Role.OPERATOR, is_noted=True)
     def use_tool(
         self,
         sender: Sender,

@@ -60,7 +60,7 @@ class Toolbar:
     def __init__(self, dispatcher: Dispatcher) -> None:
         self._dispatcher = dispatcher
         self._shown: Tools | None = None
-        dispatcher.take("UseTool", self.use, lambda command: MAX_GESTURES, is_noted=True)
+        dispatcher.take("UseTool", self.use, lambda command: MAX_GESTURES)
 
     def show(self, buttons: Sequence[ToolButton]) -> None:
         """Show the tools of a viewer; sends only what is new."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -11,12 +11,16 @@ import msgspec
 from webviz.api.chart import Curve
 from webviz.api.declared import Prop
 from webviz.api.lookback import Lookback
+from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
 from webviz.data.messages.paths import numeric_paths
+from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.field_chooser import FieldChooser
 from webviz.panels.plot.series import Series
+from webviz.panels.reading import id_of, types_of
 from webviz.panels.seeking import NS_PER_S, seek_to
+from webviz.sources.past_state import PlaybackState
 
 MAX_CURVES = 16
 MAX_AXES = 4
@@ -63,7 +67,8 @@ class Plot(Panel):
     def __post_init__(self) -> None:
         """Without values."""
         self.id = ""
-        self.state: Any = None
+        self.clock = PanelTimes()
+        self.playback: PlaybackState | None = None
         self.series: dict[str, Series] = {}
         self.types: Mapping[str, str] = {}
         self.chooser = FieldChooser(numeric_paths, self._add)
@@ -104,24 +109,26 @@ class Plot(Panel):
         for each in self.series.values():
             each.clear()
 
-    def show(self, state: Any) -> None:
+    def show(
+        self,
+        offers: Mapping[str, Offer],
+        clock: PanelTimes,
+        panels: Sequence[PanelTab],
+        playback: PlaybackState | None = None,
+    ) -> None:
         """Show the curves, and what can be added."""
         now = time.monotonic()
         if now - self.active_s > CLOSED_S:
             for each in self.series.values():
                 each.history.gap()
         self.active_s = now
-        self.state = state
-        self.id = next((tab.id for tab in state.panels if tab.panel is self), "")
-        self.types = {
-            topic: offer.type or offer.publishers[0].type
-            for topic, offer in state.offers.items()
-            if offer.publishers
-        }
+        self.clock, self.playback = clock, playback
+        self.id = id_of(self, panels)
+        self.types = types_of(offers)
         self._follow()
         self.chooser.offer(self.types)
         ends = [each.history.newest[0] for each in self.series.values() if each.history.newest]
-        now_s = state.clock.ros_ns / 1e9
+        now_s = clock.ros_ns / 1e9
         if self.time == "Header Stamp" or not now_s:
             now_s = max(ends, default=now_s)
         axes = self._axes()
@@ -172,10 +179,10 @@ class Plot(Panel):
 
     def _seek(self, time_s: float, browser: int | None) -> None:
         at_ns = round(time_s * NS_PER_S)
-        if (playback := self.state.playback) is not None:
+        if (playback := self.playback) is not None:
             first_ns = playback.start_ns + round(playback.first_s * NS_PER_S)
             at_ns = max(first_ns, min(at_ns, playback.end_ns))
-        self.send(seek_to(self.state, at_ns), browser)
+        self.send(seek_to(self.playback, self.clock, at_ns), browser)
 
     def _set(self, curves: list[str], browser: int | None) -> None:
         self.send(SetPanelProperty(self.id, "curves", curves), browser)

@@ -8,16 +8,6 @@ from typing import Any
 
 from webviz.api.roles import Role
 from webviz.engine import feature
-from webviz.server.access import requests
-
-_COMMANDS: Mapping[type[Any], Role] = {
-    requests.UseWidget: Role.OPERATOR,
-    # Who may come.
-    requests.Dismiss: Role.OWNER,
-    requests.Invite: Role.OWNER,
-    requests.Revoke: Role.OWNER,
-}
-"""Of commands that are no methods of parts or features; see `commands`."""
 
 MESSAGES: Mapping[str, Role | None] = {
     "Answer": Role.WATCHER,
@@ -36,13 +26,6 @@ MESSAGES: Mapping[str, Role | None] = {
     "Watch": Role.WATCHER,
 }
 """Of the messages of `webviz.server.channel.messages`; None if it is that of the command within."""
-
-STORES: Mapping[str, Role] = {
-    "addresses": Role.OWNER,
-    "journal": Role.OWNER,
-    "links": Role.OWNER,
-}
-"""Of the stores of `webviz.page.people` that not everybody may watch."""
 
 SCENE: Mapping[str, Role] = {
     "SceneNodeClickMessage": Role.OPERATOR,
@@ -64,13 +47,13 @@ REMEDY = "Ask the owner of this viewer for another link."
 def commands() -> Mapping[type[Any], Role]:
     """Return the commands that pages may send, with the roles; see `webviz.page.dispatcher`."""
     own = feature.commands().values()
-    return {**_COMMANDS, **{each.type: each.role for each in own if each.role is not None}}
+    return {each.type: each.role for each in own if each.role is not None}
 
 
 def role_to_watch(store: str) -> Role:
     """Return the role that a store requires, by its name before the colon."""
     own = feature.stores().get(store)
-    return STORES.get(store, Role.WATCHER) if own is None else own.role
+    return Role.WATCHER if own is None else own.role
 
 
 @functools.cache

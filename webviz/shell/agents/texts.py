@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from webviz.api.finding import Finding
+from webviz.api.offer import Offer
 from webviz.api.status import Level
 from webviz.data.messages.tree import Tree
 from webviz.data.words import joined
-from webviz.engine.state import Inspected, Row, State
+from webviz.engine.state import Inspected, Row, Traffic
+from webviz.shell.app.viewer import Viewer
 
 MAX_LINES = 200
 MAX_LINE = 400
@@ -29,24 +31,24 @@ def bounded(lines: Iterable[str]) -> str:
     return "\n".join(kept)
 
 
-def explanation(state: State, display: str = "") -> Iterator[str]:
+def explanation(viewer: Viewer, display: str = "") -> Iterator[str]:
     """Yield findings, the one to repair first at the beginning, and the statuses of displays.
 
     Args:
-        state: of the viewer.
+        viewer: that is examined.
         display: name or id of the only one to tell about, "" for all.
     """
-    rows = [row for row in state.rows if display in ("", row.name, row.id)]
-    names = {row.id: row.name for row in state.rows}
-    findings = state.findings
+    rows = [row for row in viewer.rows if display in ("", row.name, row.id)]
+    names = {row.id: row.name for row in viewer.rows}
+    findings, playback = viewer.fact("findings"), viewer.fact("playback")
     if display:
         ids = {row.id for row in rows}
         findings = [f for f in findings if not f.explains or ids & {s.display for s in f.explains}]
     yield from _findings(findings, names)
-    yield f"Fixed frame: {state.settings.fixed_frame}."
-    if state.playback is not None and state.playback.is_live is not True:
-        yield f"A recording is shown, at {state.playback.position_s:.2f} s."
-    for key, status in state.statuses.items():
+    yield f"Fixed frame: {viewer.fixed_frame}."
+    if playback is not None and playback.is_live is not True:
+        yield f"A recording is shown, at {playback.position_s:.2f} s."
+    for key, status in viewer.statuses.items():
         if status.level is not Level.OK:
             yield f"{status.level.name} {key}: {status.text}"
     for row in rows:
@@ -69,13 +71,13 @@ def _row(row: Row) -> Iterator[str]:
         yield f"  {status.level.name} {key}: {status.text}"
 
 
-def topics(state: State) -> Iterator[str]:
+def topics(offers: Mapping[str, Offer], traffic: Mapping[str, Traffic]) -> Iterator[str]:
     """All topics with their types and publishers, and rates of those that are subscribed."""
-    for name, offer in sorted(state.offers.items()):
+    for name, offer in sorted(offers.items()):
         types = ", ".join(sorted({each.type for each in offer.publishers})) or "no publisher"
         nodes = ", ".join(sorted({each.node for each in offer.publishers})[:MAX_NODES])
-        traffic = state.traffic.get(name)
-        rate = f", {traffic.rate_hz:.1f} Hz" if traffic else ""
+        measured = traffic.get(name)
+        rate = f", {measured.rate_hz:.1f} Hz" if measured else ""
         yield f"{name}: {types}{f' from {nodes}' if nodes else ''}{rate}"
 
 

@@ -65,11 +65,11 @@ class AgentTools:
         while self._is_loading() and time.monotonic() < deadline:
             time.sleep(REST_S)
             self._viewer.do(Refresh())
-        state = self._viewer.state
-        if display and display not in {each for row in state.rows for each in (row.name, row.id)}:
-            hint = nearest(display, [row.name for row in state.rows])
+        rows = self._viewer.rows
+        if display and display not in {each for row in rows for each in (row.name, row.id)}:
+            hint = nearest(display, [row.name for row in rows])
             raise Error(f"There is no display `{display}`: {hint}")
-        return texts.bounded(texts.explanation(state, display))
+        return texts.bounded(texts.explanation(self._viewer, display))
 
     def see(
         self, caller: AgentCaller, views: Sequence[Wanted], width: int, height: int
@@ -103,7 +103,8 @@ class AgentTools:
         """All topics."""
         self._begin(caller, "read the topics")
         self._viewer.do(Refresh())
-        return texts.bounded(texts.topics(self._viewer.state))
+        fact = self._viewer.fact
+        return texts.bounded(texts.topics(fact("offers"), fact("traffic")))
 
     def read(self, caller: AgentCaller, topic: str) -> str:
         """Return the newest message of a topic, or why there is none."""
@@ -179,13 +180,13 @@ class AgentTools:
         deadline = time.monotonic() + MESSAGE_S
         while True:
             self._viewer.do(Refresh())
-            found = self._viewer.state.inspected.get(topic)
+            found = self._viewer.fact("inspected", {}).get(topic)
             if (found and found.message is not None) or time.monotonic() > deadline:
                 return found
             time.sleep(REST_S)
 
     def _is_loading(self) -> bool:
-        return any(LOADING in row.statuses for row in self._viewer.state.rows)
+        return any(LOADING in row.statuses for row in self._viewer.rows)
 
 
 def known() -> set[str]:

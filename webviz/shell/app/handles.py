@@ -74,7 +74,7 @@ class DisplayHandle:
         own = self._row().id
         return [
             finding
-            for finding in self._viewer.state.findings
+            for finding in self._viewer.fact("findings")
             if own in {symptom.display for symptom in finding.explains}
         ]
 
@@ -214,11 +214,11 @@ class DisplayHandle:
         self._viewer.do(command)
 
     def _find(self) -> Row | None:
-        return next((row for row in self._viewer.state.rows if row.id == self.id), None)
+        return next((row for row in self._viewer.rows if row.id == self.id), None)
 
     def _around(self) -> tuple[Sequence[Row], Sequence[Row]]:
         """Return the rows before the display, and those from it on."""
-        rows = self._viewer.state.rows
+        rows = self._viewer.rows
         for number, row in enumerate(rows):
             if row.id == self.id:
                 return rows[:number], rows[number:]

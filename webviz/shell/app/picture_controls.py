@@ -14,8 +14,8 @@ import PIL.Image
 from webviz.api.errors import Error
 from webviz.api.views import View, with_type
 from webviz.data.names import new_path
-from webviz.engine.state import State
 from webviz.files import config as config_file
+from webviz.files.config import Settings
 from webviz.shell.pictures import files as picture_files
 
 if TYPE_CHECKING:
@@ -33,8 +33,12 @@ class PictureControls(ABC):
 
     @property
     @abstractmethod
-    def state(self) -> State:
-        """A snapshot of everything that a panel could show."""
+    def settings(self) -> Settings:
+        """Everything in the config except its lists."""
+
+    @abstractmethod
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of the state."""
 
     @property
     @abstractmethod
@@ -110,7 +114,7 @@ class PictureControls(ABC):
 
     def _view(self, view: Wanted) -> View | None:
         if isinstance(view, str):
-            if view not in (saved := self.state.settings.views):
+            if view not in (saved := self.settings.views):
                 hint = config_file.nearest(view, saved)
                 raise Error(f"Unknown saved view `{view}`: {hint}")
             view = saved[view]
@@ -118,7 +122,7 @@ class PictureControls(ABC):
 
     def save_screenshot(self) -> Path:
         """Save a picture of the scene next to the config, named by the time."""
-        path = new_path("webviz_screenshot", ".png", Path(self.state.file.folder))
+        path = new_path("webviz_screenshot", ".png", Path(self.fact("file").folder))
         self.screenshot(path)
         return path
 

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from webviz import commands
 from webviz.api.errors import Error
@@ -19,8 +19,10 @@ from webviz.api.finding import Finding
 from webviz.api.views import View
 from webviz.commands import Refresh, ShowView, StartWithView
 from webviz.engine.commands import PROGRAM, Command, Sender, wrong_text
-from webviz.engine.state import State
-from webviz.files.config import Config
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.files import FilesPart
+from webviz.engine.state import Row, State
+from webviz.files.config import Config, Settings
 from webviz.files.sessions import Sessions
 from webviz.server.access.login import cookie_name
 from webviz.server.access.visitors import Visitor
@@ -48,6 +50,9 @@ ROUNDS = 3
 REST_S = 0.1
 PATIENCE_S = 30.0
 """For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
+BUSY = f"The viewer has been busy for {PATIENCE_S:g} s. Try again later."
+
+T = TypeVar("T")
 
 
 class Running(PictureControls):
@@ -130,7 +135,7 @@ class Running(PictureControls):
                 shown,
                 source,
                 self._scene,
-                self._show,
+                lambda: self._pages.update(),
                 path=path,
                 autoplay=autoplay,
                 may_publish=publish,
@@ -144,7 +149,7 @@ class Running(PictureControls):
             self._run_loop(source)
             watcher.start(lambda path: self._loop.enqueue(commands.ReloadPlugin(path)))
             closing.add("The plug-in watcher", watcher.stop)
-            self.do(Refresh())  # so that there is a state
+            self.do(Refresh())  # so that there is something to read
             if node_control is not None:
                 self._open_control(node_control, config_folders, control)
             self._stack = stack.pop_all()
@@ -221,7 +226,7 @@ class Running(PictureControls):
         self._closing.add("The frame loop", thread.join)
         self._closing.before(self._loop.stop)
         self._scene.link.deferred.wake = source.inbox.arrived.set
-        self._snapshots = Snapshots(self._scene, self._drawn, self._look, self._cookie())
+        self._snapshots = Snapshots(self._scene, self, self._look, self._cookie())
         self._closing.add("The browser of pictures", self._snapshots.close)
 
     @property
@@ -257,8 +262,33 @@ class Running(PictureControls):
 
     @property
     def state(self) -> State:
-        """A read-only snapshot of all that the panel shows, at most a second old."""
-        return self._state
+        """A read-only snapshot of all that the panel shows; `fact` reads one field of it."""
+        return self._called(self._loop.last_state)
+
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of `state`.
+
+        Args:
+            name: of the field.
+            otherwise: what to return if this viewer has none.
+        """
+        return self._called(lambda: self._loop.fact(name, otherwise))
+
+    @property
+    def rows(self) -> Sequence[Row]:
+        """The list of displays with their statuses."""
+        return self._loop.get(DisplaysPart).rows
+
+    @property
+    def settings(self) -> Settings:
+        """Everything in the config except its lists."""
+        return self._loop.settings
+
+    @property
+    def path(self) -> str:
+        """The config file, or ""."""
+        path = self._loop.get(FilesPart).path
+        return str(path) if path else ""
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> str:
         """Run a command of `webviz.engine.commands` and wait for it.
@@ -283,7 +313,7 @@ class Running(PictureControls):
                 return answer.result()
         if self._ended.done():
             raise Error("The viewer is closed. Create a new one.") from self._ended.exception()
-        raise Error(f"The viewer has been busy for {PATIENCE_S:g} s. Try again later.")
+        raise Error(BUSY)
 
     def acknowledged(self, timeout: float) -> bool:
         """Wait until every connected browser has applied everything sent so far.
@@ -322,20 +352,22 @@ class Running(PictureControls):
         while doctor.rounds < until:
             self.do(Refresh())
             time.sleep(REST_S)
-        return list(self.state.findings)
+        return list(self._loop.doctor.findings)
 
     def last_findings(self) -> list[Finding]:
         """Return the findings of the last round; rounds go on for some seconds after a call."""
         self._loop.doctor.ask()
-        return list(self.state.findings)
+        return list(self._loop.doctor.findings)
 
     def _cookie(self) -> tuple[str, str] | None:
         """Return the cookie of the browser that takes pictures, None if none is asked for."""
         return (cookie_name(self.port), self.access.own.cookie) if self.access.asks else None
 
-    def _drawn(self) -> State:
-        self.do(Refresh())
-        return self.state
+    def _called(self, read: Callable[[], T]) -> T:
+        try:
+            return self._loop.call(read).result(PATIENCE_S)
+        except TimeoutError:
+            raise Error(BUSY) from None
 
     def _look(self, view: View, browser: int) -> None:
         self.do(ShowView(view, browser))
@@ -348,7 +380,3 @@ class Running(PictureControls):
             self._ended.set_exception(error)
         else:
             self._ended.set_result(None)
-
-    def _show(self, state: State) -> None:
-        self._state = state
-        self._pages.update(state)

@@ -7,13 +7,13 @@ import os
 import time
 from abc import ABC, abstractmethod
 from pathlib import Path
+from typing import Any
 
 from webviz import commands
 from webviz.api.errors import Error
 from webviz.commands import Pause, Play, ReturnToLive, Seek, SetRate
 from webviz.data.names import new_path
 from webviz.engine.commands import Command
-from webviz.engine.state import State
 from webviz.shell.app.arguments import absolute, number
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
 from webviz.sources.past_state import PlaybackState
@@ -23,10 +23,9 @@ from webviz.sources.recording.memory import MEMORY_OFF
 class TimeControls(ABC):
     """Pauses, plays and records."""
 
-    @property
     @abstractmethod
-    def state(self) -> State:
-        """A snapshot of everything that a panel could show."""
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of the state."""
 
     @abstractmethod
     def do(self, command: Command) -> str:
@@ -167,6 +166,7 @@ class TimeControls(ABC):
 
     @property
     def _playback(self) -> PlaybackState:
-        if (shown := self.state.playback) is None:
+        shown: PlaybackState | None = self.fact("playback")
+        if shown is None:
             raise Error(MEMORY_OFF)
         return shown

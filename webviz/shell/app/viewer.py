@@ -28,6 +28,8 @@ from webviz.commands import (
     ShowView,
     StartWithView,
 )
+from webviz.engine.parts.topics import TopicsPart
+from webviz.engine.parts.transforms import TransformsPart
 from webviz.files import config as config_file
 from webviz.files import opening
 from webviz.shell.app import notebook
@@ -108,7 +110,7 @@ class Viewer(Running, TimeControls):
     @property
     def displays(self) -> list[DisplayHandle]:
         """All displays and groups, in the order of the list."""
-        return [DisplayHandle(self, row.id) for row in self.state.rows]
+        return [DisplayHandle(self, row.id) for row in self.rows]
 
     @property
     def groups(self) -> list[DisplayHandle]:
@@ -121,7 +123,7 @@ class Viewer(Running, TimeControls):
         Raises:
             NoSuchDisplay: it does not exist, or the name is ambiguous.
         """
-        rows = self.state.rows
+        rows = self.rows
         names = [row.name for row in rows]
         if isinstance(key, int):
             if not -len(rows) <= key < len(rows):
@@ -141,34 +143,34 @@ class Viewer(Running, TimeControls):
         return DisplayHandle(self, rows[number].id)
 
     def __contains__(self, name: object) -> bool:
-        return any(row.name == name for row in self.state.rows)
+        return any(row.name == name for row in self.rows)
 
     def __iter__(self) -> Iterator[DisplayHandle]:
         return iter(self.displays)
 
     def __len__(self) -> int:
-        return len(self.state.rows)
+        return len(self.rows)
 
     def __bool__(self) -> bool:
         return True
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [row.name for row in self.state.rows]
+        return [row.name for row in self.rows]
 
     @property
     def frames(self) -> tuple[str, ...]:
         """All known frame ids, sorted."""
-        return self.state.frames
+        return tuple(self._loop.get(TransformsPart).frames().frames)
 
     @property
     def topics(self) -> dict[str, tuple[str, ...]]:
         """The message types of all topics."""
-        return dict(self.state.topics)
+        return dict(self._loop.get(TopicsPart).types)
 
     @property
     def statuses(self) -> dict[str, Status]:
         """The statuses of the viewer as a whole, such as "Fixed Frame"."""
-        return dict(self.state.statuses)
+        return dict(self._loop.statuses)
 
     # Changes
 
@@ -204,7 +206,7 @@ class Viewer(Running, TimeControls):
     @property
     def fixed_frame(self) -> str:
         """The frame in which everything is drawn."""
-        return self.state.fixed_frame
+        return self.settings.fixed_frame
 
     @fixed_frame.setter
     def fixed_frame(self, frame: str) -> None:
@@ -213,7 +215,7 @@ class Viewer(Running, TimeControls):
     @property
     def background(self) -> Color | None:
         """The background colour; None follows the theme of each page."""
-        return self.state.settings.background
+        return self.settings.background
 
     @background.setter
     def background(self, color: Color | None) -> None:
@@ -222,7 +224,7 @@ class Viewer(Running, TimeControls):
     @property
     def frame_rate(self) -> float:
         """Maximum updates of the scene per second."""
-        return self.state.settings.frame_rate
+        return self.settings.frame_rate
 
     @frame_rate.setter
     def frame_rate(self, hz: float) -> None:
@@ -235,7 +237,7 @@ class Viewer(Running, TimeControls):
         Assign a view, its values as in a config file, or the name of a saved one to show it in all
         browsers, now and when they join.
         """
-        return self.state.settings.view
+        return self.settings.view
 
     @view.setter
     def view(self, view: View | str | Mapping[str, Any]) -> None:
@@ -246,7 +248,7 @@ class Viewer(Running, TimeControls):
     @property
     def views(self) -> dict[str, View]:
         """Saved views by name."""
-        return dict(self.state.settings.views)
+        return dict(self.settings.views)
 
     def save_view(self, name: str, view: View | Mapping[str, Any] | None = None) -> None:
         """Save a view, by default that of the newest browser.
@@ -267,14 +269,9 @@ class Viewer(Running, TimeControls):
     # Files
 
     @property
-    def path(self) -> str:
-        """The config file, or ""."""
-        return self.state.file.path
-
-    @property
     def is_changed(self) -> bool:
         """Return whether there are unsaved changes."""
-        return self.state.file.is_changed
+        return self.fact("file").is_changed
 
     def open(self, path: str | os.PathLike[str]) -> None:
         """Open a config file.

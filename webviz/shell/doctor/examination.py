@@ -6,7 +6,7 @@ import contextlib
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from typing import Any
@@ -26,7 +26,7 @@ from webviz.commands import AddDisplay, SetFixedFrame
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.loop import FrameLoop
-from webviz.engine.state import State
+from webviz.engine.parts.displays import DisplaysPart
 from webviz.files.config import Config
 from webviz.shell.app.bag_config import displays_of, fixed_frame_of
 from webviz.shell.doctor.report import DoctorReport, report_of
@@ -106,7 +106,6 @@ class Examination:
         if since_s is not None:
             self._loop.doctor.listening_since_s = since_s
         self._seen: dict[tuple[str, str], Finding] = {}
-        self._state: State | None = None
         self._is_open = True
         self._offers: Mapping[str, Offer] = {}
         self._shown = [subject for subject, _ in _added(config)]
@@ -138,9 +137,8 @@ class Examination:
                 ended.result(max(0.0, until_s + extra_s - time.monotonic()))
             if not self._is_open:
                 break
-        state = self._state
-        report = report_of("live", state, state.findings if state else (), len(known_checks()))
         doctor = self._loop.doctor
+        report = self._report("live", doctor.findings)
         report.unfinished = (
             doctor.rounds < ROUNDS
             or not doctor.is_graph_found
@@ -152,7 +150,7 @@ class Examination:
         began = time.monotonic()
         is_frame_given = is_given
         while (now := time.monotonic()) < until_s or (self._is_open and now < until_s + MORE_S):
-            self._state = self._turn()
+            self._turn()
             self._is_open = self._loop.is_busy() or not self._loop.doctor.is_settled()
             passed = now - began
             self._progress("examining", min(1.0, passed / (until_s - began)))
@@ -168,45 +166,49 @@ class Examination:
         """Examine a bag from its beginning to its end."""
         self._loop.doctor.slice_s = math.inf
         length_ns = bag.history.end_ns - bag.history.start_ns
-        state = self._turn()
+        self._turn()
         for at_ns in steps_of(bag, bag.history.start_ns, bag.history.end_ns, STEP_NS):
             while bag.reached_ns < at_ns:
                 if not self._loop.is_busy():  # displays catch up first
                     bag.play_until(at_ns)
-                state = self._turn()
+                self._turn()
             self._progress("playing", (at_ns - bag.history.start_ns) / max(1, length_ns))
         for _ in range(ROUNDS):  # a bag may be shorter than the time between two
             self._loop.doctor.hasten()
-            state = self._turn()
-        ending = {(each.id, each.subject) for each in state.findings}
+            self._turn()
+        ending = {(each.id, each.subject) for each in self._loop.doctor.findings}
         lasting = [
             each
             for key, each in self._seen.items()
             if (key in ending and each.id not in OF_SILENCE)
             or each.last_ns - each.first_ns >= LASTING_S * 1e9
         ]
-        return report_of(name, state, ordered(lasting), len(known_checks()))
+        return self._report(name, ordered(lasting))
 
     def close(self) -> None:
         """End all threads."""
         self._loop.close()
 
-    def _turn(self) -> State:
+    def _report(self, source: str, findings: Sequence[Finding]) -> DoctorReport:
+        loop = self._loop
+        rows = loop.get(DisplaysPart).rows
+        return report_of(source, rows, loop.statuses, findings, len(known_checks()))
+
+    def _turn(self) -> None:
         self._loop.turn()
-        state = self._loop.state()
-        for each in state.findings:
+        self._loop.update()
+        doctor = self._loop.doctor
+        for each in doctor.findings:
             key = each.id, each.subject
             known = self._seen.get(key, each)
             self._seen[key] = replace(each, first_ns=known.first_ns or each.first_ns)
-        doctor = self._loop.doctor
         if self._results and doctor.rounds != self._rounds:
             self._rounds = doctor.rounds
-            playback = state.playback
+            playback = self._loop.fact("playback")
             at_s = time.monotonic() - self._began_s
             if playback is not None and playback.is_live is None:
                 at_s = playback.position_s
             self._results.note(doctor.verdicts, at_s)
-        return state
 
     def _add_displays(self) -> None:
         """Add displays of topics that are found later than most, as on a busy machine."""
@@ -293,7 +295,7 @@ def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> Do
     checks = [check for check in known_checks() if CauseLevel.of(check.id) in levels]
     found = [finding for check in checks for finding in check().find(seen)]
     source = f"live, with {ends.there.host}" if ends else "live"
-    return report_of(source, None, ordered(found), len(checks))
+    return report_of(source, (), {}, ordered(found), len(checks))
 
 
 def live_config(offers: Mapping[str, Offer]) -> Config:

@@ -9,11 +9,11 @@ from typing import Annotated, Any
 import msgspec
 
 from webviz.api.finding import Fact, Finding, Severity
-from webviz.api.status import Level, Measurement
+from webviz.api.status import Level, Measurement, Status
 from webviz.data.names import readable
 from webviz.data.words import counted
 from webviz.engine.doctor.observing import problems
-from webviz.engine.state import State
+from webviz.engine.state import Row
 
 WIDTH = 90
 COLORS = {"error": "31;1", "warning": "33;1", "note": "36", "id": "1", "faint": "2", "ok": "32;1"}
@@ -97,21 +97,25 @@ class DoctorReport(msgspec.Struct, kw_only=True):
 
 
 def report_of(
-    source: str, state: State | None, findings: Sequence[Finding], checks: int
+    source: str,
+    rows: Sequence[Row],
+    general: Mapping[str, Status],
+    findings: Sequence[Finding],
+    checks: int,
 ) -> DoctorReport:
     """Make a report.
 
     Args:
         source: "live", or the path of a bag.
-        state: of the viewer at the end, None if there was none.
+        rows, general: displays and statuses of the viewer at the end.
         findings: in their order.
         checks: number of checks that were run.
     """
-    rows = [row for row in state.rows if row.type != "Group"] if state else []
+    bad = problems(general, rows)
+    rows = [row for row in rows if row.type != "Group"]
     names = {row.id: row.name for row in rows}
-    statuses = {("", key): status for key, status in (state.statuses if state else {}).items()}
+    statuses = {("", key): status for key, status in general.items()}
     statuses |= {(row.id, key): status for row in rows for key, status in row.statuses.items()}
-    bad = problems(state.statuses, state.rows) if state else {}
 
     def reported(place: tuple[str, str]) -> ReportedStatus:
         status = statuses.get(place)

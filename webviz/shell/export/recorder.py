@@ -14,7 +14,6 @@ from webviz.api.frames import Frames
 from webviz.api.views import FIXED_FRAME
 from webviz.commands import Refresh
 from webviz.engine.pipeline.selectable import SelectableValues
-from webviz.engine.state import State
 from webviz.files.config import Config
 from webviz.page.pages import Pages
 from webviz.scene import ViserScene, open_server
@@ -100,8 +99,6 @@ class RunRecorder:
             self.channel = RecordingChannel()
             self._panes = PaneTape()
             self._pages: Pages | None = None
-            self.state = State()
-            """As of the last frame."""
             self.viewer = OfflineViewer(config, source, self._scene, self._show)
             stack.callback(self.viewer.close)
             loop = self.viewer.loop
@@ -137,7 +134,8 @@ class RunRecorder:
             self._follow_frames()
             is_slow_due = at_s - slow_s >= SLOW_S - 1e-6
             slow_s = at_s if is_slow_due else slow_s
-            self.channel.follow(self.viewer.loop.state())
+            self.viewer.loop.update()
+            self.channel.follow(self.viewer.loop.fact)
             for _ in range(REFRESHES if number == 0 else 1):
                 self.viewer.do(Refresh())
             self._scene.complete(PATIENCE_S)
@@ -164,13 +162,12 @@ class RunRecorder:
         loop = self.viewer.loop
         frames = self._frames()
         wanted = [view.target_frame for view in loop.settings.views.values()]
-        known = dict.fromkeys([*wanted, *loop.state().frames])
+        known = dict.fromkeys([*wanted, *sorted(loop.buffer.frames())])
         found = (frame for frame in known if frame != FIXED_FRAME and frames.latest(frame))
         room = MAX_FOLLOWED - len(self.followed)
         new = itertools.islice((frame for frame in found if frame not in self.followed), room)
         self._scene.cameras.followed = frozenset((*self.followed, *new))
 
-    def _show(self, state: State) -> None:
-        self.state = state
+    def _show(self) -> None:
         if self._pages is not None:
-            self._pages.update(state)
+            self._pages.update()

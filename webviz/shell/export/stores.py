@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import msgspec
 
-from webviz.engine.state import State
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import ToPage
 from webviz.server.channel.stores import Stores
@@ -54,11 +53,15 @@ class RecordingChannel(Channel):
         self._waiting: dict[str, Mapping[str, Any]] = {}
         """Newest values of those that change all the time."""
 
-    def follow(self, state: State) -> None:
-        """Watch the stores of all displays, tools and panels of a viewer."""
-        displays = {f"{name}:{row.id}" for name in OF_EACH_DISPLAY for row in state.rows}
-        panels = {f"{name}:{tab.tab}" for name in OF_EACH_PANEL for tab in state.panels}
-        tools = {f"{name}:{tool.id}" for name in OF_EACH_TOOL for tool in state.tools}
+    def follow(self, fact: Callable[[str, Any], Any]) -> None:
+        """Watch the stores of all displays, tools and panels of a viewer.
+
+        Args:
+            fact: see `FrameLoop.fact`.
+        """
+        displays = {f"{name}:{row.id}" for name in OF_EACH_DISPLAY for row in fact("rows", ())}
+        panels = {f"{name}:{tab.tab}" for name in OF_EACH_PANEL for tab in fact("panels", ())}
+        tools = {f"{name}:{tool.id}" for name in OF_EACH_TOOL for tool in fact("tools", ())}
         for gone in self._names - (names := {*SHARED, *displays, *panels, *tools}) - {*SLOW}:
             self.show(gone, {})
         self._names = names

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import msgspec
@@ -16,8 +16,9 @@ from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
 from webviz.commands import Seek
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.visibility import enabled, hidden_in
-from webviz.engine.state import State
+from webviz.engine.state import Row
 from webviz.files.config import Config, nearest
 from webviz.scene import ViserScene
 from webviz.shell.pictures.times import seconds_from_start
@@ -70,7 +71,7 @@ class OfflineViewer:
         config: what to show.
         source: of the messages.
         scene: where to draw.
-        show: called with the state whenever panels should be updated.
+        show: called whenever pages should be updated.
     """
 
     def __init__(
@@ -78,7 +79,7 @@ class OfflineViewer:
         config: Config,
         source: Source,
         scene: ViserScene,
-        show: Callable[[State], None] = lambda state: None,
+        show: Callable[[], object] = lambda: None,
     ) -> None:
         self._source = source
         self._scene = scene
@@ -97,7 +98,7 @@ class OfflineViewer:
         return self._viewer
 
     def do(self, command: Command) -> None:
-        """Carry out a command, draw its effect and show the state."""
+        """Carry out a command, draw its effect and show it."""
         answer = self._viewer.enqueue(command)
         while not answer.done():
             self._viewer.turn()
@@ -145,25 +146,25 @@ class OfflineViewer:
         while True:
             self._source.inbox.arrived.clear()
             self._viewer.turn()
-            state = self._viewer.state()
+            rows = self._rows()
             is_bag = isinstance(self._source, Player)
-            is_loading = any(LOADING in row.statuses for row in state.rows)
+            is_loading = any(LOADING in row.statuses for row in rows)
             is_loading |= is_bag and self._viewer.is_busy()  # such as with compressed depths
             late_s = time.monotonic() - deadline
             is_over = late_s > (LOADING_S if is_loading else 0.0)
             awaits = is_loading or not is_bag
-            shown = Readiness(self._statuses(state), state.statuses, tuple(names), awaits)
+            shown = Readiness(_summaries(rows), self._viewer.statuses, tuple(names), awaits)
             if is_over or (not is_loading and (is_bag or shown.is_ok)):
                 return shown
             self._source.inbox.arrived.wait(LOOK_S)
 
     def names(self) -> list[str]:
         """Names of all enabled displays except groups; duplicate names are numbered."""
-        return list(self._statuses(self._viewer.state()))
+        return list(_summaries(self._rows()))
 
     def hidden(self) -> dict[str, list[str]]:
         """Ids of the displays that panes with the scene leave out, by their own."""
-        rows = self._viewer.state().rows
+        rows = self._rows()
         return hidden_in(rows, rows)
 
     def focused(self, view: View, frame: str) -> View:
@@ -185,16 +186,21 @@ class OfflineViewer:
         )
         return msgspec.structs.replace(view, target_frame=FIXED_FRAME, **place)
 
-    def _statuses(self, state: State) -> dict[str, Status]:
-        result: dict[str, Status] = {}
-        for row in enabled(state.rows):
-            if isinstance(row.display, DisplayGroup):
-                continue
-            name, number = row.name, 2
-            while name in result:
-                name, number = f"{row.name} ({number})", number + 1
-            result[name] = summary(row.statuses)
-        return result
+    def _rows(self) -> Sequence[Row]:
+        self._viewer.update()
+        return self._viewer.get(DisplaysPart).rows
+
+
+def _summaries(rows: Sequence[Row]) -> dict[str, Status]:
+    result: dict[str, Status] = {}
+    for row in enabled(rows):
+        if isinstance(row.display, DisplayGroup):
+            continue
+        name, number = row.name, 2
+        while name in result:
+            name, number = f"{row.name} ({number})", number + 1
+        result[name] = summary(row.statuses)
+    return result
 
 
 def summary(statuses: Mapping[str, Status]) -> Status:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from webviz.api.errors import Error
 from webviz.api.status import LOADING
 from webviz.api.views import View
+from webviz.commands import Refresh
+from webviz.engine.commands import Command
 from webviz.engine.parts.visibility import hidden_in
-from webviz.engine.state import State
+from webviz.engine.state import Row
 from webviz.scene import ViserScene
 from webviz.shell.pictures.browser import Page, Pixels, check_size, launched
 from webviz.shell.pictures.browser_scripts import CANVAS
@@ -30,12 +32,29 @@ PATIENCE_S = 60.0
 """A browser without a GPU needs seconds for the meshes of some robots."""
 
 
+class DrawnViewer(Protocol):
+    """The viewer, from any thread."""
+
+    @property
+    def rows(self) -> Sequence[Row]:
+        """Its displays."""
+        ...
+
+    def do(self, command: Command) -> str:
+        """Carry out a command, and draw its effect."""
+        ...
+
+    def fact(self, name: str, otherwise: Any = None) -> Any:
+        """Return one field of its state."""
+        ...
+
+
 class Snapshots:
     """Takes pictures one after another, with a new browser whenever it is asked.
 
     Args:
         scene: of the viewer.
-        draw: updates the scene and returns the state; thread-safe.
+        viewer: draws it.
         look: shows a view in a browser; thread-safe.
         cookie: name and value of the one that lets the browser in, None if none is needed.
     """
@@ -43,12 +62,12 @@ class Snapshots:
     def __init__(
         self,
         scene: ViserScene,
-        draw: Callable[[], State],
+        viewer: DrawnViewer,
         look: Callable[[View, int], None],
         cookie: tuple[str, str] | None,
     ) -> None:
         self._scene = scene
-        self._draw = draw
+        self._viewer = viewer
         self._look = look
         self._cookie = cookie
         # playwright needs a thread without an event loop, unlike that of a notebook.
@@ -99,7 +118,7 @@ class Snapshots:
             # The default view is that of a new browser, hence first.
             for number in sorted(range(len(views)), key=lambda number: views[number] is not None):
                 self._show(page, client, views[number])
-                rows = self._draw().rows
+                rows = self._rows()
                 panes = self._scene.link.pictures.panes()
                 found[number] = with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
         return [found[number] for number in range(len(views))]
@@ -113,10 +132,8 @@ class Snapshots:
             page.tab.keyboard.press("s")
             page.tab.mouse.click(*at)
             with contextlib.suppress(TimeoutError):
-                page.wait_for(
-                    lambda: self._draw().selections.get(client), "a selection", SELECTING_S
-                )
-            return self._draw().selections.get(client, {})
+                page.wait_for(lambda: self._selection(client), "a selection", SELECTING_S)
+            return self._selection(client)
 
     @contextlib.contextmanager
     def _shown(self, url: str, size: tuple[int, int]) -> Iterator[tuple[Page, int]]:
@@ -146,4 +163,12 @@ class Snapshots:
 
     def _is_loaded(self) -> bool:
         """Return whether no display is loading; meshes are read once a browser is connected."""
-        return not any(LOADING in row.statuses for row in self._draw().rows)
+        return not any(LOADING in row.statuses for row in self._rows())
+
+    def _rows(self) -> Sequence[Row]:
+        self._viewer.do(Refresh())
+        return self._viewer.rows
+
+    def _selection(self, client: int) -> Mapping[str, Any]:
+        self._viewer.do(Refresh())
+        return self._viewer.fact("selections", {}).get(client, {})

@@ -6,7 +6,7 @@ import base64
 import contextlib
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from webviz import commands
@@ -14,12 +14,14 @@ from webviz.api.status import LOADING
 from webviz.commands import Play, Refresh, Seek, SelectSpan, SetRate
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
-from webviz.engine.state import State
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.state import Row
 from webviz.files.config import Config
 from webviz.shell.doctor.scene import NoScene
 from webviz.shell.pictures.times import At, TimeError, position_ns, seconds_from_start
 from webviz.shell.report.scenes import Pictured
 from webviz.sources import Source
+from webviz.sources.past_state import Event
 from webviz.sources.player import Player
 
 REST_S = 0.05
@@ -78,19 +80,23 @@ def make_report(
         return maker.do(commands.SaveReport(picture, (), with_names, str(path.absolute())))
 
 
-def play_through(config: Config, bag: Player, at_s: float) -> State:
+def play_through(config: Config, bag: Player, at_s: float) -> tuple[Sequence[Row], Sequence[Event]]:
     """Play a bag from its start to its end without a browser, and show a moment of it.
 
     Args:
         config: the displays to show.
         bag: the bag.
         at_s: in seconds from the start; of a shorter bag its end.
+
+    Returns:
+        The displays then, and when findings began.
     """
     end_s = seconds_from_start(bag.history.end_ns, bag.history)
     loop = FrameLoop(config, bag, NoScene())
     with contextlib.closing(_Maker(loop, bag, lambda what, share: None)) as maker:
         maker.play(0.0, end_s, min(at_s, end_s))
-        return loop.state()
+        loop.update()
+        return loop.get(DisplaysPart).rows, loop.doctor.events
 
 
 def _times(
@@ -133,9 +139,11 @@ class _Maker:
         self._loop.doctor.slice_s = math.inf
         self.do(SetRate(0.0))
         self.do(Play())
-        while (played := self._loop.state().playback) is not None and played.is_playing:
+        self._loop.update()
+        while (played := self._loop.fact("playback")) is not None and played.is_playing:
             self._progress("playing", (played.position_s - first_s) / (last_s - first_s))
             self._loop.turn()
+            self._loop.update()
         self.do(Seek(shown_s))
         self._settle()
 
@@ -158,7 +166,8 @@ class _Maker:
 
     def _is_loading(self) -> bool:
         self._turn()
-        rows = self._loop.state().rows
+        self._loop.update()
+        rows = self._loop.get(DisplaysPart).rows
         return self._loop.is_busy() or any(LOADING in row.statuses for row in rows)
 
     def _turn(self) -> None:

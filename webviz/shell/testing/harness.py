@@ -108,7 +108,7 @@ class Harness(Shown):
 
     def open_panel(self, panel: type[Panel], **values: Any) -> OpenedPanel:
         """Open a panel; the values of its properties if it is added on request."""
-        return OpenedPanel(panel, self.do, self.state, **values)
+        return OpenedPanel(panel, self.do, self.viewer, **values)
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> str:
         """Carry out a command, and return its answer.

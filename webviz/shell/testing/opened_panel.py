@@ -8,7 +8,8 @@ from typing import Any
 from webviz.api.panel import Panel
 from webviz.commands import AddPanel, OpenPanels
 from webviz.engine.commands import Command, Sender
-from webviz.engine.state import State
+from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.panels import PanelsPart
 from webviz.page.recorded_ui import RecordedUi
 
 
@@ -18,7 +19,7 @@ class OpenedPanel:
     Args:
         cls: of the panel.
         do: carries out a command of a browser.
-        state: of the viewer.
+        viewer: that has it.
         values: of its properties, for panels that are added on request.
     """
 
@@ -26,15 +27,16 @@ class OpenedPanel:
         self,
         cls: type[Panel],
         do: Callable[[Command, Sender], object],
-        state: Callable[[], State],
+        viewer: FrameLoop,
         **values: Any,
     ) -> None:
         self._do = do
-        self._state = state
+        self._viewer = viewer
         if cls.on_request:
             do(AddPanel(cls.__name__, values), Sender(None))
         do(OpenPanels(frozenset({cls.__name__})), Sender(None))
-        self.panel = next(tab.panel for tab in state().panels if type(tab.panel) is cls)
+        tabs = viewer.get(PanelsPart).tabs()
+        self.panel = next(tab.panel for tab in tabs if type(tab.panel) is cls)
         self.ui = RecordedUi()
         self.panel.build(self.ui, self.send)
         self.show()
@@ -45,7 +47,11 @@ class OpenedPanel:
 
     def show(self) -> None:
         """Let it show the current state."""
-        self.panel.show(self._state())
+        self._viewer.call(self._show).result()
+
+    def _show(self) -> None:
+        self._viewer.update()
+        self._viewer.get(PanelsPart).show(self.panel)
 
     def widget(self, label: str) -> Any:
         """Return the widget with a label."""

@@ -56,10 +56,10 @@ def replay(bag: Path, config: Path, at_s: float) -> Replayed:
         webviz.Error: a file cannot be read.
     """
     with contextlib.closing(Player(BagHistory(bag))) as source:
-        state = play_through(load_config(config), source, at_s)
-    rows = [row for row in state.rows if row.type != "Group"]
+        rows, found = play_through(load_config(config), source, at_s)
     return Replayed(
-        {row.name: row.statuses for row in rows}, {each.name: each.text for each in state.found}
+        {row.name: row.statuses for row in rows if row.type != "Group"},
+        {each.name: each.text for each in found},
     )
 
 

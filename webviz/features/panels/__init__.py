@@ -6,7 +6,7 @@ import contextlib
 import logging
 import queue
 import threading
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from concurrent.futures import Future
 from typing import Any, ClassVar
 
@@ -17,18 +17,20 @@ from webviz.api.errors import Error
 from webviz.api.modules import module_texts
 from webviz.api.panel import Panel
 from webviz.api.registry import broken_types, plugin_types
+from webviz.api.roles import Role
 from webviz.api.tool import Tool
-from webviz.commands import OpenPanels
-from webviz.engine.commands import PROGRAM, Command, Sender
+from webviz.engine.commands import PageCommand, Sender
+from webviz.engine.feature import command, store
 from webviz.engine.forms import Form, form, values_of
 from webviz.engine.guard import Guard
-from webviz.engine.parts.declaring import store
-from webviz.engine.state import PanelTab, State
+from webviz.engine.parts.panels import PanelsPart
+from webviz.engine.parts.part import Core
+from webviz.engine.state import PanelTab
 from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
+from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
-from webviz.server.access.requests import UseWidget
 
 log = logging.getLogger("webviz")
 
@@ -65,8 +67,8 @@ class PanelStore(PageStore, frozen=True):
     """The widgets of a panel.
 
     Args:
-        widgets: by id, see `webviz.page.widgets`; the parts of a widget have its id with a slash
-            and theirs.
+        widgets: by id, see `webviz.page.widgets`; the parts of a widget have its id with
+            a slash and theirs.
         order: the ids.
         failure: a sentence or "".
     """
@@ -123,38 +125,41 @@ class ModulesStore(PageStore, frozen=True):
     modules: Mapping[str, Mapping[str, str]]
 
 
-class PluginPanels:
+class PluginPanels(PageFeature):
     """The panels of plug-ins, each in a tab named after its type.
 
-    All browsers share them. `update` is called by the frame loop; what browsers do runs in a thread
-    of each panel, so that no act stops the viewer or another panel.
-
-    Args:
-        enqueue: takes commands, from any thread.
+    All browsers share them. What browsers do runs in a thread of each panel, so that no act stops
+    the viewer or another panel.
     """
 
-    def __init__(self, enqueue: Callable[[Command, Sender], Future[str]]) -> None:
-        self._enqueue = enqueue
+    name = "Plug-in panels"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self._dispatcher: Dispatcher | None = None
         self._tabs: dict[str, _Tab] = {}
         self._shown: Sequence[PanelTab] = ()
-        self._open: frozenset[str] = frozenset()
         self._broken = broken_types(Panel)
 
-    def update(self, state: State, watched: Collection[str]) -> None:
-        """Let the panels show the viewer whose stores are watched."""
-        self._shown = state.panels
-        panels = {tab.tab: tab.panel for tab in state.panels}
+    def attach(self, dispatcher: Dispatcher) -> None:
+        """Begin to build panels: there are pages that show them."""
+        self._dispatcher = dispatcher
+
+    def update(self) -> None:
+        """Build new panels, and end those that are gone."""
+        if self._dispatcher is None:
+            return
+        self._shown = self.core.get(PanelsPart).tabs()
+        panels = {tab.tab: tab.panel for tab in self._shown}
         for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
             self._tabs.pop(name).close()
         for name in panels.keys() - self._tabs.keys():
             self._tabs[name] = _Tab(name, panels[name], self._send)
-        for name, tab in self._tabs.items():
-            if f"panel:{name}" in watched:
-                tab.update(state)
-        attended = frozenset(s.partition(":")[2] for s in watched if s.startswith("panel:"))
-        if attended != self._open:
-            self._open = attended
-            self._enqueue(OpenPanels(attended), PROGRAM)
+
+    def watched(self, stores: Set[str]) -> None:
+        """Let the panels read that pages have open, and no others."""
+        opened = (store.partition(":")[2] for store in stores if store.startswith("panel:"))
+        self.core.get(PanelsPart).open_panels(frozenset(opened))
 
     # Stores
 
@@ -168,10 +173,11 @@ class PluginPanels:
 
     @store()
     def panel(self, name: str) -> PanelStore:
-        """Return the widgets of a panel."""
+        """Let a panel show the viewer, and return its widgets."""
         tab = self._tabs.get(name)
         if tab is None:
             return PanelStore({}, [], self._broken.get(name, ""))
+        tab.show(self.core.get(PanelsPart))
         widgets = dict(tab.ui.widgets)
         values = {id_: widget.values for id_, widget in widgets.items()}
         parts = {
@@ -213,26 +219,40 @@ class PluginPanels:
             }
         )
 
-    # Called on the event loop
+    @command(Role.OPERATOR, PageCommand)
+    def use_widget(
+        self, panel: str, widget: str, asked: Asked, value: bool | str | None = None
+    ) -> None:
+        """Use a widget in a plug-in's panel.
 
-    def use(self, asked: Asked, command: UseWidget) -> None:
-        """Let a panel act on the use of one of its widgets."""
+        Args:
+            panel: its name in the registry.
+            widget: its id.
+            value: what was entered, None for a button.
+        """
 
-        def act(tab: _Tab, widget: Widget) -> None:
-            if problem := tab.use(widget, command.value, asked.browser):
+        def act(tab: _Tab, used: Widget) -> None:
+            if problem := tab.use(used, value, asked.browser):
                 asked.refuse(problem)
             else:
                 asked.answer()
 
-        tab = self._tabs.get(command.panel)
-        widget = tab.ui.find(command.widget) if tab else None
-        if tab is None or widget is None:
+        tab = self._tabs.get(panel)
+        used = tab.ui.find(widget) if tab else None
+        if tab is None or used is None:
             asked.refuse("Not done: this panel has changed.")
-        elif not tab.hands.do(lambda: act(tab, widget)):
+        elif not tab.hands.do(lambda: act(tab, used)):
             asked.refuse(f"Not done: the panel {tab.title} is busy.")
 
+    def close(self) -> None:
+        """End all panels."""
+        for tab in self._tabs.values():
+            tab.close()
+
     def _send(self, command: Any, browser: int | None = None) -> None:
-        self._enqueue(command, Sender(browser)).add_done_callback(_note_refusal)
+        if self._dispatcher is not None:
+            done = self._dispatcher.enqueue(command, Sender(browser))
+            done.add_done_callback(_note_refusal)
 
 
 def _types() -> list[PanelType]:
@@ -266,10 +286,10 @@ class _Tab:
         self._is_built = False
         self._guard("build", self._build, send)
 
-    def update(self, state: State) -> None:
+    def show(self, panels: PanelsPart) -> None:
         """Let the panel show the viewer, and note what it raises."""
         if self._is_built:
-            self._guard("show", self.panel.show, state)
+            self._guard("show", panels.show, self.panel)
         self.failure = next(iter(self._guard.crashes.values()), "")
 
     def use(self, widget: Widget, value: Any, browser: int) -> str:

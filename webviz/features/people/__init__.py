@@ -6,24 +6,22 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from datetime import UTC, datetime
-from typing import ClassVar, TypeVar
+from typing import Annotated, ClassVar, Literal, TypeVar
 
 import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads
-from webviz.engine.parts.declaring import store
-from webviz.engine.state import State
+from webviz.engine.commands import PageCommand
+from webviz.engine.feature import command, store
+from webviz.engine.parts.part import Core
 from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
+from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.server.access import token_file
-from webviz.server.access.access import Access
-from webviz.server.access.journal import Journal
-from webviz.server.access.requests import Dismiss, Invite, Revoke
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, TokenError, make
-from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Dismissed
 
 NOT_ASKED = (
@@ -35,6 +33,8 @@ OWN_LINK = "Not done: this is your own link. Make another with `webviz token rot
 MAX_THREADS = 4
 """That change the file of tokens, or wait for it."""
 
+Name = Annotated[str, msgspec.Meta(max_length=100)]
+Address = Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]
 T = TypeVar("T")
 
 
@@ -102,33 +102,27 @@ class JournalStore(PageStore, frozen=True):
     entries: Sequence[JournalLine]
 
 
-class People:
-    """Stores about people, and invitations.
+class People(PageFeature):
+    """Shows who is connected and what they did, and invites others."""
 
-    Args:
-        channel: to the pages.
-        journal: what people did.
-        access: knows the tokens.
-    """
+    name = "People"
 
-    def __init__(self, channel: Channel, journal: Journal, access: Access) -> None:
-        self._channel = channel
-        self._journal = journal
-        self._access = access
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
         self._dismissing: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
-        self._state = State()
 
-    def update(self, state: State) -> None:
-        """Note who drives what."""
-        self._state = state
+    def attach(self, dispatcher: Dispatcher) -> None:
+        """Begin to show the people of these pages."""
+        self._channel, self._access = dispatcher.channel, dispatcher.access
+        self._journal = dispatcher.journal
 
     @store()
     def people(self, argument: str) -> PeopleStore:
         """Return the connected browsers."""
-        state = self._state
-        names = {button.id: button.name for button in state.more.get("tools", ())}
-        driving = {tool: driving.driver for tool, driving in state.more.get("driving", {}).items()}
+        fact = self.core.fact
+        names = {button.id: button.name for button in fact("tools", ())}
+        driving = {tool: vehicle.driver for tool, vehicle in fact("driving", {}).items()}
         return PeopleStore(
             {
                 str(browser): Person(
@@ -142,18 +136,18 @@ class People:
             }
         )
 
-    @store()
+    @store(Role.OWNER)
     def addresses(self, argument: str) -> AddressesStore:
         """Return the network addresses of browsers."""
         visitors = self._channel.visitors()
         return AddressesStore({str(id_): visitor.address for id_, visitor in visitors.items()})
 
-    @store()
+    @store(Role.OWNER)
     def links(self, argument: str) -> LinksStore:
         """Return the valid links."""
         return LinksStore({token.name: _link(token) for token in self._access.tokens})
 
-    @store()
+    @store(Role.OWNER)
     def journal(self, argument: str) -> JournalStore:
         """Return people's actions."""
         return JournalStore(
@@ -165,46 +159,72 @@ class People:
 
     # Called on the event loop
 
-    def invite(self, asked: Asked, invite: Invite) -> None:
-        """Make a link for somebody else."""
+    @command(Role.OWNER, PageCommand, is_noted=True)
+    def invite(
+        self,
+        name: Name,
+        role: Literal["watcher", "operator", "owner"],
+        days: float | None,
+        url: Address,
+        asked: Asked,
+    ) -> None:
+        """Make a link for somebody else; the answer has the `link` and its QR `code`.
+
+        Args:
+            name: of who gets the link.
+            role: that it gives.
+            days: until it ends, None for never.
+            url: of the page, to which the token is added.
+        """
+        given = Role[role.upper()]
 
         def answer(done: Future[Token]) -> None:
             try:
-                address = link(invite.url, done.result())
+                address = link(url, done.result())
             except Error as error:
                 asked.refuse(str(error))
                 return
             import segno  # here, as it would slow down the start
 
             code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
-            text = f"Invited {invite.name} as {Role[invite.role.upper()].phrase}."
-            asked.answer(text, link=address, code=code)
+            asked.answer(f"Invited {name} as {given.phrase}.", link=address, code=code)
 
-        self._begin(lambda: self._make(invite)).add_done_callback(answer)
+        self._begin(lambda: self._make(name, given, days)).add_done_callback(answer)
 
-    def dismiss(self, asked: Asked, dismiss: Dismiss) -> None:
-        """End the visit of somebody else."""
-        visitor = self._channel.visitors().get(dismiss.visitor)
-        grant = self._channel.grant_of(dismiss.visitor)
-        if visitor is None or grant is None:
+    @command(Role.OWNER, PageCommand, is_noted=True)
+    def dismiss(self, visitor: int, revokes: bool, asked: Asked) -> None:
+        """End the visit of somebody else.
+
+        Args:
+            visitor: id of the browser whose visit ends.
+            revokes: whether its link is not valid any more, either.
+        """
+        known = self._channel.visitors().get(visitor)
+        grant = self._channel.grant_of(visitor)
+        if known is None or grant is None:
             asked.refuse("This visitor has already left.")
-        elif dismiss.visitor == asked.browser:
+        elif visitor == asked.browser:
             asked.refuse("Not done: this is your own page. Close it.")
-        elif dismiss.revokes:
-            self.revoke(asked, Revoke(grant.name))
+        elif revokes:
+            self.revoke(grant.name, asked)
         else:
             text = (
                 "The owner has ended your visit. Open the address of the viewer again to come back."
             )
-            self._channel.send(Dismissed(text), dismiss.visitor)
-            task = asyncio.get_running_loop().create_task(self._channel.dismiss(dismiss.visitor))
+            self._channel.send(Dismissed(text), visitor)
+            task = asyncio.get_running_loop().create_task(self._channel.dismiss(visitor))
             self._dismissing.add(task)
             task.add_done_callback(self._dismissing.discard)
-            asked.answer(f"Ended a visit of {visitor.name or visitor.address}.")
+            asked.answer(f"Ended a visit of {known.name or known.address}.")
 
-    def revoke(self, asked: Asked, revoke: Revoke) -> None:
-        """End a link, and all visits by it."""
-        name, own = revoke.name, self._channel.grant_of(asked.browser)
+    @command(Role.OWNER, PageCommand, is_noted=True)
+    def revoke(self, name: Name, asked: Asked) -> None:
+        """End a link, and all visits by it.
+
+        Args:
+            name: of the link.
+        """
+        own = self._channel.grant_of(asked.browser)
         if name and own is not None and own.name == name:
             asked.refuse(OWN_LINK)
             return
@@ -245,11 +265,10 @@ class People:
         token_file.modify(self._access.path, remove)
         self._access.refresh()
 
-    def _make(self, invite: Invite) -> Token:
+    def _make(self, name: str, role: Role, days: float | None) -> Token:
         if not self._access.asks or self._access.path is None:
             raise TokenError(NOT_ASKED)
-        role = Role[invite.role.upper()]
-        made = make(invite.name, role, datetime.now(UTC), invite.days)
+        made = make(name, role, datetime.now(UTC), days)
 
         def add(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
             if any(token.name == made.name for token in tokens):
