@@ -141,6 +141,29 @@ def test_a_module_imports_others_beside_it(tab: Tab, tmp_path: Path) -> None:
         load(path)
 
 
+MEMBERS = """\
+import {
+  el,
+} from 'webviz/dom.js';
+import { rowList } from "webviz/controls/rows.js";
+export default (page) => {
+  const isSame = page.el === el && page.rowList === rowList;
+  page.toast(`${Object.keys(page).length} members, ${isSame ? "the same" : "others"}`);
+};
+"""
+
+
+def test_a_module_imports_those_of_the_page(tab: Tab, tmp_path: Path) -> None:
+    path = tmp_path / "members.py"
+    path.write_text("from webviz import Display\nclass Members(Display):\n    module = 'm.js'\n")
+    (tmp_path / "m.js").write_text(MEMBERS)
+    load(path)
+    try:
+        tab.wait_for(lambda: "42 members, the same" in tab.text())
+    finally:
+        registry.register(str(path), {})
+
+
 @pytest.mark.parametrize("value", [object(), float("nan"), "x" * MAX_HTML])
 def test_values_of_a_widget_are_json_of_limited_size(value: object) -> None:
     with pytest.raises(ValueError, match="JSON"):

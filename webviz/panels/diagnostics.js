@@ -1,5 +1,12 @@
 // The widget "diagnostics": statuses as a tree, the worst first, and the values of one of them.
 
+import { searchField } from "webviz/controls/fields.js";
+import { indent, rowList, touchable } from "webviz/controls/rows.js";
+import { el, set, setText, showText, svgElement } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { foldByKey } from "webviz/panels/folds.js";
+import { timeOfDay } from "webviz/time_text.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -22,10 +29,7 @@ const RANKS = [0, 2, 3, 1];
 const NUMBER = /^\s*-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?/;
 
 /** @param {Page} page */
-export default function install(page) {
-  const { el, foldByKey, icon, iconButton, indent, rowList, searchField, set, setText, showText } =
-    page;
-  const { svgElement, timeOfDay, touchable, widget } = page;
+export default function install({ widget }) {
   /** @type {Map<string, {at: number, values: number[]}>} */
   const history = new Map(); // by status and value, while this page is open
 

@@ -1,5 +1,10 @@
 // The widget "graph": nodes and topics as boxes, from those that send to those that receive.
 
+import { fitted } from "webviz/charts/canvas.js";
+import { el, set, setText, showText, svgElement } from "webviz/dom.js";
+import { download } from "webviz/download.js";
+import { iconButton } from "webviz/icons.js";
+import { listenToPanning } from "webviz/panning.js";
 import { about } from "./graph_detail.js";
 import { draw, svgOf } from "./graph_drawing.js";
 import { boxesOf, foldable, layOut } from "./graph_layout.js";
@@ -21,19 +26,7 @@ export default function install(page) {
 }
 
 /** @param {Page} page */
-function graph(page) {
-  const {
-    download,
-    el,
-    fitted,
-    iconButton,
-    listenToPanning,
-    set,
-    setText,
-    showText,
-    svgElement,
-    watch,
-  } = page;
+function graph({ watch }) {
   /** @type {Topic[]} */
   let topics = [];
   let given = ""; // of which topics the drawing is
@@ -51,7 +44,7 @@ function graph(page) {
 
   const empty = el("div", { class: "wv-empty", role: "status" });
   const canvas = el("canvas", { class: "wv-graph-canvas", role: "img", tabindex: 0 });
-  const search = makeSearch(page, {
+  const search = makeSearch({
     boxes: () => drawing.boxes.values(),
     changed: soon,
     goTo(box) {
@@ -116,7 +109,7 @@ function graph(page) {
     if (box.kind === "topic") unmeasure = watch(`message:${box.name}`, () => {});
     const folds = foldsOf(box, foldable(topics), opened);
     const { links } = drawing;
-    detail.replaceChildren(...about(page, box, { links, folds, toggle, close: () => choose("") }));
+    detail.replaceChildren(...about(box, { links, folds, toggle, close: () => choose("") }));
   }
 
   /** @param {string} namespace */

@@ -1,6 +1,8 @@
 // The details of the box that was chosen in the panel Graph.
 
-/** @import {Page} from "../page/web/extensions.js" */
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+
 /** @import {Box, Link} from "./graph_layout.js" */
 
 const MOST = 100; // lines of a list
@@ -8,11 +10,10 @@ const MOST = 100; // lines of a list
 /**
  * The elements about a box: its bar, and what is linked with it.
  *
- * @param {Page} page
  * @param {Box} box
  * @param {{links: Link[], folds: [string, string][], toggle: (namespace: string) => void, close: () => void}} options
  */
-export function about({ el, iconButton }, box, { links, folds, toggle, close }) {
+export function about(box, { links, folds, toggle, close }) {
   /** @param {string} title @param {string[]} lines */
   const part = (title, lines) => {
     if (!lines.length) return [];

@@ -2,7 +2,6 @@
 
 import { GAP, HEIGHT, short } from "./graph_layout.js";
 
-/** @import {Page} from "../page/web/extensions.js" */
 /** @import {Box, Drawing, Link} from "./graph_layout.js" */
 /** @import {Look, RateOf} from "./graph_view.js" */
 
@@ -124,7 +123,7 @@ function ends({ from, to }) {
  * The drawing as SVG; texts are texts, whatever they contain.
  *
  * @param {Drawing} drawing
- * @param {{color: (name: string) => string, rateOf: RateOf, svgElement: Page["svgElement"]}} options
+ * @param {{color: (name: string) => string, rateOf: RateOf, svgElement: typeof import("webviz/dom.js").svgElement}} options
  */
 export function svgOf({ boxes, links, width, height }, { color, rateOf, svgElement }) {
   const root = svgElement("svg", {

@@ -1,17 +1,16 @@
 // The field that finds boxes of a graph; Enter goes from one to the next.
 
+import { searchField } from "webviz/controls/fields.js";
 import { finder } from "./graph_view.js";
 
-/** @import {Page} from "../page/web/extensions.js" */
 /** @import {Box} from "./graph_layout.js" */
 
 /**
  * Returns `{element, isFound()}`: `isFound` is as of `finder`.
  *
- * @param {Page} page
  * @param {{boxes: () => Iterable<Box>, changed: () => void, goTo: (box: Box) => void}} graph
  */
-export function makeSearch({ searchField }, { boxes, changed, goTo }) {
+export function makeSearch({ boxes, changed, goTo }) {
   let hit = -1; // of those that are found
   const isFound = () => finder(element.value);
 

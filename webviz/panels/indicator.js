@@ -1,5 +1,7 @@
 // The widget "indicator": a lamp and its label.
 
+import { el, set, setText, showText } from "webviz/dom.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /** @type {Record<string, string>} */
@@ -13,7 +15,7 @@ const COLORS = {
 };
 
 /** @param {Page} page */
-export default function install({ el, set, setText, showText, widget }) {
+export default function install({ widget }) {
   widget("indicator", () => {
     const lamp = el("i", { role: "img" });
     const label = el("span");

@@ -1,5 +1,12 @@
 // The widget "log": the lines of a log, filtered in this page.
 
+import { copyAndTell } from "webviz/clipboard.js";
+import { searchField } from "webviz/controls/fields.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { el, set, setText, showText } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { timeOfDay } from "webviz/time_text.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -29,19 +36,7 @@ const textOf = ({ stamp, level, name, text }) =>
   `[${nameOf(level).toUpperCase()}] [${stamp.toFixed(6)}] [${name}]: ${text}`;
 
 /** @param {Page} page */
-export default function install({
-  copyAndTell,
-  el,
-  iconButton,
-  rowList,
-  searchField,
-  set,
-  setText,
-  showText,
-  timeOfDay,
-  touchable,
-  widget,
-}) {
+export default function install({ widget }) {
   widget("log", (_, send) => {
     /** @type {{level: string, nodes: string, text: string}} */
     let initial = { level: "", nodes: "", text: "" };

@@ -1,5 +1,9 @@
 // The widget "outdoor map": tracks over map tiles in Web Mercator, which is zoomed and moved.
 
+import { fitted } from "webviz/charts/canvas.js";
+import { el, set, setText, showText } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { listenToPanning } from "webviz/panning.js";
 import { drawTile, drawTrack } from "./outdoor_drawing.js";
 import { makeImages } from "./outdoor_images.js";
 import {
@@ -22,14 +26,13 @@ const ASK_MS = 150;
 
 /** @param {Page} page */
 export default function install(page) {
-  page.widget("outdoor map", (_, send) => outdoorMap(page, send));
+  page.widget("outdoor map", (_, send) => outdoorMap(send));
 }
 
 /**
- * @param {Page} page
  * @param {(tiles: Tile[]) => unknown} send
  */
-function outdoorMap({ el, fitted, iconButton, listenToPanning, set, setText, showText }, send) {
+function outdoorMap(send) {
   const images = makeImages(soon);
   /** @type {Line[]} */
   let tracks = [];

@@ -1,5 +1,11 @@
 // The widget "parameters": rows with a field for each value, which is sent on Enter.
 
+import { searchField } from "webviz/controls/fields.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { el, set, setText, showText } from "webviz/dom.js";
+import { download } from "webviz/download.js";
+import { iconButton } from "webviz/icons.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -15,17 +21,7 @@
 const ROW_PX = 46;
 
 /** @param {Page} page */
-export default function install({
-  download,
-  el,
-  iconButton,
-  rowList,
-  set,
-  setText,
-  showText,
-  ...page
-}) {
-  const { searchField, touchable, widget } = page;
+export default function install({ widget }) {
   widget("parameters", (_, send) => {
     /** @type {Values} */
     let shown = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, yaml: "" };

@@ -1,9 +1,12 @@
 // The widget "raw": a message as rows that fold.
 
+import { el, showText } from "webviz/dom.js";
+import { messageRows } from "webviz/panels/message_rows.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /** @param {Page} page */
-export default function install({ el, messageRows, showText, widget }) {
+export default function install({ widget }) {
   widget("raw", () => {
     let path = "";
     const empty = el("div", { class: "wv-empty", role: "status" });

@@ -1,5 +1,9 @@
 // The widget "form": fields of a message and its YAML, a button that sends it, history and presets.
 
+import { el, set, setText } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { messageRows } from "webviz/panels/message_rows.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -13,7 +17,7 @@
 let forms = 0;
 
 /** @param {Page} page */
-export default function install({ el, messageRows, set, setText, textButton, widget }) {
+export default function install({ widget }) {
   widget("form", (_, send) => {
     forms += 1;
     /** @type {Form | null} */

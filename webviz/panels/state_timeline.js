@@ -1,5 +1,10 @@
 // The widget "states": bands over time, whose colours stand for values.
 
+import { fitted } from "webviz/charts/canvas.js";
+import { el, set, setChildren, setText, showText } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { timeOfDay } from "webviz/time_text.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /** @typedef {{name: string, problem: string, times: number[], states: string[]}} Track */
@@ -16,17 +21,7 @@ function colorOf(text) {
 }
 
 /** @param {Page} page */
-export default function install({
-  el,
-  fitted,
-  iconButton,
-  set,
-  setChildren,
-  setText,
-  showText,
-  ...page
-}) {
-  const { timeOfDay, widget } = page;
+export default function install({ widget }) {
   widget("states", (_, send) => {
     let [start, end] = [0, 1];
     const empty = el(

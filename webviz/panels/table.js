@@ -1,5 +1,11 @@
 // The widget "table": rows that are sorted by a click on a column.
 
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { csvText } from "webviz/csv.js";
+import { el, setText, showText } from "webviz/dom.js";
+import { download } from "webviz/download.js";
+import { iconButton } from "webviz/icons.js";
+
 /** @import {Page} from "../page/web/extensions.js" */
 
 /** @typedef {{key: string, cells: (number | string)[]}} Row */
@@ -9,19 +15,7 @@ const LETTERS = [6, 40]; // of a column that are reserved
 const SAMPLE = 50; // rows that its width follows from
 
 /** @param {Page} page */
-export default function install({
-  csvText,
-  download,
-  el,
-  iconButton,
-  rowList,
-  set,
-  setText,
-  showText,
-  ...page
-}) {
-  const { touchable, widget } = page;
-
+export default function install({ widget }) {
   /** @param {number | string} cell */
   const textOf = (cell) =>
     typeof cell === "number" && !Number.isInteger(cell)

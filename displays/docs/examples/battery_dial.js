@@ -1,6 +1,8 @@
 // The widget "dial": a bar with a mark, which a click moves.
 
-export default function install({ el, set, setText, widget }) {
+import { setText } from "webviz/dom.js";
+
+export default function install({ el, set, widget }) {
   widget("dial", (values, send) => {
     const text = el("span");
     const bar = el("meter", {

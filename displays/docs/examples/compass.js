@@ -1,6 +1,8 @@
 // An overlay: the heading of the camera, clockwise from north.
 
-export default function install({ beforeRender, canvas, el, groundAt, overlay, setText }) {
+import { setText } from "webviz/dom.js";
+
+export default function install({ beforeRender, canvas, el, groundAt, overlay }) {
   const text = el("div", { class: "wv-card", title: "Heading of the camera" });
   overlay("legend", "compass", text);
   beforeRender(() => {

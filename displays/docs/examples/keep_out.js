@@ -1,5 +1,7 @@
 // The gesture "outline": a line drawn by hand on the ground.
 
+import { svgElement } from "webviz/dom.js";
+
 const STEP_PX = 10; // between two corners
 const MAX_CORNERS = 500;
 
@@ -11,7 +13,6 @@ export default function install({
   makeLayer,
   onCanvas,
   set,
-  svgElement,
 }) {
   const line = svgElement("polyline", { fill: "none", stroke: "#f80", "stroke-width": 3 });
   const layer = makeLayer("keep-out", svgElement("svg", { width: "100%", height: "100%" }, line));

@@ -1,5 +1,6 @@
 // Modules that plug-ins bring. Each has a default export that is called with `page`, below: it adds
-// gestures, widgets, overlays and tabs by the functions by which the page adds its own.
+// gestures, widgets, overlays and tabs by the functions by which the page adds its own. Modules of
+// the page are imported as "webviz/dom.js".
 
 import { needs } from "./access.js";
 import { act } from "./act.js";
@@ -43,33 +44,41 @@ import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
 const page = Object.freeze({
   act,
   beforeRender,
-  camera,
   canvas,
+  el,
+  gesture,
+  groundAt,
+  makeLayer,
+  needs,
+  onCanvas,
+  overlay,
+  panel: (/** @type {Panel} */ added) => panel(ownPanel(added)),
+  set,
+  toast,
+  watch,
+  widget: (/** @type {string} */ kind, /** @type {MakeOwn} */ make) =>
+    widget(`own ${kind}`, ownWidget(make)),
+});
+
+/** Members of before, for one version: a module imports them, as from "webviz/dom.js". */
+const former = {
+  camera,
   copy,
   copyAndTell,
   csvText,
   download,
-  el,
   fitted,
   foldByKey,
-  gesture,
-  groundAt,
   icon,
   iconButton,
   indent,
   keyOf,
   listenToPanning,
-  makeLayer,
   messageRows,
-  needs,
-  onCanvas,
-  overlay,
-  panel: (/** @type {Panel} */ added) => panel(ownPanel(added)),
   planeAt,
   requestRender,
   rowList,
   searchField,
-  set,
   setChildren,
   setText,
   showText,
@@ -79,16 +88,13 @@ const page = Object.freeze({
   tellLive,
   textButton,
   timeOfDay,
-  toast,
   touchable,
-  watch,
-  widget: (/** @type {string} */ kind, /** @type {MakeOwn} */ make) =>
-    widget(`own ${kind}`, ownWidget(make)),
-});
+};
 
 /** Functions of the page that call those of a module; such is the last argument of the first. */
 const LISTENING = /** @type {const} */ (["beforeRender", "gesture", "watch", "widget"]);
 const CALLING = /** @type {const} */ ([...LISTENING, "listenToPanning", "panel", "toast"]);
+const all = { ...former, ...page };
 
 /**
  * The page for a module, of which no function that throws stops the page.
@@ -105,13 +111,13 @@ function pageFor(report) {
       if (!isFunction && LISTENING.some((each) => each === name))
         throw new TypeError(`${name} expects a function`);
       return Reflect.apply(
-        page[name],
-        page,
+        all[name],
+        all,
         args.map((each) => guarded(each, report)),
       );
     };
   const guards = Object.fromEntries(CALLING.map((name) => [name, guard(name)]));
-  return Object.freeze({ ...page, ...guards });
+  return Object.freeze({ ...all, ...guards });
 }
 
 /**
@@ -171,6 +177,7 @@ function style(name, rules) {
 
 const MAX_REPORTS = 3; // of a module: a fault may occur in every frame
 const IMPORT = /^(import\b[^"';(]*)["']\.\/([^"'/]+)["']/gm; // as in webviz/api/modules.py
+const IMPORT_OF_PAGE = /^(import\b[^"';(]*)["'](webviz\/[^"']+)["']/gm;
 
 export function install() {
   watch("modules", (modules, changed) => {
@@ -202,7 +209,9 @@ async function add(name, files) {
       style(`${name}/${file}`, source);
       continue;
     }
-    const text = source.replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`);
+    const text = source
+      .replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`)
+      .replace(IMPORT_OF_PAGE, (_, words, path) => `${words}"${new URL(path, location.href)}"`);
     const parts = [text, `\n//# sourceURL=${new URL(file, folder)}`];
     addresses.set(file, URL.createObjectURL(new Blob(parts, { type: "text/javascript" })));
   }
