@@ -35,7 +35,7 @@ class AddDisplay(Command, frozen=True):
     made: Callable[[str], None] = ...
 
 class AddPanel(Command, frozen=True):
-    """Add a panel of a plug-in behind the others.
+    """Add a panel of a plug-in behind the others, where its class says (`Panel.opens`).
 
     Args:
         type: name of the panel type.

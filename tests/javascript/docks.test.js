@@ -6,6 +6,7 @@ import {
   floated,
   layoutOf,
   moved,
+  namesIn,
   namesOf,
   placeOf,
   shared,
@@ -26,6 +27,32 @@ test("a panel stands in one place", () => {
   assert.deepEqual([layout.beside.length, layout.below.length], [1, 1]);
   assert.deepEqual(namesOf(place(layout, "Log", "tabs")), ["Plot"]);
   assert.deepEqual(without(without(layout, "Log"), "Plot"), EMPTY);
+});
+
+test("a panel becomes a tab of another's place, and leaves it", () => {
+  const join = (layout, panel, into) => moved(layout, panel, { ...at("below"), into });
+  let layout = place(place(EMPTY, "Log", "below"), "Plot", "beside");
+  layout = join(layout, "Plot", "Log");
+  assert.deepEqual([layout.beside, namesOf(layout)], [[], ["Log", "Plot"]]);
+  layout = join(layout, "Table", "Plot");
+  assert.deepEqual(layout.below, [{ panel: "Log", weight: 1, tabs: ["Plot", "Table"] }]);
+  layout = place(layout, "Log", "below", 0);
+  assert.deepEqual(layout.below.map(namesIn), [["Log"], ["Plot", "Table"]]);
+  layout = shared(layout, "below", "Log", "Plot", 0.25);
+  assert.deepEqual(
+    layout.below.map(({ weight }) => weight),
+    [0.5, 1.5],
+  );
+});
+
+test("the head of a panel takes another as a tab", () => {
+  const below = { left: 300, top: 600, width: 1000, height: 200 };
+  const belowBoxes = [{ ...below, panel: "Log" }];
+  const scene = { ...boxes.scene, height: 600 };
+  const target = (y) => targetAt(700, y, { ...boxes, scene, below, belowBoxes });
+  assert.deepEqual([target(610).place, target(610).into], ["below", "Log"]);
+  assert.deepEqual(target(610).box, below);
+  assert.equal(target(700).into, undefined);
 });
 
 test("a floating panel keeps its size, and stays over the scene", () => {
@@ -86,8 +113,9 @@ test("a row is entered between its panels", () => {
 
 test("a layout of the server is complete, and each panel has one place", () => {
   assert.deepEqual(layoutOf(new Map()), EMPTY);
-  const layout = layoutOf(new Map([["below", [{ panel: "Log", weight: 1 }]]]));
+  const layout = layoutOf(new Map([["below", [{ panel: "Log", weight: 1, tabs: ["Table"] }]]]));
   assert.equal(placeOf(layout, "Log"), "below");
+  assert.equal(placeOf(layout, "Table"), "below");
   assert.equal(placeOf(layout, "Plot"), "tabs");
 });
 

@@ -162,8 +162,9 @@ def test_a_message_is_a_tree_a_table_a_lamp_and_a_band(loop: Loop, tab: Tab) -> 
         panel.receive("/diagnostics", array, 90 * SECOND)
         if panel is raw:
             tab.wait_for(lambda: tab.page.locator(".wv-field-row").count() > 2)
-            field = tab.page.get_by_label("Message path", exact=True)
+            field = tab.page.get_by_role("combobox", name="Message path")
             field.fill("/diagnostics.status[:]{level>0}.name")
+            field.press("Enter")
             tab.wait_for_command(SetPanelProperty("of RawMessage", "path", field.input_value()))
         elif panel is table:
             rows = tab.page.locator(".wv-table-row[aria-rowindex]")

@@ -10,9 +10,11 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
-from webviz.commands import RemoveLayout, SaveLayout, SetLayout
+from webviz.commands import AddPanel, RemoveLayout, RemovePanel, SaveLayout, SetLayout
+from webviz.engine.state import PanelTab
 from webviz.features.layouts import layout_store
 from webviz.files.config import DockedPanel, FloatingPanel, Layout, Settings
+from webviz.panels.plot import Plot
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 BESIDE = Layout(beside=(DockedPanel(panel="doctor"),))
@@ -73,7 +75,7 @@ def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
     assert topics.count() == 0
     tab.wait_for(lambda: scene(tab)["width"] <= room["width"] - 300)
 
-    head = tab.page.locator(".wv-docked-head b")
+    head = tab.page.locator(".wv-docked-head")
     drag(tab, head, room["x"] + 200, room["y"] + room["height"] - 20)
     tab.wait_for(lambda: docked(tab) == {"topics": "wv-below"})
     tab.wait_for(lambda: scene(tab)["height"] <= room["height"] - 200)
@@ -145,6 +147,53 @@ def test_escape_leaves_full_screen_and_cancels_a_drag(loop: Loop, tab: Tab) -> N
     tab.turn()
     assert not loop.commands
     assert docked(tab) == {"doctor": "wv-beside"}
+
+
+def test_panels_of_one_place_are_tabs_which_keys_and_drags_change(loop: Loop, tab: Tab) -> None:
+    shared = Layout(below=(DockedPanel(panel="doctor", tabs=("views",)),))
+    loop.show(settings=Settings(layout=shared))
+    tab.wait_for(lambda: docked(tab) == {"doctor": "wv-below"})
+    here = tab.page.get_by_role("tablist", name="Panels here").get_by_role("tab")
+    assert here.all_inner_texts() == ["Doctor", "Views"]
+    here.first.focus()
+    tab.page.keyboard.press("ArrowRight")
+    tab.wait_for(lambda: docked(tab) == {"views": "wv-below"})
+    expect(here.last).to_be_focused()
+    expect(here.last).to_have_attribute("aria-selected", "true")
+    assert not loop.commands, "it is the choice of this page"
+
+    topics = tab.page.locator("#wv-tab-topics")
+    head = tab.page.locator(".wv-docked-head")
+    drag(tab, topics, *middle(head))
+    three = Layout(below=(DockedPanel(panel="doctor", tabs=("views", "topics")),))
+    tab.wait_for_command(SetLayout(three))
+    loop.show(settings=Settings(layout=three))
+    tab.wait_for(lambda: docked(tab) == {"topics": "wv-below"})
+
+    room = scene(tab)
+    drag(tab, here.first, room["x"] + room["width"] - 20, room["y"] + 100)
+    apart = Layout(
+        beside=(DockedPanel(panel="doctor"),), below=(DockedPanel(panel="views", tabs=("topics",)),)
+    )
+    tab.wait_for_command(SetLayout(apart))
+    assert docked(tab) == {"doctor": "wv-beside", "topics": "wv-below"}
+
+
+def test_a_wide_panel_that_is_added_comes_to_the_front_of_its_place(loop: Loop, tab: Tab) -> None:
+    tab.show_tab("Topics")
+    tab.button("Add a panel").click()
+    tab.page.keyboard.type("plot")
+    tab.page.keyboard.press("Enter")
+    tab.wait_for_command(AddPanel("Plot"))
+    below = Layout(below=(DockedPanel(panel="doctor", tabs=("Plot",)),))
+    plot = PanelTab("plot", "Plot", Plot(name="Plot"))
+    loop.show(panels=(plot,), settings=Settings(layout=below))
+    tab.wait_for(lambda: docked(tab) == {"plugin-Plot": "wv-below"})
+    expect(tab.page.locator("#wv-tab-topics")).to_have_attribute("aria-selected", "true")
+    tab.page.locator(".wv-docked").get_by_role("button", name="Remove panel").click()
+    tab.wait_for_command(RemovePanel("plot"))
+    loop.show(settings=Settings())
+    tab.show_tab("Displays")
 
 
 def test_layouts_are_saved_shown_and_removed_by_the_menu(loop: Loop, tab: Tab) -> None:

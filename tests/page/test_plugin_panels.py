@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
 from webviz.api import registry
@@ -194,26 +195,64 @@ def test_what_somebody_types_stays_while_the_panel_shows_something_else(
 
 def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, tab: Tab) -> None:
     open_panel(loop, tab, Limited)
-    tab.page.get_by_text("Properties", exact=True).click()
+    settings = tab.button("Settings of this panel")
+    settings.click()
     most = tab.page.get_by_role("spinbutton", name="Most")
+    expect(most).to_be_focused()
     most.fill("7")
     most.press("Enter")
     tab.wait_for_command(SetPanelProperty("of Limited", "most", 7))
-    tab.page.get_by_text("Remove panel").click()
+    most.press("Escape")
+    expect(most).to_have_count(0)
+    expect(settings).to_be_focused()
+    tab.button("More for this panel").click()
+    tab.page.get_by_role("menuitem", name="Remove panel").click()
     tab.wait_for_command(RemovePanel("of Limited"))
     loop.show(panels=shown(Limited, Limited))
     tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
-    tab.button("All panels").click()
-    tab.page.get_by_role("menuitem", name="Add a panel").click()
-    *_, submenu = tab.page.get_by_role("menu").all()
-    titles = submenu.get_by_role("menuitem").all_inner_texts()
+    tab.button("Add a panel").click()
+    found = tab.page.get_by_role("dialog", name="Add panel").get_by_role("option")
+    titles = found.locator(".wv-pick-title").all_inner_texts()
     assert titles == sorted(titles, key=str.casefold)
-    tab.page.get_by_role("menuitem", name="Navigation 2").click()
+    plot = found.filter(has_text="Numbers of any messages over time")
+    assert plot.locator(".wv-pick-note").inner_text() == "Below the scene"
+    tab.page.keyboard.type("nav")
+    assert found.first.locator(".wv-pick-note").inner_text() == "In the side bar"
+    tab.page.keyboard.press("Enter")
     tab.wait_for_command(AddPanel("Nav2"))
     loop.show(panels=shown(Limited, Limited, Frames))
     added = tab.page.get_by_role("tab", name="Frames", exact=True)
     tab.wait_for(lambda: added.get_attribute("aria-selected") == "true")
-    assert not tab.page.get_by_text("Properties", exact=True).is_visible(), "it has none"
+    assert not settings.is_visible(), "it has none"
+
+
+def test_a_click_elsewhere_closes_the_settings_of_a_panel(loop: Loop, tab: Tab) -> None:
+    open_panel(loop, tab, Limited)
+    settings, most = tab.button("Settings of this panel"), tab.page.get_by_text("Most", exact=True)
+    for close in (settings, tab.page.get_by_role("tab", name="Limited")):
+        settings.click()
+        expect(most).to_be_visible()
+        close.click()
+        expect(most).to_have_count(0)
+
+
+def test_tabs_that_are_too_many_leave_the_open_one_and_the_button_in_sight(
+    loop: Loop, tab: Tab
+) -> None:
+    loop.show(panels=shown(*[Limited] * 6))
+    tab.wait_for(lambda: tabs(tab).count("Limited") == 6)
+    for opened in (tab.page.get_by_role("tab").last, tab.page.get_by_role("tab").first):
+        tab.button("All panels").click()
+        name = opened.inner_text()
+        entries = tab.page.get_by_role("menuitemradio", name=name)
+        (entries.last if name == "Limited" else entries.first).click()
+        expect(opened).to_have_attribute("aria-selected", "true")
+        expect(opened).to_be_in_viewport(ratio=1)
+        box, add = opened.bounding_box(), tab.button("Add a panel").bounding_box()
+        assert box is not None
+        assert add is not None
+        assert box["x"] + box["width"] <= add["x"]
+        assert add["x"] + add["width"] <= 320
 
 
 def test_the_list_of_commands_opens_and_adds_panels(loop: Loop, tab: Tab) -> None:

@@ -160,7 +160,7 @@ def test_a_page_zooms_pans_and_resets_for_itself(plot: Any) -> None:
 
 
 def test_a_paused_page_stands_still_while_values_come(plot: Any) -> None:
-    chart = plot.page.locator(".wv-chart")
+    chart = plot.page.locator(".wv-chart-tools")
     chart.get_by_role("button", name="Pause").click()
     panel = plot.loop.state.panels[0].panel
     message = JointState(name=["left", "right"], position=np.array([7.0, 8.0]))

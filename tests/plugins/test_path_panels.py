@@ -30,7 +30,9 @@ def built(panel: Any) -> Any:
     """A panel that has shown a viewer with one topic."""
     ui = RecordedUi()
     panel.build(ui, lambda *_: None)
-    panel.own = next(each for each in ui.widgets.values() if isinstance(each, CustomWidget))
+    customs = [each for each in ui.widgets.values() if isinstance(each, CustomWidget)]
+    heads = ("own path", "own fields")
+    panel.own = next(each for each in customs if each.values["kind"] not in heads)
     return shown(panel)
 
 
@@ -144,16 +146,18 @@ def test_bands_are_added_by_topic_and_field_and_removed() -> None:
     ui = RecordedUi()
     panel.chooser.build(ui, "band")
     shown(panel)
-    topics, fields = (ui.widgets[id_] for id_ in ("0", "1"))
-    assert fields.values["options"] == [
-        *("", "level", "name", "message", "hardware_id", "values[0].key", "values[0].value")
-    ]
-    fields.use("name", 1)
+    chooser = ui.widgets["0"]
+    offered = ["level", "name", "message", "hardware_id", "values[0].key", "values[0].value"]
+    assert chooser.values["values"]["fields"] == offered
+    chooser.use('{"add": "/t.name"}', 1)
     panel.use("/t.data", 1)
     assert [each.value for each in sent] == [["/t.data", "/t.name"], []]
-    topics.use("", 1)
+    for useless in ('{"add": 5}', "{}", "[]", "7", '{"topic": ["/t"]}'):
+        chooser.use(useless, 1)
+    assert len(sent) == 2
+    chooser.use('{"topic": ""}', 1)
     shown(panel)
-    assert fields.values["options"] == [""]
+    assert chooser.values["values"]["fields"] == []
 
 
 def test_diagnostics_are_bounded_and_grow_stale() -> None:

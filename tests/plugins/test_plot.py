@@ -211,13 +211,13 @@ def test_another_window_keeps_the_values_and_a_pause_of_the_panel_is_a_gap(
 
 def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None:
     bench = Bench("/joints.position[0]")
-    topic, field = (bench.ui.widgets[id_] for id_ in ("1", "2"))
-    assert topic.values["options"] == ["", "/joints"]
-    topic.use("/joints", 7)
+    chooser = bench.ui.widgets["1"]
+    assert chooser.values["values"]["topics"] == ["/joints"]
+    chooser.use('{"topic": "/joints"}', 7)
     bench.panel.receive("/joints", JointState(name=["left"], position=np.array([0.5])), SECOND)
     bench.show()
-    assert field.values["options"] == ["", "header.stamp", "position[left]"]
-    field.use("position[left]", 7)
+    assert chooser.values["values"]["fields"] == ["header.stamp", "position[left]"]
+    chooser.use('{"add": "/joints.position[left]"}', 7)
     curves = ["/joints.position[0]", "/joints.position[left]"]
     assert bench.sent.pop() == SetPanelProperty("id", "curves", curves)
     bench.chart.use("/joints.position[0]", 7)

@@ -216,6 +216,11 @@ class Panel(Declared, kw_only=True, dict=True):
     place: ClassVar[int] = 100
     """Tabs with a lower number come first; those with the same one are sorted by name."""
 
+    opens: ClassVar[Literal["side", "below"]] = "side"
+    """Place of one that is added: the tabs at the side or, for wide ones, below the scene."""
+
+    icon: ClassVar[str] = "sidebar"
+    """An icon as that of a display (`Display.icon`), for the list of panels."""
     rviz_tool: ClassVar[str] = ""
     """The class of a tool that does the same in RViz; files with that tool open the panel."""
     on_request: ClassVar[bool] = False

@@ -38,6 +38,7 @@ class ServiceCall(SendingPanel):
     """A service that is called with a request."""
 
     title = "Service call"
+    icon = "plug"
     target = "service"
 
     service: Annotated[str, Prop(help="Full name of the service.")] = ""
@@ -92,6 +93,7 @@ class ActionGoal(SendingPanel):
     """A goal that is sent to an action; all pages show its progress and can cancel it."""
 
     title = "Action goal"
+    icon = "target"
     target = "action"
 
     action: Annotated[str, Prop(help="Full name of the action.")] = ""

@@ -188,17 +188,9 @@ export default function install({ widget }) {
       draw();
     }
 
-    const bar = el("div", { class: "wv-plugin-bar" }, search);
-    const element = el(
-      "div",
-      { class: "wv-plugin-fill" },
-      bar,
-      el("div", { class: "wv-plugin-bar" }, summary),
-      empty,
-      list.element,
-      detail,
-    );
-    return { element, update, close: list.close };
+    const head = el("span", { class: "wv-panel-tools" }, summary, search);
+    const element = el("div", { class: "wv-plugin-fill" }, empty, list.element, detail);
+    return { element, head, update, close: list.close };
   });
 }
 

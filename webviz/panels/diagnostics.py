@@ -46,6 +46,8 @@ class Diagnostics(Panel):
     """Reports of nodes about themselves, the worst first."""
 
     on_request = True
+    icon = "check"
+    opens = "below"
     module = "diagnostics.js"
 
     topic: Annotated[str, Prop(help="Topic of the diagnostics.")] = "/diagnostics"

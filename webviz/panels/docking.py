@@ -58,6 +58,7 @@ class Docking(Panel):
     title = "Docking"
     rviz = "nav2_rviz_plugins/Docking"
     on_request = True
+    icon = "plug"
 
     namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""
     frame_id: Annotated[str, Prop(widget="frame", help="Frame of the dock's pose.")] = "map"

@@ -1,4 +1,4 @@
-"""Two lists from which a message path is chosen: a topic, and a field of its newest message."""
+"""Adds message paths to a panel: a topic is chosen, and fields of its newest message."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from webviz.api.panel import Ui
 
 MAX_FIELDS = 300
 """Fields of a message that are offered."""
+MAX_TOPICS = 2000
 NOTHING = ""
 
 
@@ -32,11 +33,9 @@ class FieldChooser:
         """The topic whose fields are offered; its messages are needed."""
 
     def build(self, ui: Ui, what: str) -> None:
-        """Add both lists; `what` is what is added, such as "curve"."""
-        self._topics = ui.choice(
-            "Topic", NOTHING, self._choose, f"Topic with the values of a new {what}."
-        )
-        self._paths = ui.choice("Add field", NOTHING, self._add, "Fields of the newest message.")
+        """Add the button to the head of the panel; `what` is what is added, such as "curve"."""
+        self._what = what
+        self._widget = ui.widget("fields", self._values({}), self._use)
 
     def take(self, topic: str, message: Any) -> None:
         """Take a message, whose fields are offered if it is of the topic."""
@@ -45,13 +44,22 @@ class FieldChooser:
 
     def offer(self, topics: Mapping[str, Any]) -> None:
         """Offer these topics, and the fields of the newest message."""
-        self._topics.offer([NOTHING, *sorted(topics)], self.topic)
+        self._widget.show(self._values(topics))
+
+    def _values(self, topics: Mapping[str, Any]) -> Mapping[str, Any]:
         fields = [] if self._example is None else self._fields(self._example, MAX_FIELDS)
-        self._paths.offer([NOTHING, *fields], NOTHING)
+        return {
+            "what": self._what,
+            "topic": self.topic,
+            "topics": sorted(topics)[:MAX_TOPICS],
+            "fields": list(fields),
+        }
 
-    def _choose(self, topic: str, browser: int | None) -> None:
-        self.topic, self._example = topic, None
-
-    def _add(self, field: str, browser: int | None) -> None:
-        if field:
-            self._added(f"{self.topic}.{field}", browser)
+    def _use(self, value: Any, browser: int | None) -> None:
+        """Choose a topic, or add a message path."""
+        if not isinstance(value, dict):
+            return
+        if isinstance(topic := value.get("topic"), str):
+            self.topic, self._example = topic, None
+        elif isinstance(path := value.get("add"), str) and path:
+            self._added(path, browser)

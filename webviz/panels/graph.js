@@ -179,17 +179,10 @@ function graph({ watch }) {
     if (chosen) choose(chosen);
   }
 
-  const element = el(
-    "div",
-    { class: "wv-plugin-fill" },
-    el("div", { class: "wv-plugin-bar" }, bar),
-    el("div", { class: "wv-plugin-bar" }, count),
-    empty,
-    canvas,
-    detail,
-  );
+  const element = el("div", { class: "wv-plugin-fill" }, empty, canvas, detail);
   return {
     element,
+    head: el("span", { class: "wv-panel-tools" }, count, bar),
     update,
     close() {
       unmeasure?.();

@@ -30,6 +30,8 @@ class NodeGraph(Panel):
 
     title = "Graph"
     on_request = True
+    icon = "orbit"
+    opens = "below"
     module = "graph.js"
 
     hide: Annotated[

@@ -29,6 +29,7 @@ class Indicator(PathPanel):
     """A value as a lamp with a label, which the first rule that fits chooses."""
 
     on_request = True
+    icon = "sun"
     module = "indicator.js"
 
     rules: Annotated[

@@ -31,6 +31,7 @@ class Joints(Panel):
 
     title = "Joints"
     on_request = True
+    icon = "robot"
 
     robot_description: Annotated[str, Prop(help="Topic of the robot's URDF.")] = (
         "/robot_description"

@@ -214,19 +214,16 @@ export default function install({ widget }) {
     }
 
     mark(true);
-    const element = el(
-      "div",
-      { class: "wv-plugin-fill" },
-      el("div", { class: "wv-plugin-bar" }, level, nodes, text),
-      el("div", { class: "wv-plugin-bar" }, count, follow, all),
-      empty,
-      list.element,
-      detail,
-    );
+    const element = el("div", { class: "wv-plugin-fill" }, empty, list.element, detail);
     function close() {
       sizes.disconnect();
       list.close();
     }
-    return { element, update, close };
+    const head = el(
+      "span",
+      { class: "wv-panel-tools" },
+      ...[level, nodes, text, count, follow, all],
+    );
+    return { element, head, update, close };
   });
 }

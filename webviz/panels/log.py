@@ -37,6 +37,8 @@ class Log(Panel):
     """Messages that nodes log, with filters by level, node and text."""
 
     on_request = True
+    icon = "list"
+    opens = "below"
     always_reads = True
     module = "log.js"
 

@@ -52,6 +52,7 @@ class Nav2(Panel):
     title = "Navigation 2"
     rviz = "nav2_rviz_plugins/Navigation 2"
     on_request = True
+    icon = "flag"
 
     namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""
     navigation_manager: Annotated[str, Prop(help="Lifecycle manager of the navigation.")] = (

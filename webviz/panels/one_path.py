@@ -12,11 +12,11 @@ from webviz.commands import SetPanelProperty
 from webviz.engine.state import PanelTab
 from webviz.panels.reading import PathReading, id_of, subscribed, types_of
 
-NOTHING = ""
+MAX_TOPICS = 2000
 
 
 class PathPanel(Panel):
-    """A panel with one message path, and the fields to choose it."""
+    """A panel with one message path, which is chosen in its head."""
 
     path: Annotated[
         str,
@@ -34,10 +34,9 @@ class PathPanel(Panel):
         """Number of messages, so that unchanged values are not made anew."""
 
     def build_path(self, ui: Ui, send: Send) -> None:
-        """Add the topic and the path."""
+        """Add the field of the path to the head of the panel."""
         self.send = send
-        self.topics = ui.choice("Topic", NOTHING, self._set, "Topic whose messages are shown.")
-        self.field = ui.field("Message path", self.path, self._set, "Topic, fields and filters.")
+        self.chooser = ui.widget("path", {"path": self.path, "topics": []}, self._set)
 
     def subscriptions(self) -> Mapping[str, str]:
         """Return the topic of the path."""
@@ -65,9 +64,8 @@ class PathPanel(Panel):
         self.types = types_of(offers)
         if self.reading.text != self.path:
             self.start_over()
-        self.topics.offer([NOTHING, *sorted(self.types)], self.reading.topic)
-        self.field.show(self.path)
+        self.chooser.show({"path": self.path, "topics": sorted(self.types)[:MAX_TOPICS]})
         return self.reading.explanation(self.types)
 
-    def _set(self, path: str, browser: int | None) -> None:
+    def _set(self, path: Any, browser: int | None) -> None:
         self.send(SetPanelProperty(self.id, "path", path), browser)

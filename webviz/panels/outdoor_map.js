@@ -55,15 +55,16 @@ function outdoorMap(send) {
   const element = el(
     "div",
     { class: "wv-plugin-fill" },
-    el(
-      "div",
-      { class: "wv-plugin-bar" },
-      follow,
-      iconButton("plus", "Zoom in (+)", () => zoom(1)),
-      iconButton("M5 12h14", "Zoom out (-)", () => zoom(-1)),
-    ),
     problem,
     el("div", { class: "wv-outdoor" }, canvas, place, credit),
+  );
+
+  const head = el(
+    "span",
+    { class: "wv-panel-tools" },
+    follow,
+    iconButton("plus", "Zoom in (+)", () => zoom(1)),
+    iconButton("M5 12h14", "Zoom out (-)", () => zoom(-1)),
   );
 
   const size = () => ({ width: canvas.clientWidth, height: canvas.clientHeight });
@@ -177,6 +178,7 @@ function outdoorMap(send) {
   setFollowed(true);
   return {
     element,
+    head,
     update,
     close() {
       sizes.disconnect();

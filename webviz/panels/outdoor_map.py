@@ -76,6 +76,8 @@ class OutdoorMap(Panel):
 
     title = "Outdoor map"
     on_request = True
+    icon = "map"
+    opens = "below"
     module = "outdoor_map.js"
 
     topics: Annotated[

@@ -28,9 +28,9 @@ export default function install({ widget }) {
     const search = searchField("Filter parameters", draw, { placeholder: "Filter" });
     const file = el("input", { type: "file", accept: ".yaml,.yml", hidden: true, onchange: load });
     const undo = iconButton("arrow-back", "Undo the newest change", () => send({ undo: true }));
-    const bar = el(
-      "div",
-      { class: "wv-plugin-bar" },
+    const head = el(
+      "span",
+      { class: "wv-panel-tools" },
       search,
       undo,
       iconButton("refresh", "Read the parameters again", () => send({ refresh: true })),
@@ -145,8 +145,9 @@ export default function install({ widget }) {
       set(undo, { disabled: !shown.undo });
     }
 
-    const element = el("div", { class: "wv-plugin-fill" }, bar, said, list.element);
+    const element = el("div", { class: "wv-plugin-fill" }, said, list.element);
     return {
+      head,
       element,
       update(values) {
         shown = { ...shown, ...values };

@@ -37,6 +37,7 @@ class Parameters(Panel):
     """The parameters of a node, with types, ranges and descriptions."""
 
     on_request = True
+    icon = "gear"
     module = "parameters.js"
 
     node: Annotated[str, Prop(help="Full name of the node, such as /controller_server.")] = ""

@@ -20,6 +20,7 @@ class MotionPlanningTasks(Panel):
     title = "Planning Tasks"
     rviz = "moveit_task_constructor/Motion Planning Tasks"
     on_request = True
+    icon = "list"
 
     def build(self, ui: Ui, send: Send) -> None:
         """Build the list of solutions and the table of stages."""

@@ -26,6 +26,7 @@ class PublishMessage(SendingPanel):
     """A message that is published on a topic, once or at a rate while the tab is open."""
 
     title = "Publish"
+    icon = "upload"
     target = "topic"
 
     topic: Annotated[str, Prop(help="Topic to publish on.")] = ""

@@ -17,6 +17,7 @@ class RawMessage(PathPanel):
 
     title = "Raw message"
     on_request = True
+    icon = "file"
     module = "raw.js"
 
     def build(self, ui: Ui, send: Send) -> None:

@@ -27,7 +27,7 @@ export default function install({ widget }) {
     const empty = el(
       "div",
       { class: "wv-empty", role: "status" },
-      "Choose a topic and one of its fields.",
+      "Add a field with +, or drag one here from Topics.",
     );
     const place = el("div", { class: "wv-states" });
     /** @type {Map<string, ReturnType<typeof make>>} */

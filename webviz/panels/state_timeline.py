@@ -56,6 +56,8 @@ class StateTimeline(Panel):
 
     title = "State timeline"
     on_request = True
+    icon = "clock"
+    opens = "below"
     module = "state_timeline.js"
 
     paths: Annotated[
@@ -74,7 +76,7 @@ class StateTimeline(Panel):
         self.playback: PlaybackState | None = None
 
     def build(self, ui: Ui, send: Send) -> None:
-        """Show the bands, and two lists that add one."""
+        """Show the bands, and what adds one."""
         self.send = send
         self.bands = ui.widget("states", {}, self.use)
         self.chooser.build(ui, "band")

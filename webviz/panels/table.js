@@ -92,15 +92,10 @@ export default function install({ widget }) {
       );
     }
 
-    const element = el(
-      "div",
-      { class: "wv-plugin-fill" },
-      empty,
-      el("div", { class: "wv-plugin-bar" }, note, save),
-      host,
-    );
+    const element = el("div", { class: "wv-plugin-fill" }, empty, host);
     return {
       element,
+      head: el("span", { class: "wv-panel-tools" }, note, save),
       update(values) {
         if (JSON.stringify(columns) !== JSON.stringify(values.columns ?? [])) sorted = -1;
         columns = values.columns ?? [];

@@ -34,6 +34,8 @@ class MessageTable(PathPanel):
 
     title = "Table"
     on_request = True
+    icon = "grid"
+    opens = "below"
     module = "table.js"
 
     def build(self, ui: Ui, send: Send) -> None:

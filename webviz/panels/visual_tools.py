@@ -30,6 +30,7 @@ class RvizVisualToolsGui(Panel):
     rviz = "rviz_visual_tools/RvizVisualToolsGui"
     rviz_tool = "rviz_visual_tools/KeyTool"
     on_request = True
+    icon = "step"
 
     topic: Annotated[str, Prop(help="Topic of the buttons.")] = "/rviz_visual_tools_gui"
 

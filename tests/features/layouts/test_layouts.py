@@ -6,6 +6,7 @@ import json
 import time
 from typing import Any
 
+import msgspec
 import pytest
 from bench import Benches
 from msgspec.structs import replace
@@ -127,6 +128,32 @@ def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) ->
     b.do(Undo())
     assert layouts(b) == (arranged, {"lab": arranged})
     assert len(b.states[-1].panels) == 3
+
+
+def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_tabs(b: Any) -> None:
+    b.do(SetLayout(Layout()))
+    for name in ("Plot", "Joints", "Log", "Plot"):
+        b.do(AddPanel(name, {}))
+    opened = Layout(below=(DockedPanel(panel="Plot", tabs=("Log", "Plot 2")),))
+    assert layouts(b)[0] == opened
+    b.do(Undo())
+    assert layouts(b)[0] == Layout(below=(DockedPanel(panel="Plot", tabs=("Log",)),))
+    b.do(Redo())
+    first, _, *others = [tab.id for tab in b.states[-1].panels]
+    b.do(RemovePanel(first))
+    assert layouts(b)[0] == Layout(below=(DockedPanel(panel="Log", tabs=("Plot",)),))
+    for each in others:
+        b.do(RemovePanel(each))
+    assert layouts(b)[0] == Layout()
+
+
+def test_a_place_takes_as_many_tabs_as_can_be_saved() -> None:
+    layout = Layout()
+    for number in range(30):
+        layout = layout.with_panel_below(f"Plot {number}")
+    assert [len(each.names) for each in layout.below] == [21, 9]
+    assert layout.with_panel_below("Plot 3") == layout
+    assert msgspec.convert(msgspec.to_builtins(layout), Layout) == layout
 
 
 def test_the_others_stay_when_a_layout_is_removed(b: Any) -> None:

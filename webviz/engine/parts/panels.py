@@ -153,7 +153,7 @@ class PanelsPart(Part):
         type: str,
         values: dict[str, Any] = {},  # noqa: B006 - nobody changes it
     ) -> str:
-        """Add a panel of a plug-in behind the others.
+        """Add a panel of a plug-in behind the others, where its class says (`Panel.opens`).
 
         Args:
             type: name of the panel type.
@@ -171,6 +171,9 @@ class PanelsPart(Part):
             problems = mistakes(cls, values, error, ())
             raise ConfigError(f"Not added: {sentences(problems)}") from error
         self.list.add(panel)
+        if cls.opens == "below":
+            name = next(tab.tab for tab in self._tabs() if tab.panel is panel)
+            self._settings.set("layout", self._settings.settings.layout.with_panel_below(name))
         return f"Added {panel.name}."
 
     @command(Role.OPERATOR)

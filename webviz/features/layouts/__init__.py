@@ -23,10 +23,11 @@ class SavedLayout(msgspec.Struct, frozen=True):
 
 
 class DockedOnPage(msgspec.Struct, frozen=True):
-    """A panel beside or below the scene."""
+    """A panel beside or below the scene, and those behind it."""
 
     panel: str
     weight: float
+    tabs: Sequence[str]
 
 
 class FloatingOnPage(msgspec.Struct, frozen=True):

@@ -41,10 +41,19 @@ _SHARED = ("name",)
 
 
 class PanelType(msgspec.Struct, frozen=True):
-    """A type of panels that can be added."""
+    """A type of panels that can be added.
+
+    Args:
+        type, title: its names for commands and for people.
+        about: one line of what it shows.
+        icon, opens: see `webviz.api.panel.Panel`.
+    """
 
     type: str
     title: str
+    about: str
+    icon: str
+    opens: str
 
 
 class PanelsStore(PageStore, frozen=True):
@@ -257,8 +266,16 @@ class PluginPanels(PageFeature):
 
 def _types() -> list[PanelType]:
     """Return the types of panels, in the order of their titles."""
-    found = [PanelType(name, clean(cls.title or name)) for name, cls in plugin_types(Panel).items()]
+    found = [
+        PanelType(name, clean(cls.title or name), _about(cls), cls.icon, cls.opens)
+        for name, cls in plugin_types(Panel).items()
+    ]
     return sorted(found, key=lambda each: each.title.casefold())
+
+
+def _about(cls: type[Panel]) -> str:
+    """Return the first line of the docstring, without the full stop."""
+    return clean((cls.__doc__ or "").strip().partition("\n")[0].removesuffix("."))
 
 
 def _note_refusal(answer: Future[str]) -> None:

@@ -1,5 +1,7 @@
 // The panel "Topics": all topics in a table, and the last message of the one that is chosen.
 
+import { why } from "../../access.js";
+import { openMenu } from "../../controls/menu.js";
 import { el } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
@@ -7,10 +9,14 @@ import { rowList, touchable } from "../../controls/rows.js";
 import { searchField } from "../../controls/fields.js";
 import { panel } from "../../panels/panels.js";
 import { computed, effect, signal, untracked } from "../../signals.js";
-import { store } from "../../stores.js";
-import { inspector } from "./topics_inspector.js";
+import { once, store } from "../../stores.js";
+import { canvas } from "../../viser_page.js";
+import { addDisplay, inspector } from "./topics_inspector.js";
+import { takeFields } from "../../panels/field_drag.js";
+import { toast } from "../../toasts.js";
 import { arranged, tableHead, topicRow } from "../../panels/topics_table.js";
 
+/** @import {Field} from "../../panels/field_drag.js" */
 /** @import {Panel} from "../../types.js" */
 /** @import {Sort} from "../../panels/topics_table.js" */
 
@@ -18,7 +24,10 @@ const WIDE_PX = 600;
 const HEIGHTS = { wide: 26, narrow: 44 };
 const NOTHING = "No topic is published. Start the robot, a simulator or a bag.";
 
-export const install = () => panel(topics);
+export function install() {
+  panel(topics);
+  takeFields(canvas(), () => (why("AddDisplay") ? null : show));
+}
 
 const facts = store("topics");
 const traffic = store("traffic");
@@ -90,3 +99,16 @@ const topics = {
     return () => observer.disconnect();
   },
 };
+
+/**
+ * Shows a topic that is dropped on the scene.
+ *
+ * @param {Field} field
+ * @param {DragEvent} event
+ */
+async function show({ topic }, { clientX, clientY }) {
+  const { show: fits = [], why: reason = "" } =
+    (await once("topics", (all) => all.get(topic))) ?? {};
+  if (!fits.length) return toast(reason || `No display shows ${topic}.`, { level: "warn" });
+  addDisplay(topic, fits, (items) => openMenu(clientX, clientY, items));
+}

@@ -14,6 +14,7 @@ import { messageRows } from "../../panels/message_rows.js";
 import { textOf } from "../../panels/message_tree.js";
 import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
 
+/** @import {MenuItem} from "../../controls/menu.js" */
 /** @import {Fields} from "../../panels/message_tree.js" */
 /** @import {GraphTopic} from "../../contents.js" */
 /** @import {TopicRow} from "../../panels/topics_table.js" */
@@ -39,10 +40,14 @@ export function inspector(name, topic, dismiss) {
   const tree = messageRows({ label: `Last message on ${name}`, topic: () => name });
   effect(() => tree.show(message()));
   /** @type {HTMLButtonElement} */
-  const show = textButton("Show", () => add(name, fits(), show), {
-    icon: "plus",
-    disabled: () => fits().length === 0,
-  });
+  const show = textButton(
+    "Show",
+    () => addDisplay(name, fits(), (items) => openMenuBelow(show, items)),
+    {
+      icon: "plus",
+      disabled: () => fits().length === 0,
+    },
+  );
   set(show, { "data-tip": () => (fits().length ? "Add a display" : why()) });
   const copy = () => copyAndTell(textOf(/** @type {Fields} */ (message())));
   return el(
@@ -68,21 +73,20 @@ export function inspector(name, topic, dismiss) {
 }
 
 /**
- * Adds a display for a topic, chosen from a menu if several fit.
+ * Adds a display for a topic, chosen if several fit from a menu that `open` opens.
  *
  * @param {string} name
  * @param {GraphTopic["show"]} fits
- * @param {HTMLElement} button
+ * @param {(items: MenuItem[]) => unknown} open
  */
-function add(name, fits, button) {
+export function addDisplay(name, fits, open) {
   /** @param {GraphTopic["show"][number]} fit */
   const one = async ([type, values]) => {
     const { level } = await act("AddDisplay", { type, values });
     if (level === "ok") toast(`Added ${type} for ${name}.`);
   };
   if (fits.length === 1) return one(fits[0]);
-  const items = fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) }));
-  openMenuBelow(button, items);
+  open(fits.map((fit) => ({ label: fit[0], icon: "plus", run: () => one(fit) })));
 }
 
 /** @param {TopicRow | undefined} topic */

@@ -59,6 +59,7 @@ export interface DisplayType {
 export interface DockedOnPage {
   panel: string;
   weight: number;
+  tabs: Array<string>;
 }
 
 export interface ExplainedStatus {
@@ -162,6 +163,9 @@ export interface PanelCommand {
 export interface PanelType {
   type: string;
   title: string;
+  about: string;
+  icon: string;
+  opens: string;
 }
 
 export interface Person {

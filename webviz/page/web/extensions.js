@@ -35,7 +35,7 @@ import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
  * Makes a widget of a plug-in, whose values are its own.
  *
  * @typedef {(values: any, send: (value: unknown) => unknown) => {
- *   element: HTMLElement, update(values: any, part: (key: string) => any): void, close?(): void,
+ *   element: HTMLElement, head?: HTMLElement, update(values: any, part: (key: string) => any): void, close?(): void,
  * }} MakeOwn
  */
 
@@ -132,8 +132,8 @@ function ownPanel({ name, title, isOnDemand = false, open }) {
     name: String(name),
     title: String(title),
     isOnDemand,
-    open(element) {
-      const end = open(element);
+    open(element, head) {
+      const end = open(element, head);
       return typeof end === "function" ? end : undefined;
     },
   };

@@ -244,7 +244,7 @@ export interface Commands {
   SetBackground: { color: [number, number, number] | null };
   SetFixedFrame: { frame: string };
   SetFrameRate: { hz: number };
-  SetLayout: { layout: { beside?: Array<{ panel: string; weight?: number }>; below?: Array<{ panel: string; weight?: number }>; over?: Array<{ panel: string; left?: number; top?: number; width?: number; height?: number }>; width?: number; height?: number } | string; name?: string };
+  SetLayout: { layout: { beside?: Array<{ panel: string; weight?: number; tabs?: Array<string> }>; below?: Array<{ panel: string; weight?: number; tabs?: Array<string> }>; over?: Array<{ panel: string; left?: number; top?: number; width?: number; height?: number }>; width?: number; height?: number } | string; name?: string };
   SetLoop: { loop?: boolean };
   SetPanelProperty: { panel: string; path: string; value: unknown };
   SetProperty: { display: string; path: string; value: unknown };

@@ -177,3 +177,21 @@ export const store = (name) => storeOf(name);
  * @param {(values: ValuesOf<N>, changed: Set<string>) => void} listener
  */
 export const watch = (name, listener) => storeOf(name).watch(listener);
+
+/**
+ * The present state of a store, read from its values.
+ *
+ * @template {string} N
+ * @template T
+ * @param {N} store
+ * @param {(values: ValuesOf<N>) => T} read
+ * @returns {Promise<T>}
+ */
+export function once(store, read) {
+  return new Promise((resolve) => {
+    const end = watch(store, (values) => {
+      resolve(read(values));
+      queueMicrotask(() => end());
+    });
+  });
+}

@@ -60,8 +60,10 @@ export interface Panel {
   title: string;
   /** Its place among the tabs; the last without it. */
   order?: number;
-  /** Fills its tab; returns what ends that. */
-  open(element: HTMLElement): End | void;
+  /** Fills an element, and the middle of its head if it has filters or actions; returns what ends that. */
+  open(element: HTMLElement, head: HTMLElement): End | void;
+  /** Removes it, if it was added. */
+  remove?(): unknown;
   /** Its tab is there while it is open only. */
   isOnDemand?: boolean;
 }

@@ -33,6 +33,8 @@ class Plot(Panel):
     """Numbers of any messages over time, read while the panel is open."""
 
     on_request = True
+    icon = "pulse"
+    opens = "below"
 
     curves: Annotated[
         list[str],
@@ -75,7 +77,7 @@ class Plot(Panel):
         self.active_s = 0.0
 
     def build(self, ui: Ui, send: Send) -> None:
-        """Show the chart, and two lists that add a curve."""
+        """Show the chart, and what adds a curve."""
         self.send = send
         self.chart = ui.chart(self._remove, self._seek)
         self.chooser.build(ui, "curve")
@@ -144,7 +146,7 @@ class Plot(Panel):
         ]
         self.chart.show(shown, self.window, now_s, self.across)
         if not self.curves:
-            self.note.text("Choose a topic and one of its fields.")
+            self.note.text("Add a field with +, or drag one here from Topics.")
         else:
             more = len(self.curves) - MAX_CURVES
             self.note.text(f"Only the first {MAX_CURVES} curves are shown." if more > 0 else "")

@@ -3,9 +3,10 @@
 // All pages have the same values; each pauses, zooms and pans for itself.
 
 import { needs } from "../access.js";
-import { el, set, setText } from "../dom.js";
+import { el } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { newest } from "../newest.js";
+import { batch, computed, effect, root, signal, untracked } from "../signals.js";
 import { download } from "../download.js";
 import { timeOfDay } from "../time_text.js";
 import { byAxis, csv, curvesOf, extent } from "./curves.js";
@@ -21,22 +22,40 @@ import { at, roomy } from "./scale.js";
 /**
  * @typedef {{window: number, now: number, across: number, seeks: boolean, curves: Facts[]}} ChartFacts
  *   `across` is the key of the curve that stands in place of time, -1 for none
+ * @typedef {ReturnType<typeof makeView>} View
  */
 
-/** @param {HTMLElement} button */
-const isPressed = (button) => button.getAttribute("aria-pressed") === "true";
-
-/**
- * @param {string} name of its icon
- * @param {string} label
- * @param {() => void} pressed
- */
-function toggle(name, label, pressed) {
-  const button = iconButton(name, label, () => {
-    set(button, { "aria-pressed": String(!isPressed(button)) });
-    pressed();
+/** The curves of a chart as they are or were when this page paused, and the part that is in sight. */
+function makeView() {
+  const live = signal(/** @type {Curve[]} */ ([]));
+  const held = signal(/** @type {{curves: Curve[], end: number} | null} */ (null));
+  /** @type {ChartFacts} */
+  const none = { window: 1, now: 0, across: -1, seeks: false, curves: [] };
+  const facts = signal(none);
+  const zoom = signal(/** @type {Zoom | null} */ (null));
+  const cursor = signal(/** @type {number | null} */ (null));
+  const curves = () => held.value?.curves ?? live.value;
+  const axes = computed(() => byAxis(curves(), facts.value.across));
+  const times = computed(() => {
+    const end = held.value?.end ?? facts.value.now;
+    return /** @type {Range} */ (zoom.value?.times ?? [end - facts.value.window, end]);
   });
-  return button;
+  /** @param {Curve[]} some */
+  const fitting = (some) => roomy(...extent(some, times.value));
+  const shown = () => ({
+    times: times.value,
+    values: zoom.value?.values ?? fitting(axes.value.left),
+  });
+  const hasSums = signal(false);
+  const isFollowing = signal(false);
+  const seeks = () => facts.value.seeks && facts.value.across < 0;
+  return {
+    ...{ live, held, facts, zoom, cursor, curves, axes, times, fitting, shown },
+    ...{ hasSums, isFollowing, seeks },
+    togglePause() {
+      held.value = held.value ? null : { curves: live.value, end: facts.value.now };
+    },
+  };
 }
 
 /**
@@ -45,146 +64,162 @@ function toggle(name, label, pressed) {
  * @param {unknown} _
  * @param {(value: string) => unknown} send
  */
-export function chart(_, send) {
-  /** @type {WeakMap<object, Piece>} */
-  const known = new WeakMap();
-  /** @type {Curve[]} */
-  let live = []; // the curves as they are
-  /** @type {{curves: Curve[], end: number} | null} */
-  let held = null; // and as they were when this page paused
-  /** @type {ChartFacts} */
-  let facts = { window: 1, now: 0, across: -1, seeks: false, curves: [] };
-  /** @type {Zoom | null} */
-  let zoom = null;
-  /** @type {number | null} */
-  let cursor = null;
-  let frame = 0;
-
-  const canvas = el("canvas", {
-    class: "wv-chart-canvas",
-    role: "img",
-    tabindex: 0,
-    "aria-label": "Chart",
-  });
-  const box = listenToGestures(canvas, {
-    area,
-    shown,
-    zoom: () => zoom,
-    setZoom,
-    point,
-    pause: togglePause,
-  });
-  const pause = iconButton("pause", "Pause", togglePause);
-  const back = iconButton("reset", "Reset zoom (double click)", () => setZoom(null));
-  const save = iconButton("download", "Download as CSV", () => download("plot.csv", csv(curves())));
-  const sums = toggle("list", "Statistics of the visible values", later);
-  const follow = needs(
-    "UseWidget",
-    toggle("clock", "Move the time with the pointer", () => {}),
-  );
-  follow.hidden = true;
-  const when = el("span", { class: "wv-quiet wv-number" });
-  const legend = makeLegend(send);
-  const element = el(
-    "div",
-    { class: "wv-chart" },
-    el("div", { class: "wv-chart-tools" }, pause, back, save, sums, follow, when),
-    el("div", { class: "wv-chart-place" }, canvas, box),
-    legend.element,
-  );
-  const observer = new ResizeObserver(later);
-  observer.observe(canvas);
-  const seek = newest((time) => send(String(time)));
-  const unshare = onHover((time) => {
-    cursor = time;
-    later();
-  });
-
-  const curves = () => held?.curves ?? live;
-  const axes = () => byAxis(curves(), facts.across);
-  /** @param {Curve[]} some */
-  const fitting = (some) => roomy(...extent(some, times()));
-
-  /** @returns {Range} */
-  function times() {
-    const end = held?.end ?? facts.now;
-    return zoom?.times ?? [end - facts.window, end];
-  }
-
-  function shown() {
-    return { times: times(), values: zoom?.values ?? fitting(axes().left) };
-  }
-
-  function area() {
-    return inside(canvas.clientWidth, canvas.clientHeight, axes().rights.length);
-  }
-
-  function later() {
-    frame ||= requestAnimationFrame(() => {
-      frame = 0;
-      if (!element.isConnected) return;
-      const { across, rights } = axes();
-      draw(canvas, {
-        ...{ curves: curves(), colors: colorOf, ...shown(), cursor },
-        rights: rights.map((some) => ({
-          ...{ axis: some[0].axis, range: fitting(some) },
-          color: some.length === 1 ? colorOf(some[0].key) : "",
-        })),
-        across: across && { curve: across, range: fitting([across]) },
-      });
-      setText(when, cursor === null ? "" : timeOfDay(cursor, true).replace(/^.* /, ""));
-      legend.read(curves(), cursor ?? Infinity, isPressed(sums) ? times() : null);
+export const chart = (_, send) =>
+  root((end) => {
+    const view = makeView();
+    const canvas = el("canvas", {
+      class: "wv-chart-canvas",
+      role: "img",
+      tabindex: 0,
+      "aria-label": "Chart",
     });
-  }
+    const legend = makeLegend(send);
+    const place = el("div", { class: "wv-chart-place" }, canvas, gestures(canvas, view, send));
+    const element = el(
+      "div",
+      { class: "wv-chart", "data-empty": () => (view.live.value.length ? null : "") },
+      place,
+      legend.element,
+    );
+    const redraw = drawing(element, canvas, view, legend);
+    const observer = new ResizeObserver(redraw);
+    observer.observe(canvas);
+    const unshare = onHover((time) => (view.cursor.value = time));
+    /** @type {WeakMap<object, Piece>} */
+    const known = new WeakMap();
+    return {
+      element,
+      head: tools(view),
+      /**
+       * @param {ChartFacts} next
+       * @param {ValuesOf<"panel">} store
+       * @param {string} id
+       */
+      update(next, store, id) {
+        const curves = curvesOf(next.curves, store, id, known);
+        batch(() => {
+          view.facts.value = next;
+          view.live.value = curves;
+          const { held } = view;
+          /** @param {Curve} curve */
+          const isThere = ({ key }) => curves.some((curve) => curve.key === key);
+          if (held.value) held.value = { ...held.value, curves: held.value.curves.filter(isThere) };
+        });
+        legend.show(curves);
+      },
+      close() {
+        observer.disconnect();
+        unshare();
+        end();
+      },
+    };
+  });
 
-  function togglePause() {
-    held = held ? null : { curves: live, end: facts.now };
-    mark();
-  }
-
-  /** @param {Zoom | null} next */
-  function setZoom(next) {
-    zoom = next;
-    mark();
-  }
-
-  function mark() {
-    const label = held ? "Resume" : "Pause";
-    set(pause, { "aria-pressed": String(held !== null), "aria-label": label, "data-tip": label });
-    pause.replaceChildren(icon(held ? "play" : "pause"));
-    set(back, { disabled: !zoom });
-    later();
-  }
-
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {View} view
+ * @param {(value: string) => unknown} send
+ */
+function gestures(canvas, view, send) {
+  const seek = newest((time) => send(String(time)));
   /** @param {number | null} share */
   function point(share) {
-    const time = share === null || axes().across ? null : at(share, times());
-    if (time === cursor) return;
+    const time = share === null || view.axes.value.across ? null : at(share, view.times.value);
+    if (time === view.cursor.value) return;
     hover(time);
-    if (isPressed(follow) && time !== null) seek.to(time);
+    if (view.isFollowing.value && time !== null) seek.to(time);
   }
+  return listenToGestures(canvas, {
+    area: () => inside(canvas.clientWidth, canvas.clientHeight, view.axes.value.rights.length),
+    shown: view.shown,
+    zoom: () => view.zoom.value,
+    setZoom: (zoom) => (view.zoom.value = zoom),
+    point,
+    pause: view.togglePause,
+  });
+}
 
-  /**
-   * @param {ChartFacts} next
-   * @param {ValuesOf<"panel">} store
-   * @param {string} id
-   */
-  function update(next, store, id) {
-    facts = next;
-    live = curvesOf(facts.curves, store, id, known);
-    if (held)
-      held.curves = held.curves.filter(({ key }) => live.some((curve) => curve.key === key));
-    follow.hidden = !facts.seeks || facts.across >= 0;
-    legend.show(live);
-    set(element, { "data-empty": live.length ? null : "" });
+/**
+ * The buttons of a chart.
+ *
+ * @param {View} view
+ */
+function tools(view) {
+  const pauseLabel = () => (view.held.value ? "Resume" : "Pause");
+  const pause = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      onclick: view.togglePause,
+      "aria-pressed": () => String(view.held.value !== null),
+      "aria-label": pauseLabel,
+      "data-tip": pauseLabel,
+    },
+    () => icon(view.held.value ? "play" : "pause"),
+  );
+  const reset = iconButton("reset", "Reset zoom (double click)", () => (view.zoom.value = null), {
+    disabled: () => !view.zoom.value,
+  });
+  const save = iconButton("download", "Download as CSV", () =>
+    download("plot.csv", csv(view.curves())),
+  );
+  const { hasSums, isFollowing } = view;
+  const sums = iconButton(
+    "list",
+    "Statistics of the visible values",
+    () => (hasSums.value = !hasSums.value),
+    { "aria-pressed": () => String(hasSums.value) },
+  );
+  const follow = iconButton(
+    "clock",
+    "Move the time with the pointer",
+    () => (isFollowing.value = !isFollowing.value),
+    { "aria-pressed": () => String(isFollowing.value), hidden: () => !view.seeks() },
+  );
+  const when = () =>
+    view.cursor.value === null ? "" : timeOfDay(view.cursor.value, true).replace(/^.* /, "");
+  const isEmpty = () => !view.live.value.length;
+  return el(
+    "span",
+    { class: "wv-panel-tools wv-chart-tools", hidden: isEmpty },
+    el("span", { class: "wv-quiet wv-number" }, when),
+    ...[pause, reset, sums, needs("UseWidget", follow), save],
+  );
+}
+
+/**
+ * Draws in the next frame whatever has changed; returns what draws because of something else.
+ *
+ * @param {HTMLElement} element
+ * @param {HTMLCanvasElement} canvas
+ * @param {View} view
+ * @param {ReturnType<typeof makeLegend>} legend
+ */
+function drawing(element, canvas, view, legend) {
+  let frame = 0;
+  function now() {
+    frame = 0;
+    if (!element.isConnected) return;
+    const { across, rights } = view.axes.value;
+    const cursor = view.cursor.value;
+    draw(canvas, {
+      ...{ curves: view.curves(), colors: colorOf, ...view.shown(), cursor },
+      rights: rights.map((some) => ({
+        ...{ axis: some[0].axis, range: view.fitting(some) },
+        color: some.length === 1 ? colorOf(some[0].key) : "",
+      })),
+      across: across && { curve: across, range: view.fitting([across]) },
+    });
+    legend.read(view.curves(), cursor ?? Infinity, view.hasSums.value ? view.times.value : null);
+  }
+  const later = () => {
+    frame ||= requestAnimationFrame(() => untracked(now));
+  };
+  effect(() => {
+    for (const part of [view.live, view.held, view.facts, view.zoom, view.cursor, view.hasSums])
+      void part.value;
     later();
-  }
-
-  function close() {
-    observer.disconnect();
-    unshare();
-  }
-
-  mark();
-  return { element, update, close };
+  });
+  return later;
 }

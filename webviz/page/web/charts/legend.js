@@ -33,12 +33,11 @@ export function makeLegend(remove) {
       tip: "Remove",
       size: 12,
     });
-    const parts = name.split(/(?=[./[{])/).flatMap((part) => [el("wbr"), part]);
     const line = el(
       "div",
       { class: "wv-chart-entry" },
       swatch,
-      el("span", { class: "wv-chart-name" }, parts),
+      el("span", { class: "wv-chart-name", "data-tip": name }, el("bdi", {}, name)),
       value,
       needs("UseWidget", button),
     );

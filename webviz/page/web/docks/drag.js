@@ -1,8 +1,10 @@
 // Dragging a panel by its tab or its head to another place.
 
-import { el, setText } from "../dom.js";
+import { el } from "../dom.js";
+import { signal } from "../signals.js";
 import { targetAt } from "./places.js";
 
+/** @import {Signal} from "../signals.js" */
 /** @import {Boxes, Target} from "./places.js" */
 
 const SLACK = 6; // pixels that a click may move
@@ -14,81 +16,105 @@ const WORDS = {
   tabs: "Back to the tabs",
 };
 
+/** @typedef {{x: number, y: number}} Point */
+/**
+ * @typedef {{boxes(): Boxes | null, drop(target: Target, grab: Point): void, touch: boolean}} Options
+ *   `boxes` returns null where nothing can be dropped; `grab` is where in the handle it is held
+ */
+
 /**
  * Lets a panel be dragged by an element.
  *
  * @param {HTMLElement} handle
- * @param {{
- *   boxes(): Boxes | null, drop(target: Target, grab: {x: number, y: number}): void, touch: boolean,
- * }} options `boxes` returns null where nothing can be dropped; `grab` is where in the handle it is
- *   held
+ * @param {Options} options
  */
-export function draggable(handle, { boxes, drop, touch }) {
+export function draggable(handle, options) {
   handle.addEventListener("pointerdown", (event) => {
-    const { button, pointerType, clientX, clientY, pointerId } = event;
+    const { button, pointerType } = event;
     const from = /** @type {Element} */ (event.target);
-    if (button !== 0 || (pointerType === "touch" && !touch)) return;
+    if (button !== 0 || (pointerType === "touch" && !options.touch)) return;
     if (from !== handle && from.closest("button, input, select")) return;
-    const corner = handle.getBoundingClientRect();
-    const grab = { x: clientX - corner.left, y: clientY - corner.top };
-    /** @type {Boxes | null} */
-    let all = null;
-    /** @type {Target | null} */
-    let target = null;
-    const label = el("span");
-    const preview = el("div", { class: "wv-drop", hidden: true }, label);
-
-    /** @param {PointerEvent} event */
-    function move(event) {
-      if (event.pointerId !== pointerId) return;
-      const isFar = Math.hypot(event.clientX - clientX, event.clientY - clientY) > SLACK;
-      if (!all) {
-        if (!isFar || !(all = boxes())) return;
-        document.getElementById("webviz")?.append(preview);
-      }
-      target = targetAt(event.clientX, event.clientY, all);
-      preview.hidden = !target;
-      if (!target) return;
-      const { box, place } = target;
-      const shift = place === "over" ? grab : { x: 0, y: 0 };
-      setText(label, WORDS[place]);
-      preview.style.left = `${box.left - shift.x}px`;
-      preview.style.top = `${box.top - shift.y}px`;
-      preview.style.width = `${box.width}px`;
-      preview.style.height = `${box.height}px`;
-    }
-
-    /** @param {PointerEvent} event */
-    function up(event) {
-      if (event.pointerId !== pointerId) return;
-      const dropped = event.type === "pointerup" ? target : null;
-      const isDragged = all !== null;
-      end();
-      if (isDragged) window.addEventListener("click", swallow, { capture: true, once: true });
-      setTimeout(() => window.removeEventListener("click", swallow, { capture: true }));
-      if (dropped) drop(dropped, grab);
-    }
-
-    /** @param {KeyboardEvent} event */
-    function key(event) {
-      if (event.key !== "Escape" || !all) return;
-      event.stopPropagation();
-      end();
-    }
-
-    function end() {
-      preview.remove();
-      window.removeEventListener("pointermove", move);
-      window.removeEventListener("pointerup", up);
-      window.removeEventListener("pointercancel", up);
-      window.removeEventListener("keydown", key, { capture: true });
-    }
-
-    window.addEventListener("pointermove", move);
-    window.addEventListener("pointerup", up);
-    window.addEventListener("pointercancel", up);
-    window.addEventListener("keydown", key, { capture: true });
+    follow(handle, event, options);
   });
+}
+
+/**
+ * @param {HTMLElement} handle
+ * @param {PointerEvent} start
+ * @param {Options} options
+ */
+function follow(handle, { clientX, clientY, pointerId }, { boxes, drop }) {
+  const corner = handle.getBoundingClientRect();
+  const grab = { x: clientX - corner.left, y: clientY - corner.top };
+  /** @type {Boxes | null} */
+  let all = null;
+  const target = signal(/** @type {Target | null} */ (null));
+  const preview = previewOf(target, grab);
+
+  /** @param {PointerEvent} event */
+  function move(event) {
+    if (event.pointerId !== pointerId) return;
+    if (!all) {
+      const isFar = Math.hypot(event.clientX - clientX, event.clientY - clientY) > SLACK;
+      if (!isFar || !(all = boxes())) return;
+      document.getElementById("webviz")?.append(preview);
+    }
+    target.value = targetAt(event.clientX, event.clientY, all);
+  }
+
+  /** @param {PointerEvent} event */
+  function up(event) {
+    if (event.pointerId !== pointerId) return;
+    end();
+    if (all) window.addEventListener("click", swallow, { capture: true, once: true });
+    setTimeout(() => window.removeEventListener("click", swallow, { capture: true }));
+    if (event.type === "pointerup" && target.value) drop(target.value, grab);
+  }
+
+  /** @param {KeyboardEvent} event */
+  function key(event) {
+    if (event.key !== "Escape" || !all) return;
+    event.stopPropagation();
+    end();
+  }
+
+  function end() {
+    preview.remove();
+    window.removeEventListener("pointermove", move);
+    window.removeEventListener("pointerup", up);
+    window.removeEventListener("pointercancel", up);
+    window.removeEventListener("keydown", key, { capture: true });
+  }
+
+  window.addEventListener("pointermove", move);
+  window.addEventListener("pointerup", up);
+  window.addEventListener("pointercancel", up);
+  window.addEventListener("keydown", key, { capture: true });
+}
+
+/**
+ * The place that a panel would cover.
+ *
+ * @param {Signal<Target | null>} target
+ * @param {Point} grab
+ */
+function previewOf(target, grab) {
+  const style = () => {
+    if (!target.value) return "";
+    const { box, place } = target.value;
+    const shift = place === "over" ? grab : { x: 0, y: 0 };
+    return [
+      `left: ${box.left - shift.x}px; top: ${box.top - shift.y}px`,
+      `width: ${box.width}px; height: ${box.height}px`,
+    ].join("; ");
+  };
+  /** @param {Target} target */
+  const words = ({ into, place }) => (into === undefined ? WORDS[place] : "As a tab here");
+  return el(
+    "div",
+    { class: "wv-drop", hidden: () => !target.value, style },
+    el("span", {}, () => (target.value ? words(target.value) : "")),
+  );
 }
 
 /** @param {Event} event */

@@ -1,18 +1,22 @@
 // Places of panels: beside, below and over the scene. Without a document.
 
 /**
- * As in the config, but complete.
+ * As in the config, but complete. Of a place with several panels one is shown at a time: `panel`, or
+ * one of its `tabs`.
  *
- * @typedef {{panel: string, weight: number}} Docked
+ * @typedef {{panel: string, weight: number, tabs: string[]}} Docked
  * @typedef {{panel: string, left: number, top: number, width: number, height: number}} Floating
  * @typedef {{beside: Docked[], below: Docked[], over: Floating[], width: number, height: number}} Layout
  * @typedef {{left: number, top: number, width: number, height: number}} Box
  * @typedef {{
- *   place: "beside" | "below" | "over" | "tabs", at: number, left: number, top: number, box: Box,
- * }} Target where a panel is dropped: in the row of a place before number `at`, or over the scene
- *   with a corner; `box` is what it covers, in pixels
- * @typedef {{side: Box, scene: Box, beside: Box, below: Box, besideBoxes: Box[], belowBoxes: Box[]}} Boxes
- *   of what is on the page, those of docked panels without the one that is dragged
+ *   place: "beside" | "below" | "over" | "tabs", at: number, into?: string, left: number,
+ *   top: number, box: Box,
+ * }} Target where a panel is dropped: in the row of a place before number `at`, as a tab of the place
+ *   of the panel `into`, or over the scene with a corner; `box` is what it covers, in pixels
+ * @typedef {Box & {panel: string}} PanelBox
+ * @typedef {{
+ *   side: Box, scene: Box, beside: Box, below: Box, besideBoxes: PanelBox[], belowBoxes: PanelBox[],
+ * }} Boxes of what is on the page, those of docked panels without the one that is dragged
  */
 
 /** @type {Layout} */
@@ -23,14 +27,24 @@ const MOST = 4000;
 const MAX_BESIDE = 0.6; // of what the tabs leave
 const MAX_BELOW = 0.7;
 const EDGE = 0.22; // of the scene, where a panel is dropped beside or below it
+const HEAD = 32; // pixels at the top of a panel, where another becomes a tab beside it
 const FLOATING = { width: 0.35, height: 0.4 };
 
+/**
+ * The panels of one place.
+ *
+ * @param {Docked} place
+ */
+export const namesIn = ({ panel, tabs }) => [panel, ...tabs];
+
 /** @param {Layout} layout */
-export const namesOf = ({ beside, below, over }) =>
-  [...beside, ...below, ...over].map(({ panel }) => panel);
+export const namesOf = ({ beside, below, over }) => [
+  ...[...beside, ...below].flatMap(namesIn),
+  ...over.map(({ panel }) => panel),
+];
 
 /**
- * The layout of the store "layout", a Map.
+ * The layout of the store "layout".
  *
  * @param {{get(key: string): any}} values
  * @returns {Layout}
@@ -51,9 +65,9 @@ export const layoutOf = (values) => ({
  * @returns {Target["place"]}
  */
 export function placeOf(layout, name) {
-  for (const place of /** @type {const} */ (["beside", "below", "over"]))
-    if (layout[place].some(({ panel }) => panel === name)) return place;
-  return "tabs";
+  for (const place of /** @type {const} */ (["beside", "below"]))
+    if (layout[place].some((each) => namesIn(each).includes(name))) return place;
+  return layout.over.some(({ panel }) => panel === name) ? "over" : "tabs";
 }
 
 /**
@@ -84,17 +98,21 @@ export const sized = (layout, key, pixels) => ({
  * The layout without a panel.
  *
  * @param {Layout} layout
- * @param {string} panel
+ * @param {string} name
  * @returns {Layout}
  */
-export function without(layout, panel) {
-  /** @param {{panel: string}} each */
-  const others = (each) => each.panel !== panel;
+export function without(layout, name) {
+  /** @param {Docked[]} row */
+  const others = (row) =>
+    row.flatMap((each) => {
+      const [panel, ...tabs] = namesIn(each).filter((one) => one !== name);
+      return panel === undefined ? [] : [{ ...each, panel, tabs }];
+    });
   return {
     ...layout,
-    beside: layout.beside.filter(others),
-    below: layout.below.filter(others),
-    over: layout.over.filter(others),
+    beside: others(layout.beside),
+    below: others(layout.below),
+    over: layout.over.filter(({ panel }) => panel !== name),
   };
 }
 
@@ -103,10 +121,10 @@ export function without(layout, panel) {
  *
  * @param {Layout} layout
  * @param {string} panel
- * @param {Pick<Target, "place" | "at" | "left" | "top">} target
+ * @param {Pick<Target, "place" | "at" | "into" | "left" | "top">} target
  * @returns {Layout}
  */
-export function moved(layout, panel, { place, at, left, top }) {
+export function moved(layout, panel, { place, at, into, left, top }) {
   const size = layout.over.find((each) => each.panel === panel) ?? FLOATING;
   const next = without(layout, panel);
   if (place === "tabs") return next;
@@ -115,9 +133,13 @@ export function moved(layout, panel, { place, at, left, top }) {
     const corner = { left: within(left, 1 - width), top: within(top, 1 - height) };
     return { ...next, over: [...next.over, { panel, width, height, ...corner }] };
   }
-  const row = [...next[place]];
-  row.splice(at, 0, { panel, weight: 1 });
-  return { ...next, [place]: row };
+  if (into !== undefined) {
+    /** @param {Docked} each @returns {Docked} */
+    const join = (each) =>
+      namesIn(each).includes(into) ? { ...each, tabs: [...each.tabs, panel] } : each;
+    return { ...next, [place]: next[place].map(join) };
+  }
+  return { ...next, [place]: next[place].toSpliced(at, 0, { panel, weight: 1, tabs: [] }) };
 }
 
 /**
@@ -176,48 +198,34 @@ export function floated(layout, panel, box) {
  */
 export function targetAt(x, y, boxes) {
   const { side, scene, beside, below, besideBoxes, belowBoxes } = boxes;
-  /**
-   * @param {Target["place"]} place
-   * @param {number} at
-   * @param {Box} box
-   * @returns {Target}
-   */
-  const target = (place, at, box) => ({
-    place,
-    at,
-    box,
-    left: (x - scene.left) / scene.width,
-    top: (y - scene.top) / scene.height,
-  });
-  if (isIn(x, y, side)) return target("tabs", 0, side);
+  const corner = { left: (x - scene.left) / scene.width, top: (y - scene.top) / scene.height };
+  if (isIn(x, y, side)) return { place: "tabs", at: 0, box: side, ...corner };
   const isBeside = isIn(x, y, beside);
   const isBelow = isIn(x, y, below);
   if (!isBeside && !isBelow && !isIn(x, y, scene)) return null;
+  const into = [...besideBoxes, ...belowBoxes].find((box) => isIn(x, y, { ...box, height: HEAD }));
+  if (into) {
+    const { panel, left, top, width, height } = into;
+    const box = { left, top, width, height };
+    return { place: isBeside ? "beside" : "below", at: 0, into: panel, box, ...corner };
+  }
   const right = scene.left + scene.width - x;
   const bottom = scene.top + scene.height - y;
   if (isBeside || (!isBelow && right < EDGE * scene.width && right <= bottom)) {
     const at = besideBoxes.filter((box) => y > box.top + box.height / 2).length;
-    const all = {
-      ...scene,
-      left: scene.left + scene.width * (1 - EDGE),
-      width: scene.width * EDGE,
-    };
-    return target("beside", at, part(beside.width ? beside : all, at, besideBoxes.length, "top"));
+    const width = scene.width * EDGE;
+    const all = beside.width ? beside : { ...scene, left: scene.left + scene.width - width, width };
+    return { place: "beside", at, box: part(all, at, besideBoxes.length, "top"), ...corner };
   }
   if (isBelow || bottom < EDGE * scene.height) {
     const at = belowBoxes.filter((box) => x > box.left + box.width / 2).length;
-    const all = {
-      ...scene,
-      top: scene.top + scene.height * (1 - EDGE),
-      height: scene.height * EDGE,
-    };
-    return target("below", at, part(below.height ? below : all, at, belowBoxes.length, "left"));
+    const height = scene.height * EDGE;
+    const all = below.height ? below : { ...scene, top: scene.top + scene.height - height, height };
+    return { place: "below", at, box: part(all, at, belowBoxes.length, "left"), ...corner };
   }
-  const size = {
-    width: FLOATING.width * scene.width,
-    height: FLOATING.height * scene.height,
-  };
-  return target("over", 0, { left: x, top: y, ...size });
+  const width = FLOATING.width * scene.width;
+  const height = FLOATING.height * scene.height;
+  return { place: "over", at: 0, box: { left: x, top: y, width, height }, ...corner };
 }
 
 /**

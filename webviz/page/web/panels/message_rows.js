@@ -5,6 +5,7 @@ import { rowList, touchable } from "../controls/rows.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { effect } from "../signals.js";
+import { dragField } from "./field_drag.js";
 import { foldByKey, foldMark, showFold } from "./folds.js";
 import { rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
@@ -83,5 +84,6 @@ function messageRow(row, topic) {
     needs("AddPanel", plot),
   );
   effect(() => showFold(element, row()));
+  dragField(element, () => ({ topic: topic(), path: pathOf(row().key) }));
   return element;
 }

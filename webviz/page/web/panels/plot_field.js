@@ -2,9 +2,8 @@
 
 import { act } from "../act.js";
 import { toast } from "../toasts.js";
-import { watch } from "../stores.js";
-
-/** @import {ValuesOf} from "../types.js" */
+import { messagePath } from "./field_drag.js";
+import { once } from "../stores.js";
 
 const TYPE = "Plot";
 
@@ -15,7 +14,7 @@ const TYPE = "Plot";
  * @param {string} path
  */
 export async function plotField(topic, path) {
-  const curve = `${topic.startsWith("/") ? "" : "/"}${topic}.${path}`;
+  const curve = messagePath({ topic, path });
   const { id, curves } = await firstPlot();
   if (curves?.includes(curve)) return toast(`${curve} is plotted already.`);
   const { level } = await (id
@@ -36,22 +35,4 @@ async function firstPlot() {
     id: values.get("id"),
     curves: /** @type {string[]} */ (values.get("value.curves")),
   }));
-}
-
-/**
- * The present state of a store, read from its values.
- *
- * @template {string} N
- * @template T
- * @param {N} store
- * @param {(values: ValuesOf<N>) => T} read
- * @returns {Promise<T>}
- */
-function once(store, read) {
-  return new Promise((resolve) => {
-    const end = watch(store, (values) => {
-      resolve(read(values));
-      queueMicrotask(() => end());
-    });
-  });
 }

@@ -3,10 +3,13 @@
 import { needs } from "../access.js";
 import { act } from "../act.js";
 import { declaredForm, form } from "../controls/form.js";
+import { popoverButton } from "../controls/popover.js";
 import { el, setChildren, showText } from "../dom.js";
-import { textButton } from "../icons.js";
 import { provide } from "../commands.js";
-import { store, watch } from "../stores.js";
+import { once, store, watch } from "../stores.js";
+import { toast } from "../toasts.js";
+import "./field_chooser.js";
+import { takeFields } from "./field_drag.js";
 import { makeWidget } from "./plugin_widgets.js";
 
 /** @import {Panel, SendProperty, ValuesOf} from "../types.js" */
@@ -26,7 +29,9 @@ export function followPlugins(offer, types) {
       values.get("/order").map((name) => ({
         name: `plugin-${name}`,
         title: values.get(name) ?? name,
-        open: (/** @type {HTMLElement} */ element) => open(element, name),
+        open: (/** @type {HTMLElement} */ element, /** @type {HTMLElement} */ head) =>
+          open(element, head, name),
+        remove: () => remove(name),
       })),
     );
   });
@@ -50,9 +55,10 @@ const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change
 
 /**
  * @param {HTMLElement} element
+ * @param {HTMLElement} head
  * @param {string} name
  */
-function open(element, name) {
+function open(element, head, name) {
   const failure = el("div", {
     class: "wv-plugin-failure",
     role: "alert",
@@ -60,35 +66,24 @@ function open(element, name) {
     "data-level": "error",
   });
   const place = el("div", { class: "wv-plugin-widgets" });
-  element.append(el("div", { class: "wv-plugin" }, failure, place), ...properties(name));
+  const gear = settingsButton(name);
+  const content = el("div", { class: "wv-plugin" }, failure, place);
+  element.append(content);
+  head.append(gear);
   /** @type {Map<string, Widget & {kind: string}>} */
   const drawn = new Map();
+  takeFields(content, () => [...drawn.values()].find(({ drop }) => drop)?.drop);
 
   const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
-    for (const id of order) {
-      const widget = /** @type {WidgetValues & {kind: string}} */ (values.get(id));
-      const before = drawn.get(id);
-      if (before?.kind === widget.kind) {
-        const isChanged = changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`));
-        if (isChanged) before.update(widget, values, id);
-        continue;
-      }
-      // A panel that was loaded again may have another widget under the same id.
-      before?.close?.();
-      const made = makeWidget(widget, (value) =>
-        act("UseWidget", { panel: name, widget: id, value }),
-      );
-      drawn.set(id, made);
-      made.update(widget, values, id);
-      if (!LOOKED_AT.has(widget.kind)) needs("UseWidget", made.element);
-    }
+    for (const id of order) draw(name, id, values, changed, drawn);
+    const widgets = order.flatMap((id) => drawn.get(id) ?? []);
     setChildren(
       place,
-      order.flatMap((id) => drawn.get(id)?.element ?? []),
+      widgets.flatMap((widget) => widget.element ?? []),
     );
-    const sentence = values.get("/failure") ?? "";
-    showText(failure, sentence);
+    setChildren(head, [...widgets.flatMap((widget) => widget.head ?? []), gear]);
+    showText(failure, values.get("/failure") ?? "");
   });
   return () => {
     end();
@@ -97,31 +92,63 @@ function open(element, name) {
 }
 
 /**
- * The elements with the properties of a panel.
+ * @param {string} name of the panel
+ * @param {string} id of the widget
+ * @param {ValuesOf<"panel">} values
+ * @param {Set<string>} changed
+ * @param {Map<string, Widget & {kind: string}>} drawn
+ */
+function draw(name, id, values, changed, drawn) {
+  const widget = /** @type {WidgetValues & {kind: string}} */ (values.get(id));
+  const before = drawn.get(id);
+  if (before?.kind === widget.kind) {
+    const isChanged = changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`));
+    if (isChanged) before.update(widget, values, id);
+    return;
+  }
+  // A panel that was loaded again may have another widget under the same id.
+  before?.close?.();
+  const made = makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value }));
+  drawn.set(id, made);
+  made.update(widget, values, id);
+  if (LOOKED_AT.has(widget.kind)) return;
+  for (const part of [made.element, made.head]) if (part) needs("UseWidget", part);
+}
+
+/**
+ * The button that opens the properties of a panel, hidden if it has none.
  *
  * @param {string} name
  */
-function properties(name) {
+function settingsButton(name) {
   const values = store(`panel_properties:${name}`);
-  const id = () => values.get("id") ?? "";
   /** @type {SendProperty} */
   const send = (path, value) =>
-    act("SetPanelProperty", { panel: id(), path, value }, { quiet: true, errors: "caller" });
+    act(
+      "SetPanelProperty",
+      { panel: values.get("id") ?? "", path, value },
+      { quiet: true, errors: "caller" },
+    );
   const options = { values, send, command: "SetPanelProperty" };
-  const fields = declaredForm(values, (declared) =>
-    form(declared, { ...options, name: `panel.${values.get("type")}` }),
+  const fields = () =>
+    declaredForm(values, (declared) =>
+      form(declared, { ...options, name: `panel.${values.get("type")}` }),
+    );
+  return popoverButton(
+    "gear",
+    "Settings of this panel",
+    () => [el("h3", {}, "Settings"), el("div", {}, fields())],
+    {
+      hidden: () => !values.get("declared")?.length,
+    },
   );
-  const remove = textButton("Remove panel", () => act("RemovePanel", { panel: id() }), {
-    class: "wv-plugin-remove",
-    hidden: () => !id(),
-  });
-  return [
-    el(
-      "details",
-      { class: "wv-tool-properties", hidden: () => !values.get("declared")?.length },
-      el("summary", {}, "Properties"),
-      el("div", {}, fields),
-    ),
-    needs("RemovePanel", remove),
-  ];
+}
+
+/** @param {string} name */
+async function remove(name) {
+  const panel = await once(`panel_properties:${name}`, (values) => values.get("id"));
+  if (!panel) return; // its plug-in cannot be loaded
+  const { level, text } = await act("RemovePanel", { panel }, { quiet: true });
+  if (level === "ok")
+    toast(text, { action: { label: "Undo", run: () => act("Undo", { own: true }) } });
 }

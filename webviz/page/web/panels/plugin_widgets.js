@@ -8,6 +8,7 @@ import { el, set, setChildren, setText } from "../dom.js";
 import { signal } from "../signals.js";
 
 /** @import {ValuesOf} from "../types.js" */
+/** @import {Field} from "./field_drag.js" */
 
 /**
  * Values of a widget, which its panel in Python makes; each kind reads those that it has.
@@ -18,9 +19,10 @@ import { signal } from "../signals.js";
  * @typedef {Labelled & {value: string, options: string[]}} Choices
  * @typedef {(value: boolean | string | null) => unknown} Send
  * @typedef {{
- *   element: HTMLElement, close?(): void,
+ *   element?: HTMLElement, head?: HTMLElement, close?(): void, drop?(field: Field): unknown,
  *   update(values: WidgetValues, store: ValuesOf<"panel">, id: string): void,
  * }} Widget
+ *   `head` stands in the head of the panel, `drop` takes a field that is dropped on the panel
  * @typedef {{make(values: WidgetValues, send: Send): Widget}["make"]} MakeWidget
  */
 
@@ -66,6 +68,7 @@ export function makeWidget(values, send) {
  */
 function later(values, send) {
   const element = el("div", { class: "wv-quiet" }, "This widget needs the module of its panel.");
+  const head = el("span", { class: "wv-panel-tools" });
   /** @type {Widget | null} */
   let inner = null;
   /** @type {Parameters<Widget["update"]> | null} */
@@ -75,11 +78,13 @@ function later(values, send) {
     if (!inner) return;
     if (last) inner.update(...last);
     element.className = "";
-    element.replaceChildren(inner.element);
+    element.replaceChildren(...(inner.element ? [inner.element] : []));
+    if (inner.head) head.append(inner.head);
   };
   awaited.set(values.kind, (awaited.get(values.kind) ?? new Set()).add(draw));
   return {
     element,
+    head,
     /** @param {Parameters<Widget["update"]>} args */
     update(...args) {
       last = args;

@@ -1,5 +1,6 @@
 // The table of topics: which there are, in which order, and their cells.
 
+import { dragField } from "./field_drag.js";
 import { el } from "../dom.js";
 import { wordsOf } from "../words.js";
 import { bytesText, rateText, spanText } from "./units.js";
@@ -121,8 +122,8 @@ const TIPS = {
 };
 
 /** @param {() => TopicRow} topic read in effects */
-export const topicRow = (topic) =>
-  el(
+export function topicRow(topic) {
+  const element = el(
     "div",
     { class: "wv-topic", "data-silent": () => topic().types.length === 0 },
     COLUMNS.map(({ id, isNumber, text }) =>
@@ -137,6 +138,9 @@ export const topicRow = (topic) =>
       ),
     ),
   );
+  dragField(element, () => ({ topic: topic().key, path: "" }));
+  return element;
+}
 
 /**
  * The heads of the columns; a click sorts by one, numbers from the largest.

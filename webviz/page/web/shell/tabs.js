@@ -2,50 +2,109 @@
 
 import { needs } from "../access.js";
 import { act } from "../act.js";
+import { openMenu, openMenuBelow } from "../controls/menu.js";
 import * as docks from "../docks/docks.js";
 import { openIn } from "../docks/frame.js";
-import { el, set, setChildren, setText } from "../dom.js";
+import { openPanel } from "../docks/layout.js";
+import { el, set } from "../dom.js";
+import { iconButton } from "../icons.js";
 import { onPanel, panels } from "../panels/panels.js";
 import { followPlugins } from "../panels/plugin.js";
-import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
+import { computed, each, effect, owned, signal, untracked } from "../signals.js";
 import { provideFrom } from "./command_list.js";
-import { openPanel } from "../docks/layout.js";
-import { openMenu, openMenuBelow } from "../controls/menu.js";
+import { chooseType } from "./gallery.js";
 
 /** @import {PanelType} from "../contents.js" */
+/** @import {Readable, Signal} from "../signals.js" */
 /** @import {Panel} from "../types.js" */
 
-/** Elements: the list of tabs, and what the open one shows. */
+const FADED = 20; // pixels at the edge of a list that goes on, as in plugin.css
+
+/**
+ * The panels that there are, those that are tabs, and the open one of these.
+ *
+ * @typedef {{
+ *   there: Readable<Panel[]>, tabs: Readable<Panel[]>, open: Readable<Panel | undefined>,
+ *   wanted: Signal<string>, types: Signal<PanelType[]>,
+ * }} Panels
+ */
+
+/** Elements: the list of tabs, and the open one, a head above what it shows. */
 export function tabs() {
-  const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
-  const list = el("div", { class: "wv-tabs", role: "tablist", "aria-label": "Panels" });
-  /** @type {Map<string, HTMLButtonElement>} */
-  const buttons = new Map();
-  const add = iconButton("plus", "Add a panel", chooseType, {
+  const known = follow();
+  const { types, open } = known;
+  const list = tabList(known);
+  const add = iconButton("plus", "Add a panel", () => choose(types.value), {
     class: "wv-icon wv-tabs-add",
-    hidden: true,
+    hidden: () => !types.value.length,
   });
-  needs("AddPanel", add);
-  const more = iconButton("chevron-down", "All panels", chooseTab, {
+  const more = iconButton("chevron-down", "All panels", () => chooseTab(more, known, update), {
     class: "wv-icon wv-tabs-more",
     hidden: true,
     "aria-haspopup": "menu",
   });
-  new ResizeObserver(fit).observe(list);
-  /** @type {PanelType[]} */
-  let types = [];
-  const own = new Set(panels);
-  let all = [...panels];
-  /** @type {Panel[]} */
-  let additional = [];
-  /** @type {Panel | null} */
-  let shown = null;
-  let isAdding = false; // by this page, which then opens the panel
-  /** @type {() => void} */
-  let close = () => {};
+  const update = fit(list, more, known);
+  provideFrom([], () => commands(known));
+  const bar = el("div", { class: "wv-tab-bar" }, list, more, needs("AddPanel", add));
+  return [bar, ...contentOf(open)];
+}
 
-  list.addEventListener("keydown", (event) => {
+/** @returns {Panels} */
+function follow() {
+  const own = signal([...panels]);
+  const additional = signal(/** @type {Panel[]} */ ([]));
+  const types = signal(/** @type {PanelType[]} */ ([]));
+  // It may come later than the page, or again after a save.
+  const wanted = signal(recall("tab", ""));
+  const there = computed(() => [...own.value, ...additional.value]);
+  const tabs = computed(() => there.value.filter((panel) => !docks.isPlaced(panel)));
+  const open = computed(
+    () => tabs.value.find(({ name }) => name === wanted.value) ?? tabs.value[0],
+  );
+  onPanel(() => (own.value = [...panels]));
+  followPlugins(
+    (plugins) => {
+      const before = new Set(additional.value.map(({ name }) => name));
+      additional.value = plugins;
+      const added = plugins.find(({ name }) => !before.has(name));
+      if (added) bring(added);
+    },
+    (known) => (types.value = known),
+  );
+  effect(() => docks.offer(there.value));
+  return { there, tabs, open, wanted, types };
+
+  /** @param {Panel} panel that this page has added, perhaps */
+  function bring({ name }) {
+    const { type } = adding;
+    if (!type) return;
+    adding.type = null;
+    docks.bringForward(name);
+    if (type.opens !== "below" || docks.isTabsOnly()) wanted.value = name;
+  }
+}
+
+/** The type of the panel that this page adds, which it then opens. */
+const adding = { type: /** @type {PanelType | null} */ (null) };
+
+/** @param {PanelType} type */
+async function addPanel(type) {
+  adding.type = type;
+  const { level } = await act("AddPanel", { type: type.type, values: {} });
+  if (level === "error") adding.type = null;
+}
+
+/** @param {PanelType[]} types */
+async function choose(types) {
+  const type = await chooseType(types);
+  if (type) addPanel(type);
+}
+
+/** @param {Panels} panels */
+function tabList({ tabs, open, wanted }) {
+  /** @param {KeyboardEvent} event */
+  function onkeydown(event) {
     const change = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!change) return;
     event.preventDefault(); // else the list is scrolled, too
@@ -54,162 +113,149 @@ export function tabs() {
     const button = seen[(next + seen.length) % seen.length];
     button.focus();
     button.click();
-  });
-
+  }
+  /** @param {Signal<Panel>} panel @param {string} name */
+  function tab(panel, name) {
+    const isOpen = () => open.value?.name === name;
+    const button = el(
+      "button",
+      {
+        type: "button",
+        role: "tab",
+        id: `wv-tab-${name}`,
+        "aria-controls": "wv-panel",
+        "aria-selected": () => String(isOpen()),
+        tabindex: () => (isOpen() ? 0 : -1),
+        hidden: () => Boolean(panel.value.isOnDemand) && !isOpen(),
+        onclick: () => remember("tab", (wanted.value = name)),
+        oncontextmenu: (/** @type {PointerEvent} */ event) => {
+          event.preventDefault();
+          openMenu(event.clientX, event.clientY, docks.menuOf(panel.value));
+        },
+      },
+      () => panel.value.title,
+    );
+    docks.dragTab(button, name);
+    return button;
+  }
+  const list = el(
+    "div",
+    { class: "wv-tabs", role: "tablist", "aria-label": "Panels", onkeydown },
+    each(
+      () => tabs.value,
+      ({ name }) => name,
+      tab,
+    ),
+  );
   // A wheel turns up and down only; tabs beyond the edge are at the side.
   list.addEventListener("wheel", ({ deltaY }) => (list.scrollLeft += deltaY), { passive: true });
-
-  /** @param {Panel} panel */
-  function button(panel) {
-    const { name } = panel;
-    const id = `wv-tab-${name}`;
-    const made = el("button", {
-      type: "button",
-      role: "tab",
-      id,
-      "aria-controls": "wv-panel",
-      onclick: () => {
-        const panel = all.find((one) => one.name === name);
-        if (panel) show(panel);
-      },
-      oncontextmenu: (/** @type {PointerEvent} */ event) => {
-        event.preventDefault();
-        openMenu(event.clientX, event.clientY, docks.menuOf(panel));
-      },
-    });
-    docks.dragTab(made, panel);
-    return made;
-  }
-
-  /** @param {Panel} [panel] none if all stand outside of the tabs */
-  function show(panel) {
-    close();
-    close = () => {};
-    content.replaceChildren();
-    shown = panel ?? null;
-    mark();
-    fit();
-    if (!panel) return;
-    set(content, { "aria-labelledby": `wv-tab-${panel.name}` });
-    remember("tab", panel.name);
-    close = openIn(panel, content);
-  }
-
-  /**
-   * Not `scrollIntoView`, which moves the whole page while the side is folded away.
-   *
-   * @param {HTMLElement} button
-   */
-  function bringIntoSight({ offsetLeft, offsetWidth }) {
-    const right = offsetLeft + offsetWidth - list.offsetLeft;
-    if (right > list.scrollLeft + list.clientWidth) list.scrollLeft = right - list.clientWidth;
-    list.scrollLeft = Math.min(list.scrollLeft, offsetLeft - list.offsetLeft);
-  }
-
-  // One button at a time, since both take space; the menu adds panels, too.
-  function fit() {
-    const isFull = list.scrollWidth > list.clientWidth;
-    more.hidden = !isFull;
-    set(add, { hidden: isFull || !types.length });
-    const button = shown && buttons.get(shown.name);
-    if (button) bringIntoSight(button);
-  }
-
-  function mark() {
-    for (const [name, each] of buttons) {
-      const isShown = name === shown?.name;
-      const panel = all.find((one) => one.name === name);
-      set(each, { hidden: Boolean(panel?.isOnDemand) && !isShown });
-      set(each, { "aria-selected": String(isShown), tabindex: isShown ? 0 : -1 });
-    }
-  }
-
-  /**
-   * @param {Panel[]} plugins
-   * @returns {void}
-   */
-  function offer(plugins) {
-    additional = plugins;
-    const wanted = recall("tab", "");
-    const there = [...panels, ...plugins];
-    docks.offer(there);
-    all = there.filter((panel) => !docks.isPlaced(panel));
-    const come = isAdding && all.find((panel) => !own.has(panel) && !buttons.has(panel.name));
-    for (const panel of all) {
-      const known = buttons.get(panel.name) ?? button(panel);
-      buttons.set(panel.name, known);
-      setText(known, panel.title);
-    }
-    for (const name of buttons.keys())
-      if (!all.some((panel) => panel.name === name)) buttons.delete(name);
-    setChildren(
-      list,
-      all.flatMap(({ name }) => buttons.get(name) ?? []),
-    );
-    mark();
-    fit();
-    if (come) {
-      isAdding = false;
-      return show(come);
-    }
-    const isGone = !all.some(({ name }) => name === shown?.name);
-    // The tab of a plug-in that was open comes after the page.
-    const isWaited = all
-      .filter((panel) => !own.has(panel))
-      .find(({ name }) => name === wanted && name !== shown?.name);
-    if (isGone || isWaited) show(isWaited ?? all.find(({ name }) => name === wanted) ?? all[0]);
-    if (isGone && wanted) remember("tab", wanted); // it may come again, after a save
-  }
-
-  function chooseType() {
-    const { left, bottom } = add.getBoundingClientRect();
-    openMenu(left, bottom, ofTypes());
-  }
-
-  const ofTypes = () =>
-    types.map(({ type, title }) => ({ label: title, run: () => addPanel(type) }));
-
-  /** @param {string} type */
-  async function addPanel(type) {
-    isAdding = true;
-    const { level } = await act("AddPanel", { type, values: {} });
-    if (level === "error") isAdding = false;
-  }
-
-  function chooseTab() {
-    const adding = { label: "Add a panel", icon: "plus", needs: "AddPanel", items: ofTypes() };
-    openMenuBelow(more, [
-      ...all.map((panel) => ({
-        label: panel.title,
-        checked: panel.name === shown?.name,
-        run: () => show(panel),
-      })),
-      ...(types.length ? [null, adding] : []),
-    ]);
-  }
-
-  provideFrom([], () => [
-    ...[...panels, ...additional]
-      .filter(({ isOnDemand }) => !isOnDemand)
-      .map(({ name, title }) => ({
-        name: `Panel: ${title}`,
-        group: "Panels",
-        run: () => openPanel(name),
-      })),
-    ...types.map(({ type, title }) => ({
-      name: `Add panel: ${title}`,
-      icon: "plus",
-      group: "Panels",
-      needs: "AddPanel",
-      run: () => addPanel(type),
-    })),
-  ]);
-  offer([]);
-  onPanel(() => offer(additional));
-  docks.onPlaced(() => offer(additional));
-  followPlugins(offer, (known) => {
-    types = known;
-    fit();
-  });
-  return [el("div", { class: "wv-tab-bar" }, list, more, add), content];
+  return list;
 }
+
+/**
+ * Keeps the open tab in sight, and shows `more` while there are tabs out of sight; returns what does
+ * so again, after somebody has moved the list.
+ *
+ * @param {HTMLElement} list
+ * @param {HTMLElement} more
+ * @param {Panels} panels
+ */
+function fit(list, more, { tabs, open }) {
+  function update() {
+    set(more, { hidden: true });
+    const isCut = list.scrollWidth > list.clientWidth;
+    set(more, { hidden: !isCut });
+    set(list, { "data-cut": isCut });
+    const button = document.getElementById(`wv-tab-${open.value?.name}`);
+    if (button) bringIntoSight(list, button);
+  }
+  effect(() => {
+    for (const { title } of tabs.value) void title;
+    void open.value;
+    requestAnimationFrame(update);
+  });
+  new ResizeObserver(update).observe(/** @type {HTMLElement} */ (list));
+  return update;
+}
+
+/**
+ * Not `scrollIntoView`, which moves the whole page while the side is folded away.
+ *
+ * @param {HTMLElement} list
+ * @param {HTMLElement} button
+ */
+function bringIntoSight(list, { offsetLeft, offsetWidth }) {
+  const right = offsetLeft + offsetWidth + FADED - list.offsetLeft;
+  if (right > list.scrollLeft + list.clientWidth) list.scrollLeft = right - list.clientWidth;
+  list.scrollLeft = Math.min(list.scrollLeft, offsetLeft - list.offsetLeft);
+}
+
+/**
+ * The head of the open tab, and what it shows.
+ *
+ * @param {Readable<Panel | undefined>} open
+ */
+function contentOf(open) {
+  const tools = el("div", { class: "wv-panel-tools" });
+  const content = el("div", { class: "wv-panel", role: "tabpanel", id: "wv-panel" });
+  const more = iconButton("dots", "More for this panel", () => {
+    if (open.value) openMenuBelow(more, docks.menuOf(open.value));
+  });
+  const head = el("div", { class: "wv-panel-head" }, tools, more);
+  const name = computed(() => open.value?.name);
+  effect(() => {
+    tools.replaceChildren();
+    content.replaceChildren();
+    set(content, { "aria-labelledby": name.value ? `wv-tab-${name.value}` : null });
+    const panel = untracked(() => open.value);
+    set(head, { hidden: !panel?.remove });
+    if (panel) owned(openIn(panel, content, tools));
+  });
+  return [head, content];
+}
+
+/**
+ * @param {HTMLElement} button
+ * @param {Panels} panels
+ * @param {() => void} chosen
+ */
+function chooseTab(button, { tabs, open, wanted }, chosen) {
+  /** @param {string} name */
+  function choose(name) {
+    remember("tab", (wanted.value = name));
+    chosen();
+  }
+  openMenuBelow(
+    button,
+    tabs.value.map(({ name, title }) => ({
+      label: title,
+      checked: name === open.value?.name,
+      run: () => choose(name),
+    })),
+  );
+}
+
+/** @param {Panels} panels */
+const commands = ({ there, types }) => [
+  ...there.value
+    .filter(({ isOnDemand }) => !isOnDemand)
+    .map(({ name, title }) => ({
+      name: `Panel: ${title}`,
+      group: "Panels",
+      run: () => openPanel(name),
+    })),
+  {
+    name: "Add panel…",
+    icon: "plus",
+    group: "Panels",
+    needs: "AddPanel",
+    run: () => choose(types.value),
+  },
+  ...types.value.map((type) => ({
+    name: `Add panel: ${type.title}`,
+    icon: type.icon,
+    group: "Panels",
+    needs: "AddPanel",
+    run: () => addPanel(type),
+  })),
+];

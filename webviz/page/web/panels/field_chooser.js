@@ -1,0 +1,116 @@
+// The widgets "fields" and "path" of panels that show fields of messages: what adds one, and what
+// chooses the one that is shown. Both stand in the head of their panel.
+
+import { combobox } from "../controls/combobox.js";
+import { textField } from "../controls/fields.js";
+import { optionList, search } from "../controls/option_list.js";
+import { popoverButton } from "../controls/popover.js";
+import { el } from "../dom.js";
+import { computed, effect, signal } from "../signals.js";
+import { messagePath } from "./field_drag.js";
+import { widget } from "./plugin_widgets.js";
+
+/** @import {Signal} from "../signals.js" */
+/** @import {MakeWidget, Send} from "./plugin_widgets.js" */
+
+/**
+ * @typedef {{what: string, topic: string, topics: string[], fields: string[]}} Fields `fields` of the
+ *   newest message of the `topic` that is chosen
+ * @typedef {{path: string, topics: string[]}} Path
+ */
+
+const MAX_SHOWN = 100;
+
+widget("own fields", fields);
+widget("own path", path);
+
+/** @type {MakeWidget} */
+function fields(_, send) {
+  /** @type {Fields} */
+  const none = { what: "field", topic: "", topics: [], fields: [] };
+  const shown = signal(none);
+  const head = popoverButton(
+    "plus",
+    "Add a field",
+    () => [el("h3", {}, () => `Add a ${shown.value.what}`), choosers(shown, send)],
+    { class: "wv-icon wv-add-field" },
+  );
+  return {
+    head,
+    update: ({ values }) => (shown.value = /** @type {Fields} */ (values)),
+    drop(field) {
+      if (field.path) return send(JSON.stringify({ add: messagePath(field) }));
+      send(JSON.stringify({ topic: messagePath(field) }));
+      if (head.getAttribute("aria-expanded") !== "true") head.click();
+    },
+  };
+}
+
+/**
+ * A topic, and its fields below it.
+ *
+ * @param {Signal<Fields>} shown
+ * @param {Send} send
+ */
+function choosers(shown, send) {
+  const topics = combobox({
+    label: "Topic",
+    value: () => shown.value.topic,
+    options: () => shown.value.topics.map((value) => ({ value })),
+    change: (topic) => send(JSON.stringify({ topic })),
+    free: false,
+    placeholder: "Topic",
+  });
+  const text = signal("");
+  const input = textField("Field", { class: "wv-field", placeholder: "Search fields" });
+  const list = optionList(input, "Fields", ({ id }) =>
+    send(JSON.stringify({ add: messagePath({ topic: shown.value.topic, path: String(id) }) })),
+  );
+  input.addEventListener("input", () => (text.value = input.value));
+  const found = () => search(shown.value.fields, text.value, (field) => [field, ""]);
+  effect(() =>
+    list.show(
+      found()
+        .slice(0, MAX_SHOWN)
+        .map((field) => ({ id: field, title: field })),
+    ),
+  );
+  const note = () => {
+    if (found().length) return "";
+    if (!shown.value.topic) return "Choose a topic. Fields can also be dragged here from Topics.";
+    return shown.value.fields.length ? "No match." : "Waiting for a message …";
+  };
+  const hasNoTopic = () => !shown.value.topic;
+  const topic = computed(() => shown.value.topic);
+  effect(() => {
+    if (topic.value) queueMicrotask(() => input.focus()); // its fields are what comes next
+  });
+  return el(
+    "div",
+    { class: "wv-field-chooser" },
+    topics.element,
+    el("div", { hidden: hasNoTopic }, input),
+    list.element,
+    el("p", { class: "wv-quiet", role: "status", hidden: () => !note() }, note),
+  );
+}
+
+/** @type {MakeWidget} */
+function path(_, send) {
+  /** @type {Path} */
+  const none = { path: "", topics: [] };
+  const shown = signal(none);
+  const box = combobox({
+    label: "Message path",
+    value: () => shown.value.path,
+    options: () => shown.value.topics.map((value) => ({ value })),
+    change: (path) => send(JSON.stringify(path)),
+    placeholder: "Topic, fields and filters",
+    help: "Topic, fields and filters, such as /diagnostics.status[:]",
+  });
+  return {
+    head: el("div", { class: "wv-panel-path" }, box.element),
+    update: ({ values }) => (shown.value = /** @type {Path} */ (values)),
+    drop: (field) => send(JSON.stringify(messagePath(field))),
+  };
+}
