@@ -21,8 +21,10 @@ from webviz.api.declared import Topic
 from webviz.api.nodes import Labels, Pane, Points, Pose
 from webviz.api.pictures import Encoded, Mark, OverlayCamera, Packet, Pixels, Video, Warp
 from webviz.api.status import Level, Status
+from webviz.commands import SetLayout
 from webviz.data.images import CameraModel, Lens, RawImage, Tone
 from webviz.engine.state import Row
+from webviz.files.config import DockedPanel, Layout, Settings
 from webviz.scene import ViserScene
 from webviz.server.channel.messages import MAX_PANES
 from webviz.server.images.pictures import Pictures
@@ -317,6 +319,35 @@ def test_a_picture_is_zoomed_by_keys_and_by_two_fingers(tab: Any) -> None:
     assert "3.0" in button.inner_text()
     button.click()
     tab.wait_for(lambda: width(tab) == pytest.approx(whole))
+
+
+def test_an_image_is_as_high_as_its_picture_and_is_placed_as_a_panel(tab: Any) -> None:
+    body = pane(tab, "Color").locator(".wv-pane-body")
+    tab.wait_for(lambda: abs((box := body.bounding_box())["width"] / box["height"] - 4 / 3) < 0.02)
+    room = tab.page.locator("#root").bounding_box()
+    tab.page.mouse.move(*((pane(tab, "Color").locator("b").bounding_box())[k] + 5 for k in "xy"))
+    tab.page.mouse.down()
+    tab.page.mouse.move(room["x"] + 100, room["y"] + room["height"] - 10, steps=4)
+    tab.page.mouse.up()
+    below = DockedPanel(panel="image:Image")
+    tab.wait_for_command(SetLayout(Layout(below=(below,))))
+    frame = tab.page.locator(".wv-below .wv-docked")
+    tab.wait_for(lambda: "Hz" in frame.locator(".wv-docked-head").inner_text())
+    assert frame.locator(".wv-docked-head b").inner_text() == "/color"
+    assert near(shown(tab, "Color"), COLORS[108, 80])
+    assert tab.page.locator(".wv-panes .wv-pane").count() == 1
+    # Of two in one place, the one behind gets its pictures when it is chosen.
+    both = Layout(below=(DockedPanel(panel="image:Image", tabs=("image:Image 2",)),))
+    tab.loop.show(*tab.loop.state.rows, settings=Settings(layout=both))
+    tab.wait_for(lambda: frame.get_by_role("tab").all_inner_texts() == ["/color", "/depth"])
+    frame.get_by_role("tab", name="/depth").click()
+    tab.wait_for(lambda: near(shown(tab, "Depth", (0.02, 0.02)), (0, 0, 0)))
+    assert tab.page.locator(".wv-dock").is_hidden()
+    frame.get_by_role("button", name="With the images").click()
+    tab.wait_for_command(SetLayout(Layout(below=(below,))))
+    tab.loop.show(*tab.loop.state.rows, settings=Settings())
+    tab.wait_for(lambda: tab.page.locator(".wv-panes .wv-pane").count() == 2)
+    assert pane(tab, "Depth").locator(".wv-pane-head").inner_text().startswith("/depth")
 
 
 def test_images_and_scene_have_the_same_share_of_a_narrow_window(tab: Any) -> None:

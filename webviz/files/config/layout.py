@@ -16,7 +16,10 @@ MAX_LAYOUTS = 20
 PanelName = Annotated[
     str,
     msgspec.Meta(min_length=1, max_length=100),
-    Prop(help="Name of the panel: doctor, topics and so on, Plot, or Plot 2 for the second."),
+    Prop(
+        help="Name of the panel: doctor, topics and so on, Plot, Plot 2 for the second, or image: "
+        "and the name of a display with a picture."
+    ),
 ]
 
 

@@ -64,6 +64,8 @@ export interface Panel {
   open(element: HTMLElement, head: HTMLElement): End | void;
   /** Removes it, if it was added. */
   remove?(): unknown;
+  /** Where it is unless it is placed: "In the tabs" without it. */
+  home?: string;
   /** Its tab is there while it is open only. */
   isOnDemand?: boolean;
 }

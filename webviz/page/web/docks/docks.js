@@ -18,6 +18,7 @@ import {
   isTabsOnly,
   known,
   layout,
+  others,
   panels,
   placed,
   placesOf,
@@ -84,6 +85,13 @@ export function install(page) {
 export const offer = (all) => (panels.value = all);
 
 /**
+ * Says which panels there are that are never tabs.
+ *
+ * @param {Panel[]} all
+ */
+export const offerOthers = (all) => (others.value = all);
+
+/**
  * Tells if a panel stands outside of the tabs.
  *
  * @param {Panel} panel
@@ -115,11 +123,16 @@ export function reveal(name) {
  * Lets a tab be dragged to another place.
  *
  * @param {HTMLElement} tab
- * @param {string} name of its panel
+ * @param {() => string} name of its panel
  */
 export function dragTab(tab, name) {
-  const short = shortName(name);
-  draggable(tab, { boxes: () => boxes(short), drop: (to) => drop(short, to), touch: false });
+  const short = () => shortName(name());
+  draggable(tab, {
+    boxes: () => boxes(short()),
+    drop: (to) => drop(short(), to),
+    touch: false,
+    home: () => known.value.get(short())?.home,
+  });
 }
 
 /**
@@ -128,7 +141,7 @@ export function dragTab(tab, name) {
  * @param {Panel} panel
  * @returns {(MenuItem | null)[]}
  */
-export function menuOf({ name: long, remove }) {
+export function menuOf({ name: long, remove, home = "In the tabs" }) {
   const name = shortName(long);
   /** @param {Target["place"]} place @param {string} label @returns {MenuItem} */
   const to = (place, label) => ({
@@ -143,7 +156,7 @@ export function menuOf({ name: long, remove }) {
     to("beside", "Beside the scene"),
     to("below", "Below the scene"),
     to("over", "Over the scene"),
-    to("tabs", "In the tabs"),
+    to("tabs", home),
     null,
   ];
   /** @type {(MenuItem | null)[]} */
@@ -249,6 +262,7 @@ function make(name) {
     boxes: () => (full.value ? null : boxes(name)),
     drop: (target, grab) => drop(name, target, grab),
     touch: true,
+    home: () => panel.home,
   });
   const resizing = corner(element, {
     move(width, height) {
@@ -310,6 +324,8 @@ function measure() {
 function boxes(dragged) {
   if (isTabsOnly()) return null;
   const side = document.querySelector(".wv-side");
+  const images = document.querySelector(".wv-dock:not([hidden])");
+  const home = known.value.get(dragged)?.home ? (images ?? side) : side;
   /** @param {"beside" | "below"} place @returns {PanelBox[]} */
   const others = (place) =>
     placesOf(place).flatMap(({ names, front }) => {
@@ -320,7 +336,7 @@ function boxes(dragged) {
       return [{ panel, left, top, width, height }];
     });
   return {
-    side: side?.getBoundingClientRect() ?? new DOMRect(),
+    side: home?.getBoundingClientRect() ?? new DOMRect(),
     scene: floats.getBoundingClientRect(),
     beside: beside.getBoundingClientRect(),
     below: below.getBoundingClientRect(),

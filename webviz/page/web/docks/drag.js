@@ -13,13 +13,16 @@ const WORDS = {
   beside: "Beside the scene",
   below: "Below the scene",
   over: "Over the scene",
-  tabs: "Back to the tabs",
+  tabs: "In the tabs",
 };
 
 /** @typedef {{x: number, y: number}} Point */
 /**
- * @typedef {{boxes(): Boxes | null, drop(target: Target, grab: Point): void, touch: boolean}} Options
- *   `boxes` returns null where nothing can be dropped; `grab` is where in the handle it is held
+ * @typedef {{
+ *   boxes(): Boxes | null, drop(target: Target, grab: Point): void, touch: boolean,
+ *   home(): string | undefined,
+ * }} Options `boxes` returns null where nothing can be dropped; `grab` is where in the handle it is
+ *   held; `home` is the word for where it was before it was placed
  */
 
 /**
@@ -43,13 +46,13 @@ export function draggable(handle, options) {
  * @param {PointerEvent} start
  * @param {Options} options
  */
-function follow(handle, { clientX, clientY, pointerId }, { boxes, drop }) {
+function follow(handle, { clientX, clientY, pointerId }, { boxes, drop, home }) {
   const corner = handle.getBoundingClientRect();
   const grab = { x: clientX - corner.left, y: clientY - corner.top };
   /** @type {Boxes | null} */
   let all = null;
   const target = signal(/** @type {Target | null} */ (null));
-  const preview = previewOf(target, grab);
+  const preview = previewOf(target, grab, home());
 
   /** @param {PointerEvent} event */
   function move(event) {
@@ -97,8 +100,9 @@ function follow(handle, { clientX, clientY, pointerId }, { boxes, drop }) {
  *
  * @param {Signal<Target | null>} target
  * @param {Point} grab
+ * @param {string} [home]
  */
-function previewOf(target, grab) {
+function previewOf(target, grab, home = WORDS.tabs) {
   const style = () => {
     if (!target.value) return "";
     const { box, place } = target.value;
@@ -109,7 +113,10 @@ function previewOf(target, grab) {
     ].join("; ");
   };
   /** @param {Target} target */
-  const words = ({ into, place }) => (into === undefined ? WORDS[place] : "As a tab here");
+  const words = ({ into, place }) => {
+    if (into !== undefined) return "As a tab here";
+    return place === "tabs" ? home : WORDS[place];
+  };
   return el(
     "div",
     { class: "wv-drop", hidden: () => !target.value, style },

@@ -32,7 +32,7 @@ export const openIn = (panel, element, head) =>
  * @param {{
  *   name: string, names(): string[], titleOf(name: string): string, choose(name: string): void,
  *   isFull(): boolean, isAlone: boolean, menu(button: HTMLElement): void, full(): void, back(): void,
- *   dragTab(tab: HTMLElement, name: string): void,
+ *   dragTab(tab: HTMLElement, name: () => string): void,
  * }} place
  */
 export function makeFrame(panel, place) {
@@ -79,9 +79,9 @@ export function makeFrame(panel, place) {
  * @param {Panel} panel
  * @param {{isAlone: boolean, back(): void}} place
  */
-function closeButton({ remove }, { isAlone, back }) {
+function closeButton({ remove, home }, { isAlone, back }) {
   const options = { hidden: isAlone };
-  if (!remove) return iconButton("close", "Back to the tabs", back, options);
+  if (!remove) return iconButton("close", home ?? "Back to the tabs", back, options);
   return needs("RemovePanel", iconButton("close", "Remove panel", remove, options));
 }
 
@@ -115,7 +115,7 @@ function tabList({ name, names, titleOf, choose, dragTab }) {
       },
       () => titleOf(each),
     );
-    dragTab(button, each);
+    dragTab(button, () => each);
     return button;
   }
   return el(

@@ -37,8 +37,11 @@ const chosen = signal([]); // as tabs of their places, the last one first
  */
 export const shortName = (name) => (name.startsWith(PLUGIN) ? name.slice(PLUGIN.length) : name);
 
+/** Panels that are never tabs of the side. @type {Signal<Panel[]>} */
+export const others = signal([]);
+
 export const known = computed(
-  () => new Map(panels.value.map((panel) => [shortName(panel.name), panel])),
+  () => new Map([...panels.value, ...others.value].map((panel) => [shortName(panel.name), panel])),
 );
 /** Panels are tabs alone: on a phone, and in a window that has one panel. */
 export const isTabsOnly = () => isNarrow.value || Boolean(alone);

@@ -1,11 +1,17 @@
-// The dock beside the scene, below it where there is little room: a pane for each display with a picture.
+// The images of displays: a pane for each display with a picture, in the dock beside the scene, below
+// it where there is little room, or placed as panels are.
 
 import { splitter } from "../docks/splitter.js";
+import { dragTab, isPlaced, offerOthers } from "../docks/docks.js";
 import { el, setChildren } from "../dom.js";
 import { recall, remember } from "../remember.js";
+import { effect, signal } from "../signals.js";
 import { watch } from "../stores.js";
 import * as frames from "./frames.js";
 import { makePane } from "./pane.js";
+
+/** @import {Panel, ValuesOf} from "../types.js" */
+/** @typedef {{pane: ReturnType<typeof makePane>, panel: Panel}} Image */
 
 const STANDARD = 360;
 const MIN_SIZE = 120;
@@ -19,13 +25,91 @@ const narrow = matchMedia("(max-width: 640px)");
 
 /** @param {HTMLElement} page */
 export function install(page) {
+  const list = el("div", { class: "wv-panes" });
+  const { border, layOut } = sizes(page, list, () => shown());
+  const dock = el(
+    "aside",
+    { class: "wv-dock", "aria-label": "Images", hidden: true },
+    list,
+    border,
+  );
+  page.append(dock);
+  const images = follow(layOut);
+  const shown = () => images.value.filter(({ panel }) => !isPlaced(panel)).map(({ pane }) => pane);
+  effect(() => offerOthers(images.value.map(({ panel }) => panel)));
+  effect(() => {
+    const panes = shown();
+    setChildren(
+      list,
+      panes.map(({ element }) => element),
+    );
+    layOut();
+  });
+}
+
+/**
+ * The images that there are, in their order.
+ *
+ * @param {() => void} changed
+ */
+function follow(changed) {
   /** @type {Map<string, ReturnType<typeof makePane>>} */
   const panes = new Map();
-  const list = el("div", { class: "wv-panes" });
+  const images = signal(/** @type {Image[]} */ ([]));
+  watch("panes", (rows) => {
+    const order = rows.get("order") ?? [];
+    for (const [id, pane] of panes) {
+      if (order.includes(id)) continue;
+      pane.close();
+      pane.element.remove();
+      panes.delete(id);
+    }
+    /** @type {Map<string, number>} */
+    const names = new Map();
+    images.value = order.flatMap((id) => {
+      const row = rows.get(id);
+      if (!row) return [];
+      const pane = panes.get(id) ?? makePane(id, changed, Boolean(row.hidden));
+      if (!panes.has(id)) dragTab(pane.head, () => nameOf(pane));
+      panes.set(id, pane);
+      pane.update(row);
+      const number = (names.get(row.name) ?? 0) + 1;
+      names.set(row.name, number);
+      const name = `image:${row.name}${number > 1 ? ` ${number}` : ""}`;
+      return [{ pane, panel: panelOf(pane, name) }];
+    });
+  });
+  return images;
+
+  /** @param {Image["pane"]} pane */
+  function nameOf(pane) {
+    return images.value.find((each) => each.pane === pane)?.panel.name ?? "";
+  }
+}
+
+/**
+ * @param {Image["pane"]} pane
+ * @param {string} name
+ * @returns {Panel}
+ */
+const panelOf = (pane, name) => ({
+  name,
+  title: pane.title(),
+  home: "With the images",
+  open: pane.openIn,
+});
+
+/**
+ * The size of the dock, which its border changes.
+ *
+ * @param {HTMLElement} page
+ * @param {HTMLElement} list
+ * @param {() => Image["pane"][]} shown
+ */
+function sizes(page, list, shown) {
   const side = /** @type {HTMLElement} */ (page.querySelector(".wv-side"));
   const beside = /** @type {HTMLElement} */ (page.querySelector(".wv-beside"));
   let size = recall("dock", /** @type {number | null} */ (null));
-
   // What the panels leave; on a phone they lie over it.
   const width = () => innerWidth - side.offsetWidth - beside.offsetWidth;
   const isBelow = () => narrow.matches || width() < LEAST_ROOM;
@@ -35,63 +119,37 @@ export function install(page) {
       MIN_SIZE,
       Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()),
     );
-
   const border = splitter({
     label: "Size of the images",
     along: () => (isBelow() ? "y" : "x"),
     size: wanted,
     move: (pixels, before) => resize(before - pixels),
-    end: keep,
+    end: () => remember("dock", size),
     class: "wv-dock-border",
-    ondblclick: () => {
+    ondblclick() {
       resize(null);
-      keep();
+      remember("dock", size);
     },
-  });
-  const dock = el(
-    "aside",
-    { class: "wv-dock", "aria-label": "Images", hidden: true },
-    list,
-    border,
-  );
-  page.append(dock);
-
-  watch("panes", (rows) => {
-    for (const [id, pane] of panes) {
-      if (rows.get("order")?.includes(id)) continue;
-      pane.close();
-      panes.delete(id);
-    }
-    const order = rows.get("order") ?? [];
-    for (const id of order) {
-      const row = rows.get(id);
-      if (!row) continue;
-      const pane = panes.get(id) ?? makePane(id, layOut, Boolean(row.hidden));
-      panes.set(id, pane);
-      pane.update(row);
-    }
-    setChildren(
-      list,
-      [...order].flatMap((id) => panes.get(id)?.element ?? []),
-    );
-    layOut();
   });
   narrow.addEventListener("change", layOut);
   window.addEventListener("resize", layOut);
   new ResizeObserver(frames.refresh).observe(list);
   for (const each of [side, beside]) new ResizeObserver(layOut).observe(each);
+  return { border, layOut };
 
   function layOut() {
-    const open = [...panes.values()].some((pane) => !pane.isFolded());
-    dock.hidden = !panes.size;
+    const panes = shown();
     const full = Math.round(wanted());
-    const low = open ? full : Math.min(full, FOLDED * panes.size);
-    const style = document.documentElement.style;
-    const isShown = panes.size > 0;
+    const low = panes.every((pane) => pane.isFolded())
+      ? Math.min(full, FOLDED * panes.length)
+      : full;
     const below = isBelow();
-    dock.toggleAttribute("data-below", below);
-    style.setProperty("--wv-dock-width", `${isShown && !below ? full : 0}px`);
-    style.setProperty("--wv-dock-height", `${isShown && below ? low : 0}px`);
+    const dock = list.parentElement;
+    if (dock) dock.hidden = !panes.length;
+    dock?.toggleAttribute("data-below", below);
+    const style = document.documentElement.style;
+    style.setProperty("--wv-dock-width", `${panes.length && !below ? full : 0}px`);
+    style.setProperty("--wv-dock-height", `${panes.length && below ? low : 0}px`);
     border.setAttribute("aria-orientation", below ? "horizontal" : "vertical");
     frames.refresh();
   }
@@ -100,9 +158,5 @@ export function install(page) {
   function resize(pixels) {
     size = pixels === null ? null : Math.max(MIN_SIZE, Math.round(pixels));
     layOut();
-  }
-
-  function keep() {
-    remember("dock", size);
   }
 }

@@ -126,6 +126,7 @@ export function makePane(id, changed, withScene) {
     if (failed) fail("");
     if (picture.size().join() === size) return;
     size = picture.size().join();
+    body.style.setProperty("--wv-aspect", picture.size().join(" / "));
     tellRate();
     frames.refresh();
   }
@@ -180,7 +181,28 @@ export function makePane(id, changed, withScene) {
   });
   return {
     element,
+    head: head.element,
     isFolded: () => isFolded,
+    title: () => title,
+    /**
+     * Shows it in the frame of a panel; returns what ends that.
+     *
+     * @param {HTMLElement} place
+     * @param {HTMLElement} tools
+     */
+    openIn(place, tools) {
+      if (isFolded) toggle();
+      setFull(false);
+      place.append(element);
+      tools.append(...head.tools);
+      const sizes = new ResizeObserver(frames.refresh);
+      sizes.observe(element);
+      return () => {
+        sizes.disconnect();
+        head.restore();
+        changed();
+      };
+    },
     /** @param {PaneCaption} row */
     update(row) {
       const wanted = sanitized(row.title, 200);

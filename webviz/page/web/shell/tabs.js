@@ -135,7 +135,7 @@ function tabList({ tabs, open, wanted }) {
       },
       () => panel.value.title,
     );
-    docks.dragTab(button, name);
+    docks.dragTab(button, () => name);
     return button;
   }
   const list = el(
