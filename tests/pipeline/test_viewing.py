@@ -207,7 +207,9 @@ def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     assert "nothing to focus on" in looking.refused(FocusDisplay("display9", ALICE))
     looking.do(ShowView(Orbit(focal_point=(9.0, 9.0, 9.0)), ALICE))
     looking.do(FocusDisplay("", ALICE))  # everything is this display
-    assert looking.cameras.shown[ALICE].focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
+    view = looking.cameras.shown[ALICE]
+    assert isinstance(view, Orbit)
+    assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
 
 
 def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
