@@ -17,7 +17,7 @@ from webviz.server.access.roles import LIMITS, LINKS
 from webviz.server.channel import messages
 from webviz.server.channel.messages import FromPage
 from webviz.server.channel.refusals import answer
-from webviz.server.http.viser_types import message_type
+from webviz.server.http.viser_messages import message_type
 
 NOT_OF_PAGES = {
     "CallService": "panels of the viewer send it",

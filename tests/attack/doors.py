@@ -101,7 +101,7 @@ DOORS: Mapping[str, Door] = {
             "webviz/page/*",
             "webviz/panels/*",
             "webviz/features/transforms/__init__.py",
-            "webviz/engine/parts/display_types.py",
+            "webviz/engine/parts/displays.py",
         ),
     ),
     "agents": Door(("agents",), ("webviz/shell/agents/*",)),

@@ -9,7 +9,7 @@ import numpy as np
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Mark, Pixels
 from webviz.data.images import RawImage, Tone
-from webviz.shell.export.panes import MAX_MARKED, PaneTape
+from webviz.shell.export.recorder import MAX_MARKED, PaneTape
 
 
 def pane(value: int) -> Pane:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from webviz.data.images import RawImage
-from webviz_displays.image.range import RunningRange
+from webviz_displays.image.base import RunningRange
 
 
 def image(low: float, high: float) -> RawImage:

@@ -10,7 +10,7 @@ import pytest
 from tests.page.conftest import Loop, Tab
 from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
-from webviz.engine.parts.display_types import types_store
+from webviz.engine.parts.displays import types_store
 from webviz.engine.state import Row, Traffic
 from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher

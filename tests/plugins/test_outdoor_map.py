@@ -16,8 +16,15 @@ from tests.support.panel_facts import show as show_panel
 from webviz.data.messages import decode, encode
 from webviz.engine.state import State
 from webviz.page.recorded_ui import RecordedUi
-from webviz.panels.outdoor_map import FIX, MAX_POINTS, PATH, PER_PART, OutdoorMap
-from webviz.panels.tile_shelf import MAX_TILES, TileShelf
+from webviz.panels.outdoor_map import (
+    FIX,
+    MAX_POINTS,
+    MAX_TILES,
+    PATH,
+    PER_PART,
+    OutdoorMap,
+    TileShelf,
+)
 from webviz.sources import Offer, Publisher
 
 

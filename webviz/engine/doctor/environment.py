@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 import socket
 import sys
 import time
@@ -14,9 +15,116 @@ from xml.etree import ElementTree
 
 from webviz.api.environment import Environment, NetworkInterface, SharedMemory
 from webviz.engine.doctor.interfaces import GROUP, interfaces_since, traffic
-from webviz.engine.doctor.programs import programs_apart
-from webviz.engine.doctor.servers import discovery_servers, zenoh_routers
 from webviz.engine.doctor.settings import daemon_differences, security_problem
+
+WAIT_S = 0.3
+ZENOH, ZENOH_PORT = "rmw_zenoh_cpp", 7447
+DISCOVERY_PORT = 11811
+_ENDPOINTS = re.compile(r"connect/endpoints\s*=\s*\[([^\]]*)\]")
+_TCP = re.compile(r"tcp/(?:\[([^\]]+)\]|([^:/\"]+)):(\d+)")
+
+
+def zenoh_routers(variables: Mapping[str, str]) -> Mapping[str, str]:
+    """Return the problem of each Zenoh router that this machine uses, "" for one that listens.
+
+    None without Zenoh, or if a file of the session names the routers.
+    """
+    if variables.get("RMW_IMPLEMENTATION") != ZENOH:
+        return {}
+    given = _ENDPOINTS.search(variables.get("ZENOH_CONFIG_OVERRIDE", ""))
+    if given is None and variables.get("ZENOH_SESSION_CONFIG_URI"):
+        return {}
+    text = given[1] if given else f"tcp/localhost:{ZENOH_PORT}"
+    places = {found[0]: (found[1] or found[2], int(found[3])) for found in _TCP.finditer(text)}
+    return {name: _tcp_problem(*place) for name, place in places.items()}
+
+
+def discovery_servers(variables: Mapping[str, str]) -> Mapping[str, str]:
+    """Return the problem of each discovery server of Fast DDS, "" for one that is not refused.
+
+    UDP has no connections: only the machine of the server can say that nothing listens there.
+    """
+    found: dict[str, str] = {}
+    for entry in variables.get("ROS_DISCOVERY_SERVER", "").split(";"):
+        name = entry.strip()
+        if not name or name.startswith(("TCP", "[")) or name.count(":") > 1:
+            continue
+        host, _, port = name.partition(":")
+        try:
+            found[name] = _udp_problem(host, int(port or DISCOVERY_PORT))
+        except ValueError:
+            found[name] = "its port is not a number"
+    return found
+
+
+def _tcp_problem(host: str, port: int) -> str:
+    try:
+        with socket.create_connection((host, port), WAIT_S):
+            return ""
+    except OSError as error:
+        return error.strerror or "no answer"
+
+
+def _udp_problem(host: str, port: int) -> str:
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            probe.settimeout(WAIT_S)
+            probe.connect((host, port))
+            probe.send(b"")
+            probe.recv(1)
+    except TimeoutError:
+        return ""
+    except (OSError, OverflowError) as error:
+        return getattr(error, "strerror", None) or str(error)
+    return ""
+
+
+PROC = Path("/proc")
+LIBRARIES = (b"librmw", b"libfastrtps", b"libfastdds", b"libddsc")
+"""Of programs that are ROS nodes."""
+MOST = 10
+LONGEST = 80
+"""Characters of a command line that are shown."""
+
+
+def programs_apart(memory: Path) -> Sequence[str]:
+    """Return the command lines of ROS programs of this domain with other shared memory.
+
+    A container with the network of the host (`--network host`) has its own unless it is started
+    with `--ipc=host`. Fast DDS takes it for the same machine, and sends through shared memory.
+
+    Args:
+        memory: the file system of shared memory.
+    """
+    try:
+        own, network = os.stat(memory).st_dev, os.readlink(PROC / "self/ns/net")
+    except OSError:
+        return ()
+    found: list[str] = []
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    for process in PROC.glob("[0-9]*"):
+        try:
+            if os.stat(f"{process}/root{memory}").st_dev == own:
+                continue
+            if os.readlink(process / "ns/net") != network:
+                continue
+            maps = (process / "maps").read_bytes()
+            words = (process / "cmdline").read_bytes().replace(b"\0", b" ")
+            if _domain(process) != domain:
+                continue
+        except OSError:  # it has ended, or belongs to another user
+            continue
+        if any(library in maps for library in LIBRARIES):
+            found.append(words.decode(errors="replace").strip()[:LONGEST])
+    return tuple(sorted(found)[:MOST])
+
+
+def _domain(process: Path) -> str:
+    """Return the domain of ROS in the environment that a process was started with."""
+    entries = (process / "environ").read_bytes().split(b"\0")
+    named = (each for each in entries if each.startswith(b"ROS_DOMAIN_ID="))
+    return next(named, b"").partition(b"=")[2].decode(errors="replace") or "0"
+
 
 PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT", "PYTHONPATH")
 PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI")

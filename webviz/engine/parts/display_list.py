@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import itertools
 import logging
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import msgspec
 
-from webviz.api.declared import Topic, set_property
+from webviz.api.declared import Topic, make, set_property, to_values
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
-from webviz.engine.parts.copies import copy_of
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.steps import Snapshot, kept, made_anew
@@ -23,6 +24,39 @@ from webviz.files import config as config_file
 from webviz.files import rviz
 from webviz.files.config import Branch, ConfigError, Item, Location, Settings, Unreadable
 from webviz.files.config.reading import MAX_DISPLAYS
+
+D = TypeVar("D", bound=Display)
+
+
+def copy_of(item: Item, names: set[str]) -> Item:
+    """Return a copy of a display, or of a group with its contents, under an unused name.
+
+    Args:
+        item: to copy.
+        names: of all displays.
+    """
+    copied = _copy(item)
+    if not isinstance(copied, Unreadable):
+        own = copied.group if isinstance(copied, Branch) else copied
+        own.name = _fresh(own.name, names)
+    return copied
+
+
+def _copy(item: Item) -> Item:
+    if isinstance(item, Branch):
+        return Branch(_copied(item.group), [_copy(each) for each in item.displays])
+    return copy.deepcopy(item) if isinstance(item, Unreadable) else _copied(item)
+
+
+def _copied(display: D) -> D:
+    return make(type(display), to_values(display))
+
+
+def _fresh(name: str, taken: set[str]) -> str:
+    """Return an unused name: `Scan 2` for `Scan`."""
+    stem = re.sub(r" \d+$", "", name)
+    return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)
+
 
 log = logging.getLogger("webviz")
 

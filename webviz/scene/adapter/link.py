@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
+from viser import _messages as wire
+from viser._assignable_props_api import AssignablePropsBase
+from viser.infra._messages import _prepare_for_serialization as prepared
 
 from webviz.scene.adapter.acknowledging import AcknowledgementRequest, Acknowledgements, Probe
-from webviz.scene.adapter.hints import evaluate_hints_once
 from webviz.scene.adapter.poses import (
     Move,
     OrientationMessage,
@@ -21,12 +24,48 @@ from webviz.scene.adapter.poses import (
     queue_moves,
 )
 from webviz.scene.adapter.sender import SceneSender
-from webviz.scene.adapter.updates import UpdateMessage
 from webviz.scene.deferred import DeferredMessages
 from webviz.scene.label_budget import LabelBudget
 from webviz.server.http.viser_server import Server
 from webviz.server.images.pictures import Pictures
 from webviz.server.sending.costs import Costs
+
+_PLAIN = {str, bytes, float, int, bool, type(None)}
+"""Types of values that msgpack takes as they are; what viser does to find out takes longer."""
+
+
+class UpdateMessage(wire.SceneNodeUpdateMessage, include_in_scene_serialization=True):
+    """Assigns properties of a node; most of its bytes are arrays, which need no preparation."""
+
+    def as_serializable_dict(
+        self, binary_buffers: list[memoryview] | None = None
+    ) -> dict[str, Any]:
+        """As viser packs it, under the name of viser's class."""
+        updates = {name: _packed(value, binary_buffers) for name, value in self.updates.items()}
+        type_ = "SceneNodeUpdateMessage"
+        return {"name": self.name, "updates": updates, "owner": self.owner, "type": type_}
+
+
+def _packed(value: Any, buffers: list[memoryview] | None) -> Any:
+    if type(value) in _PLAIN:
+        return value
+    if buffers is None or not isinstance(value, np.ndarray):
+        return prepared(value, Any, buffers)
+    buffers.append(np.ascontiguousarray(value).data)
+    return {"__binary_index": len(buffers) - 1, "dtype": value.dtype.str}
+
+
+_hints = functools.cache(get_type_hints)
+
+
+def evaluate_hints_once() -> None:
+    """Make a new node cheaper: viser evaluates the annotations of its class anew for each."""
+
+    def hints(handle: AssignablePropsBase[Any]) -> dict[str, Any]:
+        return _hints(type(handle._impl.props))
+
+    AssignablePropsBase._prop_hints = property(hints)  # pyright: ignore
+
 
 MAX_TOMBSTONES = 10_000
 """Removal messages in the buffer, above which browsers that do not read are disconnected."""

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
+from typing import Any
 
 import msgspec
+from viser import _messages as wire
 
 from webviz.api.roles import Role
 from webviz.server.access import rules
-from webviz.server.http.viser_types import message_type
+
+
+def message_type(kind: str) -> type[Any]:
+    """viser's dataclass of a kind of messages."""
+    return getattr(wire, kind)
+
 
 MAX_BYTES = 4 << 20
 """Maximum size of a message; the longest is a config."""
