@@ -1,19 +1,11 @@
 // The gesture "outline": a line drawn by hand on the ground.
 
-import { svgElement } from "webviz/dom.js";
+import { set, svgElement } from "webviz/dom.js";
 
 const STEP_PX = 10; // between two corners
 const MAX_CORNERS = 500;
 
-export default function install({
-  beforeRender,
-  canvas,
-  gesture,
-  groundAt,
-  makeLayer,
-  onCanvas,
-  set,
-}) {
+export default function install({ beforeRender, canvas, gesture, groundAt, makeLayer, onCanvas }) {
   const line = svgElement("polyline", { fill: "none", stroke: "#f80", "stroke-width": 3 });
   const layer = makeLayer("keep-out", svgElement("svg", { width: "100%", height: "100%" }, line));
   let corners = [];
