@@ -29,7 +29,7 @@ export function makeHead({ toggle, toggleFull, unzoom }) {
   );
   return {
     element: el("header", { class: "wv-pane-head" }, fold, name, facts, zoom, full),
-    /** What a frame around the pane has in its head; the rest it has itself. */
+    /** Parts of a frame around the pane in its head; the rest it has itself. */
     tools: [facts, zoom],
     /** Takes it back. */
     restore: () => full.before(facts, zoom),
