@@ -644,6 +644,15 @@ class Undo(Command, frozen=True):
     steps: int = ...
     own: bool = ...
 
+class UseTemplate(Command, frozen=True):
+    """Arrange the panels for a task, and add those that it needs and that are not there.
+
+    Args:
+        template: its name, such as "Tune".
+    """
+
+    template: str
+
 class UseTool(Command, frozen=True):
     """Let a tool act on a finished gesture; see `webviz.api.tool.Gesture`.
 

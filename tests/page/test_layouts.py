@@ -10,7 +10,14 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.page.conftest import Loop, Tab
-from webviz.commands import AddPanel, RemoveLayout, RemovePanel, SaveLayout, SetLayout
+from webviz.commands import (
+    AddPanel,
+    RemoveLayout,
+    RemovePanel,
+    SaveLayout,
+    SetLayout,
+    UseTemplate,
+)
 from webviz.engine.state import PanelTab
 from webviz.features.layouts import layout_store
 from webviz.files.config import DockedPanel, FloatingPanel, Layout, Settings
@@ -210,6 +217,8 @@ def test_layouts_are_saved_shown_and_removed_by_the_menu(loop: Loop, tab: Tab) -
     tab.wait_for_command(SetLayout("driving"))
     choose("Remove", HOSTILE)
     tab.wait_for_command(RemoveLayout(HOSTILE))
+    choose("Tune")
+    tab.wait_for_command(UseTemplate("Tune"))
     choose("Save this layout")
     tab.page.get_by_label("Name of the layout").fill("lab")
     tab.page.keyboard.press("Enter")

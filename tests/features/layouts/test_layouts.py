@@ -20,8 +20,10 @@ from webviz.commands import (
     SaveLayout,
     SetLayout,
     Undo,
+    UseTemplate,
 )
 from webviz.features.layouts import layout_store
+from webviz.features.layouts.templates import TEMPLATES
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
 from webviz.files.config.layout import MAX_DOCKED, MAX_LAYOUTS
@@ -145,6 +147,25 @@ def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_ta
     for each in others:
         b.do(RemovePanel(each))
     assert layouts(b)[0] == Layout()
+
+
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_a_template_adds_the_panels_that_are_missing_in_one_step(b: Any, name: str) -> None:
+    b.do(AddPanel("Plot", {"window": 5}))
+    before = layouts(b)
+    b.do(UseTemplate(name))
+    layout = layouts(b)[0]
+    assert layout == TEMPLATES[name]
+    own = {"doctor"}
+    tabs = [tab.tab for tab in b.states[-1].panels]
+    assert set(layout.names) - own <= set(tabs)
+    assert tabs.count("Plot") == 1
+    b.do(UseTemplate(name))
+    assert [tab.tab for tab in b.states[-1].panels] == tabs
+    b.do(Undo())
+    assert layouts(b) == before
+    assert [tab.tab for tab in b.states[-1].panels] == ["Plot"]
+    assert "did you mean `Tune`" in b.refused(UseTemplate("Tun"))
 
 
 def test_a_place_takes_as_many_tabs_as_can_be_saved() -> None:

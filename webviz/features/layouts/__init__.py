@@ -6,12 +6,16 @@ from collections.abc import Sequence
 
 import msgspec
 
+from webviz.api.panel import Panel
+from webviz.api.registry import plugin_types
 from webviz.api.roles import Role
 from webviz.data.names import problem_of
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
+from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
+from webviz.features.layouts.templates import TEMPLATES
 from webviz.files.config import ConfigError, Layout, Settings, nearest
 
 
@@ -45,11 +49,13 @@ class LayoutStore(PageStore, frozen=True):
 
     Args:
         saved: the saved layouts.
+        templates: names of the layouts for tasks.
         beside, below, over: the panels of each place.
         width, height: of the first two, in pixels.
     """
 
     saved: Sequence[SavedLayout]
+    templates: Sequence[str]
     beside: Sequence[DockedOnPage]
     below: Sequence[DockedOnPage]
     over: Sequence[FloatingOnPage]
@@ -78,6 +84,23 @@ class LayoutsFeature(Feature):
             self._part.set("layouts", {**self._part.settings.layouts, name: layout})
         else:
             self._part.set("layout", layout)
+
+    @command(Role.OPERATOR)
+    def use_template(self, template: str) -> str:
+        """Arrange the panels for a task, and add those that it needs and that are not there.
+
+        Args:
+            template: its name, such as "Tune".
+        """
+        if (layout := TEMPLATES.get(template)) is None:
+            raise ConfigError(f"Unknown template `{template}`: {nearest(template, TEMPLATES)}")
+        panels = self.core.get(PanelsPart)
+        there = {tab.tab for tab in panels.tabs()}
+        added = [name for name in layout.names if name in plugin_types(Panel) and name not in there]
+        for name in added:
+            panels.add_panel(name)
+        self._part.set("layout", layout)
+        return f"Arranged for: {template}."
 
     @command(Role.OPERATOR)
     def save_layout(self, name: str) -> None:
@@ -119,6 +142,7 @@ def layout_store(settings: Settings, name: str) -> LayoutStore:
     ]
     return LayoutStore(
         saved=saved,
+        templates=list(TEMPLATES),
         beside=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.beside],
         below=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.below],
         over=[msgspec.convert(each, FloatingOnPage, from_attributes=True) for each in shown.over],

@@ -1,13 +1,16 @@
 // The saved layouts in the menu and in the list of commands.
 
 import { act } from "../../act.js";
-import { clear, savedLayouts } from "../../docks/docks.js";
+import { clear, savedLayouts, templates } from "../../docks/docks.js";
 import { openWindow } from "../../docks/windows.js";
 import { submenu } from "../../shell/actions.js";
 import { provide } from "../../commands.js";
 import { askName } from "../../controls/dialog.js";
 
 /** @import {MenuItem} from "../../controls/menu.js" */
+
+/** @type {Record<string, string>} */
+const ICONS = { Navigate: "flag", Tune: "gear", "Debug a bag": "search" };
 
 /** @returns {(MenuItem | null)[]} */
 function menu() {
@@ -41,6 +44,14 @@ function menu() {
   return [
     { label: "Save this layout…", icon: "plus", needs: "SaveLayout", run: save },
     { label: "All panels in the tabs", icon: "sidebar", run: clear },
+    null,
+    ...templates.value.map((name) => ({
+      label: name,
+      icon: ICONS[name],
+      needs: "UseTemplate",
+      tip: "Adds the panels that it needs",
+      run: () => useTemplate(name),
+    })),
     ...more,
   ];
 }
@@ -50,6 +61,13 @@ export function install() {
   provide(() => [
     { name: "Save this layout…", group: "View", needs: "SaveLayout", run: save },
     { name: "All panels in the tabs", group: "View", run: clear },
+    ...templates.value.map((name) => ({
+      name: `Layout for a task: ${name}`,
+      icon: ICONS[name],
+      group: "View",
+      needs: "UseTemplate",
+      run: () => useTemplate(name),
+    })),
     ...savedLayouts().map(({ name }) => ({
       name: `Layout: ${name}`,
       group: "View",
@@ -58,6 +76,9 @@ export function install() {
     })),
   ]);
 }
+
+/** @param {string} template */
+const useTemplate = (template) => act("UseTemplate", { template });
 
 /** @param {string} name */
 const show = (name) => act("SetLayout", { layout: name });

@@ -336,7 +336,7 @@ export interface Stores {
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
   journal: { own: { entries: Array<JournalLine> }; items: never };
   latency: { own: { all: Array<Latency> }; items: never };
-  layout: { own: { saved: Array<SavedLayout>; beside: Array<DockedOnPage>; below: Array<DockedOnPage>; over: Array<FloatingOnPage>; width: number; height: number }; items: never };
+  layout: { own: { saved: Array<SavedLayout>; templates: Array<string>; beside: Array<DockedOnPage>; below: Array<DockedOnPage>; over: Array<FloatingOnPage>; width: number; height: number }; items: never };
   legend: { own: {  }; items: Scale };
   links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };

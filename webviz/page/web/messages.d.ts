@@ -259,6 +259,7 @@ export interface Commands {
   StopSharing: Record<string, never>;
   TryFrame: { frame: string; yaw?: number };
   Undo: { steps?: number; own?: boolean };
+  UseTemplate: { template: string };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
   UseWidget: { panel: string; widget: string; value?: boolean | string | null };
   WriteDisplays: { displays: Array<string> };

@@ -25,6 +25,7 @@ import {
   saved,
   shortName,
   take,
+  templates,
   visible,
 } from "./state.js";
 import { alone, layoutName, openWindow } from "./windows.js";
@@ -51,6 +52,7 @@ export function install(page) {
   document.body.classList.toggle("wv-alone", Boolean(alone));
   watch(layoutName ? `layout:${layoutName}` : "layout", (values) => {
     saved.value = values.get("saved") ?? [];
+    templates.value = values.get("templates") ?? [];
     take(layoutOf(values));
   });
   const rows = each(
@@ -172,7 +174,7 @@ export function menuOf({ name: long, remove, home = "In the tabs" }) {
   ];
 }
 
-export { isTabsOnly } from "./state.js";
+export { isTabsOnly, templates } from "./state.js";
 
 /** The saved layouts: names, and whether browsers show them. */
 export const savedLayouts = () => saved.value;

@@ -23,6 +23,8 @@ export const layout = signal(EMPTY);
 export const common = signal(EMPTY);
 /** @type {Signal<readonly {name: string, is_shown: boolean}[]>} */
 export const saved = signal([]);
+/** Names of layouts for tasks. @type {Signal<readonly string[]>} */
+export const templates = signal([]);
 /** The panel that fills the window, "" for none. */
 export const full = signal(alone);
 /** @type {Signal<Panel[]>} */
