@@ -139,6 +139,7 @@ setup(
             "plugins = webviz.features.plugins:PluginsFeature",
             "recording = webviz.features.recording:RecordingFeature",
             "reports = webviz.features.reports:ReportsFeature",
+            "rights = webviz.features.rights:RightsFeature",
             "selection = webviz.features.selection:SelectionFeature",
             "sharing = webviz.features.sharing:SharingFeature",
             "tools = webviz.features.tools:ToolsFeature",

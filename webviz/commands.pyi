@@ -45,6 +45,22 @@ class AddPanel(Command, frozen=True):
     type: str
     values: dict[str, Any] = ...
 
+class Allow(Command, frozen=True):
+    """Allow a topic, service or action until the viewer ends.
+
+    Args:
+        name: full, no pattern.
+        always: whether the config file is to allow it from the next start on, too.
+    """
+
+    name: str
+    always: bool = ...
+
+class AskOwner(Command, frozen=True):
+    """Ask the owners to allow a topic, service or action."""
+
+    name: str
+
 class CallService(Command, frozen=True):
     """Call a service.
 
@@ -83,6 +99,11 @@ class ChangeView(Command, frozen=True):
     key: str
     value: Any
     browser: int | None = ...
+
+class Decline(Command, frozen=True):
+    """Answer a request with no."""
+
+    name: str
 
 class DismissGoal(Command, frozen=True):
     """Stop showing a goal that has ended."""
@@ -150,6 +171,11 @@ class FocusFrame(Command, frozen=True):
     frame: str
     browser: int | None = ...
 
+class Forbid(Command, frozen=True):
+    """Take back what was allowed for this session."""
+
+    name: str
+
 class Identify(Command, frozen=True):
     """Answer with one line about a thing, "" if it does not exist any more."""
 
@@ -199,6 +225,11 @@ class InspectTransforms(Command, frozen=True):
 
 class ListMoment(Command, frozen=True):
     """Answer with what `ShareMoment` would write, one line per part."""
+
+class ListName(Command, frozen=True):
+    """Have the list of the config contain a name, unless a config without one uses it."""
+
+    name: str
 
 class ListReport(FileCommand, frozen=True):
     """Answer with what a bug report would contain, one member per line.

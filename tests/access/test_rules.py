@@ -30,6 +30,7 @@ NOT_OF_PAGES = {
     "InspectSelections": "follows from the stores that pages watch",
     "InspectTopic": "of programs",
     "InspectTopics": "follows from the stores that pages watch",
+    "ListName": "follows from Allow",
     "InspectTransforms": "follows from the stores that pages watch",
     "Refresh": "of programs; watching a store sends it",
     "Restore": "of the start of a viewer",
@@ -62,6 +63,7 @@ OWNING = {
     "StopRecording",
 }
 OWNING |= {"Dismiss", "Invite", "ListReport", "Revoke", "SaveReport"}
+OWNING |= {"Allow", "Decline", "Forbid"}
 OWNING |= {"ListMoment", "ShareMoment", "StopSharing"}
 OF_THE_SERVER = ("Dismiss", "Invite", "Revoke", "UseWidget")
 """Done by itself, without the frame loop."""

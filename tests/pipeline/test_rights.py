@@ -27,12 +27,12 @@ POINT = ((1.0, 2.0, 0.0),)
 TYPE = "geometry_msgs/msg/PointStamped"
 NO_PUBLISH = "This viewer was started with --no-publish. Restart it without this option."
 OF_START = (
-    "{0} is not in the list `publish` of the config that webviz was started with. Add it there, "
-    "or use `--allow-publish {0}`, and restart."
+    "{0} is not in the list `publish` of the config that webviz was started with. Let the owner "
+    "allow it for this session, or restart with `--allow-publish {0}`."
 )
 UNUSED = (
-    "No tool or panel of the config that webviz was started with uses {0}. "
-    "Restart with `--allow-publish {0}`."
+    "No tool or panel of the config that webviz was started with uses {0}. Let the owner allow "
+    "it for this session, or restart with `--allow-publish {0}`."
 )
 OF_CONFIG = "{} is not in the list `publish` of this config. Add it to the file."
 

@@ -65,8 +65,9 @@ class ServiceCall(SendingPanel):
         except MessageError as error:
             about = joined(str(error), REMEDY)
         names = sorted(name for name in services if not name.endswith(OF_PARAMETERS))
-        form = {"verb": "Call", "name": self.service, "label": "Service", "names": names[:2000]}
-        self.show_form(panels, request, {**form, "about": about, "response": self.response})
+        form = {"verb": "Call", "use": f"call {self.service}", "name": self.service}
+        extra = {"label": "Service", "names": names[:2000], "response": self.response}
+        self.show_form(panels, request, {**form, **extra, "about": about})
 
     def act(self, value: Any, browser: int | None) -> None:
         """Call the service."""
@@ -119,7 +120,8 @@ class ActionGoal(SendingPanel):
                 goal = interfaces.action(self.type, self.definition).goal
         except MessageError as error:
             about = joined(str(error), REMEDY)
-        form = {"verb": "Send goal", "name": self.action, "label": "Action"}
+        use = f"send goals to {self.action}"
+        form = {"verb": "Send goal", "use": use, "name": self.action, "label": "Action"}
         self.show_form(panels, goal, {**form, "names": sorted(offered)[:2000], "about": about})
 
     def act(self, value: Any, browser: int | None) -> None:

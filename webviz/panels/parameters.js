@@ -1,159 +1,199 @@
 // The widget "parameters": rows with a field for each value, which is sent on Enter.
 
 import { searchField } from "webviz/controls/fields.js";
+import { permission } from "webviz/controls/permission.js";
 import { rowList, touchable } from "webviz/controls/rows.js";
-import { el, set, setText, showText } from "webviz/dom.js";
+import { el, set, setText } from "webviz/dom.js";
 import { download } from "webviz/download.js";
 import { iconButton } from "webviz/icons.js";
+import { computed, effect, signal } from "webviz/signals.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
+/** @import {Signal} from "../page/web/signals.js" */
 
 /**
  * @typedef {{
  *   name: string, kind: string, text: string, range: string, about: string, locked: boolean, refused: string,
  * }} Parameter
- * @typedef {Parameter & {key: string}} Row
+ * @typedef {Parameter & {key: string, isReadOnly: boolean}} Row
  * @typedef {{
  *   node: string, rows: Parameter[], note: string, problem: string, outcome: string, undo: number, yaml: string,
  * }} Values
+ * @typedef {() => Values} Read
+ * @typedef {(value: object) => unknown} Send
  */
 
 const ROW_PX = 46;
+/** @type {Values} */
+const NONE = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, yaml: "" };
 
 /** @param {Page} page */
-export default function install({ widget }) {
-  widget("parameters", (_, send) => {
-    /** @type {Values} */
-    let shown = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, yaml: "" };
-    const search = searchField("Filter parameters", draw, { placeholder: "Filter" });
-    const file = el("input", { type: "file", accept: ".yaml,.yml", hidden: true, onchange: load });
-    const undo = iconButton("arrow-back", "Undo the newest change", () => send({ undo: true }));
-    const head = el(
-      "span",
-      { class: "wv-panel-tools" },
-      search,
-      undo,
-      iconButton("refresh", "Read the parameters again", () => send({ refresh: true })),
-      iconButton("download", "Save as YAML", () => {
-        const name = shown.node.split("/").pop() || "parameters";
-        if (shown.yaml) download(`${name}.yaml`, shown.yaml);
-      }),
-      iconButton("upload", "Load YAML", () => file.click()),
-      file,
-    );
-    const said = el("div", { class: "wv-empty", role: "status" });
-    const list = rowList({
-      label: "Parameters",
-      height: touchable(ROW_PX),
-      make,
-      update(element, /** @type {Row} */ row) {
-        const [name, , about] = element.children;
-        setText(name, row.name);
-        set(name, { "data-tip": row.name });
-        showValue(element, row);
-        const texts = [row.kind, row.range, row.locked ? "read only" : "", row.about];
-        setText(about, row.refused || texts.filter(Boolean).join(" · "));
-        set(element, { "data-level": row.refused ? "error" : null });
-        set(about, { "data-tip": about.textContent });
-      },
+export default function install(page) {
+  page.widget("parameters", (_, send) => {
+    /** @type {Signal<Values>} */
+    const shown = signal(NONE);
+    const read = () => shown.value;
+    const part = signal("");
+    const node = computed(() => read().node);
+    const right = permission({
+      name: () => (node.value ? `${node.value}/set_parameters` : ""),
+      use: () => `change the parameters of ${node.value}`,
     });
+    const search = searchField(
+      "Filter parameters",
+      () => (part.value = search.value.toLowerCase()),
+      { placeholder: "Filter" },
+    );
+    const list = rowList({ ...rowsOf(send), height: touchable(ROW_PX) });
+    effect(() => list.show(rows(read(), part.value, right.isRefused())));
+    const said = () => [read().problem, read().outcome, read().note].filter(Boolean).join(" ");
+    const element = el(
+      "div",
+      { class: "wv-plugin-fill wv-parameters" },
+      right.element,
+      el("div", { class: "wv-empty", role: "status", hidden: () => !said() }, said),
+      list.element,
+    );
+    return {
+      head: bar({ read, send, search, isRefused: right.isRefused }),
+      element,
+      update: (values) => (shown.value = { ...NONE, ...values }),
+      close: list.close,
+    };
+  });
+}
 
-    function make() {
-      return el(
+/**
+ * The rows whose name or description has what is searched for.
+ *
+ * @param {Values} values
+ * @param {string} part
+ * @param {boolean} isRefused
+ * @returns {Row[]}
+ */
+const rows = (values, part, isRefused) =>
+  values.rows
+    .filter(({ name, about }) => `${name} ${about}`.toLowerCase().includes(part))
+    .map((row) => ({ ...row, key: row.name, isReadOnly: row.locked || isRefused }));
+
+/**
+ * @param {{read: Read, send: Send, search: HTMLElement, isRefused: () => boolean}} options
+ */
+function bar({ read, send, search, isRefused }) {
+  const file = el("input", { type: "file", accept: ".yaml,.yml", hidden: true, onchange: load });
+  async function load() {
+    const text = await file.files?.[0]?.text();
+    file.value = "";
+    if (text !== undefined) send({ load: text });
+  }
+  return el(
+    "span",
+    { class: "wv-panel-tools" },
+    search,
+    iconButton("arrow-back", "Undo the newest change", () => send({ undo: true }), {
+      disabled: () => !read().undo || isRefused(),
+    }),
+    iconButton("refresh", "Read the parameters again", () => send({ refresh: true })),
+    iconButton("download", "Save as YAML", () => {
+      const { node, yaml } = read();
+      if (yaml) download(`${node.split("/").pop() || "parameters"}.yaml`, yaml);
+    }),
+    iconButton("upload", "Load YAML", () => file.click(), { disabled: isRefused }),
+    file,
+  );
+}
+
+/**
+ * How a row is made and shown.
+ *
+ * @param {Send} send
+ */
+function rowsOf(send) {
+  return {
+    label: "Parameters",
+    make: () =>
+      el(
         "div",
         { class: "wv-parameter" },
         el("span", { class: "wv-ellipsis" }),
         el("span"),
         el("span", { class: "wv-ellipsis" }),
-      );
-    }
+      ),
+    update(/** @type {Element} */ element, /** @type {Row} */ row) {
+      const [name, , about] = element.children;
+      setText(name, row.name);
+      set(name, { "data-tip": row.name });
+      showValue(send, element, row);
+      const texts = [row.kind, row.range, row.isReadOnly ? "read only" : "", row.about];
+      setText(about, row.refused || texts.filter(Boolean).join(" · "));
+      set(element, { "data-level": row.refused ? "error" : null });
+      set(about, { "data-tip": about.textContent });
+    },
+  };
+}
 
-    /**
-     * Shows the value of a parameter, unless somebody is entering another one.
-     *
-     * @param {Element} element
-     * @param {Row} row
-     */
-    function showValue(element, { name, kind, text, locked }) {
-      const isChoice = kind === "bool" && !locked;
-      const [, before] = element.children;
-      let field = /** @type {HTMLInputElement | HTMLSelectElement} */ (before);
-      if (field.matches("select") !== isChoice || !field.matches(".wv-field")) {
-        field = isChoice ? choiceOf(name) : fieldOf(name);
-        before.replaceWith(field);
-      }
-      if (document.activeElement !== field || isChoice) field.value = text;
-      field.dataset.text = text;
-      set(field, { readonly: locked });
-    }
+/**
+ * Shows the value of a parameter, unless somebody is entering another one.
+ *
+ * @param {Send} send
+ * @param {Element} element
+ * @param {Row} row
+ */
+function showValue(send, element, { name, kind, text, isReadOnly }) {
+  const isChoice = kind === "bool" && !isReadOnly;
+  const [, before] = element.children;
+  let field = /** @type {HTMLInputElement | HTMLSelectElement} */ (before);
+  if (field.matches("select") !== isChoice || !field.matches(".wv-field")) {
+    field = isChoice ? choiceOf(send, name) : fieldOf(send, name);
+    before.replaceWith(field);
+  }
+  if (document.activeElement !== field || isChoice) field.value = text;
+  field.dataset.text = text;
+  set(field, { readonly: isReadOnly });
+}
 
-    /** @param {string} name */
-    function choiceOf(name) {
-      const options = ["true", "false"].map((value) => el("option", { value }, value));
-      /** @type {HTMLSelectElement} */
-      const choice = el(
-        "select",
-        {
-          class: "wv-field",
-          "aria-label": name,
-          onchange: () => send({ set: [name, choice.value] }),
-          onkeydown: (/** @type {KeyboardEvent} */ event) => event.stopPropagation(),
-        },
-        options,
-      );
-      return choice;
-    }
+/**
+ * @param {Send} send
+ * @param {string} name
+ */
+function choiceOf(send, name) {
+  const options = ["true", "false"].map((value) => el("option", { value }, value));
+  /** @type {HTMLSelectElement} */
+  const choice = el(
+    "select",
+    {
+      class: "wv-field",
+      "aria-label": name,
+      onchange: () => send({ set: [name, choice.value] }),
+      onkeydown: (/** @type {KeyboardEvent} */ event) => event.stopPropagation(),
+    },
+    options,
+  );
+  return choice;
+}
 
-    /** @param {string} name */
-    function fieldOf(name) {
-      /** @type {HTMLInputElement} */
-      const field = el("input", {
-        class: "wv-field",
-        type: "text",
-        "aria-label": name,
-        onchange: () => {
-          field.dataset.text = field.value; // until the node says what it has made of it
-          send({ set: [name, field.value] });
-        },
-        onblur: revert,
-        onkeydown: (/** @type {KeyboardEvent} */ event) => {
-          if (event.key === "Escape") revert();
-          event.stopPropagation();
-        },
-      });
-      function revert() {
-        field.value = field.dataset.text ?? "";
-      }
-      return field;
-    }
-
-    async function load() {
-      const text = await file.files?.[0]?.text();
-      file.value = "";
-      if (text !== undefined) send({ load: text });
-    }
-
-    function draw() {
-      const part = search.value.toLowerCase();
-      list.show(
-        shown.rows
-          .filter(({ name, about }) => `${name} ${about}`.toLowerCase().includes(part))
-          .map((row) => ({ ...row, key: row.name })),
-      );
-      const sentence = [shown.problem, shown.outcome, shown.note].filter(Boolean).join(" ");
-      showText(said, sentence);
-      set(undo, { disabled: !shown.undo });
-    }
-
-    const element = el("div", { class: "wv-plugin-fill" }, said, list.element);
-    return {
-      head,
-      element,
-      update(values) {
-        shown = { ...shown, ...values };
-        draw();
-      },
-      close: list.close,
-    };
+/**
+ * @param {Send} send
+ * @param {string} name
+ */
+function fieldOf(send, name) {
+  /** @type {HTMLInputElement} */
+  const field = el("input", {
+    class: "wv-field",
+    type: "text",
+    "aria-label": name,
+    onchange: () => {
+      field.dataset.text = field.value; // until the node says what it has made of it
+      send({ set: [name, field.value] });
+    },
+    onblur: revert,
+    onkeydown: (/** @type {KeyboardEvent} */ event) => {
+      if (event.key === "Escape") revert();
+      event.stopPropagation();
+    },
   });
+  function revert() {
+    field.value = field.dataset.text ?? "";
+  }
+  return field;
 }

@@ -72,9 +72,9 @@ class PublishMessage(SendingPanel):
             self._publish_or_stop()
         named = {name for name, found in topics.items() if found} | read.keys()
         about = type_ or "Nothing publishes or reads this topic. Enter its type in Properties."
-        names = sorted(named)[:2000]
-        form = {"verb": "Publish", "name": self.topic, "label": "Topic", "names": names}
-        repeating = {"repeats": self.is_repeating, "rate": self.rate}
+        use = f"publish on {self.topic}"
+        form = {"verb": "Publish", "use": use, "name": self.topic, "label": "Topic"}
+        repeating = {"names": sorted(named)[:2000], "repeats": self.is_repeating, "rate": self.rate}
         self.show_form(panels, type_, {**form, "about": about, **repeating})
 
     def act(self, value: Any, browser: int | None) -> None:

@@ -1,144 +1,245 @@
 // The widget "form": fields of a message and its YAML, a button that sends it, history and presets.
 
-import { el, set, setText } from "webviz/dom.js";
+import { permission } from "webviz/controls/permission.js";
+import { el, set } from "webviz/dom.js";
 import { textButton } from "webviz/icons.js";
 import { messageRows } from "webviz/panels/message_rows.js";
+import { computed, each, effect, signal } from "webviz/signals.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
+ * `use` says what sending is, such as "call /calibrate"; what is refused is shown before the fields.
+ *
  * @typedef {{
- *   verb: string, name: string, label: string, names: string[], about: string, yaml: string,
+ *   verb: string, use: string, name: string, label: string, names: string[], about: string, yaml: string,
  *   fields: {path: string, text: string}[], history: string[], presets: Record<string, string>,
  *   problem: string, outcome: string, failed: boolean, repeats?: boolean, rate?: number, response?: any,
  * }} Form
+ * @typedef {() => Form} Read
+ * @typedef {(value: object) => unknown} Send
  */
 
-let forms = 0;
+/** @type {Form} */
+const NONE = {
+  ...{ verb: "", use: "", name: "", label: "", names: [], about: "", yaml: "", fields: [] },
+  ...{ history: [], presets: {}, problem: "", outcome: "", failed: false },
+};
+const HEIGHT = "200px"; // of the response
+
+const forms = { count: 0 };
 
 /** @param {Page} page */
-export default function install({ widget }) {
-  widget("form", (_, send) => {
-    forms += 1;
-    /** @type {Form | null} */
-    let shown = null;
-    const names = el("datalist", { id: `wv-sending-${forms}` });
-    /** @type {HTMLInputElement} */
-    const name = el("input", {
-      class: "wv-field",
-      type: "text",
-      list: names.id,
-      onchange: () => send({ name: name.value }),
-    });
-    const label = el("span", { class: "wv-quiet" });
-    const about = el("div", { class: "wv-quiet" });
-    const fields = el("div", { class: "wv-sending-fields" });
-    /** @type {HTMLTextAreaElement} */
-    const yaml = el("textarea", {
-      class: "wv-field",
-      "aria-label": "YAML",
-      spellcheck: "false",
-      onchange: () => send({ yaml: yaml.value }),
-    });
-    const said = el("div", { class: "wv-sending-said", role: "status" });
-    const go = textButton("", () => send({}));
-    const repeat = textButton("Repeat", () => send({ repeat: !shown?.repeats }), { hidden: true });
-    const reset = textButton("Defaults", () => send({ reset: true }));
-    const before = el("select", {
-      class: "wv-field",
-      "aria-label": "History and presets",
-      onchange: () => {
-        const [from, which] = [before.value[0], before.value.slice(1)];
-        if (from === "p") send({ preset: which });
-        else if (from === "h") send({ yaml: shown?.history[Number(which)] ?? "" });
-        before.value = "";
-      },
-    });
-    const keep = el("input", {
-      class: "wv-field",
-      type: "text",
-      placeholder: "Save as preset",
-      "aria-label": "Name of a preset",
-      onchange: () => {
-        send({ keep: keep.value });
-        keep.value = "";
-      },
+export default function install(page) {
+  page.widget("form", (_, send) => {
+    const shown = signal(NONE);
+    const form = () => shown.value;
+    const name = computed(() => (form().name.startsWith("/") ? form().name : ""));
+    const right = permission({
+      name: () => name.value,
+      use: () => form().use,
     });
     const response = messageRows({ label: "Response", topic: () => "" });
-    set(response.element, { hidden: true });
-
-    /** @param {Form} form */
-    function showFields(form) {
-      fields.replaceChildren(
-        ...form.fields.flatMap(({ path, text }) => {
-          /** @type {HTMLInputElement} */
-          const input = el("input", {
-            class: "wv-field",
-            type: "text",
-            "aria-label": path,
-            value: text,
-            onchange: () => send({ field: [path, input.value] }),
-          });
-          return [el("span", { class: "wv-ellipsis", "data-tip": path }, path), input];
-        }),
-      );
-    }
-
-    /** @param {Form} form */
-    function showBefore({ history, presets }) {
-      const options = [
-        el("option", { value: "" }, "History and presets"),
-        ...Object.keys(presets).map((each) => el("option", { value: `p${each}` }, each)),
-        ...history.map((text, i) => {
-          const line = text.replaceAll("\n", " ").slice(0, 60);
-          return el("option", { value: `h${i}` }, line);
-        }),
-      ];
-      before.replaceChildren(...options);
-    }
-
+    response.element.style.height = HEIGHT;
+    set(response.element, { hidden: () => !form().response });
     const element = el(
       "div",
       { class: "wv-sending" },
-      el("label", { class: "wv-plugin-line" }, label, name),
-      names,
-      about,
-      fields,
-      yaml,
-      said,
-      el("div", { class: "wv-plugin-bar" }, go, repeat, reset),
-      el("div", { class: "wv-plugin-bar" }, before, keep),
+      target(form, send),
+      el("div", { class: "wv-quiet" }, () => form().about),
+      right.element,
+      fields(form, send),
+      yaml(form, send),
+      el(
+        "div",
+        {
+          class: "wv-sending-said",
+          role: "status",
+          "data-level": () => (form().problem || form().failed ? "error" : null),
+        },
+        () => form().problem || form().outcome,
+      ),
+      buttons(form, send, right.isRefused),
+      el("div", { class: "wv-plugin-bar" }, before(form, send), preset(send)),
       response.element,
     );
-    response.element.style.height = "200px";
-
-    /** @param {Form} form */
-    function update(form) {
-      if (!form.verb) return;
-      const old = shown;
-      shown = form;
-      setText(label, form.label);
-      set(name, { "aria-label": form.label });
-      if (document.activeElement !== name) name.value = form.name;
-      setText(about, form.about);
-      setText(go, form.verb);
-      set(repeat, { hidden: form.rate === undefined, "aria-pressed": String(!!form.repeats) });
-      if (form.rate !== undefined)
-        setText(repeat, form.repeats ? "Stop" : `Repeat at ${form.rate} Hz`);
-      if (JSON.stringify(old?.names) !== JSON.stringify(form.names))
-        names.replaceChildren(...form.names.map((value) => el("option", { value })));
-      if (JSON.stringify(old?.fields) !== JSON.stringify(form.fields)) showFields(form);
-      if (old?.yaml !== form.yaml) yaml.value = form.yaml;
-      const isSame =
-        JSON.stringify([old?.history, old?.presets]) ===
-        JSON.stringify([form.history, form.presets]);
-      if (!old || !isSame) showBefore(form);
-      setText(said, form.problem || form.outcome);
-      set(said, { "data-level": form.problem || form.failed ? "error" : null });
-      set(response.element, { hidden: !form.response });
-      response.show(form.response ?? null);
-    }
-
-    return { element, update, close: response.close };
+    return {
+      element,
+      update(/** @type {Form} */ values) {
+        if (!values.verb) return;
+        shown.value = values;
+        response.show(values.response ?? null);
+      },
+      close: response.close,
+    };
   });
+}
+
+/**
+ * The name to send to, with those that are offered.
+ *
+ * @param {Read} form
+ * @param {Send} send
+ */
+function target(form, send) {
+  forms.count += 1;
+  const id = `wv-sending-${forms.count}`;
+  /** @type {HTMLInputElement} */
+  const name = el("input", {
+    class: "wv-field",
+    type: "text",
+    list: id,
+    "aria-label": () => form().label,
+    onchange: () => send({ name: name.value }),
+  });
+  effect(() => {
+    const { name: text } = form();
+    if (document.activeElement !== name) name.value = text;
+  });
+  const names = computed(() => form().names);
+  return el(
+    "label",
+    { class: "wv-plugin-line" },
+    el("span", { class: "wv-quiet" }, () => form().label),
+    name,
+    el(
+      "datalist",
+      { id },
+      each(
+        () => new Set(names.value),
+        (each) => each,
+        (_, value) => el("option", { value }),
+      ),
+    ),
+  );
+}
+
+/**
+ * A field for each value of the message.
+ *
+ * @param {Read} form
+ * @param {Send} send
+ */
+function fields(form, send) {
+  const rows = each(
+    () => form().fields,
+    ({ path }) => path,
+    (item, path) => {
+      /** @type {HTMLInputElement} */
+      const input = el("input", {
+        class: "wv-field",
+        type: "text",
+        "aria-label": path,
+        onchange: () => send({ field: [path, input.value] }),
+      });
+      effect(() => {
+        input.value = item.value.text;
+      });
+      return el(
+        "label",
+        { class: "wv-sending-field" },
+        el("span", { class: "wv-ellipsis", "data-tip": path }, path),
+        input,
+      );
+    },
+  );
+  return el("div", { class: "wv-sending-fields" }, rows);
+}
+
+/**
+ * @param {Read} form
+ * @param {Send} send
+ */
+function yaml(form, send) {
+  /** @type {HTMLTextAreaElement} */
+  const area = el("textarea", {
+    class: "wv-field",
+    "aria-label": "YAML",
+    spellcheck: "false",
+    onchange: () => send({ yaml: area.value }),
+  });
+  const text = computed(() => form().yaml);
+  effect(() => {
+    area.value = text.value;
+  });
+  return area;
+}
+
+/**
+ * @param {Read} form
+ * @param {Send} send
+ * @param {() => boolean} isRefused
+ */
+function buttons(form, send, isRefused) {
+  const go = { class: "wv-button", type: "button", disabled: isRefused, onclick: () => send({}) };
+  const repeats = () => form().repeats === true;
+  const repeat = {
+    class: "wv-button",
+    type: "button",
+    hidden: () => form().rate === undefined,
+    disabled: () => isRefused() && !repeats(),
+    "aria-pressed": repeats,
+    onclick: () => send({ repeat: !repeats() }),
+  };
+  return el(
+    "div",
+    { class: "wv-plugin-bar" },
+    el("button", go, () => form().verb),
+    el("button", repeat, () => (repeats() ? "Stop" : `Repeat at ${form().rate} Hz`)),
+    textButton("Defaults", () => send({ reset: true })),
+  );
+}
+
+/**
+ * What was sent before, and presets.
+ *
+ * @param {Read} form
+ * @param {Send} send
+ */
+function before(form, send) {
+  const options = computed(() => JSON.stringify([Object.keys(form().presets), form().history]));
+  /** @type {HTMLSelectElement} */
+  const choice = el(
+    "select",
+    {
+      class: "wv-field",
+      "aria-label": "History and presets",
+      onchange: () => {
+        const [from, which] = [choice.value[0], choice.value.slice(1)];
+        if (from === "p") send({ preset: which });
+        else if (from === "h") send({ yaml: form().history[Number(which)] ?? "" });
+        choice.value = "";
+      },
+    },
+    () => {
+      /** @type {[string[], string[]]} */
+      const [presets, history] = JSON.parse(options.value);
+      return [
+        el("option", { value: "" }, "History and presets"),
+        ...presets.map((name) => el("option", { value: `p${name}` }, name)),
+        ...history.map((text, i) =>
+          el("option", { value: `h${i}` }, text.replaceAll("\n", " ").slice(0, 60)),
+        ),
+      ];
+    },
+  );
+  return choice;
+}
+
+/**
+ * @param {Send} send
+ */
+function preset(send) {
+  /** @type {HTMLInputElement} */
+  const name = el("input", {
+    class: "wv-field",
+    type: "text",
+    placeholder: "Save as preset",
+    "aria-label": "Name of a preset",
+    onchange: () => {
+      send({ keep: name.value });
+      name.value = "";
+    },
+  });
+  return name;
 }

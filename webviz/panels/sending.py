@@ -80,8 +80,8 @@ class SendingPanel(Panel):
         Args:
             panels: all of them.
             type_: of the message, "" if it is unknown.
-            extra: what else pages need: `verb` of the button, `name` and `label` of the target,
-                other `names` to choose from, and `about`, its type or why it has no form.
+            extra: what else pages need: `verb` of the button, `name`, `label` and `use` of the
+                target, other `names` to choose from, and `about`, its type or why it has no form.
         """
         if not extra["name"]:
             extra = {**extra, "about": f"Enter the name of the {self.target}."}

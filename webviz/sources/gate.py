@@ -15,6 +15,7 @@ from webviz.sources.source import Source
 
 ALL = "webviz_all"
 """Stands for `*` while a pattern is resolved like a name."""
+REMEDY = "Let the owner allow it for this session, or"
 _OF_ACTION = "/_action/"
 """Behind the name of an action, in those of its services."""
 
@@ -65,6 +66,7 @@ class Gate:
         self._pause = pause
         self._rights = rights
         self._publish = publish
+        self._session: frozenset[str] = frozenset()
         self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
         self._refusal = functools.lru_cache(maxsize=1000)(self._judged)
 
@@ -72,6 +74,28 @@ class Gate:
     def rights(self) -> Rights:
         """As decided where the viewer was started."""
         return self._rights
+
+    @property
+    def session(self) -> frozenset[str]:
+        """The full names that were allowed since the start; each is one name, never a pattern."""
+        return self._session
+
+    def allow(self, name: str) -> None:
+        """Allow a name until `forbid` or the end of the viewer; from one thread only.
+
+        Args:
+            name: full, as it is compared.
+        """
+        self._session |= {name}
+
+    def forbid(self, name: str) -> None:
+        """Take back what was allowed since the start; from the thread of `allow`."""
+        self._session -= {name}
+
+    def is_open(self, name: str) -> bool:
+        """Return whether `allow` would lift a refusal: only a list stands against the name."""
+        is_live = not isinstance(self._source.graph, ReadOnly)
+        return is_live and self._rights.may_publish and bool(self.lasting_refusal(name))
 
     def refusal(self, name: str) -> str:
         """Why nothing may be sent to a topic, service or action: a sentence; "" if it may.
@@ -84,7 +108,10 @@ class Gate:
     def lasting_refusal(self, name: str) -> str:
         """Why nothing may ever be sent to a name, as far as is known; "" if it may."""
         graph = self._source.graph
-        return graph.reason if isinstance(graph, ReadOnly) else self._refusal(name, self._publish())
+        if isinstance(graph, ReadOnly):
+            return graph.reason
+        is_allowed = self._rights.may_publish and name.partition(_OF_ACTION)[0] in self._session
+        return "" if is_allowed else self._refusal(name, self._publish())
 
     def _judged(self, name: str, narrowed: AllowList | None) -> str:
         """Return the refusal of a name with the list of the current config."""
@@ -103,11 +130,11 @@ class Gate:
         if self._rights.publish is None:
             return (
                 f"No tool or panel of the config that webviz was started with uses {name}. "
-                f"Restart with `--allow-publish {name}`."
+                f"{REMEDY} restart with `--allow-publish {name}`."
             )
         return (
             f"{name} is not in the list `publish` of the config that webviz was started with. "
-            f"Add it there, or use `--allow-publish {name}`, and restart."
+            f"{REMEDY} restart with `--allow-publish {name}`."
         )
 
     def advertise(

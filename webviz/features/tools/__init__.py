@@ -30,10 +30,16 @@ from webviz.sources import Advertisement
 
 MAX_POINTS = 1000
 """Of a gesture."""
+MAX_NAMES = 20
+"""Of a tool, whose rights a page shows."""
 
 
 class ToolStore(PageStore, frozen=True):
-    """The properties of a tool, as `properties` has them of a display."""
+    """The properties of a tool, as `properties` has them of a display.
+
+    Args:
+        sends: full names of the topics, services and actions that it sends to.
+    """
 
     spread: ClassVar = {"values": "value."}
 
@@ -41,6 +47,7 @@ class ToolStore(PageStore, frozen=True):
     type: str
     declared: Form
     values: Mapping[str, Any]
+    sends: Sequence[str]
 
 
 def unheard(topic: str, type: str, values: Mapping[str, Any]) -> None:
@@ -91,6 +98,7 @@ class ToolsFeature(PageFeature):
             type=type(tool).__name__,
             declared=form(type(tool), ("name",)),
             values=values_of(tool, ("name",)),
+            sends=next((button.sends for button in self.buttons() if button.id == id), ()),
         )
 
     def buttons(self) -> tuple[ToolButton, ...]:
@@ -99,10 +107,25 @@ class ToolsFeature(PageFeature):
         for id, tool in self.list.usable().items():
             keys.setdefault(tool.shortcut, id)
         return tuple(
-            _button(
-                id, tool, tool.shortcut if keys[tool.shortcut] == id else "", self._refusal(tool)
-            )
+            self._button(id, tool, tool.shortcut if keys[tool.shortcut] == id else "")
             for id, tool in self.list.usable().items()
+        )
+
+    def _button(self, id: str, tool: Tool, shortcut: str) -> ToolButton:
+        return ToolButton(
+            id=id,
+            name=tool.name,
+            tooltip=_tooltip(type(tool)),
+            shortcut=shortcut,
+            gesture=tool.gesture,
+            icon=tool.icon,
+            surface=tool.surface,
+            stays=tool.stays,
+            asks=tool.asks,
+            refusal=self._refusal(tool),
+            several=tool.several,
+            sends=tuple(self._names(tool)[:MAX_NAMES]),
+            tool=tool,
         )
 
     def statuses(self) -> Mapping[str, Status]:
@@ -162,12 +185,16 @@ class ToolsFeature(PageFeature):
 
     def _refusal(self, tool: Tool) -> str:
         """Why a tool can send nothing, "" if it can or is not known to send anything."""
+        refusals = [self.core.gate.refusal(name) for name in self._names(tool)]
+        return refusals[0] if refusals and all(refusals) else ""
+
+    def _names(self, tool: Tool) -> list[str]:
+        """Return the full names that a tool sends to."""
         names = [advertisement.topic for advertisement in self._advertisements(tool)]
         for name in tool.uses:
             with contextlib.suppress(ValueError):
                 names.append(self.core.player.resolve(name))
-        refusals = [self.core.gate.refusal(name) for name in names]
-        return refusals[0] if refusals and all(refusals) else ""
+        return names
 
     def _advertisements(self, tool: Tool) -> list[Advertisement]:
         """Return the advertisements of a tool whose topics have valid names."""
@@ -197,21 +224,3 @@ def _check(tool: Tool, gesture: Gesture) -> None:
 @functools.cache
 def _tooltip(cls: type[Tool]) -> str:
     return (inspect.getdoc(cls) or "").partition("\n")[0]
-
-
-def _button(id: str, tool: Tool, shortcut: str, refusal: str) -> ToolButton:
-    tooltip = _tooltip(type(tool))
-    return ToolButton(
-        id=id,
-        name=tool.name,
-        tooltip=tooltip,
-        shortcut=shortcut,
-        gesture=tool.gesture,
-        icon=tool.icon,
-        surface=tool.surface,
-        stays=tool.stays,
-        asks=tool.asks,
-        refusal=refusal,
-        several=tool.several,
-        tool=tool,
-    )

@@ -4,6 +4,7 @@ import { act } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
 import { declaredForm, form } from "../../controls/form.js";
 import { disclosure } from "../../controls/disclosure.js";
+import { permission } from "../../controls/permission.js";
 import { el } from "../../dom.js";
 import { iconButton } from "../../icons.js";
 import { ask } from "../../controls/dialog.js";
@@ -121,11 +122,26 @@ const sections = () =>
     (tool, id) =>
       disclosure(
         el("span", {}, () => tool.value.name),
-        () => el("div", {}, properties(id)),
+        () => el("div", {}, rights(id), el("div", {}, properties(id))),
         { class: "wv-tool-properties" },
         signal(true),
       ),
   );
+
+/**
+ * The right to each name that a tool sends to.
+ *
+ * @param {string} tool
+ */
+function rights(tool) {
+  const values = store(`tool:${tool}`);
+  const notices = each(
+    () => new Set(values.get("sends") ?? []),
+    (name) => name,
+    (_, name) => permission({ name: () => name, use: () => `publish on ${name}` }).element,
+  );
+  return el("div", { class: "wv-tool-rights" }, notices);
+}
 
 /** @param {string} tool */
 function properties(tool) {

@@ -33,6 +33,7 @@ class ToolButton(msgspec.Struct, frozen=True):
         asks: whether pages ask before they send a gesture.
         refusal: why it cannot be used, a sentence; "" if it can.
         several: labels of the buttons that send several poses, () if it takes one.
+        sends: full names of the topics, services and actions that it sends to.
         tool: read-only.
     """
 
@@ -47,6 +48,7 @@ class ToolButton(msgspec.Struct, frozen=True):
     asks: bool = False
     refusal: str = ""
     several: tuple[str, ...] = ()
+    sends: tuple[str, ...] = ()
     tool: Tool = msgspec.field(default_factory=Tool)
 
 

@@ -120,14 +120,6 @@ export interface HistoryStep {
   restored: string;
 }
 
-export interface JournalLine {
-  time_s: number;
-  name: string;
-  role: string;
-  address: string;
-  text: string;
-}
-
 export interface Latency {
   id: string;
   name: string;
@@ -153,27 +145,9 @@ export interface PaneCaption {
   hidden?: Array<string>;
 }
 
-export interface PanelCommand {
-  panel: string;
-  widget: string;
-  label: string;
-  key: string;
-}
-
-export interface PanelType {
-  type: string;
-  title: string;
-  about: string;
-  icon: string;
-  opens: string;
-}
-
-export interface Person {
-  name: string;
-  role: string;
-  since_s: number;
-  latency_ms: number | null;
-  drives: Array<string>;
+export interface PermissionRequest {
+  who: string;
+  use: string;
 }
 
 export interface RemedyButton {
@@ -294,11 +268,6 @@ export interface TopicTraffic {
   delay?: number;
 }
 
-export interface ValidLink {
-  role: string;
-  expires_s: number | null;
-}
-
 export interface ValueRange {
   name: string;
   unit: string;
@@ -314,14 +283,12 @@ export interface WorstStatus {
 }
 
 export interface Stores {
-  addresses: { own: {  }; items: string };
   attributions: { own: { texts: Array<string> }; items: never };
   between: { own: { problem?: string; translation?: [number, number, number]; rotation?: [number, number, number, number]; rpy?: [number, number, number]; distance?: number; age?: number | null }; items: never };
   black_box: { own: { saving?: string; saved?: Array<[string, number, string, string]> }; items: never };
   bookmarks: { own: { all?: Array<[string, number]> }; items: never };
   bridges: { own: { all?: Array<[string, string, string]> }; items: never };
   clock: { own: { pace: [number, number, number]; began: [number, number]; is_known: boolean; is_paused: boolean; is_simulated: boolean; hz: number }; items: never };
-  commands: { own: {  }; items: PanelCommand };
   density: { own: { counts: Array<number>; first: number; last: number }; items: never };
   displays: { own: { order: Array<string> }; items: DisplayRow };
   driving: { own: { speed?: number | null; turn_rate?: number | null; problem?: string }; items: never };
@@ -334,18 +301,13 @@ export interface Stores {
   graph: { own: { is_empty: boolean }; items: never };
   handles: { own: {  }; items: SceneHandle };
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
-  journal: { own: { entries: Array<JournalLine> }; items: never };
   latency: { own: { all: Array<Latency> }; items: never };
   layout: { own: { saved: Array<SavedLayout>; templates: Array<string>; beside: Array<DockedOnPage>; below: Array<DockedOnPage>; over: Array<FloatingOnPage>; width: number; height: number }; items: never };
   legend: { own: {  }; items: Scale };
-  links: { own: {  }; items: ValidLink };
   message: { own: { message?: string | Record<string, unknown> | null; problem?: string; size?: number; received?: number }; items: never };
-  modules: { own: {  }; items: Record<string, string> };
-  panel: { own: { "/order": Array<string>; "/failure": string }; items: Record<string, unknown> };
-  panel_properties: { own: { id?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
-  panels: { own: { "/order": Array<string>; "/types": Array<PanelType> }; items: string };
   panes: { own: { order: Array<string> }; items: PaneCaption };
-  people: { own: {  }; items: Person };
+  permission: { own: { refusal?: string; is_open?: boolean; is_allowed?: boolean; file?: string; requests?: Array<number>; declined?: Array<number> }; items: never };
+  permission_requests: { own: { allowed: Array<string> }; items: PermissionRequest };
   picking: { own: {  }; items: boolean };
   playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; is_opened?: boolean; limit?: number; ahead?: number; held?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null }; items: never };
   properties: { own: { name?: string; type?: string; worst?: WorstStatus | null; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, number | string>; [key: `topic.${string}`]: LiveTopic }; items: never };
@@ -359,7 +321,7 @@ export interface Stores {
   settings: { own: { declared: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; fixed_frame: string; background: [number, number, number] | null; frame_rate: number; views: Array<string>; statuses: Array<StatusLine>; more: number }; items: never };
   sharing: { own: { share: number | null; number: number; level: string; text: string }; items: never };
   statuses: { own: { statuses?: Array<StatusLine>; more?: number }; items: never };
-  tool: { own: { name?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
+  tool: { own: { name?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; sends?: Array<string> }; items: never };
   topics: { own: {  }; items: GraphTopic };
   topics_of: { own: {  }; items: TopicOffer };
   traffic: { own: {  }; items: TopicTraffic };

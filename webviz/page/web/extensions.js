@@ -18,6 +18,7 @@ import { panel } from "./panels/panels.js";
 import { widget } from "./panels/plugin_widgets.js";
 import { listenToPanning } from "./panning.js";
 import { groundAt, onCanvas, planeAt, surfaceAt } from "./scene/ground.js";
+import { root } from "./signals.js";
 import { csvText } from "./csv.js";
 import { download } from "./download.js";
 import { timeOfDay } from "./time_text.js";
@@ -140,19 +141,24 @@ function ownPanel({ name, title, isOnDemand = false, open }) {
 }
 
 /**
- * The values of a widget are one value of JSON in either direction.
+ * The values of a widget are one value of JSON in either direction; its effects end with it.
  *
  * @param {MakeOwn} make
  * @returns {MakeWidget}
  */
-const ownWidget = (make) => (values, send) => {
-  const made = make(values.values, (value) => send(JSON.stringify(value)));
-  if (!(made?.element instanceof Element && made.update)) return failed();
-  return {
-    ...made,
-    update: (now, store, id) => made.update(now.values, (key) => store.get(`${id}/${key}`)),
-  };
-};
+const ownWidget = (make) => (values, send) =>
+  root((end) => {
+    const made = make(values.values, (value) => send(JSON.stringify(value)));
+    if (!(made?.element instanceof Element && made.update)) return failed();
+    return {
+      ...made,
+      update: (now, store, id) => made.update(now.values, (key) => store.get(`${id}/${key}`)),
+      close() {
+        end();
+        made.close?.();
+      },
+    };
+  });
 
 const failed = () => ({
   element: el("div", { class: "wv-quiet" }, "This widget failed."),

@@ -197,9 +197,11 @@ export interface Watch {
 export interface Commands {
   AddDisplay: { type: string; values?: Record<string, unknown>; group?: string };
   AddPanel: { type: string; values?: Record<string, unknown> };
+  Allow: { name: string; always?: boolean };
+  AskOwner: { name: string };
   CancelGoal: { goal: string };
   ChangeView: { key: string; value: unknown };
-  Dismiss: { visitor: number; revokes: boolean };
+  Decline: { name: string };
   DismissGoal: { goal: string };
   DragHandle: { display: string; drag: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   DuplicateDisplay: { display: string };
@@ -208,8 +210,8 @@ export interface Commands {
   FindFrame: Record<string, never>;
   FocusDisplay: { display: string };
   FocusFrame: { frame: string };
+  Forbid: { name: string };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
-  Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
   ListMoment: Record<string, never>;
   ListReport: { with_names?: boolean };
   Load: { text: string; name: string };
@@ -230,7 +232,6 @@ export interface Commands {
   ResetDisplay: { display: string };
   ResetView: Record<string, never>;
   ReturnToLive: Record<string, never>;
-  Revoke: { name: string };
   Save: { path?: string };
   SaveBookmark: { name: string; at_s?: number | null };
   SaveImage: { name?: string };
@@ -261,7 +262,6 @@ export interface Commands {
   Undo: { steps?: number; own?: boolean };
   UseTemplate: { template: string };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
-  UseWidget: { panel: string; widget: string; value?: boolean | string | null };
   WriteDisplays: { displays: Array<string> };
 }
 
