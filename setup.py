@@ -127,6 +127,7 @@ setup(
             "ZedOdDisplay = webviz_displays.zed:ZedOdDisplay",
         ],
         "webviz.features": [
+            "bags = webviz.features.bags:BagsFeature",
             "black_box = webviz.features.black_box:BlackBoxFeature",
             "bridges = webviz.features.bridges:BridgesFeature",
             "driving = webviz.features.driving:DrivingFeature",
@@ -134,6 +135,7 @@ setup(
             "handles = webviz.features.handles:HandlesFeature",
             "latency = webviz.features.latency:LatencyFeature",
             "layouts = webviz.features.layouts:LayoutsFeature",
+            "outputs = webviz.features.outputs:OutputsFeature",
             "panels = webviz.features.panels:PluginPanels",
             "people = webviz.features.people:People",
             "plugins = webviz.features.plugins:PluginsFeature",

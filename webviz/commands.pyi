@@ -224,7 +224,14 @@ class InspectTransforms(Command, frozen=True):
     between: frozenset[tuple[str, str]] = ...
 
 class ListMoment(Command, frozen=True):
-    """Answer with what `ShareMoment` would write, one line per part."""
+    """Answer with what `ShareMoment` would write, one line per part.
+
+    Args:
+        before_s, after_s: as those of `ShareMoment`.
+    """
+
+    before_s: float | None = ...
+    after_s: float | None = ...
 
 class ListName(Command, frozen=True):
     """Have the list of the config contain a name, unless a config without one uses it."""
@@ -285,10 +292,13 @@ class OpenPanels(Command, frozen=True):
     panels: frozenset[str]
 
 class OpenRecording(FileCommand, frozen=True):
-    """Play a recording in the place of live topics, until `ReturnToLive`.
+    """Play a recording, or that of a bug report, in the place of live topics.
+
+    `ReturnToLive` ends it; live topics are remembered meanwhile.
 
     Args:
-        path: a file or folder. Browsers can choose only those of the black box.
+        path: a file or folder. Browsers can choose those of the library, of the black box, and
+            what this viewer wrote.
     """
 
     path: str
@@ -317,6 +327,19 @@ class Publish(Command, frozen=True):
     values: Mapping[str, Any]
     report: Callable[[Status], None] = ...
     latched: bool = ...
+
+class ReadOutput(Command, frozen=True):
+    """Answer with a part of a file that was written, in base64.
+
+    Args:
+        number: of the output.
+        file: index of the file, of a folder with several.
+        offset: of the part, in bytes.
+    """
+
+    number: int
+    file: int = ...
+    offset: int = ...
 
 class Redo(Command, frozen=True):
     """Do again what was taken back.
@@ -588,9 +611,13 @@ class ShareMoment(Command, frozen=True):
     Args:
         path: of the file, only for programs; "" is one in the working folder, named by the
             time.
+        before_s, after_s: seconds around the moment; without, the selected span or half a
+            minute of a bag, and all that is remembered of live topics.
     """
 
     path: str = ...
+    before_s: float | None = ...
+    after_s: float | None = ...
 
 class ShowView(Command, frozen=True):
     """Show a view.

@@ -116,7 +116,9 @@ def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
         assert bench.viewer._core.player.inbox is bench.source.inbox, "live without any memory"
 
 
-def test_a_page_opens_recordings_of_the_black_box_alone(drive: Callable[..., Drive]) -> None:
+def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(
+    drive: Callable[..., Drive],
+) -> None:
     live = drive(recorded(4))
     live.do(SaveMemory(path="saved"))
     Path(FOLDER).mkdir()
@@ -124,7 +126,8 @@ def test_a_page_opens_recordings_of_the_black_box_alone(drive: Callable[..., Dri
     page = Sender(1)
     for path in ("saved", f"{FOLDER}/../saved", FOLDER, "/"):
         assert refusal(live, OpenRecording(path), page) == (
-            "A page can open only recordings in webviz_black_box."
+            "Not opened: pages open bags of the library and those that this viewer wrote. Start "
+            "webviz with --library to name its folder."
         )
     assert refusal(live, OpenRecording(str(Path(FOLDER).absolute() / "one")), page) == "None"
     assert live.playback.names == ("one",)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import time
+from dataclasses import dataclass
 from typing import Any
 
 import msgspec
@@ -12,6 +13,17 @@ import websockets.sync.client
 from tests.scene.conftest import HasPort, Peer
 
 PATIENCE_S = 60.0
+
+
+@dataclass
+class Served:
+    """The port of a viewer, for those that join it."""
+
+    port: int
+
+    def get_port(self) -> int:
+        """Return it."""
+        return self.port
 
 
 class Connections:

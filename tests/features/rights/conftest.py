@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import pytest
 from waiting import until
 
 import webviz
-from tests.support.guest import Guest
+from tests.support.guest import Guest, Served
 from webviz import commands
 from webviz.api.roles import Role
 from webviz.data.messages import encode, interfaces
@@ -27,17 +26,6 @@ class OfferingGraph(RememberingGraph):
     def services(self) -> dict[str, str]:
         """Return the services."""
         return {CALIBRATE: TRIGGER}
-
-
-@dataclass
-class Served:
-    """The port of a viewer."""
-
-    port: int
-
-    def get_port(self) -> int:
-        """Return it."""
-        return self.port
 
 
 class House:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import re
 import threading
 from collections.abc import Callable, Iterator
@@ -18,7 +19,7 @@ from playwright.sync_api import expect
 from waiting import until
 
 import webviz
-from webviz.commands import Refresh, ShareMoment, StopSharing
+from webviz.commands import ListMoment, Refresh, ShareMoment, StopSharing
 from webviz.data.messages import encode
 from webviz.engine.parts.part import HostProgram
 from webviz.features.sharing import SharingState
@@ -33,15 +34,24 @@ PATIENCE_S = 120.0
 
 
 @pytest.fixture
-def live() -> Iterator[webviz.Viewer]:
+def source() -> HandFedSource:
+    return HandFedSource()
+
+
+def feed(source: HandFedSource) -> None:
+    """Receive a path."""
+    source.now += SECOND
+    source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
+
+
+@pytest.fixture
+def live(source: HandFedSource) -> Iterator[webviz.Viewer]:
     """A viewer of live topics that has received some paths."""
-    source = HandFedSource()
     with webviz.Viewer(port=0, source=source) as viewer:
         viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
         for _ in range(5):
             viewer.do(Refresh())  # after the first one, the topic is subscribed to
-            source.now += SECOND
-            source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
+            feed(source)
         viewer.do(Refresh())
         yield viewer
 
@@ -142,4 +152,62 @@ def test_a_click_shares_the_moment_and_the_view(
     page.wait_for_function("window.webviz?.hasView()")
     expect(page.get_by_label("Go to time")).to_have_value(f"0:00:0{AT_S:.3f}")
     expect(page.get_by_role("button", name="Share this moment")).to_be_hidden()
+    context.close()
+
+
+def listed(viewer: webviz.Viewer, **span: float) -> float:
+    """The seconds that a file would have."""
+    return float(viewer.do(ListMoment(**span)).partition(" ")[0])
+
+
+def test_the_span_of_a_bag_is_chosen(tmp_path: Path) -> None:
+    recorded().write(tmp_path / "run")
+    with webviz.Viewer(port=0, bag=tmp_path / "run") as viewer:
+        viewer.seek(AT_S)
+        assert listed(viewer) == pytest.approx(5.9, abs=0.2)
+        assert listed(viewer, before_s=1.0, after_s=0.5) == 1.5
+        assert listed(viewer, before_s=100.0, after_s=0.0) == pytest.approx(AT_S, abs=0.1)
+
+
+def test_the_last_seconds_of_live_topics_are_chosen(
+    live: webviz.Viewer, source: HandFedSource
+) -> None:
+    def remembered() -> bool:
+        feed(source)
+        return listed(live) > 0.9
+
+    until(remembered, look_s=0.05)
+    assert listed(live, before_s=0.4, after_s=0.0) <= 0.5
+
+
+@pytest.mark.parametrize("span", [(0.0, 0.0), (-1.0, 1.0), (math.nan, 1.0), (math.inf, 0.0)])
+def test_what_is_no_span_is_refused(live: webviz.Viewer, span: tuple[float, float]) -> None:
+    for command in (ListMoment, ShareMoment):
+        with pytest.raises(webviz.Error, match="This is not a valid time span"):
+            live.do(command(before_s=span[0], after_s=span[1]))
+
+
+def test_a_page_chooses_the_span_and_cancels(
+    live: webviz.Viewer,
+    browser: playwright.Browser,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    context = browser.new_context(viewport={"width": 1700, "height": 700})
+    page = context.new_page()
+    page.goto(live.url)
+    page.get_by_role("button", name="Share this moment").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_label("All that is remembered")).to_be_checked()
+    dialog.get_by_label("The last 10 s").check()
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(dialog).to_have_count(0)
+    assert list(tmp_path.iterdir()) == []
+    page.get_by_role("button", name="Share this moment").click()
+    dialog.get_by_role("button", name="Share", exact=True).click()
+    expect(page.get_by_text("Sharing…")).to_be_visible()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.get_by_text("Stopped; no file was written.")).to_be_visible()
+    expect(page.get_by_text("Sharing…")).to_be_hidden()
     context.close()

@@ -17,6 +17,7 @@ from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import DeclaredCommand, commands_of
+from webviz.engine.parts.outputs import Outputs
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import Job
@@ -43,10 +44,12 @@ class HostProgram(msgspec.Struct, frozen=True):
     Args:
         offer: lets pages download a file, by its name and content; None without pages.
         plugins: files with plug-ins that were loaded.
+        library: folders whose bags pages may open.
     """
 
     offer: Callable[[str, bytes], object] | None = None
     plugins: Sequence[Path] = ()
+    library: Sequence[Path] = ()
 
 
 NO_PROGRAM = HostProgram()
@@ -90,6 +93,8 @@ class Core:
         """The transforms at the time that is shown."""
         self.now_ns = 0
         """ROS time of the turn, also while paused; 0 while it is unknown."""
+        self.outputs = Outputs()
+        """Files that were written for people."""
         self.offers: Mapping[str, Offer] = {}
         """Publishers and QoS by topic."""
         self.parts: Sequence[Part] = ()

@@ -96,8 +96,14 @@ class PlaybackPart(Part):
         if self._player.advance(is_busy):
             self._start_over()
 
-    def open(self, path: Path) -> Job[BagHistory]:
+    def open(
+        self, path: Path, opened: Callable[[Path], BagHistory] = BagHistory
+    ) -> Job[BagHistory]:
         """Play a recording in the place of live topics.
+
+        Args:
+            path: of it.
+            opened: reads it; called in a thread.
 
         Raises:
             Error: there are none.
@@ -113,7 +119,7 @@ class PlaybackPart(Part):
             player.play()
             return self._stopped(player)
 
-        return Job(lambda: BagHistory(path), then)
+        return Job(lambda: opened(path), then)
 
     def take(self, batches: Batches) -> None:
         """Remember where frames are while a seek passes them, since nothing is drawn."""

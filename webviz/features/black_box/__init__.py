@@ -22,13 +22,10 @@ from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
-from webviz.engine.commands import FileCommand, Sender
-from webviz.engine.feature import Feature, command, store
+from webviz.engine.feature import Feature, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.requests import Job
 from webviz.engine.state import Row
 from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import LEVEL_TYPES
@@ -44,7 +41,6 @@ from webviz.features.recording import new_folder
 from webviz.files.config import Settings, WatchRule
 from webviz.files.config import nearest as nearest_name
 from webviz.sources import Subscriber, Subscription
-from webviz.sources.bag.history import BagHistory
 from webviz.sources.recording import Entry, Recorder, Remembered
 from webviz.sources.recording.memory import MemoryHistory
 from webviz.sources.recording.recent import OVERHEAD
@@ -161,18 +157,6 @@ class BlackBoxFeature(Feature):
         """Return recordings that rules made, None without any rule or recording."""
         box = None if self._memory is None else self._recordings()
         return black_box_store(box, bool(self._settings.watch))
-
-    @command(Role.OWNER, FileCommand)
-    def open_recording(self, path: str, sender: Sender) -> Job[BagHistory]:
-        """Play a recording in the place of live topics, until `ReturnToLive`.
-
-        Args:
-            path: a file or folder. Browsers can choose only those of the black box.
-        """
-        place = Path(path)
-        if sender.browser is not None and place.absolute().parent != Path(FOLDER).absolute():
-            raise Error(f"A page can open only recordings in {FOLDER}.")
-        return self.core.get(PlaybackPart).open(place)
 
     def statuses(self) -> Mapping[str, Status]:
         """Reasons why nothing is saved, and rules that are about nothing."""

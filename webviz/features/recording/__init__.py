@@ -203,7 +203,7 @@ class RecordingFeature(Feature):
         return Job(lambda: new_folder(place), then)
 
     @command(Role.OWNER, FileCommand)
-    def stop_recording(self) -> Job[None]:
+    def stop_recording(self, sender: Sender) -> Job[None]:
         """Complete the recording."""
         recorder = self._recorder
         if recorder is None:
@@ -213,7 +213,9 @@ class RecordingFeature(Feature):
         def then(_: None) -> str:
             if recorder.problem:
                 raise Error(recorder.problem)
-            return f"Recorded {counted(recorder.messages, 'message')} to {recorder.path.name}."
+            text = f"Recorded {counted(recorder.messages, 'message')} to {recorder.path.name}."
+            self.core.outputs.add(recorder.path, "recording", text, sender)
+            return text
 
         return Job(recorder.close, then)
 
@@ -255,7 +257,9 @@ class RecordingFeature(Feature):
             )  # latched ones have the time of the first
             span = f"{(last.received_ns - first.received_ns) / 1e9:.0f} s"
             what = f"all {span} of the timeline" if is_held else f"the last {span}"
-            return f"Saved {what} to {recorder.path.name}."
+            text = f"Saved {what} to {recorder.path.name}."
+            self.core.outputs.add(recorder.path, "recording", text, sender)
+            return text
 
         return Job(work, then)
 

@@ -103,7 +103,7 @@ class ReportsFeature(Feature):
         selection: tuple[Picks, ...] = (),
         with_names: bool = False,
         path: str = "",
-    ) -> Job[str]:
+    ) -> Job[tuple[Path, str]]:
         """Write a bug report of the moment that is shown.
 
         Args:
@@ -119,7 +119,7 @@ class ReportsFeature(Feature):
         moment = self._moment(sender, selection, with_names)
         doctor = self.core.get(Doctor)
 
-        def work() -> str:
+        def work() -> tuple[Path, str]:
             until_s = time.monotonic() + ROUNDS_S
             doctor.ask()
             while doctor.rounds < ROUNDS and time.monotonic() < until_s:
@@ -127,9 +127,13 @@ class ReportsFeature(Feature):
                 doctor.ask()
             file = Path(path) if path else new_path("webviz_report", ".zip")
             size = write(file, moment, doctor, image)
-            return f"Saved {file.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
+            return file, f"Saved {file.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
 
-        return Job(work, lambda answer: answer)
+        def then(written: tuple[Path, str]) -> str:
+            core.outputs.add(written[0], "report", written[1], sender)
+            return written[1]
+
+        return Job(work, then)
 
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
         core, rows = self.core, self.core.get(DisplaysPart).rows

@@ -24,7 +24,7 @@ from webviz.engine.forms import sendable
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, HostProgram
-from webviz.engine.parts.shown_moment import as_seen, slice_around
+from webviz.engine.parts.shown_moment import as_seen, margins, slice_around
 from webviz.engine.store import PageStore
 from webviz.features.sharing.exporting import SharedMoment, export
 from webviz.files import config as config_file
@@ -47,6 +47,8 @@ class _Running(msgspec.Struct):
 
     stopped: threading.Event
     done: Future[str]
+    path: Path
+    sender: Sender
     share: float = 0.0
 
 
@@ -97,6 +99,7 @@ class SharingFeature(Feature):
         level = Level.OK if error is None else Level.ERROR
         if error is None:
             text = running.done.result()
+            self.core.outputs.add(running.path, "shared", text, running.sender)
         else:
             known = isinstance(error, Error)
             text = str(error) if known else self.core.guard.note("Share", error)
@@ -122,9 +125,13 @@ class SharingFeature(Feature):
             wait([self._running.done], ENDING_S)
 
     @command(Role.OWNER)
-    def list_moment(self) -> str:
-        """Answer with what `ShareMoment` would write, one line per part."""
-        part, source = slice_around(self.core.player)
+    def list_moment(self, before_s: float | None = None, after_s: float | None = None) -> str:
+        """Answer with what `ShareMoment` would write, one line per part.
+
+        Args:
+            before_s, after_s: as those of `ShareMoment`.
+        """
+        part, source = slice_around(self.core.player, margins(before_s, after_s))
         displays = sum(row.type != "Group" for row in self.core.get(DisplaysPart).rows)
         of = "memory" if source == "live" else "the bag"
         return "\n".join(
@@ -137,12 +144,20 @@ class SharingFeature(Feature):
         )
 
     @command(Role.OWNER)
-    def share_moment(self, sender: Sender, path: str = "") -> str:
+    def share_moment(
+        self,
+        sender: Sender,
+        path: str = "",
+        before_s: float | None = None,
+        after_s: float | None = None,
+    ) -> str:
         """Begin to write the moment that is shown, and the time around it, as one HTML file.
 
         Args:
             path: of the file, only for programs; "" is one in the working folder, named by the
                 time.
+            before_s, after_s: seconds around the moment; without, the selected span or half a
+                minute of a bag, and all that is remembered of live topics.
         """
         core, files = self.core, self.core.get(FilesPart)
         if core.host.offer is None:
@@ -151,7 +166,7 @@ class SharingFeature(Feature):
             raise Error("A page cannot choose the file to share.")
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
-        part, _ = slice_around(core.player)
+        part, _ = slice_around(core.player, margins(before_s, after_s))
         config = as_seen(files.config(), core, sender)
         made = Path(path).absolute() if path else new_path("webviz_run", ".html")
         name = files.path.name if files.path else ""
@@ -164,7 +179,7 @@ class SharingFeature(Feature):
             running.share = share
 
         try:
-            running = self._running = _Running(stopped, _exports.start(work))
+            running = self._running = _Running(stopped, _exports.start(work), made, sender)
         except OSError as error:
             raise Error(f"Failed: {error.strerror}.") from error
         return f"Making {made.name}. Panels and scene stay usable meanwhile."

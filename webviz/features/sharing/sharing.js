@@ -2,138 +2,198 @@
 
 import { needs, onRole, why } from "../../access.js";
 import { act } from "../../act.js";
-import { el, set, setText } from "../../dom.js";
-import { icon } from "../../icons.js";
-import { action } from "../../shell/actions.js";
 import { openDialog } from "../../controls/dialog.js";
+import { el, newId } from "../../dom.js";
+import { icon, textButton } from "../../icons.js";
+import { overlay } from "../../overlay/overlay.js";
+import { action } from "../../shell/actions.js";
 import { timeBarButton } from "../../shell/time_bar.js";
+import { effect, root, signal } from "../../signals.js";
+import { store, watch } from "../../stores.js";
 import { toast } from "../../toasts.js";
-import { watch } from "../../stores.js";
 
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {Signal} from "../../signals.js" */
+
+/** Seconds before and after the moment; null for what is shared unless one chooses. @typedef {[number, number] | null} Span */
 
 const NAME = "Share this moment";
 const TIP = "Make one file of what you see, which opens in any browser without webviz";
+const QUIET = /** @type {const} */ ({ quiet: true, errors: "caller" });
+const ABOUT =
+  "One HTML file of at most 50 MB, which this browser downloads and webviz keeps in its working " +
+  "folder. It opens in any browser, without webviz or a network, and contains:";
+/** @type {[string, Span][]} */
+const OF_BAG = [
+  ["30 s before and 5 s after, or the span selected on the timeline", null],
+  ["10 s before and 5 s after", [10, 5]],
+  ["2 min before and 30 s after", [120, 30]],
+];
+/** @type {[string, Span][]} */
+const OF_LIVE = [
+  ["All that is remembered", null],
+  ["The last 30 s", [30, 0]],
+  ["The last 10 s", [10, 0]],
+];
 
-let isBag = false; // of which a span can be selected
-let isAlone = false; // a bag in whose place no live topics can be
-/** @type {number | null} */
-let done = null; // the share of the work, while a file is made
-let isMine = false; // whether this page has asked for it
+const playback = store("playback");
+const sharing = store("sharing");
+
+/** The share of the work that is done while a file is made, else null; read in effects. */
+const done = () => sharing.get("share") ?? null;
+const isBag = () => playback.get("is_live") === null;
 
 export function install() {
-  timeBarButton(button());
+  const mine = signal(false); // whether this page has asked for the file
+  timeBarButton(button(mine));
   action({
-    name: `${NAME}…`,
-    icon: "upload",
-    group: "Time",
-    needs: "ShareMoment",
-    run: toggle,
+    ...{ name: `${NAME}…`, icon: "upload", group: "Time", needs: "ShareMoment" },
+    run: () => openShare(mine),
+  });
+  onRole(() => {
+    if (why("ShareMoment")) return;
+    overlay("scene", "sharing", progress());
+    tellEnds(mine);
   });
 }
 
-/** Asks whether to share the moment, or stops the file that is being made. */
-const toggle = () => (done === null ? openShare() : act("StopSharing"));
-
-/** The button; hidden where there is nothing to share, and in a file that was shared. */
-function button() {
-  let isThere = false;
-  let known = -1; // how many had ended
-
-  const label = el("span", { class: "wv-number" });
-  const element = el(
-    "button",
-    { type: "button", class: "wv-button wv-share", hidden: true, onclick: toggle },
-    icon("upload", 14),
-    label,
-  );
-
-  function show() {
-    const isRunning = done !== null;
-    element.hidden = !isThere || Boolean(window.webvizRun);
-    setText(label, isRunning ? `Sharing… ${Math.round((done ?? 0) * 100)} %` : NAME);
-    set(element, {
-      "aria-label": isRunning ? "Stop making the file to share" : NAME,
-      "data-alone": isAlone,
-      "data-tip": isRunning ? "Click to stop" : TIP,
-    });
-  }
-
-  watch("playback", (values) => {
-    isThere = values.has("start");
-    isBag = values.get("is_live") === null;
-    isAlone = isBag && !values.get("is_opened");
-    show();
-  });
-  /** @param {ValuesOf<"sharing">} values */
-  function follow(values) {
+/** Says how each file has ended, and downloads that of this page.
+ *
+ * @param {Signal<boolean>} mine
+ */
+function tellEnds(mine) {
+  const known = { number: -1 };
+  watch("sharing", (values) => {
     const number = values.get("number");
     if (number === undefined) return;
-    done = values.get("share") ?? null;
-    if (known >= 0 && number > known) {
-      const isMade = values.get("level") === "ok";
+    if (known.number >= 0 && number > known.number) {
+      const level = values.get("level");
+      const isMade = level === "ok";
       const action = isMade ? { label: "Download", run: fetchFile } : null;
-      toast(values.get("text") ?? "", { level: values.get("level"), action });
-      if (isMade && isMine) fetchFile();
-      isMine = false;
+      // The card of a file says it on the page that has asked for it.
+      if (!isMade || !mine.value) toast(values.get("text") ?? "", { level, action });
+      if (isMade && mine.value) fetchFile();
+      mine.value = false;
     }
-    known = number;
-    show();
-  }
-
-  onRole(() => {
-    if (!why("ShareMoment")) watch("sharing", follow);
+    known.number = number;
   });
-  show();
-
-  return needs("ShareMoment", element);
 }
+
+/** How far the file is, with a button that cancels it. */
+const progress = () =>
+  el(
+    "section",
+    { class: "wv-card wv-sharing", role: "status", hidden: () => done() === null },
+    el("progress", { max: 1, value: () => done() ?? 0, "aria-label": "Share of the file" }),
+    el("span", {}, () => `Sharing… ${Math.round((done() ?? 0) * 100)} %`),
+    textButton("Cancel", () => act("StopSharing")),
+  );
+
+/**
+ * The button; hidden where there is nothing to share, and in a file that was shared.
+ *
+ * @param {Signal<boolean>} mine
+ */
+const button = (mine) =>
+  needs(
+    "ShareMoment",
+    el(
+      "button",
+      {
+        type: "button",
+        class: "wv-button wv-share",
+        hidden: () => !playback.has("start") || Boolean(window.webvizRun),
+        disabled: () => done() !== null,
+        "data-alone": () => isBag() && !playback.get("is_opened"),
+        "data-tip": TIP,
+        "aria-label": NAME,
+        onclick: () => openShare(mine),
+      },
+      icon("upload", 14),
+      el("span", { class: "wv-number" }, NAME),
+    ),
+  );
 
 /** Downloads the last file that was made; the page may be at a path of a proxy. */
 const fetchFile = () => el("a", { href: "shared", download: "" }).click();
 
-/** Shows what a file would contain; begins to make it once that is confirmed. */
-function openShare() {
-  const list = el("ul", { class: "wv-report" });
-  const problem = el("p", { class: "wv-problem", role: "alert" });
+/** @param {Span} span */
+const fieldsOf = (span) => (span ? { before_s: span[0], after_s: span[1] } : {});
 
-  async function show() {
-    const { level, text } = await act("ListMoment", {}, { quiet: true, errors: "caller" });
-    const isBad = level === "error";
-    setText(problem, isBad ? text : "");
-    list.replaceChildren(...(isBad ? [] : text.split("\n").map((line) => el("li", {}, line))));
-  }
-
-  async function begin() {
-    const { level, text } = await act("ShareMoment", {}, { quiet: true, errors: "caller" });
-    setText(problem, level === "error" ? text : "");
-    isMine = level !== "error";
-    if (isMine) toast(text, { level });
-    return isMine;
-  }
-
-  show();
-  return openDialog({
-    title: NAME,
-    className: "wv-report-dialog",
-    content: [
-      el(
-        "p",
-        { class: "wv-quiet" },
-        "One HTML file of at most 50 MB, which this browser downloads and webviz keeps in its working " +
-          "folder. It opens in any browser, without webviz or a network, and contains:",
-      ),
-      list,
-      el(
-        "p",
-        { class: "wv-quiet" },
-        isBag ? "To share another time span, select it: drag with Shift on the timeline." : "",
-      ),
-      problem,
-    ],
-    buttons: [
-      { label: "Cancel", value: null },
-      { label: "Share", value: true, primary: true, accept: begin },
-    ],
+/**
+ * Shows what a file would contain; begins to make it once that is confirmed.
+ *
+ * @param {Signal<boolean>} mine
+ */
+const openShare = (mine) =>
+  root(async (end) => {
+    /** @type {Signal<Span>} */
+    const span = signal(/** @type {Span} */ (null));
+    const problem = signal("");
+    async function begin() {
+      const { level, text } = await act("ShareMoment", fieldsOf(span.value), QUIET);
+      problem.value = level === "error" ? text : "";
+      mine.value = level !== "error";
+      return mine.value;
+    }
+    await openDialog({
+      title: NAME,
+      className: "wv-report-dialog",
+      content: [
+        spans(span),
+        el("p", { class: "wv-quiet" }, ABOUT),
+        contents(span, problem),
+        el("p", { class: "wv-problem", role: "alert" }, problem),
+      ],
+      buttons: [
+        { label: "Cancel", value: null },
+        { label: "Share", value: true, primary: true, accept: begin },
+      ],
+    });
+    end();
   });
+
+/**
+ * The choice of the time span; the past of live topics is shared as a whole.
+ *
+ * @param {Signal<Span>} span
+ */
+function spans(span) {
+  const name = newId("span");
+  const choices = isBag() ? OF_BAG : playback.get("is_live") ? OF_LIVE : [];
+  return el(
+    "fieldset",
+    { class: "wv-spans", hidden: !choices.length },
+    el("legend", {}, "Time"),
+    choices.map(([label, value], i) => {
+      const choose = () => {
+        span.value = value;
+      };
+      return el(
+        "label",
+        {},
+        el("input", { type: "radio", name, checked: i === 0, onchange: choose }),
+        label,
+      );
+    }),
+  );
+}
+
+/**
+ * The parts of the file with the chosen span.
+ *
+ * @param {Signal<Span>} span
+ * @param {Signal<string>} problem
+ */
+function contents(span, problem) {
+  /** @type {Signal<string[]>} */
+  const lines = signal(/** @type {string[]} */ ([]));
+  effect(() => {
+    const wanted = span.value;
+    act("ListMoment", fieldsOf(wanted), QUIET).then(({ level, text }) => {
+      if (span.value !== wanted) return; // another was chosen meanwhile
+      problem.value = level === "error" ? text : "";
+      lines.value = level === "error" ? [] : text.split("\n");
+    });
+  });
+  return el("ul", { class: "wv-report" }, () => lines.value.map((line) => el("li", {}, line)));
 }

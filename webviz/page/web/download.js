@@ -1,4 +1,4 @@
-// Texts as files of the browser.
+// Files of the browser.
 
 import { el } from "./dom.js";
 
@@ -8,8 +8,16 @@ import { el } from "./dom.js";
  * @param {string} name
  * @param {string} text
  */
-export function download(name, text) {
-  const link = el("a", { download: name, href: URL.createObjectURL(new Blob([text])) });
+export const download = (name, text) => save(name, new Blob([text]));
+
+/**
+ * Saves bytes as a file with this name.
+ *
+ * @param {string} name
+ * @param {Blob} blob
+ */
+export function save(name, blob) {
+  const link = el("a", { download: name, href: URL.createObjectURL(blob) });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }

@@ -202,6 +202,7 @@ export interface Commands {
   CancelGoal: { goal: string };
   ChangeView: { key: string; value: unknown };
   Decline: { name: string };
+  Dismiss: { visitor: number; revokes: boolean };
   DismissGoal: { goal: string };
   DragHandle: { display: string; drag: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   DuplicateDisplay: { display: string };
@@ -212,7 +213,8 @@ export interface Commands {
   FocusFrame: { frame: string };
   Forbid: { name: string };
   Identify: { picks: { group: string; key: string; items: Array<[number, number | null, [number, number, number], [number, number, number] | null]> } };
-  ListMoment: Record<string, never>;
+  Invite: { name: string; role: "operator" | "owner" | "watcher"; days: number | null; url: string };
+  ListMoment: { before_s?: number | null; after_s?: number | null };
   ListReport: { with_names?: boolean };
   Load: { text: string; name: string };
   LookUpTransform: { target: string; source: string };
@@ -221,6 +223,7 @@ export interface Commands {
   OpenRecording: { path: string };
   Pause: { paused?: boolean };
   Play: Record<string, never>;
+  ReadOutput: { number: number; file?: number; offset?: number };
   Redo: { steps?: number; own?: boolean };
   RemoveBookmark: { name: string };
   RemoveDisplay: { display: string };
@@ -232,6 +235,7 @@ export interface Commands {
   ResetDisplay: { display: string };
   ResetView: Record<string, never>;
   ReturnToLive: Record<string, never>;
+  Revoke: { name: string };
   Save: { path?: string };
   SaveBookmark: { name: string; at_s?: number | null };
   SaveImage: { name?: string };
@@ -251,7 +255,7 @@ export interface Commands {
   SetProperty: { display: string; path: string; value: unknown };
   SetRate: { rate: number };
   SetToolProperty: { tool: string; path: string; value: unknown };
-  ShareMoment: { path?: string };
+  ShareMoment: { path?: string; before_s?: number | null; after_s?: number | null };
   ShowView: { view: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "FrameAligned"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number]; point_towards?: "+x axis" | "+y axis" | "+z axis" | "-x axis" | "-y axis" | "-z axis" | "arbitrary"; lock_camera?: boolean; invert_z_axis?: boolean } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string };
   StartRecording: { path?: string };
   StartWithView: { view?: { type: "Orbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "XYOrbit"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "ThirdPersonFollower"; target_frame?: string; distance?: number; yaw?: number; pitch?: number; focal_point?: [number, number, number]; invert_z_axis?: boolean } | { type: "FPS"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number] } | { type: "FrameAligned"; target_frame?: string; yaw?: number; pitch?: number; position?: [number, number, number]; point_towards?: "+x axis" | "+y axis" | "+z axis" | "-x axis" | "-y axis" | "-z axis" | "arbitrary"; lock_camera?: boolean; invert_z_axis?: boolean } | { type: "TopDownOrtho"; target_frame?: string; scale?: number; angle?: number; x?: number; y?: number } | string | null };
@@ -262,6 +266,7 @@ export interface Commands {
   Undo: { steps?: number; own?: boolean };
   UseTemplate: { template: string };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
+  UseWidget: { panel: string; widget: string; value?: boolean | string | null };
   WriteDisplays: { displays: Array<string> };
 }
 

@@ -76,6 +76,7 @@ class Running(PictureControls):
         autosave: Path | None = None,
         sessions: Sessions | None = None,
         config_folders: Sequence[str | os.PathLike[str]] = (),
+        library: Sequence[str | os.PathLike[str]] = (),
         publish: bool = True,
         allow_publish: Sequence[str] = (),
         certfile: str | os.PathLike[str] | None = None,
@@ -143,7 +144,11 @@ class Running(PictureControls):
                 autosave=autosave,
                 session=session and session.path,
                 restore=bool(sessions and sessions.restore),
-                host=HostProgram(server.shared.offer, [Path(file) for file in plugins]),
+                host=HostProgram(
+                    server.shared.offer,
+                    [Path(file) for file in plugins],
+                    [Path(folder) for folder in library],
+                ),
             )
             self._open_pages(server, allow_hosts, keep)
             self._run_loop(source)

@@ -69,6 +69,7 @@ class Viewer(Running, TimeControls):
         sessions: keeps unsaved changes and restores them at the next start, as the program does;
             None to start with the config as it is saved.
         config_folders: from which ROS may open configs, besides the folder of `config`.
+        library: folders whose bags owners may open in the page.
         publish: whether tools may publish, call services and send goals, as far as the list
             `publish` of the config allows; without it, those that the config uses. Configs opened
             later can only narrow it.

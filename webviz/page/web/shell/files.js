@@ -12,12 +12,16 @@ import { download } from "../download.js";
 import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
 import { toast } from "../toasts.js";
 
+/** @import {Children} from "../types.js" */
 /** @import {Close} from "../controls/dialog.js" */
 /** @import {Commands} from "../messages.js" */
 
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
 const NEW_NAME = "webviz.yaml";
+
+/** @type {((close: Close) => Children[])[]} */
+const sections = [];
 
 const file = store("file");
 
@@ -89,6 +93,14 @@ export function saveAs() {
   });
 }
 
+/**
+ * Adds a section to the dialog "Open": `make(close)` returns its elements; `close({run})` closes it and
+ * runs what was chosen.
+ *
+ * @param {(close: Close) => Children[]} make
+ */
+export const filesSection = (make) => sections.push(make);
+
 export const open = () =>
   root(async (end) => {
     const chosen = await openDialog({
@@ -97,6 +109,7 @@ export const open = () =>
       buttons: [{ label: "Cancel", value: null }],
     });
     end();
+    if (chosen?.run) return chosen.run();
     if (chosen?.upload) return load(chosen.upload);
     if (chosen?.name) return replace(chosen.name, "Open", { path: chosen.name });
   });
@@ -134,6 +147,7 @@ function filesToOpen(close) {
     el("div", { class: "wv-files", role: "group", "aria-label": "Files" }, rows, () =>
       others().length ? null : el("p", { class: "wv-quiet" }, "No config files there."),
     ),
+    ...sections.map((make) => el("section", {}, ...make(close))),
     upload,
     textButton("Upload from this computer", () => upload.click(), {
       class: "wv-button wv-upload",

@@ -1,0 +1,89 @@
+"""Bags that owners open in the page, and what they cannot open."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.features.bags.conftest import Desk
+from webviz.features import black_box
+from webviz.features.bags import BLACK_BOX, NOT_LISTED
+
+
+def test_live_topics_make_room_for_a_bag_and_come_back_with_their_memory(desk: Desk) -> None:
+    assert desk.bags() == ["run.mcap"]
+    before = desk.viewer.state.memory
+    assert desk.guest.do("OpenRecording", path=str(desk.library / "run.mcap")) == ""
+    assert desk.names() == ("run.mcap",)
+    assert desk.guest.do("ReturnToLive") == ""
+    after = desk.viewer.state.memory
+    assert desk.names() == ()
+    assert before
+    assert after
+    assert after.size >= before.size
+
+
+def test_what_is_saved_is_listed_and_opened(desk: Desk) -> None:
+    assert desk.guest.do("SaveMemory").startswith("Saved the last")
+    (saved,) = desk.store("outputs").values()
+    assert desk.bags() == sorted(["run.mcap", saved["name"]])
+    assert desk.guest.do("OpenRecording", path=saved["path"]) == ""
+    assert desk.names() == (saved["name"],)
+
+
+def test_a_report_is_unpacked_and_its_messages_are_played(desk: Desk) -> None:
+    assert desk.guest.do("SaveReport").startswith("Saved webviz_report")
+    (report,) = desk.store("outputs").values()
+    assert desk.guest.do("OpenRecording", path=report["path"]) == ""
+    assert len(desk.names()) == 1
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        *("{outside}/secret.mcap", "{library}/../outside/secret.mcap", "run.mcap", "", "{library}"),
+        *("/etc/passwd", "{library}/run.mcap\0", "{library}/./../outside/secret.mcap"),
+    ],
+)
+def test_no_other_folder_is_readable(desk: Desk, path: str) -> None:
+    wanted = path.format(outside=desk.outside, library=desk.library)
+    assert desk.guest.do("OpenRecording", path=wanted) == NOT_LISTED
+    assert desk.names() == ()
+
+
+def test_links_and_devices_are_neither_listed_nor_opened(desk: Desk) -> None:
+    (desk.library / "link.mcap").symlink_to(desk.outside / "secret.mcap")
+    (desk.library / "folder").symlink_to(desk.outside)
+    os.mkfifo(desk.library / "pipe.mcap")
+    assert "run.mcap" in desk.bags()
+    assert not {"link.mcap", "folder"} & {*desk.bags()}
+    for name in ("link.mcap", "folder"):
+        answer = desk.guest.do("OpenRecording", path=str(desk.library / name))
+        assert "is a link to another folder" in answer
+    answer = desk.guest.do("OpenRecording", path=str(desk.library / "pipe.mcap"))
+    assert answer == "Not opened: pipe.mcap is not a bag. Choose another file."
+    assert desk.names() == ()
+
+
+@pytest.mark.parametrize("content", [b"", b"x" * 1000, b"PK\x05\x06" + b"\xff" * 18])
+def test_what_is_no_bag_is_refused_by_a_sentence(desk: Desk, content: bytes) -> None:
+    for name in ("broken.mcap", "broken.zip", "broken.db3"):
+        (desk.library / name).write_bytes(content)
+        answer = desk.guest.do("OpenRecording", path=str(desk.library / name))
+        assert answer
+        assert "\n" not in answer
+    assert desk.names() == ()
+
+
+def test_a_truncated_bag_is_played_as_far_as_it_goes(desk: Desk) -> None:
+    whole = (desk.library / "run.mcap").read_bytes()
+    (desk.library / "cut.mcap").write_bytes(whole[: len(whole) * 2 // 3])
+    desk.guest.do("OpenRecording", path=str(desk.library / "cut.mcap"))
+    assert desk.guest.do("ReturnToLive") is not None
+
+
+def test_the_black_box_is_part_of_it() -> None:
+    assert BLACK_BOX == black_box.FOLDER
+    assert Path(BLACK_BOX).name == BLACK_BOX

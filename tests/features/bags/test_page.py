@@ -1,0 +1,72 @@
+"""Bags and written files in the page, in a real browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import playwright.sync_api as playwright
+import pytest
+from playwright.sync_api import expect
+from waiting import until
+
+from tests.features.bags.conftest import Desk
+
+
+@pytest.fixture
+def page(desk: Desk, browser: playwright.Browser) -> Iterator[playwright.Page]:
+    context = browser.new_context(
+        viewport={"width": 1280, "height": 720}, permissions=["clipboard-read", "clipboard-write"]
+    )
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(desk.viewer.url)
+    expect(page.get_by_role("button", name="Record", exact=True)).to_be_visible(timeout=60_000)
+    yield page
+    context.close()
+    assert errors == []
+
+
+def test_a_bag_is_opened_beside_configs_and_live_topics_come_back(
+    desk: Desk, page: playwright.Page
+) -> None:
+    page.keyboard.press("Control+o")
+    bags = page.get_by_role("group", name="Bags")
+    expect(bags.get_by_role("button")).to_contain_text(["run.mcap"])
+    bags.get_by_role("button", name="run.mcap").focus()
+    page.keyboard.press("Enter")
+    until(lambda: desk.names() == ("run.mcap",))
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(page.get_by_text("press L to return")).to_be_visible()
+    page.keyboard.press("l")
+    until(lambda: desk.names() == ())
+
+
+def test_what_is_saved_reaches_people(desk: Desk, page: playwright.Page) -> None:
+    page.get_by_role("button", name="Save last").click()
+    card = page.get_by_label("File", exact=True)
+    expect(card).to_contain_text("Saved the last")
+    (saved,) = desk.store("outputs").values()
+    expect(card).to_contain_text(saved["path"])
+    card.get_by_role("button", name="Copy path").click()
+    expect(page.get_by_text("Path copied.")).to_be_visible()
+    assert page.evaluate("navigator.clipboard.readText()") == saved["path"]
+    downloads: list[playwright.Download] = []
+    page.on("download", lambda download: downloads.append(download))
+    card.get_by_role("button", name="Download").click()
+    files = sorted(Path(saved["path"]).iterdir())
+    until(lambda: len(downloads) == len(files), turn=lambda: page.wait_for_timeout(50))
+    for download, file in zip(downloads, files, strict=True):
+        assert download.suggested_filename == file.name
+        assert Path(download.path()).read_bytes() == file.read_bytes()
+    card.get_by_role("button", name="Open here").click()
+    until(lambda: desk.names() == (saved["name"],))
+    expect(card).to_be_hidden()
+
+
+def test_another_page_is_not_disturbed(desk: Desk, page: playwright.Page) -> None:
+    assert desk.guest.do("SaveMemory").startswith("Saved")
+    page.keyboard.press("Control+o")
+    expect(page.get_by_role("group", name="Bags").get_by_role("button")).to_have_count(2)
+    expect(page.get_by_label("File", exact=True)).to_be_hidden()

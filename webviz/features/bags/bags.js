@@ -1,0 +1,64 @@
+// Bags of this machine in the dialog "Open": they are played in the place of live topics.
+
+import { act } from "../../act.js";
+import { el } from "../../dom.js";
+import { icon } from "../../icons.js";
+import { filesSection } from "../../shell/files.js";
+import { each } from "../../signals.js";
+import { store } from "../../stores.js";
+
+/** @import {Close} from "../../controls/dialog.js" */
+/** @import {Bag} from "../../contents.js" */
+/** @import {Signal} from "../../signals.js" */
+
+const NONE = "No bags yet. Start webviz with --library to name a folder that has some.";
+const ALONE = "This viewer was started with a bag. Start it without one to open others here.";
+
+export const install = () => filesSection(section);
+
+/** @param {Close} close */
+function section(close) {
+  const values = store("bags");
+  const bags = () => values.get("bags") ?? [];
+  const note = () => (values.get("can_open") === false ? ALONE : bags().length ? "" : NONE);
+  return [
+    el("h3", {}, "Bags and reports"),
+    el("p", { class: "wv-quiet", hidden: () => !note() || !values.isThere() }, note),
+    el(
+      "div",
+      { class: "wv-files", role: "group", "aria-label": "Bags" },
+      each(
+        bags,
+        ({ path }) => path,
+        (item, path) => row(item, () => close({ run: () => play(path) })),
+      ),
+    ),
+  ];
+}
+
+/** @param {string} path */
+const play = (path) => act("OpenRecording", { path });
+
+/**
+ * @param {Signal<Bag>} item
+ * @param {() => void} choose
+ */
+function row(item, choose) {
+  const about = () => {
+    const { megabytes, changed_s: changed } = item.value;
+    return `${megabytes} MB · ${new Date(changed * 1000).toLocaleString()}`;
+  };
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-file-row wv-bag-row",
+      disabled: () => store("bags").get("can_open") !== true,
+      "data-tip": () => item.value.folder,
+      onclick: choose,
+    },
+    icon("play"),
+    el("span", {}, () => item.value.name),
+    el("span", { class: "wv-quiet" }, about),
+  );
+}
