@@ -61,6 +61,17 @@ class AskOwner(Command, frozen=True):
 
     name: str
 
+class BeginUpload(Command, frozen=True):
+    """Begin to send a bag or a bug report in parts; answered with their `token`.
+
+    Args:
+        name: of the file.
+        size: in bytes.
+    """
+
+    name: str
+    size: int
+
 class CallService(Command, frozen=True):
     """Call a service.
 
@@ -701,6 +712,19 @@ class Undo(Command, frozen=True):
 
     steps: int = ...
     own: bool = ...
+
+class UploadPart(Command, frozen=True):
+    """Send the next part; the answer to the last one has the `path` to open.
+
+    Args:
+        token: of the upload.
+        offset: in bytes.
+        text: the part in base64.
+    """
+
+    token: str
+    offset: int
+    text: str
 
 class UseTemplate(Command, frozen=True):
     """Arrange the panels for a task, and add those that it needs and that are not there.

@@ -63,7 +63,7 @@ OWNING = {
     "StopRecording",
 }
 OWNING |= {"Dismiss", "Invite", "ListReport", "Revoke", "SaveReport"}
-OWNING |= {"ReadOutput", "Allow", "Decline", "Forbid"}
+OWNING |= {"BeginUpload", "UploadPart", "ReadOutput", "Allow", "Decline", "Forbid"}
 OWNING |= {"ListMoment", "ShareMoment", "StopSharing"}
 OF_THE_SERVER = ("Dismiss", "Invite", "Revoke", "UseWidget")
 """Done by itself, without the frame loop."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterator
 from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from bags import strings
 from playwright.sync_api import expect
 from waiting import until
 
@@ -70,3 +72,26 @@ def test_another_page_is_not_disturbed(desk: Desk, page: playwright.Page) -> Non
     page.keyboard.press("Control+o")
     expect(page.get_by_role("group", name="Bags").get_by_role("button")).to_have_count(2)
     expect(page.get_by_label("File", exact=True)).to_be_hidden()
+
+
+DROP = """([name, text]) => {
+  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const data = new DataTransfer();
+  data.items.add(new File([bytes], name));
+  for (const type of ["dragenter", "dragover", "drop"]) {
+    const event = new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true });
+    document.querySelector("#root canvas").dispatchEvent(event);
+  }
+}"""
+
+
+def test_a_bag_that_is_dropped_is_played(desk: Desk, page: playwright.Page, tmp_path: Path) -> None:
+    bag = strings(*(0.01 * i for i in range(2000))).write_file(tmp_path / "dropped.mcap")
+    content = base64.b64encode(bag.read_bytes()).decode()
+    page.evaluate(DROP, ["dropped.mcap", content])
+    until(lambda: desk.names() == ("dropped.mcap",))
+    expect(page.get_by_text("press L to return")).to_be_visible()
+    expect(page.locator(".wv-upload-card")).to_be_hidden()
+    page.evaluate(DROP, ["broken.zip", content])
+    expect(page.get_by_text("is not a bug report")).to_be_visible()
+    assert desk.names() == ("dropped.mcap",)

@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import os
 import shutil
 import tempfile
 import time
-from collections.abc import Sequence, Set
+from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Future
 from pathlib import Path
+from typing import Any, TypeVar
 
 import msgspec
 
 from webviz.api.errors import Error
 from webviz.api.roles import Role
-from webviz.data.disk import in_thread
+from webviz.data.disk import DiskThreads, in_thread
 from webviz.engine.commands import FileCommand, Sender
-from webviz.engine.feature import Feature, command, store
+from webviz.engine.feature import command, store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.playback import PlaybackPart
+from webviz.engine.parts.playback import NO_LIVE, PlaybackPart
 from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
+from webviz.features.bags.uploading import Uploads
 from webviz.files.report import read_report
+from webviz.page.asked import Asked
+from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.sources.bag.history import BagHistory
 
 BLACK_BOX = "webviz_black_box"
@@ -41,6 +46,14 @@ NOT_LISTED = (
     "with --library to name its folder."
 )
 ELSEWHERE = "Not opened: {} is a link to another folder. Copy the bag into the library."
+
+
+PAGES_ONLY = "Only pages upload files. Programs know the path."
+
+_disk = DiskThreads(4)
+"""For files that pages upload."""
+
+T = TypeVar("T")
 
 
 class Bag(msgspec.Struct, frozen=True):
@@ -75,7 +88,7 @@ class BagsStore(PageStore, frozen=True):
     has_library: bool
 
 
-class BagsFeature(Feature):
+class BagsFeature(PageFeature):
     """Opens bags while live topics are remembered, and returns to these."""
 
     name = "Bags"
@@ -89,6 +102,12 @@ class BagsFeature(Feature):
         self._next_s = 0.0
         self._bags: Sequence[Bag] = ()
         self._unpacked: list[Path] = []
+        self._uploads = Uploads()
+
+    def attach(self, dispatcher: Dispatcher) -> None:
+        """Take files of pages, which no frame waits for."""
+        dispatcher.take("BeginUpload", self._begin, is_noted=True)
+        dispatcher.take("UploadPart", self._add)
 
     def watched(self, stores: Set[str]) -> None:
         """List the folders only while a page shows them."""
@@ -134,17 +153,61 @@ class BagsFeature(Feature):
 
         return self.core.get(PlaybackPart).open(place, opened)
 
+    @command(Role.OWNER)
+    def begin_upload(self, name: str, size: int) -> None:
+        """Begin to send a bag or a bug report in parts; answered with their `token`.
+
+        Args:
+            name: of the file.
+            size: in bytes.
+        """
+        raise Error(PAGES_ONLY)
+
+    @command(Role.OWNER)
+    def upload_part(self, token: str, offset: int, text: str) -> None:
+        """Send the next part; the answer to the last one has the `path` to open.
+
+        Args:
+            token: of the upload.
+            offset: in bytes.
+            text: the part in base64.
+        """
+        raise Error(PAGES_ONLY)
+
+    # Called on the event loop
+
+    def _begin(self, asked: Asked, wanted: Any) -> None:
+        if self.core.player.live is None:
+            asked.refuse(NO_LIVE)
+            return
+        begin = functools.partial(self._uploads.begin, asked.browser, wanted.name, wanted.size)
+
+        def answer(done: Future[str]) -> None:
+            if not asked.refused_by(done):
+                asked.answer(f"Uploading {wanted.name}.", token=done.result())
+
+        _start(asked, begin, answer)
+
+    def _add(self, asked: Asked, wanted: Any) -> None:
+        part = (asked.browser, wanted.token, wanted.offset, wanted.text)
+
+        def answer(done: Future[Path | None]) -> None:
+            if not asked.refused_by(done):
+                asked.answer(path=str(done.result() or ""))
+
+        _start(asked, functools.partial(self._uploads.add, *part), answer)
+
     def close(self) -> None:
-        """Remove what was unpacked."""
+        """Remove what was unpacked and uploaded."""
+        self._uploads.close()
         for folder in self._unpacked:
             shutil.rmtree(folder, ignore_errors=True)
 
     def _is_offered(self, place: Path) -> bool:
         if "\0" in str(place) or not place.is_absolute() or ".." in place.parts:
             return False
-        return place.parent in self._folders or any(
-            each.path == place for each in self.core.outputs.all
-        )
+        own = (each.path for each in self.core.outputs.all)
+        return place.parent in self._folders or place in {*own, *self._uploads.complete}
 
     def _bag_of(self, place: Path) -> Path:
         """Return the bag to read; that of a report is unpacked first. Blocks."""
@@ -153,6 +216,14 @@ class BagsFeature(Feature):
         folder = Path(tempfile.mkdtemp(prefix="webviz-report-"))
         self._unpacked.append(folder)
         return read_report(place, folder).bag
+
+
+def _start(asked: Asked, work: Callable[[], T], answer: Callable[[Future[T]], object]) -> None:
+    """Wait for the disk in a thread."""
+    try:
+        _disk.start(work).add_done_callback(answer)
+    except OSError as error:
+        asked.refuse(f"Not uploaded: {error.strerror}. Try again later.")
 
 
 def _refuse_elsewhere(place: Path) -> None:

@@ -6,6 +6,7 @@ import { icon } from "../../icons.js";
 import { filesSection } from "../../shell/files.js";
 import { each } from "../../signals.js";
 import { store } from "../../stores.js";
+import { install as installUpload } from "./upload.js";
 
 /** @import {Close} from "../../controls/dialog.js" */
 /** @import {Bag} from "../../contents.js" */
@@ -14,7 +15,10 @@ import { store } from "../../stores.js";
 const NONE = "No bags yet. Start webviz with --library to name a folder that has some.";
 const ALONE = "This viewer was started with a bag. Start it without one to open others here.";
 
-export const install = () => filesSection(section);
+export function install() {
+  filesSection(section);
+  installUpload();
+}
 
 /** @param {Close} close */
 function section(close) {

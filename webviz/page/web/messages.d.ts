@@ -199,6 +199,7 @@ export interface Commands {
   AddPanel: { type: string; values?: Record<string, unknown> };
   Allow: { name: string; always?: boolean };
   AskOwner: { name: string };
+  BeginUpload: { name: string; size: number };
   CancelGoal: { goal: string };
   ChangeView: { key: string; value: unknown };
   Decline: { name: string };
@@ -264,6 +265,7 @@ export interface Commands {
   StopSharing: Record<string, never>;
   TryFrame: { frame: string; yaw?: number };
   Undo: { steps?: number; own?: boolean };
+  UploadPart: { token: string; offset: number; text: string };
   UseTemplate: { template: string };
   UseTool: { tool: string; points: Array<[number, number, number]>; yaw?: number; keys?: Array<string>; yaws?: Array<number>; several?: string };
   UseWidget: { panel: string; widget: string; value?: boolean | string | null };

@@ -1,4 +1,4 @@
-// A config file that is dropped on the page.
+// A file that is dropped on the page.
 
 import { el } from "../dom.js";
 import * as files from "./files.js";
@@ -8,7 +8,7 @@ export function install(page) {
   const cover = el(
     "div",
     { class: "wv-drop", hidden: true },
-    el("p", {}, "Drop a config to open it"),
+    el("p", {}, "Drop a config, a bag or a report to open it"),
   );
   page.append(cover);
   /** @param {DragEvent} event */

@@ -22,6 +22,8 @@ const NEW_NAME = "webviz.yaml";
 
 /** @type {((close: Close) => Children[])[]} */
 const sections = [];
+/** @type {Map<string, (file: File) => unknown>} */
+const loaders = new Map();
 
 const file = store("file");
 
@@ -101,6 +103,16 @@ export function saveAs() {
  */
 export const filesSection = (make) => sections.push(make);
 
+/**
+ * Has files with an ending opened by `load(file)`, which are dropped on the page or uploaded.
+ *
+ * @param {string[]} endings such as ".mcap"
+ * @param {(file: File) => unknown} load
+ */
+export function fileLoader(endings, load) {
+  for (const ending of endings) loaders.set(ending, load);
+}
+
 export const open = () =>
   root(async (end) => {
     const chosen = await openDialog({
@@ -132,7 +144,7 @@ function filesToOpen(close) {
   /** @type {HTMLInputElement} */
   const upload = el("input", {
     type: "file",
-    accept: SUFFIXES.join(","),
+    accept: [...SUFFIXES, ...loaders.keys()].join(","),
     hidden: true,
     "aria-label": "File of this computer",
     onchange: () => upload.files?.[0] && close({ upload: upload.files[0] }),
@@ -165,6 +177,8 @@ export async function load(upload) {
   /** @param {string} text */
   const fail = (text) => toast(text, { level: "error" });
   const name = baseName(upload.name);
+  const own = loaders.get(name.slice(name.lastIndexOf(".")).toLowerCase());
+  if (own) return own(upload);
   if (!hasSuffix(name))
     return fail(`Not opened: ${name} is not a config. Choose a .yaml or .rviz file.`);
   const large = `Not opened: ${name} is too large for a config; the limit is 2 MB.`;
