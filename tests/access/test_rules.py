@@ -107,7 +107,10 @@ def test_what_people_did_is_for_owners() -> None:
 
 def test_what_others_may_want_to_know_is_noted_for_the_owner() -> None:
     noted = {name for name, each in feature.commands().items() if each.is_noted}
-    assert noted == {"Dismiss", "Invite", "Load", "Open", "Revoke", "Save", "UseTool"}
+    people = {"Dismiss", "Invite", "Revoke"}
+    rights = {"Allow", "AskOwner", "Decline", "Forbid"}
+    files = {"BeginUpload", "Load", "Open", "Save"}
+    assert noted == people | rights | files | {"UseTool"}
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))

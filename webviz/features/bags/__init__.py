@@ -106,7 +106,7 @@ class BagsFeature(PageFeature):
 
     def attach(self, dispatcher: Dispatcher) -> None:
         """Take files of pages, which no frame waits for."""
-        dispatcher.take("BeginUpload", self._begin, is_noted=True)
+        dispatcher.take("BeginUpload", self._begin)
         dispatcher.take("UploadPart", self._add)
 
     def watched(self, stores: Set[str]) -> None:
@@ -153,7 +153,7 @@ class BagsFeature(PageFeature):
 
         return self.core.get(PlaybackPart).open(place, opened)
 
-    @command(Role.OWNER)
+    @command(Role.OWNER, is_noted=True)
     def begin_upload(self, name: str, size: int) -> None:
         """Begin to send a bag or a bug report in parts; answered with their `token`.
 

@@ -130,7 +130,7 @@ class ReportsFeature(Feature):
             return file, f"Saved {file.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
 
         def then(written: tuple[Path, str]) -> str:
-            core.outputs.add(written[0], "report", written[1], sender)
+            self.core.outputs.add(written[0], "report", written[1], sender)
             return written[1]
 
         return Job(work, then)

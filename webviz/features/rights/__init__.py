@@ -126,11 +126,11 @@ class RightsFeature(PageFeature):
             ("AskOwner", self._ask),
             ("Decline", self._decline),
         ):
-            dispatcher.take(name, handler, is_noted=True)
+            dispatcher.take(name, handler)
 
     # Commands: their names, fields and roles. No program does them, so no plug-in either.
 
-    @command(Role.OWNER)
+    @command(Role.OWNER, is_noted=True)
     def allow(self, name: str, always: bool = False) -> None:
         """Allow a topic, service or action until the viewer ends.
 
@@ -140,17 +140,17 @@ class RightsFeature(PageFeature):
         """
         raise Error(PAGES_ONLY)
 
-    @command(Role.OWNER)
+    @command(Role.OWNER, is_noted=True)
     def forbid(self, name: str) -> None:
         """Take back what was allowed for this session."""
         raise Error(PAGES_ONLY)
 
-    @command(Role.OPERATOR)
+    @command(Role.OPERATOR, is_noted=True)
     def ask_owner(self, name: str) -> None:
         """Ask the owners to allow a topic, service or action."""
         raise Error(PAGES_ONLY)
 
-    @command(Role.OWNER)
+    @command(Role.OWNER, is_noted=True)
     def decline(self, name: str) -> None:
         """Answer a request with no."""
         raise Error(PAGES_ONLY)
