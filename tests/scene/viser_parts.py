@@ -55,12 +55,6 @@ SERVER: tuple[Reach, ...] = (
         "public access to the connection of a client, and a way to close it",
     ),
     Reach(
-        f"{ADAPTER}/hints.py",
-        ("viser._assignable_props_api.AssignablePropsBase", "_impl", "_prop_hints"),
-        "nodes that are made in a fraction of the time",
-        "a cache of `get_type_hints`",
-    ),
-    Reach(
         f"{ADAPTER}/image.py",
         ("viser._messages", "_make"),
         "images that are encoded elsewhere, and added without encoding",
@@ -69,13 +63,20 @@ SERVER: tuple[Reach, ...] = (
     Reach(
         f"{ADAPTER}/link.py",
         (
+            "viser._assignable_props_api.AssignablePropsBase",
+            "viser._messages",
+            "viser.infra._messages._prepare_for_serialization",
+            "_impl",
             "_live_connections",
+            "_prop_hints",
             "_run_garbage_collector",
             "_state",
             "_websock_server",
         ),
-        "poses and properties in one message, cameras in one piece, bounded removals",
-        "a public queue of messages, snapshots of cameras, and removals that end",
+        "poses and properties in one message, cameras in one piece, bounded removals, nodes made "
+        "in a fraction of the time, arrays packed without a look at the type of each value",
+        "a public queue of messages, snapshots of cameras, removals that end, and a cache of "
+        "`get_type_hints`",
     ),
     Reach(
         f"{ADAPTER}/tape.py",
@@ -101,12 +102,6 @@ SERVER: tuple[Reach, ...] = (
         "a call that places many nodes",
     ),
     Reach(
-        f"{ADAPTER}/updates.py",
-        ("viser._messages", "viser.infra._messages._prepare_for_serialization"),
-        "arrays packed without a look at the type of each value",
-        "nothing: it is only faster",
-    ),
-    Reach(
         f"{ADAPTER}/sender.py",
         (
             "viser.infra._async_message_buffer.AsyncMessageBuffer",
@@ -117,7 +112,7 @@ SERVER: tuple[Reach, ...] = (
         "a sender that can be exchanged",
     ),
     Reach(
-        f"{HTTP}/viser_types.py",
+        f"{HTTP}/viser_messages.py",
         ("viser._messages",),
         "checks of what browsers send before viser reads it",
         "validation of messages in viser",
