@@ -97,6 +97,7 @@ HOOKS = sorted(
 )
 PARTS = [
     "Autosave",
+    "Bags",
     "Black box",
     "Clock",
     "Connection",
@@ -113,6 +114,7 @@ PARTS = [
 PARTS += [
     "Latency",
     "Layouts",
+    "Outputs",
     "Panels",
     "People",
     "Playback",
@@ -120,6 +122,7 @@ PARTS += [
     "Plugins",
     "Recording",
     "Report",
+    "Rights",
     "Rules",
     "Selection",
     "Settings",
