@@ -71,7 +71,7 @@ def test_what_no_part_has_is_what_the_panel_says_or_an_error(bench: Benches) -> 
 
     class Strict(Panel):
         def show(self, frames: Sequence[str], wheels: int) -> None:
-            pytest.fail("there are no wheels")
+            pytest.fail("show was called without wheels")
 
     b = bench()
     panel = Lenient()

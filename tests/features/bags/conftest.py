@@ -1,4 +1,4 @@
-"""A viewer of live topics, with a library of bags on its disk, in a folder of its own."""
+"""A viewer of live topics, with a folder of bags that pages may open."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class Desk:
 
     Args:
         viewer: of live topics, in whose memory there is a transform.
-        library: the folder that its owner named.
+        folder: of the bags that pages may open.
         outside: a folder that nobody named.
         guest: a page of the owner.
     """
 
     viewer: webviz.Viewer
-    library: Path
+    folder: Path
     outside: Path
     guest: Guest
 

@@ -15,7 +15,7 @@ from webviz.features.bags import BLACK_BOX, NOT_LISTED
 def test_live_topics_make_room_for_a_bag_and_come_back_with_their_memory(desk: Desk) -> None:
     assert desk.bags() == ["run.mcap"]
     before = desk.viewer.state.memory
-    assert desk.guest.do("OpenRecording", path=str(desk.library / "run.mcap")) == ""
+    assert desk.guest.do("OpenRecording", path=str(desk.folder / "run.mcap")) == ""
     assert desk.names() == ("run.mcap",)
     assert desk.guest.do("ReturnToLive") == ""
     after = desk.viewer.state.memory
@@ -48,21 +48,21 @@ def test_a_report_is_unpacked_and_its_messages_are_played(desk: Desk) -> None:
     ],
 )
 def test_no_other_folder_is_readable(desk: Desk, path: str) -> None:
-    wanted = path.format(outside=desk.outside, library=desk.library)
+    wanted = path.format(outside=desk.outside, library=desk.folder)
     assert desk.guest.do("OpenRecording", path=wanted) == NOT_LISTED
     assert desk.names() == ()
 
 
 def test_links_and_devices_are_neither_listed_nor_opened(desk: Desk) -> None:
-    (desk.library / "link.mcap").symlink_to(desk.outside / "secret.mcap")
-    (desk.library / "folder").symlink_to(desk.outside)
-    os.mkfifo(desk.library / "pipe.mcap")
+    (desk.folder / "link.mcap").symlink_to(desk.outside / "secret.mcap")
+    (desk.folder / "folder").symlink_to(desk.outside)
+    os.mkfifo(desk.folder / "pipe.mcap")
     assert "run.mcap" in desk.bags()
     assert not {"link.mcap", "folder"} & {*desk.bags()}
     for name in ("link.mcap", "folder"):
-        answer = desk.guest.do("OpenRecording", path=str(desk.library / name))
+        answer = desk.guest.do("OpenRecording", path=str(desk.folder / name))
         assert "is a link to another folder" in answer
-    answer = desk.guest.do("OpenRecording", path=str(desk.library / "pipe.mcap"))
+    answer = desk.guest.do("OpenRecording", path=str(desk.folder / "pipe.mcap"))
     assert answer == "Not opened: pipe.mcap is not a bag. Choose another file."
     assert desk.names() == ()
 
@@ -70,17 +70,17 @@ def test_links_and_devices_are_neither_listed_nor_opened(desk: Desk) -> None:
 @pytest.mark.parametrize("content", [b"", b"x" * 1000, b"PK\x05\x06" + b"\xff" * 18])
 def test_what_is_no_bag_is_refused_by_a_sentence(desk: Desk, content: bytes) -> None:
     for name in ("broken.mcap", "broken.zip", "broken.db3"):
-        (desk.library / name).write_bytes(content)
-        answer = desk.guest.do("OpenRecording", path=str(desk.library / name))
+        (desk.folder / name).write_bytes(content)
+        answer = desk.guest.do("OpenRecording", path=str(desk.folder / name))
         assert answer
         assert "\n" not in answer
     assert desk.names() == ()
 
 
 def test_a_truncated_bag_is_played_as_far_as_it_goes(desk: Desk) -> None:
-    whole = (desk.library / "run.mcap").read_bytes()
-    (desk.library / "cut.mcap").write_bytes(whole[: len(whole) * 2 // 3])
-    desk.guest.do("OpenRecording", path=str(desk.library / "cut.mcap"))
+    whole = (desk.folder / "run.mcap").read_bytes()
+    (desk.folder / "cut.mcap").write_bytes(whole[: len(whole) * 2 // 3])
+    desk.guest.do("OpenRecording", path=str(desk.folder / "cut.mcap"))
     assert desk.guest.do("ReturnToLive") is not None
 
 

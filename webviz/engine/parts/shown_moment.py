@@ -31,7 +31,7 @@ def margins(before_s: float | None, after_s: float | None) -> Margins | None:
     """Return the margins that a command asks for, None if it leaves them open.
 
     Raises:
-        Error: they are no durations.
+        Error: one is negative or too long, or both are zero.
     """
     if before_s is None and after_s is None:
         return None
