@@ -31,6 +31,8 @@ READING = frozenset(
     for name in ("DescribeParameters", "GetParameters", "GetParameterTypes", "ListParameters")
 )
 """Types of services that change nothing, which need no right."""
+MAX_CLASSES = 1000
+"""Classes of panels whose parameters are remembered; one that is loaded again is another."""
 
 
 class PanelsPart(Part):
@@ -273,7 +275,7 @@ class PanelsPart(Part):
         sent.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
 
 
-@functools.cache
+@functools.lru_cache(MAX_CLASSES)
 def parameters_of(panel: type[Panel]) -> Mapping[str, Any]:
     """Return the names of what a panel shows, with their defaults."""
     _, *own = inspect.signature(panel.show).parameters.values()

@@ -6,6 +6,7 @@ import { icon } from "../../icons.js";
 import { filesSection } from "../../shell/files.js";
 import { each } from "../../signals.js";
 import { store } from "../../stores.js";
+import { timeOfDay } from "../../time_text.js";
 import { install as installUpload } from "./upload.js";
 
 /** @import {Close} from "../../controls/dialog.js" */
@@ -50,7 +51,7 @@ const play = (path) => act("OpenRecording", { path });
 function row(item, choose) {
   const about = () => {
     const { megabytes, changed_s: changed } = item.value;
-    return `${megabytes} MB · ${new Date(changed * 1000).toLocaleString()}`;
+    return `${megabytes} MB · ${timeOfDay(changed)}`;
   };
   return el(
     "button",

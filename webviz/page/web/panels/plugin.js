@@ -51,6 +51,8 @@ export function followPlugins(offer, types) {
   );
 }
 
+const NOT_LOADED =
+  "Not removed: this panel is not loaded. Repair its plug-in, or take it out of the config.";
 const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change has its own locks
 
 /**
@@ -147,7 +149,7 @@ function settingsButton(name) {
 /** @param {string} name */
 async function remove(name) {
   const panel = await once(`panel_properties:${name}`, (values) => values.get("id"));
-  if (!panel) return; // its plug-in cannot be loaded
+  if (!panel) return void toast(NOT_LOADED, { level: "warn" });
   const { level, text } = await act("RemovePanel", { panel }, { quiet: true });
   if (level === "ok")
     toast(text, { action: { label: "Undo", run: () => act("Undo", { own: true }) } });
