@@ -1,4 +1,5 @@
-// State that this browser remembers of its own page: folding, widths, the tab that is open.
+// State that this browser remembers of its own page: folding, widths, the tab that is open; and what
+// a tab of the browser remembers when its page is loaded again.
 
 const PREFIX = "webviz.";
 
@@ -29,5 +30,38 @@ export function remember(key, value) {
     localStorage.setItem(PREFIX + key, JSON.stringify(value));
   } catch {
     // then it lasts as long as the page
+  }
+}
+
+/** True if this page was here before, and is loaded again. */
+const isReloaded = () =>
+  /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"))[0]
+    ?.type === "reload";
+
+// Pages of several viewers may have one origin.
+/** @param {string} key */
+const keyOfTab = (key) => `${PREFIX}${location.pathname}.${key}`;
+
+/**
+ * What `read` said of the page under a key before it was loaded again; null after anything else. What
+ * it says when this page goes is remembered for the next.
+ *
+ * @template T
+ * @param {string} key
+ * @param {() => T} read a value that JSON can hold
+ * @returns {T | null}
+ */
+export function surviveReload(key, read) {
+  window.addEventListener("pagehide", () => {
+    try {
+      sessionStorage.setItem(keyOfTab(key), JSON.stringify(read()));
+    } catch {
+      // then the next page begins as any other
+    }
+  });
+  try {
+    return isReloaded() ? JSON.parse(sessionStorage.getItem(keyOfTab(key)) ?? "null") : null;
+  } catch {
+    return null;
   }
 }

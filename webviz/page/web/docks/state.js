@@ -2,6 +2,7 @@
 
 import { why } from "../access.js";
 import { act } from "../act.js";
+import { surviveReload } from "../remember.js";
 import { batch, computed, signal } from "../signals.js";
 import { EMPTY, namesIn, namesOf } from "./places.js";
 import { alone, layoutName } from "./windows.js";
@@ -9,6 +10,7 @@ import { alone, layoutName } from "./windows.js";
 /** @import {Panel} from "../types.js" */
 /** @import {Signal} from "../signals.js" */
 /** @import {Layout} from "./places.js" */
+/** @typedef {{full: string, chosen: string[], own: Layout | null}} Before */
 /** @typedef {{key: string, weight: number, names: string[], front: string}} Place */
 
 const PLUGIN = "plugin-";
@@ -25,12 +27,24 @@ export const common = signal(EMPTY);
 export const saved = signal([]);
 /** Names of layouts for tasks. @type {Signal<readonly string[]>} */
 export const templates = signal([]);
-/** The panel that fills the window, "" for none. */
-export const full = signal(alone);
+/**
+ * Of this page before it was loaded again: the panel that filled the window, the tabs that were in
+ * front, and its own layout if it had one.
+ */
+const before = surviveReload(
+  "docks",
+  /** @returns {Before} */ () => ({
+    full: alone ? "" : full.value,
+    chosen: chosen.value,
+    own: layout.value === common.value ? null : layout.value,
+  }),
+);
+/** The panel that fills the window, "" for none. @type {Signal<string>} */
+export const full = signal(alone || (before?.full ?? ""));
 /** @type {Signal<Panel[]>} */
 export const panels = signal([]);
 /** @type {Signal<string[]>} */
-const chosen = signal([]); // as tabs of their places, the last one first
+const chosen = signal(before?.chosen ?? []); // as tabs of their places, the last one first
 
 /**
  * The name of a panel in layouts.
@@ -107,4 +121,11 @@ export async function arrange(next) {
 }
 
 /** @param {Layout} next that the server says */
-export const take = (next) => batch(() => (layout.value = common.value = next));
+export function take(next) {
+  const own = before?.own;
+  if (before) before.own = null;
+  batch(() => {
+    common.value = next;
+    layout.value = own ?? next;
+  });
+}

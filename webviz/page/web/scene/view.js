@@ -10,6 +10,7 @@
 import * as channel from "../channel.js";
 import constants from "../constants.js";
 import { toThree } from "./fixed_frame.js";
+import { surviveReload } from "../remember.js";
 import * as viser from "../viser_page.js";
 
 /** @import {PlaceCamera, StartView} from "../messages.js" */
@@ -29,6 +30,8 @@ let canvas = null;
 let cross = null;
 /** @type {PlaceCamera | StartView | null} */
 let view = null;
+/** @type {StartView | null} */
+let before = null; // the page was loaded again
 /** @type {Three} */
 let rig = null;
 let height = 0;
@@ -244,10 +247,35 @@ function show(wanted) {
   setTimeout(report, SENT_MS);
 }
 
+/**
+ * The view with its camera where it is now.
+ *
+ * @returns {StartView | null}
+ */
+function placement() {
+  if (view === null) return null;
+  const down = toThree().clone().invert();
+  const controls = viser.controls();
+  const wide = 2 * controls.distance * Math.tan(FLAT_FIELD_OF_VIEW / 2);
+  return {
+    ...view,
+    type: "StartView",
+    position: controls
+      .getPosition(vector([0, 0, 0]))
+      .applyMatrix4(down)
+      .toArray(),
+    look_at: controls
+      .getTarget(vector([0, 0, 0]))
+      .applyMatrix4(down)
+      .toArray(),
+    scale: isFlat() ? height / wide : null,
+  };
+}
+
 /** @param {StartView} start */
 function join(start) {
   viser.reveal(); // also of a scene without a page around it
-  if (view === null) return show(start);
+  if (view === null) return show({ ...start, ...before, number: start.number });
   // A lost connection is back: the camera has not moved, but the server does not know it.
   viser.sendCamera();
   setTimeout(report, SENT_MS);
@@ -257,6 +285,7 @@ export function install() {
   camera = viser.camera();
   canvas = viser.canvas();
   height = canvas.clientHeight;
+  before = surviveReload("view", placement);
   cross = viser.scene().children.find((child) => {
     let found = false;
     child.traverse(
