@@ -154,7 +154,10 @@ def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None
 def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
     wide: Tab, width: int, image: int
 ) -> None:
+    wide.page.evaluate("localStorage.setItem('webviz.tool-uses', '3')")  # no words below tools
+    wide.page.reload()
     bar = toolbar(wide)
+    wide.wait_for(lambda: "Point <b>" in bar.inner_text())
     playwright.expect(bar.get_by_role("button", name="More")).to_be_hidden()
     wide.loop.show(*[Row("c", "Image", Image(name="c"), "c", {})] * image)
     playwright.expect(

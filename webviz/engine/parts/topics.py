@@ -26,6 +26,8 @@ EVERY_S = 1.0
 OF_EVERY_NODE = frozenset({"/rosout", "/parameter_events"})
 OWN_NODE = "/webviz"
 """Unless it is remapped, which is rare before anything is published."""
+SIMULATOR = "/sim"
+"""The node of `webviz-sim`."""
 
 
 class GraphTopic(msgspec.Struct, frozen=True):
@@ -83,9 +85,11 @@ class GraphStore(PageStore, frozen=True):
 
     Args:
         is_empty: whether nothing is published, except by webviz and on topics of every node.
+        has_simulator: whether the simulated robot of the demo is there.
     """
 
     is_empty: bool
+    has_simulator: bool
 
 
 class TopicsPart(Part):
@@ -148,7 +152,7 @@ class TopicsPart(Part):
         offers = self.core.offers.items()
         published = (offer for topic, offer in offers if topic not in OF_EVERY_NODE)
         nodes = {publisher.node for offer in published for publisher in offer.publishers}
-        return GraphStore(is_empty=not nodes - {OWN_NODE})
+        return GraphStore(is_empty=not nodes - {OWN_NODE}, has_simulator=SIMULATOR in nodes)
 
     @store(name="traffic", of=lambda part: part.traffic)
     def traffic_of_all(self, argument: str) -> TrafficStore:

@@ -61,11 +61,11 @@ export function takeKeys(take) {
   return () => takers.delete(take);
 }
 
+/** All commands, also those that cannot be done now. */
+export const known = () => [...fixed, ...[...makers].flatMap((make) => make())];
+
 /** All commands that can be done now. */
-export function all() {
-  const commands = [...fixed, ...[...makers].flatMap((make) => make())];
-  return commands.filter(({ isThere }) => !isThere || isThere());
-}
+export const all = () => known().filter(({ isThere }) => !isThere || isThere());
 
 /**
  * Does what a command is for, or says why that is not allowed.

@@ -353,7 +353,7 @@ export interface Stores {
   frame_tree: { own: { places?: Array<[string, number, number]>; edges?: Array<[string, string, boolean]>; rows?: number }; items: never };
   frames: { own: { frames: Array<string> }; items: never };
   goals: { own: {  }; items: ShownGoal };
-  graph: { own: { is_empty: boolean }; items: never };
+  graph: { own: { is_empty: boolean; has_simulator: boolean }; items: never };
   handles: { own: {  }; items: SceneHandle };
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
   journal: { own: { entries: Array<JournalLine> }; items: never };

@@ -43,8 +43,8 @@ const isReloaded = () =>
 const keyOfTab = (key) => `${PREFIX}${location.pathname}.${key}`;
 
 /**
- * What `read` said of the page under a key before it was loaded again; null after anything else. What
- * it says when this page goes is remembered for the next.
+ * The value that `read` had under a key before the page was loaded again; null after anything else.
+ * Its value is stored when this page goes.
  *
  * @template T
  * @param {string} key

@@ -1,41 +1,98 @@
-// First steps, shown while nothing is published at all.
+// First steps: shown while nothing is published at all, and beside the demo's robot.
 
 import { copy } from "../clipboard.js";
+import * as commands from "../commands.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { watch } from "../stores.js";
+import { signal } from "../signals.js";
+import { store } from "../stores.js";
+
+/** @import {Child} from "../types.js" */
 
 const COMMAND = "webviz-sim";
 
 /** @param {HTMLElement} scene */
 export function install(scene) {
-  if (recall("knows-first-run", false)) return;
-  const close = () => {
-    remember("knows-first-run", true);
-    card.remove();
-    end();
-  };
-  const copyButton = iconButton("copy", "Copy the command", () => copy(COMMAND), { tip: "Copy" });
-  const card = el(
-    "section",
-    { class: "wv-first-run", "aria-label": "Nothing is published", hidden: true },
+  const graph = store("graph");
+  const isEmpty = () => graph.get("is_empty") === true;
+  card(scene, "knows-first-run", "Nothing is published yet", isEmpty, nothing());
+  const hasSimulator = () => graph.get("has_simulator") === true;
+  card(scene, "knows-demo", "Three things to try", hasSimulator, thingsToTry(), "wv-to-try");
+}
+
+/**
+ * A card over the scene, which goes for good when it is closed.
+ *
+ * @param {HTMLElement} scene
+ * @param {string} key under which the browser remembers that
+ * @param {string} title
+ * @param {() => boolean} isThere
+ * @param {Child | Child[]} content
+ * @param {string} [place] class
+ */
+function card(scene, key, title, isThere, content, place = "") {
+  const isKnown = signal(recall(key, false));
+  const close = () => remember(key, (isKnown.value = true));
+  const head = el(
+    "header",
+    {},
+    el("h2", {}, title),
+    iconButton("close", "Close", close, { tip: null }),
+  );
+  scene.append(
     el(
-      "div",
-      { class: "wv-card" },
-      el(
-        "header",
-        {},
-        el("h2", {}, "Nothing is published yet"),
-        iconButton("close", "Close", close, { tip: null }),
-      ),
-      el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
-      el("p", {}, "For a robot to try things with, run this in a terminal:"),
-      el("p", { class: "wv-command" }, el("code", {}, COMMAND), copyButton),
+      "section",
+      {
+        class: `wv-first-run ${place}`,
+        "aria-label": title,
+        hidden: () => isKnown.value || !isThere(),
+      },
+      el("div", { class: "wv-card" }, head, content),
     ),
   );
-  scene.append(card);
-  const end = watch("graph", (graph) => {
-    card.hidden = !graph.get("is_empty");
-  });
+}
+
+const nothing = () => [
+  el("p", {}, "Start your robot, a simulator or a bag: its topics appear here by themselves."),
+  el("p", {}, "For a robot to try things with, run this in a terminal:"),
+  el(
+    "p",
+    { class: "wv-command" },
+    el("code", {}, COMMAND),
+    iconButton("copy", "Copy the command", () => copy(COMMAND), { tip: "Copy" }),
+  ),
+];
+
+const thingsToTry = () =>
+  el(
+    "ol",
+    {},
+    thing("Send the robot somewhere", "2D Goal Pose", "and drag on the map."),
+    thing("Look back", "5 s back", "or drag the time below, then return to live."),
+    thing("Find anything", "Commands", "for displays, topics, views and settings."),
+  );
+
+/**
+ * @param {string} title
+ * @param {string} name of a command
+ * @param {string} text
+ */
+function thing(title, name, text) {
+  const wanted = () => commands.known().find((one) => one.name === name);
+  const start = () => {
+    const found = wanted();
+    if (found) commands.run(found);
+  };
+  return el(
+    "li",
+    {},
+    el("b", {}, title),
+    el(
+      "p",
+      {},
+      el("button", { type: "button", class: "wv-link", onclick: start }, name),
+      ` ${text}`,
+    ),
+  );
 }

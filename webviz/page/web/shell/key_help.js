@@ -1,7 +1,7 @@
-// All keys in a dialog (?), made of the commands that have some.
+// All keys in a dialog (?), made of the commands that have some, also of those of another moment.
 
 import { el } from "../dom.js";
-import { all, keysOf } from "../commands.js";
+import { keysOf, known } from "../commands.js";
 import { openDialog } from "../controls/dialog.js";
 import { keyText } from "../keys.js";
 
@@ -52,7 +52,7 @@ export function openKeys() {
   if (document.querySelector(".wv-keys[open]")) return;
   /** @type {Map<string, KeyRow[]>} */
   const groups = new Map(ORDER.map((name) => [name, []]));
-  for (const one of all()) {
+  for (const one of known()) {
     if (!keysOf(one).length) continue;
     const group = one.group ?? "Tools";
     groups.set(group, [

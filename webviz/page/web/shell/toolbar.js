@@ -18,6 +18,7 @@ import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
 import { VIEW_TYPES, savedMenu, saveView, setType, typeMenu } from "./view_menus.js";
 
+/** @import {Readable} from "../signals.js" */
 /** @import {Child, Choice} from "../types.js" */
 
 const settings = store("settings");
@@ -34,8 +35,7 @@ export function install(places) {
     class: "wv-icon wv-unfold",
     "data-key": "Ctrl+b",
   });
-  const name = el("span", { class: "wv-bar-name" }, view.type);
-  const type = button("orbit", "", () => openMenuBelow(type, typeMenu(view.type.value)), name);
+  const type = typeButton(view.type);
   const views = button(
     "bookmark",
     "Saved views",
@@ -53,7 +53,7 @@ export function install(places) {
   const element = el(
     "div",
     {
-      class: "wv-toolbar wv-card",
+      class: tools.isNew() ? "wv-toolbar wv-card wv-worded" : "wv-toolbar wv-card",
       role: "toolbar",
       "aria-label": "Tools and view",
       onkeydown: walk,
@@ -67,6 +67,8 @@ export function install(places) {
   const bar = fit(element, more, [
     "wv-compact",
     "wv-tight",
+    "wv-two-rows",
+    "wv-wordless",
     { element: full, items: () => [item(actions.fullscreen)] },
     { element: image, items: () => [item(actions.image)] },
     "wv-wrapped",
@@ -80,12 +82,20 @@ export function install(places) {
   measure(places.status, places.toolbar, "--wv-status", "offsetWidth"); // it keeps its space
   measure(element, document.documentElement, "--wv-bar", "offsetHeight"); // below in a narrow scene
   effect(() => {
-    const label = `View type: ${view.type.value}`;
-    type.ariaLabel = `View: ${view.type.value}`;
-    type.dataset.tip = label;
-    if (tools.all()) bar.layout();
+    if (tools.all() && view.type.value !== null) bar.layout();
   });
   addCommands(fixed, target);
+}
+
+/** @param {Readable<string>} shown */
+function typeButton(shown) {
+  const name = el("span", { class: "wv-bar-name" }, shown);
+  const made = button("orbit", "", () => openMenuBelow(made, typeMenu(shown.value)), name);
+  effect(() => {
+    made.ariaLabel = `View: ${shown.value}`;
+    made.dataset.tip = `View type: ${shown.value}`;
+  });
+  return made;
 }
 
 /** Signals: the type of the view of this page and the frame it follows, the last that were known. */

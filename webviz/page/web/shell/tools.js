@@ -10,6 +10,7 @@ import { measure } from "../tools/measure.js";
 import * as registry from "../tools/registry.js";
 import * as selection from "../tools/selection.js";
 import * as preview from "../tools/preview.js";
+import { recall, remember } from "../remember.js";
 import { each, effect } from "../signals.js";
 import { canvas } from "../viser_page.js";
 import { command, provide } from "../commands.js";
@@ -18,6 +19,11 @@ import { keyText } from "../keys.js";
 /** @import {Signal} from "../signals.js" */
 /** @import {SceneEvent, Tool} from "../types.js" */
 
+const USES = "tool-uses";
+const LEARNED = 3;
+
+/** True until somebody has chosen tools here: then icons are enough. */
+export const isNew = () => recall(USES, 0) < LEARNED;
 /** All tools in the order of the toolbar; read in effects. */
 export const all = registry.all;
 /** True if there are tools besides those that are icons. */
@@ -110,16 +116,19 @@ function buttonOf(tool) {
     "button",
     {
       type: "button",
-      class: "wv-tool",
+      class: () => (tool.value.isLean ? "wv-tool wv-lean" : "wv-tool"),
       "aria-label": name,
       "data-tip": () => `${name()}: ${tool.value.refusal || tool.value.tooltip}`,
       "aria-disabled": () => (tool.value.refusal ? "true" : null),
       "aria-pressed": () => String(isActive()),
       "data-key": () => key() || null,
-      onclick: () => registry.toggle(tool.value),
+      onclick: () => {
+        registry.toggle(tool.value);
+        if (isNew()) remember(USES, recall(USES, 0) + 1);
+      },
     },
     () => icon(tool.value.icon),
-    () => (tool.value.isLean ? null : el("span", { class: "wv-tool-name" }, name())),
+    el("span", { class: "wv-tool-name" }, name),
     () => (tool.value.isLean || !key() ? null : el("kbd", {}, keyText(key() ?? ""))),
   );
 }
