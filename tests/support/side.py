@@ -26,7 +26,7 @@ class Side:
 
     def field(self, path: str) -> playwright.Locator:
         """The control of a property of the selected display."""
-        return self.properties.locator(f"[data-path='{path}']").locator("input, select").first
+        return self.properties.locator(f"[data-path='{path}']").locator("input").first
 
     def text(self) -> str:
         """Statuses, which are folded while all is well, and properties of the selected display."""

@@ -1,10 +1,12 @@
 // The widget "log": the lines of a log, filtered in this page.
 
 import { copyAndTell } from "webviz/clipboard.js";
+import { combobox } from "webviz/controls/combobox.js";
 import { searchField } from "webviz/controls/fields.js";
 import { rowList, touchable } from "webviz/controls/rows.js";
 import { el, set, setText, showText } from "webviz/dom.js";
 import { iconButton } from "webviz/icons.js";
+import { signal } from "webviz/signals.js";
 import { timeOfDay } from "webviz/time_text.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
@@ -50,11 +52,17 @@ export default function install({ widget }) {
     let problem = "";
     let total = 0;
 
-    const level = el(
-      "select",
-      { class: "wv-field", "aria-label": "Lowest level", onchange: filter },
-      LEVELS.map((each) => el("option", { value: each }, each)),
-    );
+    const level = signal(LEVELS[0]);
+    const lowest = combobox({
+      label: "Lowest level",
+      value: () => level.value,
+      options: () => LEVELS.map((value) => ({ value })),
+      change(value) {
+        level.value = value;
+        filter();
+      },
+      free: false,
+    });
     const nodes = searchField("Node", filter);
     const text = searchField("Text", filter);
     const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
@@ -222,7 +230,7 @@ export default function install({ widget }) {
     const head = el(
       "span",
       { class: "wv-panel-tools" },
-      ...[level, nodes, text, count, follow, all],
+      ...[lowest.element, nodes, text, count, follow, all],
     );
     return { element, head, update, close };
   });

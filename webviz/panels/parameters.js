@@ -140,14 +140,15 @@ function rowsOf(send) {
  * @param {Row} row
  */
 function showValue(send, element, { name, kind, text, isReadOnly }) {
-  const isChoice = kind === "bool" && !isReadOnly;
+  const isSwitch = kind === "bool" && !isReadOnly;
   const [, before] = element.children;
-  let field = /** @type {HTMLInputElement | HTMLSelectElement} */ (before);
-  if (field.matches("select") !== isChoice || !field.matches(".wv-field")) {
-    field = isChoice ? choiceOf(send, name) : fieldOf(send, name);
+  let field = /** @type {HTMLInputElement} */ (before);
+  if (!field.matches(isSwitch ? ".wv-check" : ".wv-field")) {
+    field = isSwitch ? checkboxOf(send, name) : fieldOf(send, name);
     before.replaceWith(field);
   }
-  if (document.activeElement !== field || isChoice) field.value = text;
+  if (isSwitch) field.checked = text === "true";
+  else if (document.activeElement !== field) field.value = text;
   field.dataset.text = text;
   set(field, { readonly: isReadOnly });
 }
@@ -156,20 +157,16 @@ function showValue(send, element, { name, kind, text, isReadOnly }) {
  * @param {Send} send
  * @param {string} name
  */
-function choiceOf(send, name) {
-  const options = ["true", "false"].map((value) => el("option", { value }, value));
-  /** @type {HTMLSelectElement} */
-  const choice = el(
-    "select",
-    {
-      class: "wv-field",
-      "aria-label": name,
-      onchange: () => send({ set: [name, choice.value] }),
-      onkeydown: (/** @type {KeyboardEvent} */ event) => event.stopPropagation(),
-    },
-    options,
-  );
-  return choice;
+function checkboxOf(send, name) {
+  /** @type {HTMLInputElement} */
+  const box = el("input", {
+    class: "wv-check",
+    type: "checkbox",
+    "aria-label": name,
+    onchange: () => send({ set: [name, String(box.checked)] }),
+    onkeydown: (/** @type {KeyboardEvent} */ event) => event.stopPropagation(),
+  });
+  return box;
 }
 
 /**

@@ -1,5 +1,7 @@
 // The widget "form": fields of a message and its YAML, a button that sends it, history and presets.
 
+import { combobox } from "webviz/controls/combobox.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
 import { permission } from "webviz/controls/permission.js";
 import { el, set } from "webviz/dom.js";
 import { textButton } from "webviz/icons.js";
@@ -26,8 +28,7 @@ const NONE = {
   ...{ history: [], presets: {}, problem: "", outcome: "", failed: false },
 };
 const HEIGHT = "200px"; // of the response
-
-const forms = { count: 0 };
+const LONGEST = 60; // characters of what was sent, in a menu
 
 /** @param {Page} page */
 export default function install(page) {
@@ -82,35 +83,18 @@ export default function install(page) {
  * @param {Send} send
  */
 function target(form, send) {
-  forms.count += 1;
-  const id = `wv-sending-${forms.count}`;
-  /** @type {HTMLInputElement} */
-  const name = el("input", {
-    class: "wv-field",
-    type: "text",
-    list: id,
-    "aria-label": () => form().label,
-    onchange: () => send({ name: name.value }),
-  });
-  effect(() => {
-    const { name: text } = form();
-    if (document.activeElement !== name) name.value = text;
-  });
-  const names = computed(() => form().names);
+  const label = computed(() => form().label);
   return el(
-    "label",
+    "div",
     { class: "wv-plugin-line" },
-    el("span", { class: "wv-quiet" }, () => form().label),
-    name,
-    el(
-      "datalist",
-      { id },
-      each(
-        () => new Set(names.value),
-        (each) => each,
-        (_, value) => el("option", { value }),
-      ),
-    ),
+    el("span", { class: "wv-quiet", "aria-hidden": "true" }, () => form().label),
+    () =>
+      combobox({
+        label: label.value,
+        value: () => form().name,
+        options: () => form().names.map((value) => ({ value })),
+        change: (name) => send({ name }),
+      }).element,
   );
 }
 
@@ -191,39 +175,27 @@ function buttons(form, send, isRefused) {
 }
 
 /**
- * What was sent before, and presets.
+ * A menu of what was sent before, and of presets.
  *
  * @param {Read} form
  * @param {Send} send
  */
 function before(form, send) {
-  const options = computed(() => JSON.stringify([Object.keys(form().presets), form().history]));
-  /** @type {HTMLSelectElement} */
-  const choice = el(
-    "select",
-    {
-      class: "wv-field",
-      "aria-label": "History and presets",
-      onchange: () => {
-        const [from, which] = [choice.value[0], choice.value.slice(1)];
-        if (from === "p") send({ preset: which });
-        else if (from === "h") send({ yaml: form().history[Number(which)] ?? "" });
-        choice.value = "";
-      },
-    },
-    () => {
-      /** @type {[string[], string[]]} */
-      const [presets, history] = JSON.parse(options.value);
-      return [
-        el("option", { value: "" }, "History and presets"),
-        ...presets.map((name) => el("option", { value: `p${name}` }, name)),
-        ...history.map((text, i) =>
-          el("option", { value: `h${i}` }, text.replaceAll("\n", " ").slice(0, 60)),
-        ),
-      ];
-    },
-  );
-  return choice;
+  const presets = () => Object.keys(form().presets);
+  const items = () => [
+    ...presets().map((label) => ({ label, run: () => send({ preset: label }) })),
+    ...(presets().length && form().history.length ? [null] : []),
+    ...form().history.map((yaml) => ({
+      label: yaml.replaceAll("\n", " ").slice(0, LONGEST),
+      run: () => send({ yaml }),
+    })),
+  ];
+  /** @type {HTMLButtonElement} */
+  const button = textButton("History and presets", () => openMenuBelow(button, items()), {
+    "aria-haspopup": "menu",
+    disabled: () => !presets().length && !form().history.length,
+  });
+  return button;
 }
 
 /**

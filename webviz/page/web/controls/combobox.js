@@ -8,6 +8,8 @@ import { listbox } from "./listbox.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
+const COARSE = matchMedia("(pointer: coarse)");
+
 /** @import {Choice} from "../types.js" */
 /** @import {Mixed} from "./mixed.js" */
 
@@ -45,6 +47,7 @@ export function combobox({ label, value, options: read, free = true, placeholder
     "aria-description": rest.help,
     autocomplete: "off",
     spellcheck: "false",
+    inputmode: !free && COARSE.matches ? "none" : null, // a list to tap, without a keyboard over it
     placeholder,
     onfocus: () => input.select(),
     onclick() {

@@ -1,10 +1,10 @@
-// Controls that the browser has by itself: a check box, a list to choose from, a line of text.
+// Simple controls: a check box, one of a few values, a line of text.
 
 import { el } from "../dom.js";
-import { icon } from "../icons.js";
+import { combobox } from "./combobox.js";
 import { entry } from "./entry.js";
 import { textField } from "./fields.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
+import { MIXED } from "./mixed.js";
 import { sync } from "./sync.js";
 
 /** @import {Control, ControlOptions} from "../types.js" */
@@ -43,44 +43,17 @@ export function checkbox(_, options) {
  * @param {ControlOptions} options
  * @returns {Control}
  */
-export function choice({ choices = [] }, options) {
-  /** @type {HTMLSelectElement} */
-  const select = el("select", {
-    class: "wv-field",
-    "aria-label": options.label,
-    title: options.help,
-    onchange: () => state.edit(offered[select.selectedIndex]),
-  });
-  const mixed = el("option", { hidden: true }, MIXED_TEXT);
-  let offered = choices;
-
-  /** @param {unknown[]} values */
-  function offer(values) {
-    offered = values;
-    select.replaceChildren(
-      ...values.map((value, index) => el("option", { value: index }, String(value))),
-    );
-  }
-
-  offer(choices);
-  const state = sync({
+export function choice({ choices = [] }, { value, change, ...options }) {
+  // A newer version of the viewer may have a value that is unknown here.
+  const isNew = () => value() !== undefined && value() !== MIXED && !choices.includes(value());
+  const offered = () => (isNew() ? [...choices, value()] : choices);
+  return combobox({
     ...options,
-    show(value) {
-      mixed.remove();
-      if (value === MIXED) {
-        select.append(mixed);
-        mixed.selected = true;
-        return;
-      }
-      // What a newer version of the viewer has may be unknown here.
-      if (!offered.includes(value)) offer([...choices, value]);
-      select.selectedIndex = offered.indexOf(value);
-    },
+    value: () => (value() === MIXED ? MIXED : String(value() ?? "")),
+    options: () => offered().map((each) => ({ value: String(each) })),
+    change: (text) => change(offered().find((each) => String(each) === text)),
+    free: false,
   });
-  return {
-    element: el("div", { class: "wv-choice" }, select, icon("chevron", 12)),
-    focus: () => select.focus(),
-  };
 }
 
 /**

@@ -1,9 +1,11 @@
 // A form that makes a link for somebody else, and shows it with its QR code.
 
 import { act } from "../act.js";
+import { combobox } from "../controls/combobox.js";
 import { textField } from "../controls/fields.js";
 import { el, setText } from "../dom.js";
 import { textButton } from "../icons.js";
+import { signal } from "../signals.js";
 
 /** @import {Commands} from "../messages.js" */
 
@@ -28,8 +30,8 @@ const isOfThisMachine = () => /^(localhost|127\..*|\[::1\])$/.test(location.host
  */
 export function invitation(copy) {
   const name = textField("Name", { placeholder: "Name", maxlength: 40 });
-  const role = select("Role", ["watcher", "operator", "owner"]);
-  const end = select(
+  const [role, roleField] = oneOf("Role", ["watcher", "operator", "owner"]);
+  const [end, endField] = oneOf(
     "End",
     ENDS.map(([label]) => label),
   );
@@ -49,7 +51,7 @@ export function invitation(copy) {
       {
         name: name.value.trim(),
         role: /** @type {Commands["Invite"]["role"]} */ (role.value),
-        days: ENDS[end.selectedIndex][1],
+        days: ENDS.find(([label]) => label === end.value)?.[1] ?? null,
         url: location.origin + location.pathname,
       },
       { quiet: true, errors: "caller" },
@@ -71,16 +73,29 @@ export function invitation(copy) {
     name.value = "";
   }
 
-  return el("div", {}, el("div", { class: "wv-invite" }, name, role, end, make), problem, result);
+  return el(
+    "div",
+    {},
+    el("div", { class: "wv-invite" }, name, roleField, endField, make),
+    problem,
+    result,
+  );
 }
 
 /**
+ * The chosen one of some texts, the first at first, and its field.
+ *
  * @param {string} label
- * @param {string[]} options
+ * @param {string[]} texts
  */
-const select = (label, options) =>
-  el(
-    "select",
-    { class: "wv-field", "aria-label": label },
-    options.map((text) => el("option", {}, text)),
-  );
+function oneOf(label, texts) {
+  const chosen = signal(texts[0]);
+  const { element } = combobox({
+    label,
+    value: () => chosen.value,
+    options: () => texts.map((value) => ({ value })),
+    change: (text) => (chosen.value = text),
+    free: false,
+  });
+  return /** @type {const} */ ([chosen, element]);
+}
