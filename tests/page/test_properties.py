@@ -490,3 +490,4 @@ def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(tab: Tab) -> None:
     assert labels.evaluate_all(BROKEN) == [], "in the tree"
     tab.button("List options").click()
     tab.page.get_by_text("Properties below the tree").click()
+    tree.fold("a")

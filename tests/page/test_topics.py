@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Annotated
 
 import numpy as np
+import playwright.sync_api as playwright
 import pytest
 from shown_stores import shown_by
 
@@ -252,3 +253,21 @@ def test_where_publishers_differ_the_qos_is_mixed() -> None:
     made = shown_by("topics", State(offers=offers))
     assert made["/scan"]["qos"] == "best effort, volatile"
     assert made["/mixed"]["qos"] == "mixed, mixed"
+
+
+def test_hidden_topics_are_listed_when_they_are_asked_for(loop: Loop, tab: Tab) -> None:
+    publisher = Publisher("/driver", "std_msgs/msg/String", "reliable", "volatile")
+    offer = Offer((publisher,))
+    loop.show(offers={"/scan": offer})
+    tab.show_tab("Topics")
+    grid = tab.page.get_by_role("grid", name="Topics")
+    tab.wait_for(grid.get_by_text("/scan").is_visible)
+    switch = tab.button("Hidden topics")
+    playwright.expect(switch).to_be_hidden()
+    loop.show(offers={"/scan": offer, "/dock/_action/status": offer})
+    tab.wait_for(switch.is_visible)
+    playwright.expect(grid.get_by_text("/dock/_action/status")).to_be_hidden()
+    switch.click()
+    tab.wait_for(grid.get_by_text("/dock/_action/status").is_visible)
+    switch.click()
+    playwright.expect(grid.get_by_text("/dock/_action/status")).to_be_hidden()

@@ -194,7 +194,10 @@ def test_a_display_unfolds_its_properties_below_it(
     tree.fold("a")
     inside.wait_for()
     tree.tab.wait_for(lambda: tree.top("b") - tree.top("a") > 60)
+    tree.click("a")
+    assert not tree.details.is_visible(), "properties stand once"
     tree.fold("a")
+    tree.tab.wait_for(tree.details.is_visible)
     tree.tab.wait_for(lambda: tree.top("b") - tree.top("a") < 30 and inside.count() == 0)
 
 

@@ -15,6 +15,7 @@ from shown_stores import shown_by
 from tests.support.given_parts import GivenParts
 from webviz.api.declared import Topic
 from webviz.api.group import DisplayGroup
+from webviz.api.offer import Offer, Publisher
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, State, Traffic
@@ -95,6 +96,17 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
     assert shown_by("rate", state, "a") == {"hz": shown}
     assert shown_by("rate", state, "gone") == {}
     assert shown_by("rate", replace(state, traffic={}), "a") == {}
+
+
+def test_a_topic_whose_last_message_is_repeated_is_latched(make_row: MakeRow) -> None:
+    publishers = [
+        Publisher(node, "sensor_msgs/msg/LaserScan", "reliable", durability)
+        for node, durability in (("/a", "transient_local"), ("/b", "volatile"))
+    ]
+    state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(0.0, 0.0)})
+    for count, expected in ((1, {"hz": 0.0, "is_latched": True}), (2, {"hz": 0.0})):
+        offers = {"/scan": Offer(tuple(publishers[:count]))}
+        assert shown_by("rate", replace(state, offers=offers), "a") == expected
 
 
 class CountingChannel(Channel):

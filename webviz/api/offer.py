@@ -67,3 +67,9 @@ class Offer:
     is_recorded: bool = False
     begins: str = ""
     readers: tuple[Endpoint, ...] = ()
+
+    @property
+    def is_latched(self) -> bool:
+        """Whether every publisher repeats its last messages to those who come later."""
+        durabilities = {publisher.durability for publisher in self.publishers}
+        return durabilities == {"transient_local"}

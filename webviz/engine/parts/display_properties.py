@@ -37,10 +37,12 @@ class LiveTopic(msgspec.Struct, frozen=True):
     Args:
         rate: in Hz, as precise as it stays the same for a while; None without a subscription.
         qos: in words.
+        is_latched: see `Offer`.
     """
 
     rate: float | None
     qos: str
+    is_latched: bool = False
 
 
 class PropertiesStore(PageStore, frozen=True):
@@ -72,9 +74,11 @@ class RateStore(PageStore, frozen=True):
 
     Args:
         hz: how many arrive, to two digits; unset if it does not subscribe.
+        is_latched: see `Offer`; unset if it is not.
     """
 
     hz: float | msgspec.UnsetType = msgspec.UNSET
+    is_latched: bool | msgspec.UnsetType = msgspec.UNSET
 
 
 class TopicOffer(msgspec.Struct, frozen=True):
@@ -85,12 +89,14 @@ class TopicOffer(msgspec.Struct, frozen=True):
         rate: see `LiveTopic`.
         shown: names of the displays that show it.
         problem: of its QoS, a sentence or "".
+        is_latched: see `Offer`.
     """
 
     publishers: int
     rate: float | None
     shown: Sequence[str]
     problem: str
+    is_latched: bool
 
 
 class TopicOffersStore(PageStore, frozen=True):
@@ -119,7 +125,9 @@ def properties(
 
     def live(topic: Topic) -> LiveTopic:
         name = topic.name if topic.name.startswith("/") else f"/{topic.name}"
-        return LiveTopic(_rate(name, traffic), _qos(topic, offers.get(name)))
+        offer = offers.get(name)
+        is_latched = offer is not None and offer.is_latched
+        return LiveTopic(_rate(name, traffic), _qos(topic, offer), is_latched)
 
     return PropertiesStore(
         name=name,
@@ -161,6 +169,7 @@ def topic_offers(
                 rate=_rate(name, traffic),
                 shown=shown.get(name, []),
                 problem=str(sendable(offer.problem)),
+                is_latched=offer.is_latched,
             )
             for name, offer in offers.items()
             if any(map(fits, offer.publishers))
@@ -168,11 +177,14 @@ def topic_offers(
     )
 
 
-def rate(row: Row | None, traffic: Mapping[str, Traffic]) -> RateStore:
+def rate(row: Row | None, offers: Mapping[str, Offer], traffic: Mapping[str, Traffic]) -> RateStore:
     """Return the rate of messages of a display."""
-    known = (traffic[name].rate_hz for name in topics_of_row(row) if name in traffic)
-    hz = next(known, None)
-    return RateStore() if hz is None else RateStore(_rounded(hz))
+    topic = next((name for name in topics_of_row(row) if name in traffic), None)
+    if topic is None:
+        return RateStore()
+    offer = offers.get(topic)
+    is_latched = offer is not None and offer.is_latched
+    return RateStore(_rounded(traffic[topic].rate_hz), is_latched or msgspec.UNSET)
 
 
 def _worst(row: Row) -> WorstStatus | None:

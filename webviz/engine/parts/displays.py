@@ -192,10 +192,10 @@ class DisplaysPart(Part):
         row = self._row(display)
         return lines(row.statuses, row.id, causes(self.core.statuses)) if row else None
 
-    @store(name="rate", of=lambda part: (part.rows, part.traffic))
+    @store(name="rate", of=lambda part: (part.rows, part.core.offers, part.traffic))
     def rate_of(self, display: str) -> RateStore:
         """Return the rate of messages of the display with this id."""
-        return rate(self._row(display), self.traffic)
+        return rate(self._row(display), self.core.offers, self.traffic)
 
     @store(of=lambda part: (part.rows, part.core.offers, part.traffic))
     def topics_of(self, types: str) -> TopicOffersStore:

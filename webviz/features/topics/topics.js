@@ -3,7 +3,7 @@
 import { why } from "../../access.js";
 import { openMenu } from "../../controls/menu.js";
 import { el } from "../../dom.js";
-import { icon } from "../../icons.js";
+import { icon, iconButton } from "../../icons.js";
 import { recall, remember } from "../../remember.js";
 import { rowList, touchable } from "../../controls/rows.js";
 import { searchField } from "../../controls/fields.js";
@@ -14,9 +14,11 @@ import { canvas } from "../../viser_page.js";
 import { addDisplay, inspector } from "./topics_inspector.js";
 import { takeFields } from "../../panels/field_drag.js";
 import { toast } from "../../toasts.js";
+import { isHiddenTopic } from "../../words.js";
 import { arranged, tableHead, topicRow } from "../../panels/topics_table.js";
 
 /** @import {Field} from "../../panels/field_drag.js" */
+/** @import {Readable, Signal} from "../../signals.js" */
 /** @import {Panel} from "../../types.js" */
 /** @import {Sort} from "../../panels/topics_table.js" */
 
@@ -48,7 +50,13 @@ const topics = {
       const known = traffic.all();
       return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...known.get(key) }));
     });
-    const found = computed(() => arranged(all.value, text.value, sort.value));
+    const hasHidden = computed(() => all.value.some(({ key }) => isHiddenTopic(key)));
+    const isAll = signal(recall("topics-hidden", false));
+    effect(() => remember("topics-hidden", isAll.value));
+    const offered = computed(() =>
+      all.value.filter(({ key }) => isAll.value || !isHiddenTopic(key)),
+    );
+    const found = computed(() => arranged(offered.value, text.value, sort.value));
     const table = el(
       "div",
       { class: "wv-topics-table", "aria-rowcount": () => found.value.length + 1 },
@@ -80,7 +88,7 @@ const topics = {
     const panel = el(
       "div",
       { class: "wv-topics" },
-      el("div", { class: "wv-search" }, icon("search"), search),
+      el("div", { class: "wv-search" }, icon("search"), search, hiddenSwitch(isAll, hasHidden)),
       table,
       el("div", { class: "wv-empty", role: "status", hidden: () => !isEmpty() }, () =>
         all.value.length ? "No matching topics." : NOTHING,
@@ -99,6 +107,19 @@ const topics = {
     return () => observer.disconnect();
   },
 };
+
+/**
+ * A button that lists hidden topics, too, where there are some.
+ *
+ * @param {Signal<boolean>} isOn
+ * @param {Readable<boolean>} isThere
+ */
+const hiddenSwitch = (isOn, isThere) =>
+  iconButton("eye", "Hidden topics", () => (isOn.value = !isOn.value), {
+    tip: "Hidden topics, such as those of actions",
+    "aria-pressed": () => String(isOn.value),
+    hidden: () => !isThere.value,
+  });
 
 /**
  * Shows a topic that is dropped on the scene.

@@ -8,6 +8,7 @@ import { listbox } from "./listbox.js";
 import { MIXED, MIXED_TEXT } from "./mixed.js";
 import { sync } from "./sync.js";
 
+const CHEVRON_PX = 28;
 const COARSE = matchMedia("(pointer: coarse)");
 
 /** @import {Choice} from "../types.js" */
@@ -91,7 +92,12 @@ export function combobox({ label, value, options: read, free = true, placeholder
       title: text.length > 24 ? text.slice(0, 1000) : null,
     });
     setText(note, option?.note ?? "");
-    set(note, { "data-level": option?.level });
+    set(note, { "data-level": option?.level, hidden: false });
+    // A name wins over its note where there is no room for both.
+    set(input, {
+      style: option?.note ? `padding-right: ${note.offsetWidth + CHEVRON_PX}px` : null,
+    });
+    set(note, { hidden: input.scrollWidth > input.clientWidth });
   }
 
   /** @param {string} [text] */

@@ -1,6 +1,7 @@
 // A topic: one of those that carry the right type, or any name.
 
 import { store } from "../stores.js";
+import { hertz, isHiddenTopic } from "../words.js";
 import { combobox } from "./combobox.js";
 
 /** @import {Choice, Control, ControlOptions} from "../types.js" */
@@ -25,7 +26,8 @@ export function topic({ type, default: standard }, options) {
       const all = isOpen
         ? [...topics.all()].map(([name, offer]) => ({ value: name, ...describe(offer) }))
         : [];
-      all.sort((a, b) => (a.value < b.value ? -1 : 1));
+      const rank = ({ value = "" }) => `${isHiddenTopic(value) ? 1 : 0}${value}`;
+      all.sort((a, b) => (rank(a) < rank(b) ? -1 : 1));
       // While the list is shut the field has the note of its own topic.
       const own = value();
       const known = /** @type {LiveTopic | undefined} */ (options.known?.());
@@ -35,7 +37,7 @@ export function topic({ type, default: standard }, options) {
         known.rate !== null &&
         !all.some((one) => one.value === own)
       )
-        all.push({ value: own, note: hertz(known.rate) });
+        all.push({ value: own, note: hertz(known.rate, known.is_latched) });
       return all;
     },
     placeholder: "No topic",
@@ -43,14 +45,11 @@ export function topic({ type, default: standard }, options) {
 }
 
 /** @param {TopicOffer} offer */
-function describe({ publishers, rate, shown, problem }) {
+function describe({ publishers, rate, shown, problem, is_latched }) {
   if (problem) return { note: problem, level: "error" };
   const notes = [publishers === 1 ? "1 publisher" : `${publishers} publishers`];
-  if (rate !== null) notes.unshift(hertz(rate));
+  if (rate !== null) notes.unshift(hertz(rate, is_latched));
   if (shown.length)
     notes.push(`shown by ${shown[0]}${shown.length > 1 ? ` and ${shown.length - 1} more` : ""}`);
   return { note: notes.join(" · ") };
 }
-
-/** @param {number} rate */
-const hertz = (rate) => `${rate} Hz`;

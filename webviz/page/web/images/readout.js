@@ -5,6 +5,7 @@ import { el, setText } from "../dom.js";
 import { messageRows } from "../panels/message_rows.js";
 import { spanText } from "../panels/units.js";
 import { watch } from "../stores.js";
+import { hertz } from "../words.js";
 
 /** @import {PictureHeader} from "../messages.js" */
 
@@ -27,7 +28,8 @@ export function makeReadout(place, id) {
   let age = "";
   const ends = [
     watch(`rate:${id}`, (values) => {
-      rate = values.has("hz") ? `${values.get("hz")} Hz` : "";
+      const hz = values.get("hz");
+      rate = hz === undefined ? "" : hertz(hz, values.get("is_latched"));
     }),
     watchTime(AGE_MS, (clock) => {
       const received = clock.has("pace") ? last?.received : undefined;

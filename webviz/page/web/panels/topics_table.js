@@ -18,6 +18,8 @@ import { bytesText, rateText, spanText } from "./units.js";
  * }} Column
  */
 
+const LATCHED = "transient local";
+
 /** @param {string} type */
 const shortType = (type) => type.replace("/msg/", "/");
 /**
@@ -58,7 +60,7 @@ export const COLUMNS = [
     hint: "Messages per second, of topics that are shown or looked at",
     isNumber: true,
     value: (topic) => topic.hz,
-    text: (topic) => rateText(topic.hz),
+    text: ({ hz, qos }) => (hz === 0 && qos.endsWith(LATCHED) ? "latched" : rateText(hz)),
   },
   {
     id: "bytes",

@@ -46,7 +46,9 @@ export const displays = {
     const tree = buildTree({
       after: add,
       changed({ items, search }) {
-        details.items.value = items;
+        // Properties stand once: not below the tree while they are in it.
+        const isInTree = items.length === 1 && !items[0].isGroup && folding.isOpen(items[0]);
+        details.items.value = isInTree ? [] : items;
         if (field.value !== search) field.value = search;
       },
     });

@@ -6,6 +6,7 @@ import { icon } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
 import { effect, signal } from "../../signals.js";
 import { watch } from "../../stores.js";
+import { hertz } from "../../words.js";
 import { explaining, isSevere, isShared } from "../findings.js";
 import { properties } from "./properties.js";
 import { fillHelp } from "./statuses.js";
@@ -104,7 +105,8 @@ export function makeRow(first, look) {
     unwatch?.();
     unwatch = isShown
       ? watch(`rate:${id}`, (values) => {
-          setText(note, values.has("hz") ? `${values.get("hz")} Hz` : "");
+          const hz = values.get("hz");
+          setText(note, hz === undefined ? "" : hertz(hz, values.get("is_latched")));
         })
       : null;
     if (!isShown) setText(note, "");

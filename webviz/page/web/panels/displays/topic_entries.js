@@ -1,5 +1,7 @@
 // Topics that can be added: each with the displays that show it, an image once for all transports.
 
+import { isHiddenTopic } from "../../words.js";
+
 /** @import {DisplayType, GraphTopic, TopicTraffic} from "../../contents.js" */
 /** @import {OptionRow} from "../../controls/option_list.js" */
 /** @import {ValuesOf} from "../../types.js" */
@@ -39,7 +41,8 @@ export function topicEntries({ types, topics, traffic, shown }, checked) {
     const show = family.flatMap(({ offer }) => offer.show);
     const isShown = family.some(({ topic }) => shown?.has(topic));
     const isPlain = show.every(([display]) => plain.has(display));
-    const rank = show.length ? Number(isShown) + 2 * Number(isPlain) : 4;
+    const isHidden = family.every(({ topic }) => isHiddenTopic(topic));
+    const rank = !show.length ? 5 : isHidden ? 4 : Number(isShown) + 2 * Number(isPlain);
     return { rank, ...entryOf(family, { traffic, icons, isShown, isPlain, checked }) };
   });
   return entries.toSorted((a, b) => a.rank - b.rank);
