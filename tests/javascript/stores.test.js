@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import * as channel from "../../webviz/page/web/channel.js";
 import { computed, effect } from "../../webviz/page/web/signals.js";
-import { store, watch } from "../../webviz/page/web/stores.js";
+import { once, store, watch } from "../../webviz/page/web/stores.js";
 
 /** What the page sends, and a function by which the server sends values of a store. */
 function server() {
@@ -119,4 +119,33 @@ test("a listener gets all values, then what has changed, and makes no effect dep
     ],
   );
   for (const end of [...ends, ...ends]) end();
+});
+
+test("a change that is still under way when a store is watched again is not its first values", async () => {
+  const { sent, values } = server();
+  const end = watch("panel", () => {});
+  values("panel", { id: "plot", title: "Plot" }, { all: true });
+  end();
+  await later();
+  values("panel", { title: "Curves" });
+  const id = once("panel", (all) => all.get("id"));
+  assert.deepEqual(
+    sent.slice(1).map(({ type }) => type),
+    ["Watch", "Unwatch", "Watch"],
+  );
+  values("panel", { title: "Curve" });
+  values("panel", { id: "plot", title: "Curve" }, { all: true });
+  assert.equal(await id, "plot");
+});
+
+test("values that come when nothing watches a store any more are not kept", async () => {
+  const { values } = server();
+  watch("old", () => {})();
+  await later();
+  values("old", { a: 1 }, { all: true });
+  const seen = [];
+  const end = watch("old", (all) => seen.push(all.get("a")));
+  values("old", { a: 2 }, { all: true });
+  assert.deepEqual(seen, [2]);
+  end();
 });

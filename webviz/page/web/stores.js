@@ -97,9 +97,8 @@ class Store {
     this.#holders -= 1;
     queueMicrotask(() => {
       if (this.#holders || !this.#isWatched) return;
-      this.#isWatched = false;
-      this.take({ all: true, set: {}, gone: [] });
-      this.#isThere = false;
+      this.#keep({ all: true, set: {}, gone: [] });
+      this.#isWatched = this.#isThere = false;
       if (channel.isOpen()) channel.send({ type: "Unwatch", store: this.#name });
     });
   }
@@ -109,8 +108,18 @@ class Store {
     if (this.#isWatched && channel.isOpen()) channel.send({ type: "Watch", store: this.#name });
   }
 
+  /**
+   * Takes what the server has sent, but for what was under way before this was watched anew: that is
+   * for values which are gone.
+   *
+   * @param {{all: boolean, set: Record<string, any>, gone: string[]}} values
+   */
+  take(values) {
+    if (this.#isWatched && (this.#isThere || values.all)) this.#keep(values);
+  }
+
   /** @param {{all: boolean, set: Record<string, any>, gone: string[]}} values */
-  take({ all, set, gone }) {
+  #keep({ all, set, gone }) {
     const changed = new Set([...Object.keys(set), ...gone]);
     if (all) {
       for (const key of this.#values.keys()) changed.add(key);
