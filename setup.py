@@ -174,6 +174,7 @@ setup(
             "PublishMessage = webviz.panels.publish:PublishMessage",
             "RawMessage = webviz.panels.raw:RawMessage",
             "RvizVisualToolsGui = webviz.panels.visual_tools:RvizVisualToolsGui",
+            "SceneView = webviz.panels.scene_view:SceneView",
             "Selector = webviz.panels.selector:Selector",
             "ServiceCall = webviz.panels.calling:ServiceCall",
             "SlamToolbox = webviz.panels.slam_toolbox:SlamToolbox",

@@ -278,6 +278,10 @@ class Panel(Declared, kw_only=True, dict=True):
     def start_over(self) -> None:
         """Discard received data: time has gone back, or somebody asks for it."""
 
+    def target_frames(self) -> frozenset[str]:
+        """Return the frames that what the page draws of the panel follows while the tab is open."""
+        return frozenset()
+
     def publications(self) -> Mapping[str, str]:
         """Return the topics to publish on while the tab is open: message types by full name.
 

@@ -97,6 +97,15 @@ class PanelsPart(Part):
             if (advertisement := advertisement_of(self.core, *each))
         }
 
+    def target_frames(self) -> set[str]:
+        """Return the frames that the open panels follow."""
+        guard = self.core.guard
+        frames = (
+            guard.attempt(f"The panel {panel.name}", frozenset[str](), panel.target_frames)
+            for panel in self._panels()
+        )
+        return set().union(*frames)
+
     def tabs(self) -> tuple[PanelTab, ...]:
         """Return the panels in their order."""
         return tuple(self._tabs())

@@ -33,6 +33,7 @@ from webviz.engine.commands import Sender
 from webviz.engine.forms import Form, form, sendable, values_of
 from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
@@ -120,8 +121,8 @@ class ViewsPart(Part):
         self._cameras.show(view)
 
     def followed(self) -> set[str]:
-        """Return the frames whose poses `follow` needs."""
-        return self._cameras.target_frames()
+        """Return the frames whose poses `follow` needs: those of views and of panels."""
+        return self._cameras.target_frames() | self.core.get(PanelsPart).target_frames()
 
     def follow(self, targets: set[str], frames: Frames) -> None:
         """Move views with their target frames; call before the scene is flushed."""
@@ -141,7 +142,7 @@ class ViewsPart(Part):
         frames = self.core.frames
         lost = [
             f"The view cannot follow {frame}. {frames.why_not(frame)}"
-            for frame in sorted(self._cameras.target_frames())
+            for frame in sorted(self.followed())
             if frames.latest(frame) is None
         ]
         return {"Target Frame": Status(Level.WARN, joined(*lost))} if lost else {}

@@ -1,4 +1,4 @@
-"""Displays visible in a pane that draws the scene with an overlay camera."""
+"""Displays visible where the scene is drawn with another camera: image panes and 3D scenes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def enabled(rows: Iterable[Row]) -> Iterator[Row]:
                 yield row
 
 
-def names(rows: Sequence[Row], own: Row) -> Mapping[str, str]:
+def names(rows: Sequence[Row], own: Row | None = None) -> Mapping[str, str]:
     """Return the names of switches, and the type of each display; its own display has none."""
     found = {path: row.type for row, path in paths(rows) if row is not own}
     return dict(list(found.items())[:MAX_NAMES])
@@ -49,12 +49,12 @@ def hidden_in(panes: Iterable[Row], rows: Sequence[Row]) -> dict[str, list[str]]
     for row in panes:
         for each in switches_of(row):
             assert row.display is not None
-            found[row.id] = _hidden(rows, each.of(row.display))
+            found[row.id] = hidden(rows, each.of(row.display))
     return found
 
 
-def _hidden(rows: Sequence[Row], switches: Mapping[str, bool]) -> list[str]:
-    """Ids of the displays that are switched off, by themselves or with a group."""
+def hidden(rows: Sequence[Row], switches: Mapping[str, bool]) -> list[str]:
+    """Return the ids of the displays that are switched off, by themselves or with a group."""
     found: list[str] = []
     off: int | None = None
     for row, path in paths(rows):

@@ -16,6 +16,7 @@ from webviz.api.display import Display
 from webviz.api.errors import Error
 from webviz.api.modules import module_texts
 from webviz.api.panel import Panel
+from webviz.api.properties import properties_of
 from webviz.api.registry import broken_types, plugin_types
 from webviz.api.roles import Role
 from webviz.api.tool import Tool
@@ -23,6 +24,8 @@ from webviz.engine.commands import PageCommand, Sender
 from webviz.engine.feature import command, store
 from webviz.engine.forms import Form, form, values_of
 from webviz.engine.guard import Guard
+from webviz.engine.parts import visibility
+from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import PanelTab
@@ -90,14 +93,22 @@ class PanelStore(PageStore, frozen=True):
 
 
 class PanelPropertiesStore(PageStore, frozen=True):
-    """Properties of a panel, as the store `tool` has them of a tool."""
+    """Properties of a panel, as the store `tool` has them of a tool.
 
-    spread: ClassVar = {"values": "value."}
+    Args:
+        id: for commands.
+        type: its name in the registry.
+        declared, values: of the properties.
+        offered: the names of displays that get a switch, with their types, by property.
+    """
+
+    spread: ClassVar = {"values": "value.", "offered": "offered."}
 
     id: str
     type: str
     declared: Form
     values: Mapping[str, Any]
+    offered: Mapping[str, Mapping[str, str]]
 
 
 class PanelCommand(msgspec.Struct, frozen=True):
@@ -203,7 +214,10 @@ class PluginPanels(PageFeature):
         if found is None:
             return None
         cls, own = type(found.panel), values_of(found.panel, _SHARED)
-        return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own)
+        switches = [each for each in properties_of(cls) if each.widget == "displays"]
+        shown = visibility.names(self.core.get(DisplaysPart).rows) if switches else {}
+        offered = {each.path: shown for each in switches}
+        return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own, offered)
 
     @store()
     def commands(self, argument: str) -> PanelCommandsStore:

@@ -367,7 +367,7 @@ export interface Stores {
   modules: { own: {  }; items: Record<string, string> };
   outputs: { own: {  }; items: WrittenFile };
   panel: { own: { "/order": Array<string>; "/failure": string }; items: Record<string, unknown> };
-  panel_properties: { own: { id?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown }; items: never };
+  panel_properties: { own: { id?: string; type?: string; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, string> }; items: never };
   panels: { own: { "/order": Array<string>; "/types": Array<PanelType> }; items: string };
   panes: { own: { order: Array<string> }; items: PaneCaption };
   people: { own: {  }; items: Person };

@@ -5,6 +5,7 @@ import * as viser from "../viser_page.js";
 import { contextOf } from "../dom.js";
 import { undistort, straight } from "./undistort.js";
 import { boxIn, paint, placeIn } from "./camera_overlay.js";
+import { eachPicture } from "../scene/second_camera.js";
 import { makePicture } from "./picture.js";
 
 /** @import {Picture, PictureListener} from "./picture.js" */
@@ -12,10 +13,6 @@ import { makePicture } from "./picture.js";
 /** @import {Vec2} from "../types.js" */
 
 const SCENE_MS = 100; // at most so often for what moves in the scene; for each picture anyway
-
-/** @type {Set<() => void>} */
-const open = new Set();
-let isInstalled = false;
 
 /**
  * `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged.
@@ -82,9 +79,7 @@ export function makeCamera(canvas, { drawn, fail }) {
     });
   }
 
-  if (!isInstalled) viser.eachFrame(0, () => open.forEach((each) => each()));
-  isInstalled = true;
-  open.add(frame);
+  const end = eachPicture(frame);
   const resized = new ResizeObserver(ask);
   resized.observe(canvas);
 
@@ -141,7 +136,7 @@ export function makeCamera(canvas, { drawn, fail }) {
     colorAt: picture.colorAt,
     close() {
       clearTimeout(timer);
-      open.delete(frame);
+      end();
       resized.disconnect();
       picture.close();
     },

@@ -4,6 +4,7 @@
 import constants from "../constants.js";
 import { pathOf } from "./projection.js";
 import { toThree } from "./fixed_frame.js";
+import { scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
 /** @import {Three, Vec3, Wxyz} from "../types.js" */
@@ -11,21 +12,60 @@ import * as viser from "../viser_page.js";
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz
 
+/**
+ * A camera: `position` and `wxyz` place it in the fixed frame: x to the right, y down, z ahead. `edges` are
+ * left, right, top and bottom of what it sees 1 m ahead; of one without perspective, what it sees at the
+ * distance `flat` as well. Displays with an id in `hidden` are left out.
+ *
+ * @typedef {{
+ *   position: Vec3, wxyz: Wxyz, edges: number[], far: number, hidden: string[], flat?: number,
+ * }} Sight
+ */
+
 /** @type {Three} */
 let eye = null;
+/** @type {Set<() => void> | null} */
+let drawings = null;
+
+/**
+ * Calls `draw` before each frame of the page, until the function is called that this returns.
+ *
+ * @param {() => void} draw
+ * @returns {() => void}
+ */
+export function eachPicture(draw) {
+  if (!drawings) {
+    const all = (drawings = new Set());
+    viser.eachFrame(0, () => all.forEach((each) => each()));
+  }
+  const own = drawings.add(draw);
+  return () => own.delete(draw);
+}
+
+/**
+ * Fills a 2D context with what is behind the scene: the colour of the config, or that of the theme.
+ *
+ * @param {CanvasRenderingContext2D} context
+ */
+export function drawBackground(context) {
+  const { width, height } = context.canvas;
+  const { enabled, colorMap } = viser.backgroundMaterial().uniforms;
+  if (enabled.value && colorMap.value)
+    return context.drawImage(colorMap.value.image, 0, 0, width, height);
+  context.fillStyle = `rgb(${scheme().background.join()})`;
+  context.fillRect(0, 0, width, height);
+}
 
 /**
  * Draws the scene into a 2D context, `width` x `height` pixels large, transparent where it is empty.
  *
- * `position` and `wxyz` place the camera in the fixed frame: x to the right, y down, z ahead. `edges` are
- * left, right, top and bottom of what it sees 1 m ahead. Displays with an id in `hidden` are left out.
- *
  * @param {CanvasRenderingContext2D} context
  * @param {number} width
  * @param {number} height
- * @param {{position: Vec3, wxyz: Wxyz, edges: number[], far: number, hidden: string[]}} sight
+ * @param {Sight} sight
  */
-export function drawSecond(context, width, height, { position, wxyz, edges, far, hidden }) {
+export function drawSecond(context, width, height, sight) {
+  const { position, wxyz, edges, far, hidden, flat = 0 } = sight;
   const gl = viser.gl();
   const canvas = gl.domElement;
   const shrink = Math.min(1, canvas.width / width, canvas.height / height);
@@ -33,15 +73,18 @@ export function drawSecond(context, width, height, { position, wxyz, edges, far,
   if (!wide || !tall) return;
   eye ??= makeEye();
   place(position, wxyz);
-  Object.assign(eye, { edges, far });
+  Object.assign(eye, { edges, far, flat });
   eye.updateProjectionMatrix();
-  const undo = [hide(hidden), scalePoints(tall), background(gl)];
+  const undo = [hide(hidden), scalePoints((2 * tall) / (edges[2] - edges[3])), background(gl)];
   const dpr = gl.getPixelRatio();
   try {
     gl.setViewport(0, 0, wide / dpr, tall / dpr);
+    gl.setScissor(0, 0, wide / dpr, tall / dpr);
+    gl.setScissorTest(true); // else all of the canvas is cleared
     gl.render(viser.scene(), eye);
     context.drawImage(canvas, 0, canvas.height - tall, wide, tall, 0, 0, width, height);
   } finally {
+    gl.setScissorTest(false);
     gl.setViewport(0, 0, canvas.width / dpr, canvas.height / dpr);
     for (const each of undo) each();
   }
@@ -54,15 +97,12 @@ function makeEye() {
   made.edges = [-1, 1, 1, -1];
   made.matrixAutoUpdate = false;
   made.updateProjectionMatrix = function () {
-    const edges = this.edges.map((/** @type {number} */ edge) => edge * NEAR);
-    const { coordinateSystem, reversedDepth } = this;
-    this.projectionMatrix.makePerspective(
-      ...edges,
-      NEAR,
-      this.far,
-      coordinateSystem,
-      reversedDepth,
-    );
+    const { edges, far, flat, coordinateSystem, reversedDepth } = this;
+    const [make, depth, near] = flat
+      ? ["makeOrthographic", flat, flat / 100]
+      : ["makePerspective", NEAR, NEAR];
+    const scaled = edges.map((/** @type {number} */ edge) => edge * depth);
+    this.projectionMatrix[make](...scaled, near, far, coordinateSystem, reversedDepth);
     this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
   };
   return made;
@@ -150,12 +190,11 @@ function contains(object, inner) {
 }
 
 // viser sizes points for its own camera, in pixels at 1 m.
-/** @param {number} tall */
-function scalePoints(tall) {
+/** @param {number} pixels of twice a metre there */
+function scalePoints(pixels) {
   const own = viser.camera();
   const ownTall = viser.gl().domElement.height;
-  const factor =
-    (eye.projectionMatrix.elements[5] * tall * Math.tan((own.fov * Math.PI) / 360)) / ownTall;
+  const factor = (pixels * Math.tan((own.fov * Math.PI) / 360)) / ownTall;
   /** @type {any[]} */
   const scales = [];
   viser.scene().traverse(({ isPoints, material }) => {
