@@ -17,6 +17,7 @@ import * as capacity from "./scene/capacity.js";
 import * as inStep from "./scene/in_step.js";
 import * as labels from "./scene/labels.js";
 import * as lines from "./scene/lines.js";
+import * as fingers from "./scene/fingers.js";
 import * as mouse from "./scene/mouse.js";
 import { notice } from "./notice.js";
 import * as overlay from "./overlay/overlay.js";
@@ -58,7 +59,8 @@ async function install() {
   for (const part of [shell, page, inStep, ...ofScene]) part.install();
   if (!isExported) liveness.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, handles, saveImage, overlay, capacity, blocks]) part.install();
+  for (const part of [view, mouse, fingers, handles, saveImage, overlay, capacity, blocks])
+    part.install();
   if (!isExported) vitals.install();
   toolbar.install(shell.places);
   for (const module of constants.FEATURES) await installFeature(module);

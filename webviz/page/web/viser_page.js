@@ -32,6 +32,8 @@ const NEEDS = {
   "cameraControl.normalizeRotations()": "the axes that turn the view",
   "cameraControl.dollyTo()": "zooming",
   "cameraControl.mouseButtons.left": "the mouse",
+  "cameraControl.touches.two": "fingers",
+  "cameraControl.truck()": "fingers",
   "cameraControl.constructor.ACTION.TRUCK": "the mouse",
   configuredMaxOrbitDistance: "views from far away",
   "scene.__r3f.root.getState().gl.setClearColor()": "the background of the theme",

@@ -14,8 +14,10 @@ import * as viser from "../viser_page.js";
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
 
-const isLocked = () => Boolean(views.options().lock_camera);
-const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
+/** True for a view whose camera stays where it is in its frame. */
+export const isLocked = () => Boolean(views.options().lock_camera);
+/** True for views that move over the ground. */
+export const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
 /** @type {Vec2 | null} */
 let mouse = null;
 let isSliding = false;
@@ -37,13 +39,14 @@ export function arm(event) {
   controls.truckSpeed = views.isFPS() ? (0.01 * tall) / (EYE * Math.tan(FIELD_OF_VIEW / 2)) : 2;
 }
 
-// RViz's XYOrbit keeps the point of the ground under the mouse, but moves at most a metre for an
-// event, because the ground is far away near the horizon.
 /**
+ * Keeps the point of the ground under the mouse, as RViz's XYOrbit, but moves at most a metre for an
+ * event, because the ground is far away near the horizon.
+ *
  * @param {Vec2} from
  * @param {Vec2} to
  */
-function slide(from, to) {
+export function slide(from, to) {
   const [before, now] = [from, to].map(groundOfView);
   if (!before || !now) return;
   const controls = viser.controls();
@@ -60,8 +63,12 @@ function groundOfView(xy) {
   return steps > 0 ? origin.addScaledVector(direction, steps) : null;
 }
 
-/** @param {number} meters */
-function walk(meters) {
+/**
+ * Goes ahead.
+ *
+ * @param {number} meters
+ */
+export function walk(meters) {
   const controls = viser.controls();
   const eye = controls.getPosition(viser.camera().position.clone());
   const at = controls.getTarget(eye.clone());
@@ -69,9 +76,22 @@ function walk(meters) {
   controls.setLookAt(...eye.add(step).toArray(), ...at.add(step).toArray(), false);
 }
 
-// RViz goes away by 1 % of the distance for a pixel down, and by 12 % for a notch of the wheel.
-/** @param {number} factor */
-function zoom(factor) {
+/**
+ * Moves what is at the distance of the focal point with the pointer; RViz moves FPS by 1 cm/px.
+ *
+ * @param {Vec2} by pixels
+ */
+export function move([dx, dy]) {
+  const meters = views.isFPS() ? 0.01 : views.metersPerPixel();
+  viser.controls().truck(-dx * meters, -dy * meters, false);
+}
+
+/**
+ * Goes away by a factor: RViz by 1 % for a pixel down, and by 12 % for a notch of the wheel.
+ *
+ * @param {number} factor of the distance
+ */
+export function zoom(factor) {
   const controls = viser.controls();
   const distance = controls.distance * factor;
   const { minDistance, maxDistance } = controls;
