@@ -11,7 +11,13 @@ import {
   rebounded,
   zoomed,
 } from "../../webviz/page/web/timeline/range.js";
-import { agoText, atMoment, beforeText, isNow } from "../../webviz/page/web/timeline/moment.js";
+import {
+  agoText,
+  atMoment,
+  beforeText,
+  behindAt,
+  isNow,
+} from "../../webviz/page/web/timeline/moment.js";
 import { savedText } from "../../webviz/page/web/timeline/saved_text.js";
 import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
 
@@ -114,6 +120,9 @@ test("the past of live topics goes on with time", () => {
     [now.get("first"), now.get("duration"), now.get("position"), now.get("ago")],
     [40, 100, 100, 0],
   );
+  const paused = atMoment(live, 1102, 12.5);
+  assert.deepEqual([paused.get("position"), paused.get("duration")], [87.5, 100]);
+  assert.equal(atMoment(live, 1102, 500).get("position"), 40, "no longer held");
   const past = new Map(
     Object.entries({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 }),
   );
@@ -129,6 +138,13 @@ test("a bag is nowhere near now", () => {
     1e9,
   );
   assert.deepEqual([bag.get("first"), bag.get("ago"), isNow(bag, 5, 5)], [0, 0, false]);
+});
+
+test("a paused scene is as far behind as it stands, a running one is not", () => {
+  const clock = (is_paused, rate) => new Map(Object.entries({ is_paused, pace: [5, 1090, rate] }));
+  assert.equal(behindAt(clock(true, 0), 1102), 12);
+  assert.equal(behindAt(clock(false, 0), 1102), 0, "the clock of a simulation stands");
+  assert.equal(behindAt(new Map(), 1102), 0);
 });
 
 test("times before now are seconds", () => {

@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 from tests.page.conftest import Loop, Tab
 from webviz.api.status import Level
 from webviz.commands import OpenRecording, ReturnToLive, Seek
-from webviz.engine.state import PanelTimes
+from webviz.engine.state import ClockRate, PanelTimes
 from webviz.features.black_box.saved import BlackBoxState, SavedMoment
 from webviz.features.recording import MemoryState, RecordingState
 from webviz.sources.past_state import Event, PlaybackState
@@ -88,6 +88,16 @@ def test_a_typed_number_is_seconds_ago(loop: Loop, live: Tab) -> None:
     (seek,) = loop.commands
     assert isinstance(seek, Seek)
     assert seek.at_s == pytest.approx(BEGAN_S - 20, abs=10)
+
+
+def test_a_paused_page_says_how_far_it_is_behind(loop: Loop, live: Tab) -> None:
+    field = live.page.get_by_label("Go to time")
+    expect(field).to_have_value("now")
+    since = time.time() - 20.0
+    paused = ClockRate(round(since * 1e9), since, 0.0)
+    loop.show(clock=PanelTimes(wall_s=time.time(), is_paused=True, clock_rate=paused))
+    live.wait_for(lambda: re.fullmatch(r"−[23]\d\.\d s", field.input_value()))
+    expect(live.page.get_by_role("button", name="Live (L)")).to_be_hidden()
 
 
 def test_the_memory_says_what_it_holds(loop: Loop, live: Tab) -> None:

@@ -8,16 +8,17 @@
  *
  * @param {ValuesOf<"playback">} values
  * @param {number} wall time in seconds
+ * @param {number} [behind] how far a live scene that is paused is behind now, in seconds
  * @returns {Moment}
  */
-export function atMoment(values, wall) {
+export function atMoment(values, wall, behind = 0) {
   const isLive = values.get("is_live");
   /** @type {Moment} */
   const moment = new Map(values);
   if (isLive === null) return new Map([["first", 0], ["ago", 0], ...moment]);
   const duration = wall - moment.get("start") - moment.get("ahead");
-  const position = isLive ? duration : moment.get("position");
   const first = isLive ? duration - moment.get("held") : moment.get("first");
+  const position = isLive ? Math.max(first, duration - behind) : moment.get("position");
   return new Map([
     ...moment,
     ["first", first],
@@ -25,6 +26,17 @@ export function atMoment(values, wall) {
     ["position", position],
     ["ago", duration - position],
   ]);
+}
+
+/**
+ * Seconds since the scene was paused, 0 while it is not.
+ *
+ * @param {{get(key: "is_paused"): boolean | undefined, get(key: "pace"): number[] | undefined}} clock
+ * @param {number} wall time in seconds
+ */
+export function behindAt(clock, wall) {
+  const [, since = wall] = (clock.get("is_paused") && clock.get("pace")) || [];
+  return Math.max(0, wall - since);
 }
 
 /**

@@ -5,11 +5,11 @@ import { wallNow } from "../clock.js";
 import { copy } from "../clipboard.js";
 import { provide } from "../commands.js";
 import { toast } from "../toasts.js";
-import { watch } from "../stores.js";
+import { store, watch } from "../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
 import { timeCommands } from "./commands.js";
 import { byTime } from "./events.js";
-import { atMoment, isNow, isRewound } from "./moment.js";
+import { atMoment, behindAt, isNow, isRewound } from "./moment.js";
 import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
@@ -36,6 +36,7 @@ export function timeline(places) {
   let timer = 0;
   let topic = ""; // of which the next message is shown, "" for all that are displayed
 
+  const clock = store("clock");
   const position = () => seek.wanted() ?? recording.get("position");
   const seek = seeks(show, (time) => recording.size > 0 && isNow(recording, time, track.length()));
   const step = {
@@ -64,7 +65,7 @@ export function timeline(places) {
 
   function show() {
     if (!values) return;
-    recording = atMoment(values, wallNow());
+    recording = atMoment(values, wallNow(), behindAt(clock, wallNow()));
     track.show(recording);
     buttons.show(recording, position());
   }
