@@ -36,6 +36,7 @@ from webviz.features.black_box.saved import BlackBoxStore, black_box_store
 from webviz.features.latency import LatencyStore
 from webviz.features.layouts import LayoutStore, layout_store
 from webviz.features.recording import RecordingStore, recording_store
+from webviz.features.what_if import WhatIfStore
 from webviz.page.pages import Pages
 from webviz.scene import open_server
 from webviz.scene.server import Server
@@ -190,6 +191,10 @@ class ShownFeatures(Feature):
     @store()
     def layout(self, argument: str) -> LayoutStore:
         return layout_store(self._loop.state.settings, argument)
+
+    @store()
+    def what_if(self, argument: str) -> WhatIfStore | None:
+        return self._loop.of_features.get("what_if")
 
     @store()
     def recording(self, argument: str) -> RecordingStore | None:

@@ -16,6 +16,7 @@ from webviz.commands import Seek, SetFixedFrame, SetProperty, TryFrame
 from webviz.engine.doctor.findings import findings_store
 from webviz.engine.state import Row
 from webviz.features.latency.stages import BrowserLatency, Latency, Stage
+from webviz.features.what_if import WhatIfStore
 from webviz_displays.grid import Grid
 
 EXAMINED_NS = 3_607_000_000_000
@@ -93,6 +94,22 @@ def test_findings_have_causes_remedies_and_what_they_explain(panel: Tab) -> None
     panel.wait_for(lambda: panel.loop.commands[-1:] == [SetFixedFrame("map")])
     show(panel)
     expect(page.get_by_text("All is well")).to_be_visible()
+
+
+def test_while_a_frame_is_tried_it_says_so_and_not_that_all_is_well(panel: Tab) -> None:
+    page = panel.page
+    show(panel)
+    expect(page.get_by_text("All is well")).to_be_visible()
+    tried = WhatIfStore("laser", "base_link", (), "", "", None)
+    panel.loop.show(what_if=tried)
+    panel.turn()
+    expect(page.get_by_text("A trial is on: laser is moved")).to_be_visible()
+    expect(page.get_by_text("No check finds a problem in this trial.")).to_be_visible()
+    expect(page.get_by_text("All is well")).to_be_hidden()
+    panel.loop.show(what_if=None)
+    panel.turn()
+    expect(page.get_by_text("All is well")).to_be_visible()
+    expect(page.get_by_text("A trial is on")).to_be_hidden()
 
 
 def test_the_badge_counts_what_is_more_than_a_note(panel: Tab) -> None:

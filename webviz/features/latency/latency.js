@@ -33,7 +33,7 @@ function stampToScreen() {
   };
   const content = () => el("div", { class: "wv-latencies", role: "status" }, list);
   const element = disclosure("Stamp to screen", content, { class: "wv-latency" }, isOpen);
-  return { element, close() {} };
+  return { element };
 }
 
 /** @param {Latency} latency */

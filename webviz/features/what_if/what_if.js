@@ -32,17 +32,15 @@ export function install() {
     run: tryFrame,
   });
   overlay("scene", "what if", banner());
-  doctorSection(() => ({ element: warning(), close() {} }));
+  doctorSection(() => ({ trial }));
 }
 
 /** Says in the doctor that it examines what is tried. */
-function warning() {
-  const frame = () => store("what_if").get("frame");
-  return el(
-    "p",
-    { class: "wv-quiet", hidden: () => frame() === undefined },
-    () => `${frame()} is tried in another pose: these are the findings with it.`,
-  );
+function trial() {
+  const frame = store("what_if").get("frame");
+  return frame === undefined
+    ? ""
+    : `A trial is on: ${frame} is moved in "What if". These are the findings with it.`;
 }
 
 /** The banner; hidden while no frame is tried. */

@@ -21,6 +21,7 @@ import { isSevere, keyOf, takeWanted } from "./findings.js";
 /** @import {Panel} from "../types.js" */
 
 const WELL = "All is well: no check found a problem.";
+const WELL_IN_TRIAL = "No check finds a problem in this trial.";
 const EXAMINING = "The doctor examines the viewer.";
 const LISTED = 3; // displays that a finding names at once
 
@@ -38,6 +39,7 @@ export const doctor = {
     const notes = computed(() => all().filter((one) => !isSevere(one)));
     const at = () => findings.get("examined") ?? null;
     const sections = doctorSections.map((make) => make());
+    const trial = () => sections.map((one) => one.trial?.() ?? "").find(Boolean) ?? "";
     const list = listOf("Findings", () => severe.value);
     const count = () => notes.value.length;
     const isUnfolded = signal(false);
@@ -46,10 +48,11 @@ export const doctor = {
       el(
         "section",
         { class: "wv-doctor", "aria-label": "Doctor" },
+        el("p", { class: "wv-doctor-trial", "data-level": "warn", hidden: () => !trial() }, trial),
         el(
           "p",
           { class: "wv-doctor-well", role: "status", hidden: () => severe.value.length > 0 },
-          () => (isExamined.value ? WELL : EXAMINING),
+          () => (isExamined.value ? (trial() ? WELL_IN_TRIAL : WELL) : EXAMINING),
         ),
         list,
         disclosure(
@@ -63,7 +66,7 @@ export const doctor = {
           { class: "wv-quiet wv-finding-examined", hidden: () => !isExamined.value },
           () => `As of ${clock(at() ?? 0)}.`,
         ),
-        sections.map(({ element: section }) => section),
+        sections.flatMap(({ element: section }) => section ?? []),
       ),
     );
     effect(() => {
@@ -74,7 +77,7 @@ export const doctor = {
       [...made].find((one) => one.dataset.finding === key)?.focus();
     });
     return () => {
-      for (const { close } of sections) close();
+      for (const { close } of sections) close?.();
     };
   },
 };

@@ -1,6 +1,10 @@
 // Sections of the panel "Doctor" below its findings; features add to them.
 
-/** @typedef {() => {element: Element, close: () => unknown}} DoctorSection */
+/**
+ * `trial` says in a sentence what is tried, "" for nothing: it stands above the findings.
+ *
+ * @typedef {() => {element?: Element, close?: () => unknown, trial?: () => string}} DoctorSection
+ */
 
 /** @type {DoctorSection[]} */
 export const doctorSections = [];
