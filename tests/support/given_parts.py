@@ -24,6 +24,7 @@ from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import HistoryStep, State
 from webviz.features.panels import PluginPanels
 from webviz.features.people import People
+from webviz.features.views import ViewsFeature
 
 KINDS = (
     *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SettingsPart),
@@ -43,7 +44,7 @@ class GivenParts:
         )
         self._by_kind: dict[type[Part], Any] = {k: stand_in(k, core=self._core) for k in KINDS}
         self._give(PanelsPart, tabs=lambda: self._state.panels)
-        self.features = (People(self._core), PluginPanels(self._core))
+        self.features = (People(self._core), PluginPanels(self._core), ViewsFeature(self._core))
         """Those that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())

@@ -27,10 +27,10 @@ from webviz.api.views import (
     type_of,
     zero,
 )
-from webviz.data.names import file_problem_of, problem_of
+from webviz.data.names import file_problem_of
 from webviz.data.words import joined
 from webviz.engine.commands import Sender
-from webviz.engine.forms import Form, form, sendable, values_of
+from webviz.engine.forms import Form, form, values_of
 from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.panels import PanelsPart
@@ -60,20 +60,6 @@ class ViewStore(PageStore, frozen=True):
     declared: Form
     types: Sequence[str]
     values: Mapping[str, Any]
-
-
-class SavedView(msgspec.Struct, frozen=True):
-    """A saved view: its name and type, and whether browsers begin with it."""
-
-    name: str
-    type: str
-    is_start: bool
-
-
-class ViewsStore(PageStore, frozen=True):
-    """The saved views."""
-
-    saved: Sequence[SavedView]
 
 
 class ViewTypeStore(PageStore, frozen=True):
@@ -164,17 +150,6 @@ class ViewsPart(Part):
         view = self._view_of(browser)
         return ViewTypeStore() if view is None else ViewTypeStore(type_of(view), view.target_frame)
 
-    @store(of=lambda part: part._settings.settings)
-    def views(self, argument: str) -> ViewsStore:
-        """Return the saved views."""
-        settings = self._settings.settings
-        return ViewsStore(
-            [
-                SavedView(str(sendable(name)), type_of(view), view == settings.view)
-                for name, view in settings.views.items()
-            ]
-        )
-
     @store()
     def watchers(self, argument: str) -> WatchersStore:
         """Return the number of browsers that watch the scene."""
@@ -256,40 +231,6 @@ class ViewsPart(Part):
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
 
     @command(Role.OPERATOR)
-    def save_view(
-        self, sender: Sender, name: str, browser: int | None = None, view: View | None = None
-    ) -> None:
-        """Save the current view under a name.
-
-        Args:
-            name: of the view; replaces a saved view of that name.
-            browser: on which it acts; by default the one that sends this, or for a program the one
-                that connected last.
-            view: instead of the current view.
-        """
-        _check_name(name)
-        view = view or self._one(_browser(browser, sender))
-        self._keep({**self._saved(), name: view})
-
-    @command(Role.OPERATOR)
-    def rename_view(self, name: str, new_name: str) -> None:
-        """Rename a saved view."""
-        saved, name, new_name = self._saved(), name, new_name
-        view = _found(name, saved)
-        _check_name(new_name)
-        if new_name != name and new_name in saved:
-            raise ConfigError(f"A view named {new_name} exists already. Choose another name.")
-        names = {key: new_name if key == name else key for key in saved}
-        self._keep({names[key]: saved[key] for key in saved} | {new_name: view})
-
-    @command(Role.OPERATOR)
-    def remove_view(self, name: str) -> None:
-        """Remove a saved view."""
-        saved = self._saved()
-        _found(name, saved)
-        self._keep({key: view for key, view in saved.items() if key != name})
-
-    @command(Role.OPERATOR)
     def start_with_view(
         self, sender: Sender, browser: int | None = None, view: View | str | None = None
     ) -> None:
@@ -300,7 +241,7 @@ class ViewsPart(Part):
                 that connected last.
             view: instead of the current view; a view or the name of a saved one.
         """
-        view = self._one(_browser(browser, sender)) if view is None else _named(view, self._saved())
+        view = self.one(browser, sender) if view is None else _named(view, self._saved())
         self._settings.set("view", view)
         self.start_with(view)
 
@@ -331,8 +272,18 @@ class ViewsPart(Part):
             )
         return views
 
-    def _one(self, browser: int | None) -> View:
-        views = self._seen(browser)
+    def one(self, browser: int | None, sender: Sender) -> View:
+        """Return the view of a browser.
+
+        Args:
+            browser: id; by default the one that sends a command, or for a program the one that
+                connected last.
+            sender: of the command.
+
+        Raises:
+            ConfigError: no browser is connected.
+        """
+        views = self._seen(_browser(browser, sender))
         return views[max(views)]
 
     def _changed(self, view: View, key: str, value: Any, browser: int) -> View:
@@ -362,14 +313,6 @@ class ViewsPart(Part):
     def _saved(self) -> Mapping[str, View]:
         return self._settings.settings.views
 
-    def _keep(self, views: Mapping[str, View]) -> None:
-        self._settings.set("views", views)
-
-
-def _check_name(name: str) -> None:
-    if problem := problem_of(name):
-        raise ConfigError(problem)
-
 
 def _browser(browser: int | None, sender: Sender) -> int | None:
     """Return the browser that a command acts on, None for all."""
@@ -377,10 +320,15 @@ def _browser(browser: int | None, sender: Sender) -> int | None:
 
 
 def _named(view: View | str, saved: Mapping[str, View]) -> View:
-    return _found(view, saved) if isinstance(view, str) else view
+    return saved_view(view, saved) if isinstance(view, str) else view
 
 
-def _found(name: str, saved: Mapping[str, View]) -> View:
+def saved_view(name: str, saved: Mapping[str, View]) -> View:
+    """Return a saved view.
+
+    Raises:
+        ConfigError: there is none of this name.
+    """
     if name not in saved:
         raise ConfigError(f"Unknown saved view `{name}`: {nearest(name, saved)}")
     return saved[name]

@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from webviz import commands
 from webviz.api.declared import Color
 from webviz.api.errors import Error
 from webviz.api.status import Status
@@ -18,10 +19,8 @@ from webviz.commands import (
     Export,
     Load,
     Open,
-    RemoveView,
     Reset,
     Save,
-    SaveView,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
@@ -257,11 +256,11 @@ class Viewer(Running, TimeControls):
         Raises:
             Error: no browser is connected, or a value of the view is invalid.
         """
-        self.do(SaveView(name, view=None if view is None else checked_view(view)))
+        self.do(commands.SaveView(name, view=None if view is None else checked_view(view)))
 
     def remove_view(self, name: str) -> None:
         """Remove a saved view."""
-        self.do(RemoveView(name))
+        self.do(commands.RemoveView(name))
 
     def reset(self) -> None:
         """Discard transforms and messages, like RViz's Reset."""

@@ -115,12 +115,6 @@ function commands(values) {
       .filter(({ isHidden }) => !isHidden)
       .sort((a, b) => place(a) - place(b)),
     ...more,
-    ...(settings?.get("views") ?? []).map((name) => ({
-      name: `Show view ${name}`,
-      icon: "eye",
-      group: "Saved views",
-      run: () => act("ShowView", { view: name }),
-    })),
     ...(frames?.get("frames") ?? []).map((frame) => ({
       name: `Fixed frame: ${frame}`,
       icon: "axes",

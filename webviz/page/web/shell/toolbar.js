@@ -7,7 +7,7 @@ import { frameOptions } from "../controls/frame.js";
 import { el } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { ownStore } from "../own_store.js";
-import { effect, signal } from "../signals.js";
+import { each, effect, signal } from "../signals.js";
 import { store } from "../stores.js";
 import { actions, item } from "./actions.js";
 import { command } from "../commands.js";
@@ -16,16 +16,45 @@ import { fold } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { fit } from "./overflow.js";
 import * as tools from "./tools.js";
-import { VIEW_TYPES, savedMenu, saveView, setType, typeMenu } from "./view_menus.js";
+import { VIEW_TYPES, setType, typeMenu } from "./view_menus.js";
 
 /** @import {Readable} from "../signals.js" */
 /** @import {Child, Choice} from "../types.js" */
+/** @import {MenuItem} from "../controls/menu.js" */
+
+/** @typedef {{icon: string, label: string, items: () => (MenuItem | null)[]}} BarMenu */
 
 const settings = store("settings");
 const fixedFrame = () => settings.get("fixed_frame") ?? "";
-const saved = () => settings.get("views") ?? [];
 /** @type {Choice[]} */
 const NO_TARGET = [{ value: FIXED, label: "No target" }];
+
+const menus = signal(/** @type {BarMenu[]} */ ([]));
+
+/**
+ * Adds a menu of a feature to the toolbar.
+ *
+ * @param {string} icon
+ * @param {string} label
+ * @param {() => (MenuItem | null)[]} items its entries, whenever it opens
+ */
+export function barMenu(icon, label, items) {
+  menus.value = [...menus.value, { icon, label, items }];
+}
+
+const menuButtons = () =>
+  each(
+    () => menus.value,
+    (menu) => menu.label,
+    (menu) => menuButton(menu.value),
+  );
+
+/** @param {BarMenu} menu */
+function menuButton({ icon, label, items }) {
+  const name = el("span", { class: "wv-bar-name" }, label);
+  const made = button(icon, label, () => openMenuBelow(made, items()), name);
+  return made;
+}
 
 /** @param {{toolbar: HTMLElement, status: HTMLElement}} places */
 export function install(places) {
@@ -36,12 +65,7 @@ export function install(places) {
     "data-key": "Ctrl+b",
   });
   const type = typeButton(view.type);
-  const views = button(
-    "bookmark",
-    "Saved views",
-    () => openMenuBelow(views, savedMenu(saved)),
-    el("span", { class: "wv-bar-name" }, "Saved views"),
-  );
+  const ofFeatures = el("span", { class: "wv-bar-part" }, menuButtons());
   const setFixed = (/** @type {string} */ frame) => act("SetFixedFrame", { frame });
   const fixed = frameField("Fixed frame", "axes", fixedFrame, frameOptions, setFixed);
   const targets = () => [...NO_TARGET, ...frameOptions()];
@@ -49,7 +73,7 @@ export function install(places) {
   const image = button("camera", actions.image.name, actions.image.run);
   const full = button("fullscreen", actions.fullscreen.name, actions.fullscreen.run);
   const more = button("dots", "More", () => openMenuBelow(more, bar.hiddenItems()));
-  const parts = [type, views, needs("SetFixedFrame", fixed), target, image, full, more];
+  const parts = [type, ofFeatures, needs("SetFixedFrame", fixed), target, image, full, more];
   const element = el(
     "div",
     {
@@ -73,7 +97,7 @@ export function install(places) {
     { element: image, items: () => [item(actions.image)] },
     "wv-wrapped",
     { element: tools.icons, items: () => tools.iconItems() },
-    { element: views, items: () => savedMenu(saved) },
+    { element: ofFeatures, items: () => menus.value.flatMap(({ items }) => items()) },
     { element: type, items: () => typeMenu(view.type.value) },
     "wv-stacked",
   ]);
@@ -82,7 +106,7 @@ export function install(places) {
   measure(places.status, places.toolbar, "--wv-status", "offsetWidth"); // it keeps its space
   measure(element, document.documentElement, "--wv-bar", "offsetHeight"); // below in a narrow scene
   effect(() => {
-    if (tools.all() && view.type.value !== null) bar.layout();
+    if (tools.all() && menus.value && view.type.value !== null) bar.layout();
   });
   addCommands(fixed, target);
 }
@@ -146,13 +170,6 @@ function addCommands(fixed, target) {
     group: "View",
     needs: "SetFixedFrame",
     run: () => focusField(fixed),
-  });
-  command({
-    name: "Save view…",
-    icon: "save",
-    group: "View",
-    needs: "SaveView",
-    run: () => saveView(saved),
   });
   for (const name of VIEW_TYPES) {
     command({ name: `View: ${name}`, icon: "orbit", group: "View", run: () => setType(name) });

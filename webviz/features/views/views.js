@@ -1,19 +1,21 @@
 // The panel "Views": what this browser looks at, and the views that are saved for all.
 
-import { act } from "../act.js";
-import { declaredForm, form } from "../controls/form.js";
-import { FIXED_FRAME } from "../controls/frame.js";
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { openMenuBelow } from "../controls/menu.js";
-import { ownStore } from "../own_store.js";
-import { computed } from "../signals.js";
-import { watch } from "../stores.js";
+import { act } from "../../act.js";
+import { declaredForm, form } from "../../controls/form.js";
+import { FIXED_FRAME } from "../../controls/frame.js";
+import { el } from "../../dom.js";
+import { iconButton } from "../../icons.js";
+import { openMenuBelow } from "../../controls/menu.js";
+import { panel } from "../../panels/panels.js";
+import { ownStore } from "../../own_store.js";
+import { computed } from "../../signals.js";
+import { watch } from "../../stores.js";
+import { addMenu } from "./menu.js";
 import { savedViews } from "./saved_views.js";
 
-/** @import {DeclaredProperty} from "../contents.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
-/** @import {Panel, SendProperty} from "../types.js" */
+/** @import {DeclaredProperty} from "../../contents.js" */
+/** @import {MenuItem} from "../../controls/menu.js" */
+/** @import {Panel, SendProperty} from "../../types.js" */
 
 /** @type {DeclaredProperty} */
 const TYPE = {
@@ -35,7 +37,7 @@ const TARGET = {
 };
 
 /** @type {Panel} */
-export const views = {
+const views = {
   name: "views",
   title: "Views",
   order: 20,
@@ -69,6 +71,11 @@ export const views = {
     );
   },
 };
+
+export function install() {
+  panel(views);
+  addMenu();
+}
 
 function buttons() {
   /** @type {HTMLButtonElement} */

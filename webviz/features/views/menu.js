@@ -1,0 +1,60 @@
+// The saved views in the toolbar and in the list of commands.
+
+import { act } from "../../act.js";
+import { command } from "../../commands.js";
+import { ask, askName } from "../../controls/dialog.js";
+import { provideFrom } from "../../shell/command_list.js";
+import { barMenu } from "../../shell/toolbar.js";
+import { store } from "../../stores.js";
+
+/** @import {MenuItem} from "../../controls/menu.js" */
+
+const settings = store("settings");
+const saved = () => settings.get("views") ?? [];
+
+export function addMenu() {
+  barMenu("bookmark", "Saved views", menu);
+  command({ name: "Save view…", icon: "save", group: "View", needs: "SaveView", run: save });
+  provideFrom([], () =>
+    saved().map((name) => ({
+      name: `Show view ${name}`,
+      icon: "eye",
+      group: "Saved views",
+      run: () => act("ShowView", { view: name }),
+    })),
+  );
+}
+
+/**
+ * The saved views, and commands for this one.
+ *
+ * @returns {(MenuItem | null)[]}
+ */
+const menu = () => [
+  ...saved().map((name) => ({
+    label: name,
+    icon: "eye",
+    run: () => act("ShowView", { view: name }),
+  })),
+  ...(saved().length ? [null] : []),
+  { label: "Save this view…", icon: "save", needs: "SaveView", run: save },
+  {
+    label: "Start with this view",
+    icon: "play",
+    needs: "StartWithView",
+    run: () => act("StartWithView"),
+  },
+];
+
+/** Asks for the name of a view, and saves it. */
+async function save() {
+  const name = await askName("view", {
+    title: "Save this view",
+    confirm: "Save",
+    taken: saved(),
+    accept: (name) =>
+      name !== "" &&
+      (!saved().includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" })),
+  });
+  if (name !== null) act("SaveView", { name });
+}
