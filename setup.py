@@ -147,6 +147,7 @@ setup(
             "tools = webviz.features.tools:ToolsFeature",
             "topics = webviz.features.topics:TopicsFeature",
             "transforms = webviz.features.transforms:TransformsFeature",
+            "undo = webviz.features.undo:UndoFeature",
             "views = webviz.features.views:ViewsFeature",
             "what_if = webviz.features.what_if:WhatIfFeature",
         ],

@@ -24,7 +24,8 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command
-from webviz.engine.state import ConfigFile, HistoryStep, Row, UndoHistory
+from webviz.engine.state import ConfigFile, Row
+from webviz.features.undo import HistoryStep, UndoHistory
 from webviz.files.config import Settings
 
 LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))

@@ -18,8 +18,9 @@ from webviz.api.status import Level, Status
 from webviz.api.views import FPS, TopDownOrtho
 from webviz.commands import InspectTopics, SaveImage, UseTool
 from webviz.engine.commands import Sender
-from webviz.engine.state import HistoryStep, Inspected, Row, UndoHistory
+from webviz.engine.state import Inspected, Row
 from webviz.features.tools.toolbar import ToolButton
+from webviz.features.undo import HistoryStep, UndoHistory
 from webviz.scene.server import Server
 from webviz.sources import Offer, Publisher
 

@@ -12,7 +12,7 @@ from bench import Benches
 
 from webviz import Error, commands
 from webviz.api.status import Level, Status
-from webviz.commands import Pause, Refresh, Reset
+from webviz.commands import Load, Pause, Refresh, Reset
 from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.feature import Feature
 from webviz.engine.parts import Batches, Core, Handler, Part
@@ -90,6 +90,27 @@ def test_a_part_that_is_added_does_its_commands_and_shows_its_state(bench: Bench
     assert b.do(Reset()).more["count"][0] == 0
 
 
+class Listener(Part):
+    """Notes what others have carried out."""
+
+    name = "Listener"
+
+    def __init__(self, core: Core) -> None:
+        super().__init__(core)
+        self.heard: list[tuple[str, Sender]] = []
+
+    def after(self, command: Command, sender: Sender) -> None:
+        self.heard.append((type(command).__name__, sender))
+
+
+def test_a_part_notes_what_others_have_carried_out(bench: Benches) -> None:
+    b = bench(parts=[Counter, Listener])
+    b.do(Count(), Sender(browser=4))
+    b.refused(Count(-1))
+    b.do(Load("displays: []", "x.yaml"))  # has a slow part
+    assert b.viewer.get(Listener).heard == [("Count", Sender(4)), ("Load", Sender())]
+
+
 HOOKS = sorted(
     name
     for name, hook in vars(Part).items()
@@ -124,6 +145,7 @@ PARTS += [
     "Report",
     "Rights",
     "Rules",
+    "Saved views",
     "Selection",
     "Settings",
     "Share",

@@ -12,7 +12,6 @@ from webviz.engine.doctor import Doctor
 from webviz.engine.parts.display_rows import TreeRows
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.playback import PlaybackPart
@@ -21,13 +20,14 @@ from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
-from webviz.engine.state import HistoryStep, State
+from webviz.engine.state import State
 from webviz.features.panels import PluginPanels
 from webviz.features.people import People
+from webviz.features.undo import HistoryStep, UndoFeature, UndoHistory
 from webviz.features.views import ViewsFeature
 
 KINDS = (
-    *(DisplaysPart, Doctor, FilesPart, HistoryPart, PlaybackPart, SettingsPart),
+    *(DisplaysPart, Doctor, FilesPart, PlaybackPart, SettingsPart),
     *(PanelsPart, TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
@@ -44,7 +44,9 @@ class GivenParts:
         )
         self._by_kind: dict[type[Part], Any] = {k: stand_in(k, core=self._core) for k in KINDS}
         self._give(PanelsPart, tabs=lambda: self._state.panels)
-        self.features = (People(self._core), PluginPanels(self._core), ViewsFeature(self._core))
+        self._undo: Any = stand_in(UndoFeature, core=self._core)
+        others = PluginPanels(self._core), ViewsFeature(self._core)
+        self.features = (People(self._core), *others, self._undo)
         """Those that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
@@ -78,7 +80,8 @@ class GivenParts:
             logged=state.logged,
             _display_events=SimpleNamespace(events=state.warned),
         )
-        file, history = state.file, state.history
+        file = state.file
+        history = state.more.get("history", UndoHistory())
         self._give(
             FilesPart,
             _listing=None,
@@ -87,7 +90,7 @@ class GivenParts:
             _folder=file.folder,
             _others=file.others,
         )
-        self._give(HistoryPart, _undo=_steps(history.undo), _redo=_steps(history.redo))
+        vars(self._undo).update(_undo=_steps(history.undo), _redo=_steps(history.redo))
 
     def _give(self, kind: type[Part], **values: Any) -> None:
         vars(self._by_kind[kind]).update(values)

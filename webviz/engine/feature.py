@@ -38,7 +38,6 @@ from webviz.engine.parts.declaring import (
 )
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.playback import PlaybackPart
@@ -54,7 +53,6 @@ GROUP = "webviz.features"
 PARTS: tuple[type[Part], ...] = (
     DisplaysPart,
     FilesPart,
-    HistoryPart,
     PanelsPart,
     PlaybackPart,
     SettingsPart,

@@ -143,31 +143,6 @@ class PanelTab(msgspec.Struct, frozen=True):
     panel: Panel
 
 
-class HistoryStep(msgspec.Struct, frozen=True):
-    """Something that was changed.
-
-    Args:
-        number: of the change; undo and redo are changes too.
-        label: what was done, in a few words.
-        browser: that did it, None for a program.
-        removed: name of what was removed, "" for other changes.
-        restored: what was shown again of the last session, "" for other changes.
-    """
-
-    number: int
-    label: str
-    browser: int | None
-    removed: str = ""
-    restored: str = ""
-
-
-class UndoHistory(PageStore, frozen=True):
-    """Undo and redo steps, each with the newest first."""
-
-    undo: tuple[HistoryStep, ...] = ()
-    redo: tuple[HistoryStep, ...] = ()
-
-
 class ConfigFile(PageStore, frozen=True):
     """The file of the config.
 
@@ -201,7 +176,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         traffic: by topic name, of the topics that are subscribed to.
         views: what each browser shows, by its id.
         panels: of plug-ins, in their order.
-        history: what can be undone and redone.
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
         logged: warnings and errors that its nodes logged, by time.
@@ -225,7 +199,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     traffic: Mapping[str, Traffic] = msgspec.field(default_factory=dict)
     views: Mapping[int, View] = msgspec.field(default_factory=dict)
     panels: tuple[PanelTab, ...] = ()
-    history: UndoHistory = UndoHistory()
     playback: PlaybackState | None = None
     recorded: Mapping[str, Sequence[int]] = msgspec.field(default_factory=dict)
     logged: Sequence[Event] = ()

@@ -26,7 +26,6 @@ from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
-from webviz.engine.parts.history import HistoryPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.playback import REWOUND, PlaybackPart
@@ -146,18 +145,15 @@ class FrameLoop:
         )
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._playback, self._displays, self._settings, views]
-        others, history, kept = self._other_parts(config, path, views, player, autosave, session)
+        others, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
-        attempt = self._guard.attempt
-        made = (attempt(each.name, None, each, core) for each in features().values())
-        own_features = [feature for feature in made if feature is not None]
         clock_watch = ClockWatchPart(core)
         self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
         """Finds the causes behind the statuses."""
         core.parts = [*first, *others, numbers, clock_watch, self.doctor]
-        core.parts += [*(make(core) for make in parts), *own_features]
+        made = [self._guard.attempt(each.name, None, each, core) for each in features().values()]
+        core.parts += [*(make(core) for make in parts), *(each for each in made if each)]
         self._parts = Parts(core.parts, self._guard)
-        self._do = history.noting(self._parts.do)
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
@@ -189,24 +185,22 @@ class FrameLoop:
         player: Player,
         autosave: Path | None,
         session: Path | None,
-    ) -> tuple[list[Part], HistoryPart, SessionPart | None]:
+    ) -> tuple[list[Part], SessionPart | None]:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
         core, displays, settings = self._core, self._displays, self._settings
         panels = PanelsPart(core, settings)
         files = self._files = FilesPart(
             core, displays, settings, views, core.tools, panels.list, config, path
         )
-        history = HistoryPart(core, files)
         kept = SessionPart(core, files, session) if session else None
         found: list[Part] = [
             panels,
             files,
-            history,
             TopicsPart(core),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
             *([kept] if kept else ()),
         ]
-        return found, history, kept
+        return found, kept
 
     @property
     def buffer(self) -> TransformBuffer:
@@ -286,7 +280,7 @@ class FrameLoop:
         """Carry out commands, take what has arrived, and draw it."""
         core = self._core
         self._calls.answer()
-        self._owed += self._requests.obey(self._do)
+        self._owed += self._requests.obey(self._parts.do)
         self._receive()
         is_seeking = self._playback.is_seeking
         answers, self._owed = ([], self._owed) if is_seeking else (self._owed, [])

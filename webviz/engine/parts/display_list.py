@@ -18,7 +18,7 @@ from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.steps import Snapshot, kept, made_anew
+from webviz.engine.parts.snapshots import Snapshot, kept, made_anew
 from webviz.engine.pipeline import Runner, Services
 from webviz.files import config as config_file
 from webviz.files import rviz

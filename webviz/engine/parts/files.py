@@ -24,7 +24,7 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.steps import Origin
+from webviz.engine.parts.snapshots import Origin
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import ConfigFile

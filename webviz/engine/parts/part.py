@@ -195,6 +195,9 @@ class Part:
         """Return the publishers it needs, so that its first messages arrive."""
         return ()
 
+    def after(self, command: Command, sender: Sender) -> None:
+        """Note that some part has carried out a command."""
+
     def take(self, batches: Batches) -> None:
         """Take the messages since the last turn."""
 

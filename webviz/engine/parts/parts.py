@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import msgspec
+
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.engine.commands import Command, FileCommand, Sender
@@ -14,7 +16,7 @@ from webviz.engine.requests import Job
 from webviz.sources import Advertisement, Subscription, merged
 
 _HOOKS = (
-    *("subscriptions", "advertisements", "take", "reset", "keep_up", "update"),
+    *("subscriptions", "advertisements", "after", "take", "reset", "keep_up", "update"),
     *("statuses", "close"),
 )
 
@@ -53,7 +55,20 @@ class Parts:
         result = self._handlers[kind](command, sender) or ""
         if isinstance(result, Job) and not isinstance(command, FileCommand):
             raise TypeError(f"{kind.__name__} has a slow part but is no FileCommand")
-        return result
+        if not isinstance(result, Job):
+            self._after(command, sender)
+            return result
+
+        def then(value: Any) -> str:
+            text = result.then(value)
+            self._after(command, sender)
+            return text
+
+        return msgspec.structs.replace(result, then=then)
+
+    def _after(self, command: Command, sender: Sender) -> None:
+        for part in self._overriding["after"]:
+            self._guard(part.name, part.after, command, sender)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic."""

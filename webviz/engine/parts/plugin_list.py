@@ -14,7 +14,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.steps import Snapshot, kept, made_anew
+from webviz.engine.parts.snapshots import Snapshot, kept, made_anew
 from webviz.engine.pipeline.plugins import made_new
 from webviz.files.config import ConfigError, Unreadable, nearest
 

@@ -5,7 +5,6 @@ import { openAdd } from "../panels/displays/add.js";
 import { openCommandList } from "./command_list.js";
 import { command } from "../commands.js";
 import * as files from "./files.js";
-import * as history from "./history.js";
 import { openKeys } from "./key_help.js";
 import { fold, openPanel } from "../docks/layout.js";
 import { openPeople } from "./people.js";
@@ -55,22 +54,6 @@ export const actions = {
     icon: "record",
     group: "View",
     run: () => toggle(),
-  },
-  undo: {
-    name: "Undo",
-    icon: "arrow-back",
-    key: "Ctrl+z",
-    group: "Edit",
-    needs: "Undo",
-    run: () => history.undo(),
-  },
-  redo: {
-    name: "Redo",
-    icon: "arrow-forward",
-    key: ["Ctrl+Shift+z", "Ctrl+y"],
-    group: "Edit",
-    needs: "Redo",
-    run: () => history.redo(),
   },
   add: {
     name: "Add display…",

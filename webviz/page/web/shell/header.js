@@ -1,11 +1,9 @@
 // The head of the side: the config file, and what is done with it.
 
-import { needs, why } from "../access.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { actions, added, item, submenuItems } from "./actions.js";
 import * as files from "./files.js";
-import * as history from "./history.js";
 import { fold, openPanel } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { isSevere } from "../panels/findings.js";
@@ -15,9 +13,16 @@ import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 import { setTitle } from "../title.js";
 
-/** @import {Command} from "../commands.js" */
 /** @import {MenuItem} from "../controls/menu.js" */
-/** @import {Way} from "./history.js" */
+
+const ofFeatures = el("span", { class: "wv-head-buttons" });
+
+/**
+ * Adds a button of a feature.
+ *
+ * @param {HTMLElement} button
+ */
+export const headButton = (button) => ofFeatures.append(button);
 
 export function build() {
   /** @type {HTMLButtonElement} */
@@ -37,7 +42,7 @@ export function build() {
     if (files.isThere()) setTitle(files.isChanged() ? `* ${title}` : title);
   });
   /** @type {HTMLButtonElement} */
-  const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu(more)), {
+  const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu()), {
     "aria-haspopup": "menu",
   });
   return el(
@@ -55,8 +60,7 @@ export function build() {
     el("span", { class: "wv-gap" }),
     badge(),
     iconButton("search", "Commands", actions.commands.run, { "data-key": "Ctrl+k" }),
-    step("undo", actions.undo),
-    step("redo", actions.redo),
+    ofFeatures,
     more,
     iconButton("fold", "Hide the panels", () => fold(true), { "data-key": "Ctrl+b" }),
   );
@@ -85,33 +89,6 @@ function badge() {
   );
 }
 
-/**
- * Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
- *
- * @param {Way} way
- * @param {Command & {icon: string}} action
- */
-function step(way, action) {
-  const label = () => history.next(way);
-  const isLocked = action.needs && why(action.needs) !== ""; // then a click says why
-  /** @param {Event} event */
-  const openSteps = (event) => {
-    event.preventDefault();
-    history.openSteps(made);
-  };
-  /** @type {HTMLButtonElement} */
-  const made = iconButton(action.icon, action.name, action.run, {
-    "data-key": [action.key].flat()[0],
-    disabled: () => !isLocked && label() === undefined,
-    tip: null,
-    "data-tip": () => (label() === undefined ? action.name : `${action.name}: ${label()}`),
-    oncontextmenu: openSteps,
-    onkeydown: (/** @type {KeyboardEvent} */ event) =>
-      event.key === "ArrowDown" && openSteps(event),
-  });
-  return action.needs ? needs(action.needs, made) : made;
-}
-
 /** @returns {(MenuItem | null)[]} */
 const fileMenu = () => [
   item(actions.save),
@@ -122,11 +99,8 @@ const fileMenu = () => [
   item(actions.rviz),
 ];
 
-/**
- * @param {HTMLElement} owner
- * @returns {(MenuItem | null)[]}
- */
-function menu(owner) {
+/** @returns {(MenuItem | null)[]} */
+function menu() {
   /** @param {string} name */
   const isTheme = (name) => ({ checked: theme() === name });
   return [
@@ -139,7 +113,6 @@ function menu(owner) {
     item(actions.people),
     item(actions.doctor),
     ...added.map((action) => item(action)),
-    { label: "Undo and redo steps…", icon: "clock", run: () => history.openSteps(owner) },
     null,
     item(actions.dark, isTheme("dark")),
     item(actions.light, isTheme("light")),

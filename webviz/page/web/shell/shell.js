@@ -12,7 +12,6 @@ import * as drop from "./drop.js";
 import * as files from "./files.js";
 import * as firstRun from "./first_run.js";
 import * as header from "./header.js";
-import * as history from "./history.js";
 import * as layout from "../docks/layout.js";
 import { keepTextStill } from "./text_drag.js";
 import * as timeBar from "./time_bar.js";
@@ -43,7 +42,6 @@ function build() {
   commands.install();
   actions.install();
   files.install();
-  history.install();
   displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const { scene, time, ...corners } = places;

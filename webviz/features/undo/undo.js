@@ -1,14 +1,18 @@
-// Undo and redo, and a word on what others have changed.
+// Undo and redo: buttons, keys and menus, and a word on what others have changed.
 
-import { why } from "../access.js";
-import { act } from "../act.js";
-import * as channel from "../channel.js";
-import { store, watch } from "../stores.js";
-import { openMenuBelow } from "../controls/menu.js";
-import { toast } from "../toasts.js";
+import { needs, why } from "../../access.js";
+import { act } from "../../act.js";
+import * as channel from "../../channel.js";
+import { command } from "../../commands.js";
+import { iconButton } from "../../icons.js";
+import { action } from "../../shell/actions.js";
+import { headButton } from "../../shell/header.js";
+import { store, watch } from "../../stores.js";
+import { openMenuBelow } from "../../controls/menu.js";
+import { toast } from "../../toasts.js";
 
-/** @import {HistoryStep} from "../contents.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {HistoryStep} from "../../contents.js" */
+/** @import {MenuItem} from "../../controls/menu.js" */
 
 /** @typedef {"undo" | "redo"} Way */
 
@@ -23,6 +27,17 @@ export function install() {
   // Steps of a viewer that was started anew have other numbers.
   channel.onOpen(() => (newest = null));
   watch("history", tell);
+  const undone = step("undo", UNDO);
+  headButton(undone);
+  headButton(step("redo", REDO));
+  command(UNDO);
+  command(REDO);
+  action({
+    name: "Undo and redo steps…",
+    icon: "clock",
+    group: "Edit",
+    run: () => openSteps(undone),
+  });
 }
 
 /**
@@ -31,11 +46,54 @@ export function install() {
  *
  * @param {Way} way
  */
-export const next = (way) => (steps(way).find(isOwn) ?? steps(way)[0])?.label;
+const next = (way) => (steps(way).find(isOwn) ?? steps(way)[0])?.label;
 
 /** Takes back the newest step of this page; without one, the newest of all. */
-export const undo = () => steps("undo").length && act("Undo", { own: true });
-export const redo = () => steps("redo").length && act("Redo", { own: true });
+const undo = () => steps("undo").length && act("Undo", { own: true });
+const redo = () => steps("redo").length && act("Redo", { own: true });
+
+const UNDO = {
+  name: "Undo",
+  icon: "arrow-back",
+  key: ["Ctrl+z"],
+  group: "Edit",
+  needs: "Undo",
+  run: undo,
+};
+const REDO = {
+  name: "Redo",
+  icon: "arrow-forward",
+  key: ["Ctrl+Shift+z", "Ctrl+y"],
+  group: "Edit",
+  needs: "Redo",
+  run: redo,
+};
+
+/**
+ * Its tooltip names the step to undo; all steps are in a menu, by a right click or the arrow key.
+ *
+ * @param {Way} way
+ * @param {typeof UNDO} action
+ */
+function step(way, action) {
+  const label = () => next(way);
+  const isLocked = why(action.needs) !== ""; // then a click says why
+  /** @param {Event} event */
+  const open = (event) => {
+    event.preventDefault();
+    openSteps(made);
+  };
+  /** @type {HTMLButtonElement} */
+  const made = iconButton(action.icon, action.name, action.run, {
+    "data-key": action.key[0],
+    disabled: () => !isLocked && label() === undefined,
+    tip: null,
+    "data-tip": () => (label() === undefined ? action.name : `${action.name}: ${label()}`),
+    oncontextmenu: open,
+    onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "ArrowDown" && open(event),
+  });
+  return needs(action.needs, made);
+}
 
 /** @param {HistoryStep} step */
 const isOwn = ({ browser }) => browser === window.webviz.browser;
@@ -45,7 +103,7 @@ const isOwn = ({ browser }) => browser === window.webviz.browser;
  *
  * @param {HTMLElement} button
  */
-export function openSteps(button) {
+function openSteps(button) {
   const redos = steps("redo")
     .slice(0, MAX_LISTED)
     .map(({ label }, index) => ({
@@ -76,7 +134,7 @@ function tell() {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
     toast(text, { topic: "others" }); // dragging a slider makes many steps
   } else if (!isUndone && last.removed) {
-    const action = { label: "Undo", run: () => undo() };
+    const action = { label: "Undo", run: undo };
     toast(`Removed ${last.removed}.`, { topic: "removed", action });
   }
 }
@@ -88,7 +146,7 @@ function tell() {
  */
 function tellRestored(last) {
   if (!last?.restored) return;
-  const action = why("Undo") ? null : { label: "Undo", run: () => undo() };
+  const action = why("Undo") ? null : { label: "Undo", run: undo };
   const text = `Restored ${last.restored} of the last session.`;
   toast(text, { level: "warn", topic: "restored", action });
 }

@@ -32,7 +32,7 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command, Sender
-from webviz.engine.parts.history import MAX_STEPS, SAME_S
+from webviz.features.undo import MAX_STEPS, SAME_S
 from webviz.files.config import dump
 
 CONFIG = """\

@@ -8,7 +8,8 @@ from typing import Any
 import msgspec
 from msgspec.structs import replace
 
-from webviz.engine.parts.steps import Moment, Snapshot
+from webviz.engine.parts.snapshots import Snapshot
+from webviz.features.undo.steps import Moment
 from webviz.files.config import Settings
 
 

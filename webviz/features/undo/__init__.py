@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import msgspec
@@ -11,20 +11,42 @@ from msgspec.structs import replace
 
 from webviz.api.roles import Role
 from webviz.engine.commands import Command, Sender
-from webviz.engine.parts.declaring import command, store
+from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.files import RESTORE, FilesPart, Restore
-from webviz.engine.parts.part import Core, Part
-from webviz.engine.parts.rebasing import rebased
-from webviz.engine.parts.steps import Difference, Moment, difference
-from webviz.engine.requests import Job
-from webviz.engine.state import HistoryStep, UndoHistory
+from webviz.engine.parts.part import Core
+from webviz.engine.store import PageStore
+from webviz.features.undo.rebasing import rebased
+from webviz.features.undo.steps import Difference, Moment, difference
 from webviz.files.config import ConfigError
 
 MAX_STEPS = 100
 SAME_S = 1.5
 """Changes of one property that follow each other within it are one step, as when it is dragged."""
 
-Do = Callable[[Command, Sender], str | Job[Any]]
+
+class HistoryStep(msgspec.Struct, frozen=True):
+    """Something that was changed.
+
+    Args:
+        number: of the change; undo and redo are changes too.
+        label: what was done, in a few words.
+        browser: that did it, None for a program.
+        removed: name of what was removed, "" for other changes.
+        restored: what was shown again of the last session, "" for other changes.
+    """
+
+    number: int
+    label: str
+    browser: int | None
+    removed: str = ""
+    restored: str = ""
+
+
+class UndoHistory(PageStore, frozen=True):
+    """Undo and redo steps, each with the newest first."""
+
+    undo: tuple[HistoryStep, ...] = ()
+    redo: tuple[HistoryStep, ...] = ()
 
 
 class _Done(msgspec.Struct, frozen=True):
@@ -35,19 +57,15 @@ class _Done(msgspec.Struct, frozen=True):
     after: Moment
 
 
-class HistoryPart(Part):
-    """The steps that can be taken back or done again, whichever browser or program did them.
-
-    Args:
-        core: what all parts share.
-        files: has what is brought back.
-    """
+class UndoFeature(Feature):
+    """The steps that can be taken back or done again, whichever browser or program did them."""
 
     name = "History"
+    module = "undo.js"
 
-    def __init__(self, core: Core, files: FilesPart) -> None:
+    def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._files = files
+        self._files = core.get(FilesPart)
         self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._redo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._count = 0
@@ -66,25 +84,8 @@ class HistoryPart(Part):
         """Return the steps that can be undone and redone."""
         return {"history": self.history()}
 
-    def noting(self, do: Do) -> Do:
-        """Like `do`, which carries out commands, but notes what they change."""
-
-        def noted(command: Command, sender: Sender) -> str | Job[Any]:
-            result = do(command, sender)
-            if not isinstance(result, Job):
-                self.core.guard(self.name, self._note, sender, command)
-                return result
-
-            def then(value: Any) -> str:
-                text = result.then(value)
-                self.core.guard(self.name, self._note, sender, command)
-                return text
-
-            return replace(result, then=then)
-
-        return noted
-
-    def _note(self, sender: Sender, command: Command) -> None:
+    def after(self, command: Command, sender: Sender) -> None:
+        """Note what a command has changed."""
         before, self._now = self._now, self._moment()
         done = difference(before, self._now)
         if not done.label:
