@@ -12,8 +12,7 @@ from inspecting import Benches
 from webviz import Topic
 from webviz_displays.camera import Camera
 from webviz_displays.image import Image
-from webviz_displays.image.annotated import KEPT
-from webviz_displays.image.marks import ANNOTATIONS, DETECTIONS, MAX_MARKS, MAX_POINTS
+from webviz_displays.image.annotated import ANNOTATIONS, DETECTIONS, KEPT, MAX_MARKS, MAX_POINTS
 
 SECOND = 1_000_000_000
 PIXELS = photos.room(16, 12)[0]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from webviz.api.nodes import POINTS_PER_BLOCK
-from webviz_displays.point_cloud2.blocks import in_blocks
+from webviz_displays.point_cloud2.display import in_blocks
 
 
 def plane(count: int) -> np.ndarray:

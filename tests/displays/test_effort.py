@@ -15,7 +15,7 @@ from plain_scenes import torques
 from webviz import Pose
 from webviz.shell.testing import check_details
 from webviz_displays.vectors import Effort
-from webviz_displays.vectors.rings import Rings
+from webviz_displays.vectors.effort import Rings
 from webviz_urdf import RobotDescriptionError, turning_joints
 
 NAN = float("nan")

@@ -14,7 +14,7 @@ from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
 from webviz_displays.zed import ZedOdDisplay, display
-from webviz_displays.zed.bodies import BODIES
+from webviz_displays.zed.display import BODIES
 
 
 def scene(*objects: dict[str, Any]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from webviz.api.views import Orbit
 from webviz.shell.testing import Harness
 from webviz_displays.grid import Grid
 from webviz_displays.image import Image
-from webviz_displays.image.marks import ANNOTATIONS, DETECTIONS
+from webviz_displays.image.annotated import ANNOTATIONS, DETECTIONS
 from webviz_displays.text import Text
 
 Stages = Callable[..., Harness]

@@ -26,10 +26,10 @@ from std_msgs.msg import String
 from std_srvs.srv import Empty
 
 from webviz.ros.types import message_class
+from webviz_sim.lidar import cast_rays
 from webviz_sim.node import main
 from webviz_sim.options import BUILDING, OPTIONS
 from webviz_sim.pose import Pose2D
-from webviz_sim.raycast import cast_rays
 from webviz_sim.world import load_world
 
 # rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from webviz_sim.raycast import cast_rays
+from webviz_sim.lidar import cast_rays
 
 
 def cast(occupied, x, y, angles, reach=1000.0):

@@ -14,8 +14,7 @@ from trimesh.visual.material import PBRMaterial
 
 from webviz_urdf import Resolver, RobotDescriptionError
 from webviz_urdf.load import load_file
-from webviz_urdf.mesh_repairs import HEADER, TRIANGLE
-from webviz_urdf.meshes import MeshError, read_mesh
+from webviz_urdf.meshes import HEADER, TRIANGLE, MeshError, read_mesh
 from webviz_urdf.textures import without_options
 
 REPORTS = Path(__file__).parents[3] / "shared/data/reports"

@@ -2,15 +2,204 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+import colorsys
+import math
+import zlib
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
 
 import msgspec
 
 from webviz import Context, Input, Pane, Prop, Sample, Topic
 from webviz.api.pictures import Mark, Picture
-from webviz.data.words import counted
+from webviz.data.words import counted, plain
 from webviz_displays.image.base import ImageDisplay, ImageState
-from webviz_displays.image.marks import TYPES, MessageMarks, marks_of, stamp_of
+
+DETECTIONS = "vision_msgs/msg/Detection2DArray"
+ANNOTATIONS = "foxglove_msgs/msg/ImageAnnotations"
+TYPES = (DETECTIONS, ANNOTATIONS)
+
+MAX_MARKS = 1000
+"""Marks of a message that are shown."""
+MAX_POINTS = 20_000
+"""Points of all of them."""
+FURTHEST = 1e6
+"""Pixels from the corner of the picture."""
+MAX_TEXT = 200
+MAX_CLASSES = 5
+"""Classes of a detection that are listed."""
+BOX_PX = 2.0
+"""Width of the lines of a detection."""
+FONT_PX = 12.0
+"""Height of texts that give none."""
+
+_KINDS: dict[int, Literal["points", "strip", "loop", "pairs"]] = {
+    1: "points",
+    2: "loop",
+    3: "strip",
+    4: "pairs",
+}
+
+
+class MessageMarks(NamedTuple):
+    """The marks of a message.
+
+    Args:
+        marks: those that are shown.
+        invalid: number of those whose places or sizes are not finite.
+        left_out: number of those beyond the limits.
+    """
+
+    marks: tuple[Mark, ...]
+    invalid: int
+    left_out: int
+
+
+def stamp_of(message: Any, type_name: str) -> int:
+    """Return the stamp of a message in nanoseconds, 0 if it has none.
+
+    ImageAnnotations of older versions of foxglove_msgs have none of their own; then that of the
+    first annotation counts.
+    """
+    if type_name == DETECTIONS:
+        return _ns(message.header.stamp)
+    own = getattr(message, "timestamp", None)
+    if own is not None and (stamp := _ns(own)):
+        return stamp
+    each = (*message.points[:1], *message.circles[:1], *message.texts[:1])
+    return next((stamp for one in each if (stamp := _ns(one.timestamp))), 0)
+
+
+def marks_of(message: Any, type_name: str, labels: bool) -> MessageMarks:
+    """Return the marks of a message.
+
+    Args:
+        message: of one of `TYPES`.
+        type_name: which of them.
+        labels: whether the likeliest class of a detection and its score are written beside it.
+    """
+    if type_name == DETECTIONS:
+        count, made = len(message.detections), _detections(message.detections, labels)
+    else:
+        count = len(message.points) + len(message.circles) + len(message.texts)
+        made = _annotations(message)
+    marks: list[Mark] = []
+    points = invalid = seen = 0
+    for mark in made:
+        if len(marks) == MAX_MARKS:
+            break
+        if mark is not None and points + len(mark.points) // 2 > MAX_POINTS:
+            break
+        seen += 1
+        if mark is None:
+            invalid += 1
+        else:
+            marks.append(mark)
+            points += len(mark.points) // 2
+    return MessageMarks(tuple(marks), invalid, count - seen)
+
+
+def _detections(detections: Sequence[Any], labels: bool) -> Iterator[Mark | None]:
+    for number, each in enumerate(detections):
+        known = sorted((one.hypothesis for one in each.results), key=lambda one: -one.score)
+        texts = [
+            f"{plain(one.class_id, MAX_TEXT) or 'no class'} {one.score:.2f}"
+            for one in known[:MAX_CLASSES]
+        ]
+        box = each.bbox
+        size = f"{box.size_x:g} x {box.size_y:g} px"
+        name = f"Detection {plain(each.id, MAX_TEXT) or number}"
+        yield _checked(
+            "loop",
+            _corners(box),
+            _color_of(known[0].class_id if known else ""),
+            width=BOX_PX,
+            text=texts[0] if labels and texts else "",
+            about=" · ".join((name, *texts, size)),
+        )
+
+
+def _corners(box: Any) -> list[float]:
+    """Return x and y of the corners of a vision_msgs/BoundingBox2D; theta turns it clockwise."""
+    x, y, turn = box.center.position.x, box.center.position.y, box.center.theta
+    if not (math.isfinite(turn) and box.size_x > 0 and box.size_y > 0):
+        return [math.nan]
+    cos, sin = math.cos(turn), math.sin(turn)
+    found: list[float] = []
+    for across, down in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
+        right, below = across * box.size_x, down * box.size_y
+        found += (x + cos * right - sin * below, y + sin * right + cos * below)
+    return found
+
+
+def _annotations(message: Any) -> Iterator[Mark | None]:
+    for each in message.points:
+        kind = _KINDS.get(each.type)
+        if kind is None:
+            yield None
+            continue
+        # One point more than is shown at most, so that a huge array is not copied to be left out.
+        points = [at for one in each.points[: MAX_POINTS + 1] for at in (one.x, one.y)]
+        yield _checked(
+            kind,
+            points,
+            _css(each.outline_color),
+            colors=tuple(_css(color) for color in each.outline_colors[: len(points) // 2]),
+            fill=_css(each.fill_color) if kind == "loop" and each.fill_color.a > 0 else "",
+            width=each.thickness,
+        )
+    for each in message.circles:
+        x, y = each.position.x, each.position.y
+        yield _checked(
+            "circle",
+            [x, y, x + each.diameter / 2, y] if each.diameter > 0 else [math.nan],
+            _css(each.outline_color),
+            fill=_css(each.fill_color) if each.fill_color.a > 0 else "",
+            width=each.thickness,
+        )
+    for each in message.texts:
+        yield _checked(
+            "text",
+            [each.position.x, each.position.y],
+            _css(each.text_color),
+            fill=_css(each.background_color) if each.background_color.a > 0 else "",
+            width=each.font_size or FONT_PX,
+            text=plain(each.text, MAX_TEXT),
+        )
+
+
+def _checked(kind: Any, points: list[float], color: str, **more: Any) -> Mark | None:
+    """Return a mark, None if a place or its width is not valid."""
+    if not points or not all(abs(at) <= FURTHEST for at in points):  # False for NaN
+        return None
+    width = more.get("width", 1.0)
+    if not 0 <= width <= FURTHEST:
+        return None
+    return Mark(kind, tuple(round(at, 2) for at in points), color, **more)
+
+
+def _color_of(class_id: str) -> str:
+    """Return a colour for a class, always the same one; grey for none."""
+    if not class_id:
+        return "#bebebe"
+    # Steps of the golden ratio spread the hues of similar names.
+    hue = zlib.crc32(class_id.lower().encode(errors="replace")) * 0.618034 % 1.0
+    return _hex(*colorsys.hsv_to_rgb(hue, 0.75, 1.0))
+
+
+def _css(color: Any) -> str:
+    """Return a foxglove_msgs/Color, whose shares that are not finite count as 0."""
+    return _hex(color.r, color.g, color.b, color.a)
+
+
+def _hex(*shares: float) -> str:
+    bytes_ = (round(255 * min(max(share, 0.0), 1.0)) if share == share else 0 for share in shares)
+    return "#" + "".join(f"{byte:02x}" for byte in bytes_)
+
+
+def _ns(stamp: Any) -> int:
+    return stamp.sec * 1_000_000_000 + stamp.nanosec
+
 
 INPUT = "annotations_topic"
 KEPT = 10

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import Annotated
@@ -15,6 +16,7 @@ from webviz import (
     Details,
     Display,
     FramePoses,
+    Frames,
     Group,
     Hit,
     OtherFixedFrame,
@@ -24,6 +26,8 @@ from webviz import (
     Sample,
     Status,
 )
+from webviz.api.frames import to_pose
+from webviz.data.rotations import to_rpy
 from webviz.data.transforms import Explanation, distinct, receptions
 from webviz_displays.shared.geometry import origin_near
 from webviz_displays.tf.fading import Ages, fade
@@ -35,8 +39,47 @@ from webviz_displays.tf.frame_filter import (
     parent_indices,
 )
 from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
-from webviz_displays.tf.frame_readout import details, readout
-from webviz_displays.tf.frame_tree import outline
+
+LISTED = 40
+"""Frames listed by name; the rest is counted."""
+
+
+def outline(names: Sequence[str], parents: NDArray[np.int64]) -> str:
+    """Each frame with its children in parentheses, such as `map (odom (base (laser, wheel)))`.
+
+    A loop, which has no root, begins with one of its frames: `a (b (c (a, again)))`.
+
+    Args:
+        names: frame ids.
+        parents: int64 (N,), place in `names` of each frame's parent, -1 for roots.
+    """
+    children: dict[int, list[int]] = {}
+    for place, parent in enumerate(parents.tolist()):
+        children.setdefault(parent, []).append(place)
+    for places in children.values():
+        places.sort(key=lambda place: names[place])
+    text, listed = "", set[int]()
+    # Not recursive: a chain of frames may be longer than Python's stack.
+    by_name = sorted(range(len(names)), key=lambda place: names[place])
+    pending = [iter([*children.get(-1, ()), *by_name])]
+    while pending:
+        place = next(pending[-1], None)
+        if place is None or len(listed) == LISTED:
+            pending.pop()
+            text += ")" if pending else ""
+            continue
+        if place in listed:
+            text += f"{names[place]}, again" if len(pending) > 1 else ""
+            continue
+        text += ("" if not text or text.endswith(" (") else ", ") + names[place]
+        listed.add(place)
+        if place in children:
+            text += " ("
+            pending.append(iter(children[place]))
+    text = text.replace(" ()", "")
+    rest = len(names) - len(listed)
+    return text + (f" and {rest} more" if rest else "")
+
 
 SECOND = 1_000_000_000
 
@@ -258,3 +301,42 @@ def _pattern(which: str, text: str, ctx: Context) -> Pattern | None:
         problem = f"'{text}' is not a valid regular expression ({error}); ignoring it."
         ctx.error(f"Filter ({which})", problem, Remedy(f"filter_{which}", "", "Clear the filter"))
         return None
+
+
+def readout(frames: Frames, name: str) -> str | None:
+    """Return the newest pose of a frame in its parent and in the fixed frame, None if unknown.
+
+    Angles are roll, pitch and yaw about the parent's axes (URDF's order), in degrees.
+    """
+    if (link := frames.link(name)) is None:
+        return None
+    kind = "static" if link.is_static else "moving"
+    text = f"In '{link.parent}' ({kind}): {_words(to_pose(link.transform))}."
+    pose = frames.latest(name)
+    if pose is None or link.parent == frames.fixed_frame:
+        return text
+    return f"{text} In '{frames.fixed_frame}': {_words(pose)}."
+
+
+def details(frames: Frames, name: str) -> Details | None:
+    """Return the current details of a frame, None if it is unknown."""
+    link, pose = frames.link(name), frames.latest(name)
+    if link is None and pose is None:
+        return None
+    values: dict[str, object] = {"Parent": "none: it is a root" if link is None else link.parent}
+    if link is not None:
+        age_s = (frames.now_ns - link.transform.stamp_ns) / 1e9
+        values["Age"] = "static" if link.is_static else f"{age_s:.2f} s"
+        values[f"Pose in {link.parent}"] = to_pose(link.transform)
+    if pose is not None and (link is None or link.parent != frames.fixed_frame):
+        values[f"Pose in {frames.fixed_frame}"] = pose
+    return Details(f"Frame {name}", values)
+
+
+def _words(pose: Pose) -> str:
+    x, y, z = pose.position
+    roll, pitch, yaw = map(math.degrees, to_rpy(pose.wxyz))
+    return (
+        f"position ({x:.3f}, {y:.3f}, {z:.3f}) m, "
+        f"roll, pitch and yaw ({roll:.1f}, {pitch:.1f}, {yaw:.1f}) degrees"
+    )
