@@ -34,7 +34,7 @@ from webviz.commands import Seek
 from webviz.data.rotations import from_rpy
 from webviz.shell.cli import main as cli
 from webviz.shell.cli.options import MESH_ROOT
-from webviz.shell.export.file import RunFile
+from webviz.shell.export.export import RunFile
 from webviz.shell.pictures.browser_scripts import (
     CANVAS,
     COUNT_UNPACKING,

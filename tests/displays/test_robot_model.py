@@ -26,7 +26,7 @@ import webviz_urdf
 from webviz.data.disk import MAX_THREADS, within
 from webviz.engine.pipeline.background import Workers
 from webviz.shell.testing import check_details
-from webviz.shell.testing.changes import Change
+from webviz.shell.testing.display_checks import Change
 from webviz_displays.robot_model import RobotModel
 from webviz_displays.robot_model import loading as disk_of_robots
 from webviz_displays.robot_model.parts import JointSettings

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from webviz.data.messages import DecodeError, DefinitionError, decode, register
-from webviz.data.messages.ros1 import TRANSFORMS, Ros1Type
-from webviz.data.messages.ros1_transforms import transforms_to_cdr
+from webviz.data.messages.ros1 import TRANSFORMS, Ros1Type, transforms_to_cdr
 
 NAME = "old_msgs/msg/Mixed"
 TEXT = """time at

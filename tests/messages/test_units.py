@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from webviz.data.messages.message_paths import MessagePath
+from webviz.data.messages.message_paths import UNITS, MessagePath
 from webviz.data.messages.typestore import fields
-from webviz.data.messages.units import UNITS
 
 ODOMETRY, IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 

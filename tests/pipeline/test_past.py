@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from webviz import Points
-from webviz.engine.pipeline import past
-from webviz.engine.pipeline.past import KEPT_S, MAX_SHOTS, Past
+from webviz.engine.pipeline import scene_diff
 from webviz.engine.pipeline.picking import Shot
+from webviz.engine.pipeline.scene_diff import KEPT_S, MAX_SHOTS, Past
 
 
 def shot(count: int = 1) -> Shot:
@@ -31,7 +31,7 @@ def test_the_newest_comes_first() -> None:
 
 
 def test_the_oldest_go_when_there_are_too_many_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(past, "MAX_BYTES", 15 * 250)
+    monkeypatch.setattr(scene_diff, "MAX_BYTES", 15 * 250)
     kept = Past(lambda: 0.0)
     shots = [shot(100) for _ in range(5)]
     for number, each in enumerate(shots):

@@ -25,8 +25,7 @@ from webviz.data.messages import (
     register,
 )
 from webviz.engine.state import PanelTab, PanelTimes, State
-from webviz.page.chart import ChartWidget
-from webviz.page.recorded_ui import RecordedUi
+from webviz.page.recorded_ui import ChartWidget, RecordedUi
 from webviz.panels.plot import Plot
 from webviz.panels.plot.history import MAX_POINTS, CurveHistory
 from webviz.sources import Offer, Publisher

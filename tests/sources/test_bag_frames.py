@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from bags import TF, Bag, stamped
 
-from webviz.sources.bag import frames as bag_frames
+from webviz.sources.bag import history as bag_frames
 
 POSE = "geometry_msgs/msg/PoseStamped"
 

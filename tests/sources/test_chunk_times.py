@@ -6,8 +6,8 @@ import random
 
 import pytest
 
+from webviz.data.recordings.mcap import ChunkTimes
 from webviz.data.recordings.mcap_chunks import McapChunk, counts_of
-from webviz.data.recordings.mcap_times import ChunkTimes
 
 NEVER_NS = 2**64 - 1
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import pytest
 
 from webviz import Context, Display, Input, Prop, Sample, Topic
-from webviz.shell.testing.changes import changes
+from webviz.shell.testing.display_checks import changes
 from webviz.testing import DisplayChecks
 
 FAR = 1e6

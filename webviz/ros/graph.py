@@ -2,16 +2,123 @@
 
 from __future__ import annotations
 
+import contextlib
+import queue
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
+from typing import TypeVar
 
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from webviz.ros.calls import Calls
 from webviz.ros.goals import Goals
-from webviz.ros.jobs import Jobs
-from webviz.ros.publishers import AdvertisedPublishers
-from webviz.sources.graph import Advertisement, Goal
+from webviz.ros.qos import NO_EVENTS_OF_PUBLISHERS
+from webviz.ros.types import MessageTypeError, message_class
+from webviz.sources.graph import Advertisement, Goal, NotConnected
+
+MAX_PUBLISHERS = 100
+
+
+class AdvertisedPublishers:
+    """Publishers by advertisement, made when needed; all calls come from the node's thread.
+
+    Args:
+        node: that has them.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._publishers: dict[Advertisement, Publisher] = {}
+        self._advertised: frozenset[Advertisement] = frozenset()
+
+    def advertise(self, advertisements: Collection[Advertisement]) -> None:
+        """Create these ahead of their first messages, and destroy the ones advertised before."""
+        before, self._advertised = self._advertised, frozenset(advertisements)
+        for advertisement in before - self._advertised:
+            self._destroy(advertisement)
+        for advertisement in self._advertised:
+            with contextlib.suppress(MessageTypeError):  # reported by `publish`
+                self._find(advertisement)
+
+    def publish(self, advertisement: Advertisement, cdr: bytes) -> int:
+        """Publish a message; the number of matched subscriptions."""
+        publisher = self._find(advertisement)
+        publisher.publish(cdr)
+        return publisher.get_subscription_count()
+
+    def _find(self, advertisement: Advertisement) -> Publisher:
+        if advertisement not in self._publishers:
+            for _ in range(len(self._publishers) - MAX_PUBLISHERS + 1):
+                self._destroy(next(iter(self._publishers)))
+            profile = QoSProfile(
+                depth=advertisement.depth,
+                reliability=ReliabilityPolicy[advertisement.reliability.upper()],
+                durability=DurabilityPolicy[advertisement.durability.upper()],
+            )
+            self._publishers[advertisement] = self._node.create_publisher(
+                message_class(advertisement.type),
+                advertisement.topic,
+                profile,
+                event_callbacks=NO_EVENTS_OF_PUBLISHERS,
+            )
+        return self._publishers[advertisement]
+
+    def _destroy(self, advertisement: Advertisement) -> None:
+        if publisher := self._publishers.pop(advertisement, None):
+            self._node.destroy_publisher(publisher)
+
+
+T = TypeVar("T")
+
+MAX_JOBS = 1000
+
+
+class Jobs:
+    """A bounded queue of functions.
+
+    Args:
+        wake: makes the thread call `run` soon.
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._queue: queue.Queue[tuple[Callable[[], object], Future]] = queue.Queue(MAX_JOBS)
+        self._has_ended = False
+
+    def put(self, do: Callable[[], T]) -> Future[T]:
+        """Queue `do`; the future receives what it returns or raises."""
+        future: Future[T] = Future()
+        try:
+            self._queue.put_nowait((do, future))
+        except queue.Full:
+            future.set_exception(NotConnected("Too many requests at once. Try again later."))
+        if self._has_ended:
+            self.end()
+        self._wake()
+        return future
+
+    def run(self) -> None:
+        """Call the queued functions."""
+        for _ in range(self._queue.qsize()):
+            do, future = self._queue.get_nowait()
+            if not future.set_running_or_notify_cancel():
+                continue
+            try:
+                future.set_result(do())
+            except Exception as error:
+                future.set_exception(error)
+
+    def end(self) -> None:
+        """Fail the queued functions and all later ones."""
+        self._has_ended = True
+        while True:
+            try:
+                _, future = self._queue.get_nowait()
+            except queue.Empty:
+                return
+            future.set_exception(NotConnected("The connection to ROS has ended."))
 
 
 class RosGraph:

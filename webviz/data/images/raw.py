@@ -9,11 +9,70 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from webviz.data.images.bayer import demosaic
 from webviz.data.images.encodings import PixelLayout, layout_of
 from webviz.data.images.errors import ImageError
-from webviz.data.images.yuv import packed_to_rgb, planes_to_rgb
 from webviz.data.memory import DECODING
+
+U8 = NDArray[np.uint8]
+
+
+def packed_to_rgb(pixels: U8, is_color_first: bool) -> U8:
+    """Pixels that share their colours in pairs, such as UYVY.
+
+    Args:
+        pixels: (H, W, 2), brightness and half of a colour.
+        is_color_first: UYVY, else YUYV.
+
+    Returns:
+        RGB (H, W, 3).
+    """
+    luma, chroma = (1, 0) if is_color_first else (0, 1)
+    width = pixels.shape[1]
+    # Of an odd width the last pixel has no V: it takes that of its neighbour.
+    u = np.repeat(pixels[:, 0::2, chroma], 2, axis=1)[:, :width]
+    odd = pixels[:, 1::2, chroma]
+    v = np.repeat(odd if width > 1 else pixels[:, :1, chroma], 2, axis=1)
+    v = np.pad(v, ((0, 0), (0, max(0, width - v.shape[1]))), "edge")[:, :width]
+    return _rgb(pixels[..., luma], u, v)
+
+
+def planes_to_rgb(luma: U8, chroma: U8, step: int, is_nv21: bool) -> U8:
+    """Return a plane of brightness, and one of colours.
+
+    Args:
+        luma: (H, W).
+        chroma: uint8 (N,): pairs of V, U for 2 x 2 pixels (NV21), or of U, V for each (NV24).
+        step: bytes from one row of `luma` to the next.
+        is_nv21: NV21, else NV24.
+
+    Returns:
+        RGB (H, W, 3).
+    """
+    height, width = luma.shape
+    rows, columns, pitch = height, width, 2 * step
+    if is_nv21:
+        rows, columns, pitch = (height + 1) // 2, (width + 1) // 2, step
+    # The last pair of an odd width may be cut off by the step.
+    whole = np.zeros((rows, max(pitch, 2 * columns)), np.uint8)
+    whole[:, :pitch] = chroma[: rows * pitch].reshape(rows, pitch)
+    pairs = whole[:, : 2 * columns].reshape(rows, columns, 2)
+    if is_nv21:
+        pairs = np.repeat(np.repeat(pairs, 2, axis=0), 2, axis=1)[:height, :width]
+    u, v = (1, 0) if is_nv21 else (0, 1)
+    return _rgb(luma, pairs[..., u], pairs[..., v])
+
+
+def _rgb(y: U8, u: U8, v: U8) -> U8:
+    """Convert by the full-range matrix of BT.601, as in JPEG files (ITU-T T.871, section 7)."""
+    blue, red = u.astype(np.float32) - 128.0, v.astype(np.float32) - 128.0
+    bright = y.astype(np.float32)
+    rgb = np.empty((*y.shape, 3), np.float32)
+    rgb[..., 0] = bright + 1.402 * red
+    rgb[..., 1] = bright - 0.344136 * blue - 0.714136 * red
+    rgb[..., 2] = bright + 1.772 * blue
+    rgb += 0.5
+    return np.clip(rgb, 0.0, 255.0, out=rgb).astype(np.uint8)
+
 
 MAX_PIXELS = 1 << 26
 """8192 x 8192: what browsers can show."""
@@ -200,3 +259,40 @@ def whole_bytes(layout: PixelLayout, height: int, step: int) -> int:
         case "nv24":  # a colour for each pixel
             return step * height * 3
     return step * height
+
+
+def demosaic(mosaic: NDArray[Any], pattern: str) -> NDArray[Any]:
+    """Return the colours of a mosaic: missing ones are means of their two or four neighbours.
+
+    Args:
+        mosaic: unsigned integers (H, W).
+        pattern: colours of the first two pixels of the first two rows, such as "rggb".
+
+    Returns:
+        RGB (H, W, 3) of the same type.
+    """
+    height, width = mosaic.shape
+    # Mirrored at the border pixel, so that a neighbour keeps its colour.
+    before, after = (int(height > 1), int(width > 1))
+    padded = np.pad(mosaic, ((before, before), (after, after)), "reflect")
+    padded = np.pad(padded, ((1 - before, 1 - before), (1 - after, 1 - after)), "edge")
+    wide = padded.astype(np.uint32)
+    centre = wide[1:-1, 1:-1]
+    beside = (wide[1:-1, :-2] + wide[1:-1, 2:] + 1) // 2
+    above = (wide[:-2, 1:-1] + wide[2:, 1:-1] + 1) // 2
+    cross = (wide[1:-1, :-2] + wide[1:-1, 2:] + wide[:-2, 1:-1] + wide[2:, 1:-1] + 2) // 4
+    corners = (wide[:-2, :-2] + wide[:-2, 2:] + wide[2:, :-2] + wide[2:, 2:] + 2) // 4
+    rgb = np.empty((height, width, 3), mosaic.dtype)
+    for cell, color in enumerate(pattern):
+        at = np.s_[cell // 2 :: 2, cell % 2 :: 2]
+        if color == "g":
+            is_red_row = "r" in pattern[cell // 2 * 2 : cell // 2 * 2 + 2]
+            rgb[at][..., 0] = (beside if is_red_row else above)[at]
+            rgb[at][..., 1] = centre[at]
+            rgb[at][..., 2] = (above if is_red_row else beside)[at]
+        else:
+            own, other = (0, 2) if color == "r" else (2, 0)
+            rgb[at][..., own] = centre[at]
+            rgb[at][..., 1] = cross[at]
+            rgb[at][..., other] = corners[at]
+    return rgb

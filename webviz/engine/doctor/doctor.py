@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from concurrent.futures import Future
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from webviz.api.check import Check
@@ -20,7 +21,6 @@ from webviz.data.disk import DiskThreads
 from webviz.engine.doctor.environment import look_around, lost_so_far
 from webviz.engine.doctor.findings import FindingsStore, findings_store
 from webviz.engine.doctor.judging import Judge
-from webviz.engine.doctor.load import LoadMeter
 from webviz.engine.doctor.observing import observe, problems
 from webviz.engine.doctor.ordering import ordered
 from webviz.engine.doctor.sim_time import SimTime
@@ -31,8 +31,57 @@ from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.timeline import EventsStore, events_of
+from webviz.engine.pipeline.trace import Tracer
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
+
+SCHEDULER = Path("/proc/thread-self/schedstat")
+BUSY = 0.5
+"""Above it, the displays are timed, too."""
+
+
+class LoadMeter:
+    """Measures between two calls in the thread of the frame loop.
+
+    Args:
+        tracer: times displays on request.
+    """
+
+    def __init__(self, tracer: Tracer) -> None:
+        self._tracer = tracer
+        self._before: tuple[float, float] | None = None
+        self._busy: dict[str, float] = {}
+
+    def measure(self) -> tuple[float, Mapping[str, float]]:
+        """Return the shares since the last call: of the loop, and of each display if it is busy.
+
+        Waiting for a processor that other programs have counts as well: it delays as much.
+        """
+        now, used = time.monotonic(), _wanted_s()
+        before, self._before = self._before, (now, used)
+        if before is None or now <= before[0]:
+            return 0.0, {}
+        passed = now - before[0]
+        load = max(0.0, used - before[1]) / passed
+        busy = dict(self._tracer.busy_s)
+        cores = {
+            display: (seconds - self._busy.get(display, 0.0)) / passed
+            for display, seconds in busy.items()
+            if seconds > self._busy.get(display, 0.0)
+        }
+        self._busy = busy
+        self._tracer.time("load", load > BUSY)
+        return load, cores
+
+
+def _wanted_s() -> float:
+    """Seconds for which this thread ran, or waited for a processor, since its start."""
+    try:
+        ran_ns, waited_ns, *_ = SCHEDULER.read_text().split()
+        return (int(ran_ns) + int(waited_ns)) / 1e9
+    except (OSError, ValueError):  # not on Linux
+        return time.thread_time()
+
 
 EVERY_S = 1.0
 """Interval between the beginnings of two rounds."""

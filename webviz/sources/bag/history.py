@@ -2,27 +2,136 @@
 
 from __future__ import annotations
 
+import concurrent.futures
+import itertools
+import threading
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 
 from webviz.api.offer import Offer, Publisher
-from webviz.data.disk import in_thread
-from webviz.data.messages import MessageError
+from webviz.data.disk import DiskThreads, in_thread
+from webviz.data.messages import MessageError, TFMessage, decode, peek_header
 from webviz.data.messages.typestore import fields
+from webviz.data.recordings.latched import TF
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.file import BagChannel, BagError
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.frames import frames_of, links_of
 from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LogReader
 from webviz.sources.bag.qos import weakest
 from webviz.sources.bag.time import BagTime
-from webviz.sources.bag.transform_runs import TransformRuns
 from webviz.sources.history import CLOCK, HistoryChannel, Recorded, Runs
 from webviz.sources.names import resolved
 from webviz.sources.past_state import Event
 from webviz.sources.source import Subscription
+
+MAX_MESSAGES = 1_000_000
+"""Of which the frames are looked at: nine hours at 30 a second."""
+WAIT_S = 1.0
+"""For the first seek; a bag of ten minutes takes some tenths."""
+MAX_STATIC = 10_000
+"""Messages of static transforms."""
+AT_ONCE = 50_000
+"""Messages that are read without a pause."""
+YIELD_AFTER, YIELD_S = 500, 0.02
+"""Of a longer bag: messages between two pauses, so that the frame loop has the interpreter."""
+
+_readers = DiskThreads(16)
+"""For whole bags, which take longer than other files."""
+
+
+class TransformRuns:
+    """Finds the runs in a worker, once they are asked for.
+
+    Args:
+        paths: of the bags, which it opens anew.
+    """
+
+    def __init__(self, paths: Sequence[Path]) -> None:
+        self._paths = paths
+        self._reading: Future[Runs] | None = None
+        self._is_closed = threading.Event()
+
+    def found(self) -> Runs:
+        """Return the runs; none until they are found, for which the first call waits a little."""
+        wait_s = 0.0
+        if self._reading is None:
+            try:
+                self._reading = _readers.start(self._read)
+            except OSError:  # no thread is free; another time
+                return Runs()
+            wait_s = WAIT_S
+        concurrent.futures.wait([self._reading], wait_s)
+        # That a bag can no longer be read, others report.
+        is_read = self._reading.done() and not self._reading.exception()
+        return self._reading.result() if is_read else Runs()
+
+    def close(self) -> None:
+        """Stop reading."""
+        self._is_closed.set()
+
+    def _read(self) -> Runs:
+        runs = Runs()
+        bags = BagFiles(self._paths)
+        static = [c for c in bags.channels if c.type == TF and c.topic.endswith("/tf_static")]
+        moving = [c for c in bags.channels if c.type == TF and c not in static]
+        try:
+            for recorded in itertools.islice(bags.messages(static, bags.start_ns), MAX_STATIC):
+                runs.read(recorded.cdr, recorded.stamp_ns, is_static=True)
+            for number, recorded in enumerate(bags.messages(moving, bags.start_ns), 1):
+                if number > MAX_MESSAGES or self._is_closed.is_set():
+                    break
+                runs.read(recorded.cdr, recorded.stamp_ns)
+                if number > AT_ONCE and number % YIELD_AFTER == 0:
+                    self._is_closed.wait(YIELD_S)
+        finally:
+            bags.close()
+        return runs
+
+
+MAX_READ = 1000
+"""Messages of each kind."""
+READ_NS = 60_000_000_000
+"""Of the beginning of a bag. To learn that a db3 file has no more messages of a rare topic would
+take reading all of it."""
+
+
+def links_of(file: BagFiles) -> Sequence[tuple[str, str]]:
+    """Parents and children of the first transforms, each once."""
+    found: dict[tuple[str, str], None] = {}
+    for topic in ("/tf_static", "/tf"):
+        channels = [c for c in file.channels if (c.topic, c.type) == (topic, TF)]
+        for recorded in _first(file, channels):
+            try:
+                message: TFMessage = decode(TF, recorded.cdr)
+            except MessageError:
+                continue
+            for each in message.transforms:
+                found[each.parent.removeprefix("/"), each.child.removeprefix("/")] = None
+    return list(found)
+
+
+def frames_of(file: BagFiles, channels: Collection[BagChannel]) -> Sequence[str]:
+    """Return the frames of the first messages of some channels, each once."""
+    found: dict[str, None] = {}
+    for recorded in _first(file, channels):
+        try:
+            header = peek_header(recorded.type, recorded.cdr, recorded.types)
+        except MessageError:
+            continue
+        if header and header[0]:
+            found[header[0].removeprefix("/")] = None
+    return list(found)
+
+
+def _first(file: BagFiles, channels: Collection[BagChannel]) -> Iterator[Recorded]:
+    """Yield the first messages of some channels."""
+    early = file.messages(channels, file.start_ns, file.start_ns + READ_NS)
+    first = next(early, None) or next(file.messages(channels, file.start_ns), None)
+    if first is not None:
+        yield from itertools.islice(itertools.chain([first], early), MAX_READ)
+
 
 NONE = "the bag has none"
 """When the first message of a topic comes."""
