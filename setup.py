@@ -130,6 +130,7 @@ setup(
             "bags = webviz.features.bags:BagsFeature",
             "black_box = webviz.features.black_box:BlackBoxFeature",
             "bridges = webviz.features.bridges:BridgesFeature",
+            "doctor = webviz.features.doctor:DoctorFeature",
             "driving = webviz.features.driving:DrivingFeature",
             "goals = webviz.features.goals:GoalsFeature",
             "handles = webviz.features.handles:HandlesFeature",

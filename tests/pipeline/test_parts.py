@@ -125,6 +125,7 @@ PARTS = [
     "Counter",
     "Displays",
     "Doctor",
+    "Doctor panel",
     "Driving",
     "Files",
     "Goals",

@@ -4,7 +4,7 @@ import { el } from "../dom.js";
 import { textButton } from "../icons.js";
 import { openPanel } from "../docks/layout.js";
 import { computed, each } from "../signals.js";
-import { remedyButton } from "./displays/statuses.js";
+import { findingActs } from "./displays/statuses.js";
 import { findingLink, keyOf, shared } from "./findings.js";
 
 /** @import {ShownFinding} from "../contents.js" */
@@ -27,18 +27,12 @@ export function causes() {
 
 /** @param {Readable<ShownFinding>} finding */
 function card(finding) {
-  const button = computed(() => JSON.stringify(finding.value.button));
   const cause = computed(() => finding.value.cause);
   return el(
     "div",
     { class: "wv-finding", "data-level": () => finding.value.level },
     el("p", { class: "wv-finding-cause" }, cause),
     el("p", { hidden: () => !finding.value.proof }, () => finding.value.proof),
-    el(
-      "div",
-      { class: "wv-finding-acts" },
-      () => (button.value === "null" ? null : remedyButton(JSON.parse(button.value))),
-      () => cause.value && findingLink(finding.value),
-    ),
+    findingActs(finding, () => cause.value && findingLink(finding.value)),
   );
 }

@@ -6,7 +6,6 @@
 
 import { listeners } from "../listeners.js";
 import { displays } from "./displays/displays.js";
-import { doctor } from "./doctor.js";
 
 /** @import {Panel} from "../types.js" */
 
@@ -32,4 +31,4 @@ export function panel(added) {
 /** Calls a listener whenever there is another panel. */
 export const onPanel = changes.on;
 
-for (const own of [displays, doctor]) panel(own);
+panel(displays);

@@ -6,7 +6,7 @@ import { openCommandList } from "./command_list.js";
 import { command } from "../commands.js";
 import * as files from "./files.js";
 import { openKeys } from "./key_help.js";
-import { fold, openPanel } from "../docks/layout.js";
+import { fold } from "../docks/layout.js";
 import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 import { toggle } from "./video.js";
@@ -64,7 +64,6 @@ export const actions = {
     run: () => openAdd(),
   },
   people: { name: "People…", icon: "eye", group: "View", run: () => openPeople() },
-  doctor: { name: "Doctor", icon: "pulse", group: "View", run: () => openPanel("doctor") },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
   fold: {
     name: "Show or hide the panels",

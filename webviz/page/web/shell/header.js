@@ -111,7 +111,6 @@ function menu() {
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
     ...submenuItems(),
     item(actions.people),
-    item(actions.doctor),
     ...added.map((action) => item(action)),
     null,
     item(actions.dark, isTheme("dark")),

@@ -9,6 +9,8 @@ import { explaining, findingLink, keyOf } from "../findings.js";
 
 /** @import {Commands} from "../../messages.js" */
 /** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
+/** @import {Readable} from "../../signals.js" */
+/** @import {Child} from "../../types.js" */
 
 /**
  * Sends a command that a remedy names with each of its arguments, as one step to undo.
@@ -35,6 +37,21 @@ export const remedyButton = (remedy) =>
     remedy.command,
     textButton(remedy.label, () => run(remedy), { class: "wv-button wv-remedy" }),
   );
+
+/**
+ * The row of buttons of a finding: what a click can do about it, and another one. It is hidden while
+ * there is none.
+ *
+ * @param {Readable<ShownFinding>} finding
+ * @param {() => Child} other
+ * @param {() => boolean} hasOther
+ */
+export function findingActs(finding, other, hasOther = () => true) {
+  const remedy = computed(() => JSON.stringify(finding.value.button));
+  const hidden = () => remedy.value === "null" && !hasOther();
+  const button = () => (remedy.value === "null" ? null : remedyButton(JSON.parse(remedy.value)));
+  return el("div", { class: "wv-finding-acts", hidden }, button, other);
+}
 
 /**
  * Fills an element with the button of a remedy and the link to the finding that explains a status, if

@@ -1,24 +1,26 @@
 // The panel "Doctor": the causes of what is not shown, the one to repair first on top.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { copyAndTell } from "../clipboard.js";
-import { disclosure } from "../controls/disclosure.js";
-import { el } from "../dom.js";
-import { iconButton, textButton } from "../icons.js";
-import { timeOfDay } from "../time_text.js";
-import { openPanel } from "../docks/layout.js";
-import { computed, each, effect, signal } from "../signals.js";
-import { store } from "../stores.js";
-import { GLOBAL } from "./displays/model.js";
-import * as selection from "./displays/selection.js";
-import { remedyButton } from "./displays/statuses.js";
-import { doctorSections } from "./doctor_sections.js";
-import { isSevere, keyOf, takeWanted } from "./findings.js";
+import { needs } from "../../access.js";
+import { act } from "../../act.js";
+import { copyAndTell } from "../../clipboard.js";
+import { disclosure } from "../../controls/disclosure.js";
+import { el } from "../../dom.js";
+import { iconButton, textButton } from "../../icons.js";
+import { timeOfDay } from "../../time_text.js";
+import { openPanel } from "../../docks/layout.js";
+import { computed, each, effect, signal } from "../../signals.js";
+import { store } from "../../stores.js";
+import { GLOBAL } from "../../panels/displays/model.js";
+import * as selection from "../../panels/displays/selection.js";
+import { findingActs } from "../../panels/displays/statuses.js";
+import { panel } from "../../panels/panels.js";
+import { action } from "../../shell/actions.js";
+import { doctorSections } from "../../panels/doctor_sections.js";
+import { isSevere, keyOf, takeWanted } from "../../panels/findings.js";
 
-/** @import {ShownFinding, ExplainedStatus} from "../contents.js" */
-/** @import {Readable} from "../signals.js" */
-/** @import {Panel} from "../types.js" */
+/** @import {ShownFinding, ExplainedStatus} from "../../contents.js" */
+/** @import {Readable} from "../../signals.js" */
+/** @import {Panel} from "../../types.js" */
 
 const WELL = "All is well: no check found a problem.";
 const WELL_IN_TRIAL = "No check finds a problem in this trial.";
@@ -28,7 +30,7 @@ const LISTED = 3; // displays that a finding names at once
 const findings = store("findings");
 
 /** @type {Panel} */
-export const doctor = {
+const doctor = {
   name: "doctor",
   title: "Doctor",
   order: 60,
@@ -82,6 +84,11 @@ export const doctor = {
   },
 };
 
+export function install() {
+  panel(doctor);
+  action({ name: "Doctor", icon: "pulse", group: "View", run: () => openPanel("doctor") });
+}
+
 /**
  * @param {string} label
  * @param {() => ShownFinding[]} shown
@@ -106,7 +113,6 @@ const listOf = (label, shown) =>
 function card(finding, key, isFirst) {
   const of = (/** @type {(one: ShownFinding) => unknown} */ read) =>
     computed(() => JSON.stringify(read(finding.value)));
-  const button = of((one) => one.button);
   const began = of((one) => one.began);
   const explains = of((one) => one.explains);
   const text = (/** @type {"cause" | "proof" | "remedy"} */ name) => () => finding.value[name];
@@ -123,11 +129,10 @@ function card(finding, key, isFirst) {
     el("p", { hidden: () => !finding.value.proof }, text("proof")),
     el("p", {}, text("remedy")),
     () => (finding.value.command ? typed(finding.value.command) : null),
-    el(
-      "div",
-      { class: "wv-finding-acts", hidden: () => button.value === "null" && began.value === "null" },
-      () => (button.value === "null" ? null : remedyButton(JSON.parse(button.value))),
+    findingActs(
+      finding,
       () => (began.value === "null" ? null : goTo(JSON.parse(began.value))),
+      () => began.value !== "null",
     ),
     () => seenIn(JSON.parse(explains.value)),
     disclosure("Why, and how to repair it", () => reasons(finding)),
