@@ -21,7 +21,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import DecodeError, decode, encode
 from webviz.data.messages.typestore import fields
 from webviz.ros.types import message_class
-from webviz.shell.testing.extremes import LAST, cases, changed
+from webviz.shell.testing.display_checks import LAST, cases, changed
 from webviz.shell.testing.messages import header
 
 DISCOVERY_S = 60.0

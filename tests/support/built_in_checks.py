@@ -17,8 +17,15 @@ from display_messages import MESSAGES
 from webviz import Display
 from webviz.api.display import inputs_of
 from webviz.shell.testing import DisplayChecks
-from webviz.shell.testing.display_checks import PATIENCE_S, Benches
-from webviz.shell.testing.extremes import Case, cases, changed, faults, send
+from webviz.shell.testing.display_checks import (
+    PATIENCE_S,
+    Benches,
+    Case,
+    cases,
+    changed,
+    faults,
+    send,
+)
 
 HANDS = 128
 """Messages with several extreme values, for each input of a display."""

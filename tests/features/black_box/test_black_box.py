@@ -19,9 +19,8 @@ from webviz.commands import Refresh
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
 from webviz.engine.state import State
-from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
+from webviz.engine.watch import REARM_S, RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S
-from webviz.engine.watch.rules import REARM_S
 from webviz.features import black_box
 from webviz.files.config import ConfigError, WatchLimits, WatchRule, dump
 from webviz.files.opening import parse

@@ -22,8 +22,7 @@ from webviz.commands import (
     Undo,
     UseTemplate,
 )
-from webviz.features.layouts import layout_store
-from webviz.features.layouts.templates import TEMPLATES
+from webviz.features.layouts import TEMPLATES, layout_store
 from webviz.files import rviz
 from webviz.files.config import ConfigError, DockedPanel, FloatingPanel, Layout, dump, read
 from webviz.files.config.layout import MAX_DOCKED, MAX_LAYOUTS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
@@ -15,8 +15,29 @@ from webviz.engine.forms import sendable
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
-from webviz.features.layouts.templates import TEMPLATES
-from webviz.files.config import ConfigError, Layout, Settings, nearest
+from webviz.files.config import ConfigError, DockedPanel, Layout, Settings, nearest
+
+TEMPLATES: Mapping[str, Layout] = {
+    "Navigate": Layout(
+        beside=(DockedPanel(panel="Nav2"),),
+        below=(DockedPanel(panel="Log", tabs=("Diagnostics",)),),
+        height=200,
+    ),
+    "Tune": Layout(
+        beside=(DockedPanel(panel="Parameters"),),
+        below=(DockedPanel(panel="Plot", tabs=("StateTimeline",)),),
+        height=260,
+    ),
+    "Debug a bag": Layout(
+        beside=(DockedPanel(panel="doctor"), DockedPanel(panel="RawMessage")),
+        below=(
+            DockedPanel(panel="Plot", tabs=("StateTimeline",)),
+            DockedPanel(panel="Log", tabs=("MessageTable",)),
+        ),
+        height=220,
+    ),
+}
+"""By name. Panels are those of webviz, or types of panels, of which the first is meant."""
 
 
 class SavedLayout(msgspec.Struct, frozen=True):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import shlex
 from collections.abc import Mapping, Sequence
+from xml.sax.saxutils import quoteattr
 
 from webviz.api.errors import Error
 from webviz.api.frames import compose, is_placeable, to_pose
 from webviz.api.nodes import Pose
 from webviz.api.roles import Role
-from webviz.data.rotations import conjugate, from_rpy, w_last
+from webviz.data.rotations import conjugate, from_rpy, to_rpy, w_last
 from webviz.data.transforms import TransformException
 from webviz.data.transforms.pinned import is_pinned, pin, unpin
 from webviz.data.transforms.tree import ancestors
@@ -20,7 +22,6 @@ from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.frame_handle import FrameHandle, FrameTrial
 from webviz.engine.store import PageStore
-from webviz.features.what_if.lines import static_transform_publisher, urdf_origin
 
 ID = "whatif"
 """Of the display with the handle."""
@@ -185,3 +186,24 @@ def _inverse(pose: Pose) -> Pose:
     w, x, y, z = conjugate(pose.wxyz).tolist()
     px, py, pz = pose.position
     return compose(Pose(wxyz=(w, x, y, z)), Pose((-px, -py, -pz)))
+
+
+def urdf_origin(pose: Pose) -> str:
+    """Return the origin of a joint with a pose, for a URDF or xacro file."""
+    values = pose.position, to_rpy(pose.wxyz)
+    xyz, rpy = (quoteattr(" ".join(map(_text, each))) for each in values)
+    return f"<origin xyz={xyz} rpy={rpy}/>"
+
+
+def static_transform_publisher(parent: str, frame: str, pose: Pose) -> str:
+    """Return the command that publishes the pose of a frame in its parent."""
+    names = "x", "y", "z", "roll", "pitch", "yaw"
+    values = zip(names, (*pose.position, *to_rpy(pose.wxyz)), strict=True)
+    numbers = " ".join(f"--{name} {_text(value)}" for name, value in values)
+    frames = f"--frame-id {shlex.quote(parent)} --child-frame-id {shlex.quote(frame)}"
+    return f"ros2 run tf2_ros static_transform_publisher {numbers} {frames}"
+
+
+def _text(value: float) -> str:
+    """To a tenth of a millimetre or of a milliradian, without a negative zero."""
+    return f"{round(value, 4) + 0.0:g}"
