@@ -1,4 +1,4 @@
-"""Imports run downwards only, through the rooms in the order of ARCHITECTURE.md."""
+"""A room imports only itself and those before it in the table of ARCHITECTURE.md."""
 
 import ast
 import graphlib
