@@ -13,7 +13,8 @@ from mapping_scenes import MESH, VOXELS
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
-from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer, display
+from webviz_displays import nvblox
+from webviz_displays.nvblox import NvbloxMesh, NvbloxVoxelBlockLayer
 
 TYPES = {
     NvbloxMesh: "nvblox_msgs/msg/Mesh",
@@ -33,7 +34,7 @@ def test_surfaces_have_the_colours_of_their_corners(shown: Callable) -> None:
     assert near.faces.tolist() == [[0, 1, 2], [3, 4, 5]]
     np.testing.assert_allclose(at.xyz(NEAR)[1], (10.8, 0.0, 0.1), atol=1e-6)
     assert near.colors[:3].tolist() == [[255, 0, 0, 255], [0, 128, 0, 255], [0, 0, 255, 255]]
-    assert far.colors[:, :3].tolist() == [[display.GREY] * 3] * 3
+    assert far.colors[:, :3].tolist() == [[nvblox.GREY] * 3] * 3
     assert at.statuses()["Blocks"] == ("OK", "3 triangles in 3 blocks of 0.8 m.")
 
 
@@ -112,7 +113,7 @@ def test_too_large_maps_are_cut_with_a_warning(
     at = shown(NvbloxVoxelBlockLayer(), VOXELS)
     assert set(at.nodes()) == {NEAR}
     assert at.statuses()["Blocks"] == ("WARN", "Showing 6 of 9 voxels.")
-    monkeypatch.setattr(display, "MAX_POINTS", 6)
+    monkeypatch.setattr(nvblox, "MAX_POINTS", 6)
     at = shown(NvbloxVoxelBlockLayer(), VOXELS)
     sentence = "1 block left out: the map is too large. Send it with clear set."
     assert at.statuses()["Blocks"] == ("WARN", sentence)

@@ -13,8 +13,8 @@ from perception_scenes import NAN, ZED_CAR, ZED_OBJECTS, ZED_PERSON, ZED_SCENE
 from plain_scenes import in_moving_frame
 
 from webviz.shell.testing import check_details
-from webviz_displays.zed import ZedOdDisplay, display
-from webviz_displays.zed.display import BODIES
+from webviz_displays import zed
+from webviz_displays.zed import BODIES, ZedOdDisplay
 
 
 def scene(*objects: dict[str, Any]) -> dict[str, Any]:
@@ -112,7 +112,7 @@ def test_boxes_without_corners_and_unknown_skeletons_are_named(shown: Callable) 
 def test_too_many_objects_are_cut_with_a_warning(
     shown: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(display, "MAX_OBJECTS", 1)
+    monkeypatch.setattr(zed, "MAX_OBJECTS", 1)
     at = shown(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
     assert at.nodes()["labels"].texts == ("3-Vehicle [Car]",)
     assert at.statuses()["Objects"] == ("WARN", "1 of 2 objects shown: 1 too many.")

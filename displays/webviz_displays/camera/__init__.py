@@ -1,5 +1,0 @@
-"""The Camera display."""
-
-from webviz_displays.camera.display import Camera
-
-__all__ = ["Camera"]
