@@ -137,6 +137,7 @@ setup(
             "latency = webviz.features.latency:LatencyFeature",
             "layouts = webviz.features.layouts:LayoutsFeature",
             "outputs = webviz.features.outputs:OutputsFeature",
+            "own_past = webviz.features.own_past:OwnPastFeature",
             "panels = webviz.features.panels:PluginPanels",
             "people = webviz.features.people:People",
             "plugins = webviz.features.plugins:PluginsFeature",

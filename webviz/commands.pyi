@@ -269,6 +269,17 @@ class Load(FileCommand, frozen=True):
     text: str
     name: str
 
+class LookBackAlone(FileCommand, frozen=True):
+    """Show one page the past of live topics on its own; the answer has its address.
+
+    Args:
+        at_s: the moment, as that of `Seek`.
+        opened: called by the frame loop with the address, relative to that of the viewer.
+    """
+
+    at_s: float
+    opened: Callable[[str], object] = ...
+
 class LookUpTransform(Command, frozen=True):
     """Answer with the newest transform between two frames, in words."""
 

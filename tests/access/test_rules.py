@@ -110,7 +110,7 @@ def test_what_others_may_want_to_know_is_noted_for_the_owner() -> None:
     people = {"Dismiss", "Invite", "Revoke"}
     rights = {"Allow", "AskOwner", "Decline", "Forbid"}
     files = {"BeginUpload", "Load", "Open", "Save"}
-    assert noted == people | rights | files | {"UseTool"}
+    assert noted == people | rights | files | {"UseTool", "LookBackAlone"}
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))

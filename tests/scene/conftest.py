@@ -142,12 +142,13 @@ class Peer:
 
     Args:
         server: whom to call.
+        below: path of its page.
         headers: more headers for the handshake.
     """
 
-    def __init__(self, server: HasPort, **headers: str) -> None:
+    def __init__(self, server: HasPort, below: str = "/", **headers: str) -> None:
         self._socket = websockets.sync.client.connect(
-            f"ws://127.0.0.1:{server.get_port()}",
+            f"ws://127.0.0.1:{server.get_port()}{below}",
             subprotocols=[f"viser-v{viser.__version__}"],  # pyright: ignore[reportArgumentType]
             additional_headers=headers,
             compression=None,

@@ -31,18 +31,19 @@ class Connections:
 
     Args:
         server: of the pages.
+        below: path of the page.
         headers: of its requests, such as a cookie.
     """
 
-    def __init__(self, server: HasPort, **headers: str) -> None:
-        self.viser = Peer(server, **headers)
+    def __init__(self, server: HasPort, below: str = "/", **headers: str) -> None:
+        self.viser = Peer(server, below, **headers)
         self.viser.look()
         for message in self.viser.replay():
             if message["type"] == "RunJavascriptMessage":
                 source = message["source"].partition("(")[2].removesuffix(");")
                 self.page = msgspec.json.decode(source)
         self._socket = websockets.sync.client.connect(
-            f"ws://127.0.0.1:{server.get_port()}/webviz/channel",
+            f"ws://127.0.0.1:{server.get_port()}{below}webviz/channel",
             compression=None,
             close_timeout=0.1,
             additional_headers=headers,

@@ -24,7 +24,7 @@ from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Do, Download
 
-NOT_OF_PAGES = frozenset({"browser", "made", "deliver", "report", "published"})
+NOT_OF_PAGES = frozenset({"browser", "made", "opened", "deliver", "report", "published"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
 
 LARGE = frozenset({"text", "picture"})
@@ -106,6 +106,7 @@ class Dispatcher:
                 do.command,
                 do.arguments,
                 made=functools.partial(made.__setitem__, "display"),
+                opened=functools.partial(made.__setitem__, "address"),
                 deliver=functools.partial(self._deliver, browser, do),
             )
         except ValueError as error:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 import viser
 import websockets.asyncio.server as websocket
 
+from webviz.api.roles import Role
 from webviz.scene.adapter.greeting import greet
 from webviz.scene.constants import CONSTANTS
 from webviz.scene.names import ROOT
@@ -21,11 +22,12 @@ from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import ConnectionLimits
 from webviz.server.http.guard import RequestGuard
 from webviz.server.http.hosts import HostList
-from webviz.server.http.listener import Handshakes, listen
+from webviz.server.http.listener import Handshakes, Listener, listen
 from webviz.server.http.revocation import Revocation
 from webviz.server.http.shared import SharedFile
-from webviz.server.http.steps import at, behind, page, with_link, within
-from webviz.server.http.viser_server import Server, replaced
+from webviz.server.http.steps import Step, at, behind, page, with_link, within
+from webviz.server.http.tunnels import BackListener, Tunnels, listen_behind
+from webviz.server.http.viser_server import Door, Server, replaced
 
 _opening = threading.Lock()
 
@@ -67,19 +69,67 @@ def open_server(
     if tls is not None:
         listener.handshakes = Handshakes()
     limits, access = ConnectionLimits(listener.handshakes), access or Access()
-    channel, modules, shared = Channel(), Modules(CONSTANTS), SharedFile()
+    hosts, own_port = HostList(host, allowed_hosts), listener.getsockname()[1]
+    door = Door(hosts, access, own_port, link_rate, embedders, Tunnels())
+    modules, shared = Modules(CONSTANTS), SharedFile()
     steps = (
         behind(proxies),
-        at(HostList(host, allowed_hosts)),
-        with_link(access, listener.getsockname()[1]),
+        at(hosts),
+        with_link(access, own_port),
         within(limits),
+        door.tunnels.step,
         shared.step,
         page(modules.head),
     )
-    begin = Revocation(access, limits).begin
-    guard = RequestGuard(listener, steps, limits, tls, channel, begin, link_rate, embedders)
+    return _opened(listener, steps, limits, door, modules, shared, tls=tls)
+
+
+def open_behind(front: Door, path: str, max_pages: int) -> Server:
+    """Open a server behind another one, which hands requests over to it.
+
+    Nobody may do more there than an operator.
+
+    Args:
+        front: of the other one.
+        path: of the socket, in a folder that other users cannot read.
+        max_pages: that may be connected at once.
+
+    Raises:
+        OSError: the socket cannot be made.
+    """
+    listener, limits, access = listen_behind(path), ConnectionLimits(), front.access
+    limits.limit = max_pages
+    access = access.limited(Role.OPERATOR)
+    door = Door(front.hosts, access, front.port, front.link_rate, front.embedders, Tunnels())
+    modules = Modules(CONSTANTS)
+    steps = (
+        behind(Proxies()),
+        at(front.hosts),
+        with_link(access, front.port),
+        within(limits),
+        page(modules.head),
+    )
+    return _opened(listener, steps, limits, door, modules, SharedFile())
+
+
+def _opened(
+    listener: Listener | BackListener,
+    steps: Sequence[Step],
+    limits: ConnectionLimits,
+    door: Door,
+    modules: Modules,
+    shared: SharedFile,
+    *,
+    tls: ssl.SSLContext | None = None,
+) -> Server:
+    """Serve an empty scene."""
+    channel = Channel()
+    begin = Revocation(door.access, limits).begin
+    guard = RequestGuard(
+        listener, steps, limits, tls, channel, begin, door.link_rate, door.embedders
+    )
     with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
-        server = Server(channel, modules, shared, limits.close, host=host, port=port, verbose=False)
+        server = Server(channel, modules, shared, limits.close, door, port=door.port, verbose=False)
     greet(server, channel, modules)
     _prepare(server)
     return server

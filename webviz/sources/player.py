@@ -37,9 +37,11 @@ class Player:
 
     Args:
         history: to play; of the memory of live topics, these are shown first.
+        read_only: refuses output if there are no live topics.
     """
 
-    def __init__(self, history: History) -> None:
+    def __init__(self, history: History, read_only: Graph = READ_ONLY) -> None:
+        self._read_only = read_only
         self.memory = history if isinstance(history, MemoryHistory) else None
         """That of live topics."""
         self.live = live = self.memory.live if self.memory else None
@@ -62,8 +64,7 @@ class Player:
         self._has_to_jump = False
         self._is_returning, self._returns_s = False, 0.0
         """True while topics become live again, and when they are at the latest."""
-        self._stepped_s = 0.0
-        self._offset_ns = 0
+        self._stepped_s, self._offset_ns = 0.0, 0
         self.subscriptions: dict[str, Subscription] = {}
         """By topic; another object only after a change."""
         self._playhead = None if live else self._new_playhead()
@@ -85,7 +86,7 @@ class Player:
     @property
     def is_live(self) -> bool:
         """Return whether what arrives is shown, and nothing else is approached."""
-        return self._playhead is None and self._target_ns is None
+        return self._playhead is None and not self.is_seeking
 
     @property
     def is_seeking(self) -> bool:
@@ -266,7 +267,7 @@ class Player:
     @property
     def graph(self) -> Graph:
         """For output, which the gate refuses while the past is shown."""
-        return self.live.graph if self.live else READ_ONLY
+        return self.live.graph if self.live else self._read_only
 
     @property
     def bridges(self) -> Sequence[Bridge]:
@@ -302,8 +303,7 @@ class Player:
 
     def now_ns(self) -> int:
         """ROS time of what is shown."""
-        shown = self._playhead or self.live
-        return shown.now_ns() if shown else 0
+        return shown.now_ns() if (shown := self._playhead or self.live) else 0
 
     def clock_messages(self) -> int | None:
         """Those of live topics; of a recording, /clock is not counted, but sets the time."""

@@ -22,8 +22,10 @@ from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import Job
 from webviz.engine.state import State, snapshot
+from webviz.files.config import Config
 from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
 from webviz.sources.player import Player
+from webviz.sources.recording.moment import MomentHistory
 
 Batches = Mapping[str, Iterable[Raw]]
 """Messages by topic, oldest first."""
@@ -45,11 +47,16 @@ class HostProgram(msgspec.Struct, frozen=True):
         offer: lets pages download a file, by its name and content; None without pages.
         plugins: files with plug-ins that were loaded.
         library: folders whose bags pages may open.
+        look_back: shows a moment of a history to one page, by the cookie of its browser, and
+            returns the address; None if this viewer cannot.
+        leave: ends this viewer, which shows one page its own past; None for any other.
     """
 
     offer: Callable[[str, bytes], object] | None = None
     plugins: Sequence[Path] = ()
     library: Sequence[Path] = ()
+    look_back: Callable[[Config, MomentHistory, int, str], str] | None = None
+    leave: Callable[[], object] | None = None
 
 
 NO_PROGRAM = HostProgram()

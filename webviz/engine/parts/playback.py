@@ -12,6 +12,7 @@ from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.names import problem_of
 from webviz.data.words import joined
+from webviz.engine.commands import Sender
 from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.display_events import DisplayEvents
 from webviz.engine.parts.part import Batches, Core, Part
@@ -79,6 +80,8 @@ class PlaybackPart(Part):
         """Counts of its messages in equal parts of its span, by topic."""
         self.logged: Sequence[Event] = ()
         """Warnings and errors that its nodes logged, by time."""
+        self._leader: int | None = None
+        """The browser that looked back last, None for a program."""
 
     @property
     def is_seeking(self) -> bool:
@@ -141,7 +144,8 @@ class PlaybackPart(Part):
         if self.playback is None:
             return None
         memory_s = self._settings.settings.memory.seconds
-        return playback_store(self.playback, memory_s, self.core.get(TimePart).times.wall_s)
+        wall_s = self.core.get(TimePart).times.wall_s
+        return playback_store(self.playback, memory_s, wall_s, self._leader)
 
     @store()
     def bookmarks(self, argument: str) -> BookmarksStore | None:
@@ -206,10 +210,11 @@ class PlaybackPart(Part):
         player.play()
 
     @command(Role.OPERATOR)
-    def seek(self, at_s: float) -> str:
+    def seek(self, at_s: float, sender: Sender) -> str:
         """Show the recording at a time; answered when the scene shows it."""
         player = self._known()
-        player.seek(self._at_ns(at_s))
+        self._leader = sender.browser
+        player.seek(self.at_ns(at_s))
         return self._stopped(player)
 
     @command(Role.OPERATOR)
@@ -248,14 +253,14 @@ class PlaybackPart(Part):
         if first_s is None and last_s is None:
             player.selected = None
             return
-        first_ns = history.start_ns if first_s is None else self._at_ns(first_s)
-        last_ns = history.end_ns if last_s is None else min(self._at_ns(last_s), history.end_ns)
+        first_ns = history.start_ns if first_s is None else self.at_ns(first_s)
+        last_ns = history.end_ns if last_s is None else min(self.at_ns(last_s), history.end_ns)
         if first_ns >= last_ns:
             raise Error("The selected span is empty. Choose an end later than its start.")
         player.selected = first_ns, last_ns
 
     @command(Role.OPERATOR)
-    def step_message(self, topic: str = "", is_forward: bool = True) -> str:
+    def step_message(self, sender: Sender, topic: str = "", is_forward: bool = True) -> str:
         """Pause, and show the recording at the next or previous message of a topic.
 
         Args:
@@ -271,6 +276,7 @@ class PlaybackPart(Part):
             where = "next" if is_forward else "previous"
             what = f"message on {topic}" if topic else "message of a displayed topic"
             raise Error(f"There is no {where} {what}. Step in the other direction.")
+        self._leader = sender.browser
         return self._stopped(player)
 
     def _stopped(self, player: Player) -> str:
@@ -289,7 +295,7 @@ class PlaybackPart(Part):
         if problem := problem_of(name):
             raise Error(problem)
         end_ns = player.history.end_ns
-        at_ns = player.position_ns if at_s is None else min(self._at_ns(at_s), end_ns)
+        at_ns = player.position_ns if at_s is None else min(self.at_ns(at_s), end_ns)
         bookmarks = {**self._settings.settings.bookmarks, name: at_ns / 1e9}
         self._settings.set("bookmarks", bookmarks)
 
@@ -306,8 +312,8 @@ class PlaybackPart(Part):
             raise Error(absence)
         return self._player
 
-    def _at_ns(self, seconds: float) -> int:
-        """Return a position, not before the first message."""
+    def at_ns(self, seconds: float) -> int:
+        """Return a position of what people count as seconds, not before the first message."""
         history = self._known().history
         if math.isnan(seconds):
             raise Error("NaN is not a valid time. Give seconds from the start of the recording.")

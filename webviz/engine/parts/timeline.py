@@ -37,6 +37,7 @@ class PlaybackStore(PageStore, frozen=True):
         duration: of a recording.
         position: unset while it is live.
         gap: see `webviz.sources.past_state.PlaybackState`.
+        leader: the browser that looked back last, None for a program; unset while it is live.
     """
 
     names: Sequence[str]
@@ -54,6 +55,7 @@ class PlaybackStore(PageStore, frozen=True):
     duration: float | msgspec.UnsetType = msgspec.UNSET
     position: float | msgspec.UnsetType = msgspec.UNSET
     gap: tuple[float, float] | msgspec.UnsetType | None = msgspec.UNSET
+    leader: int | msgspec.UnsetType | None = msgspec.UNSET
 
 
 class BookmarksStore(PageStore, frozen=True):
@@ -95,13 +97,16 @@ class EventsStore(PageStore, frozen=True):
     findings: Sequence[LoggedEvent]
 
 
-def playback_store(recording: PlaybackState, memory_s: float, wall_s: float) -> PlaybackStore:
+def playback_store(
+    recording: PlaybackState, memory_s: float, wall_s: float, leader: int | None = None
+) -> PlaybackStore:
     """Return the recording or the memory.
 
     Args:
         recording: that is played.
         memory_s: seconds that the memory of live topics keeps at most.
         wall_s: wall time, in seconds since 1970.
+        leader: the browser that looked back last.
     """
     duration_s = (recording.end_ns - recording.start_ns) / 1e9
     told = PlaybackStore(
@@ -125,7 +130,8 @@ def playback_store(recording: PlaybackState, memory_s: float, wall_s: float) -> 
     if recording.is_live:
         return replace(told, held=round(duration_s - recording.first_s))
     first_s = round(recording.first_s, 3)
-    return replace(told, first=first_s, position=position_s, gap=recording.gap)
+    gap = recording.gap
+    return replace(told, first=first_s, position=position_s, gap=gap, leader=leader)
 
 
 def bookmarks_store(recording: PlaybackState, bookmarks: Mapping[str, float]) -> BookmarksStore:

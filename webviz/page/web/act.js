@@ -6,10 +6,14 @@ import { toast } from "./toasts.js";
 
 /** @import {Commands, Do, Done} from "./messages.js" */
 
+/** @typedef {{level: string, text: string, [made: string]: string}} Answer */
+
 /** @type {Map<number, (answer: {level: string, text: string}) => void>} */
 const waiting = new Map();
 /** @type {Map<string, (done: Done) => void>} */
 const listeners = new Map();
+/** @type {Map<string, (fields: any) => Promise<Answer> | null>} */
+const detours = new Map();
 let count = 0;
 
 channel.on("Done", (done) => {
@@ -28,16 +32,24 @@ channel.onOpen(() => {
  * Sends a command with its fields. Resolves with `{level, text}` and what it made, such as `display`:
  * "ok" or "error", a sentence or "", and the id of a new display. What there is to say is shown as a
  * toast, unless `quiet`; errors always are, unless the "caller" shows them itself. Commands with the
- * same `step`, a number of `newStep`, are undone together.
+ * same `step`, a number of `newStep`, are undone together. `isDirect` ones take no detour.
  *
  * @template {keyof Commands} C
  * @param {C} command
  * @param {Commands[C]} [fields]
- * @param {{quiet?: boolean, errors?: "toast" | "caller", step?: number}} [options]
- * @returns {Promise<{level: string, text: string, [made: string]: string}>}
+ * @param {{quiet?: boolean, errors?: "toast" | "caller", step?: number, isDirect?: boolean}} [options]
+ * @returns {Promise<Answer>}
  */
-export function act(command, fields, { quiet = false, errors = "toast", step = 0 } = {}) {
+export function act(
+  command,
+  fields,
+  { quiet = false, errors = "toast", step = 0, isDirect = false } = {},
+) {
   const refusal = why(command, fields);
+  if (!refusal && !isDirect) {
+    const taken = detours.get(command)?.(fields);
+    if (taken) return taken;
+  }
   const answer = refusal
     ? Promise.resolve({ level: "error", text: refusal })
     : new Promise((resolve) => waiting.set(send(command, fields, step), resolve));
@@ -70,6 +82,15 @@ export function send(command, fields, step = 0) {
  * @param {(done: Done) => void} listener
  */
 export const onAnswer = (command, listener) => listeners.set(command, listener);
+
+/**
+ * Lets `take(fields)` have a command before it is sent; what it returns is the answer, null to send it.
+ *
+ * @template {keyof Commands} C
+ * @param {C} command
+ * @param {(fields: Commands[C]) => Promise<Answer> | null} take
+ */
+export const detour = (command, take) => detours.set(command, take);
 
 /** A number for commands that are undone together. */
 export const newStep = () => (count += 1);

@@ -78,7 +78,7 @@ export function install() {
   // Its token may have been revoked; the server then says so instead of this page.
   async function askAgain() {
     const answer = await fetch("./", { method: "HEAD" }).catch(() => null);
-    if (answer?.status === 403) location.reload();
+    if (answer?.status === 403 || answer?.status === 404) location.reload();
   }
 
   function tick() {

@@ -218,6 +218,7 @@ export interface Commands {
   ListMoment: { before_s?: number | null; after_s?: number | null };
   ListReport: { with_names?: boolean };
   Load: { text: string; name: string };
+  LookBackAlone: { at_s: number };
   LookUpTransform: { target: string; source: string };
   MoveDisplay: { display: string; group?: string; before?: string };
   Open: { path: string };

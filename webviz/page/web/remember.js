@@ -33,6 +33,26 @@ export function remember(key, value) {
   }
 }
 
+const RESUMES = `${PREFIX}resumes`;
+
+/**
+ * Lets the next page of this tab begin as the last one of a path ended.
+ *
+ * @param {string} path
+ */
+export const resumeAs = (path) => sessionStorage.setItem(RESUMES, path);
+
+/** The path whose state this page resumes, "" for none. */
+const resumed = (() => {
+  try {
+    const path = sessionStorage.getItem(RESUMES) ?? "";
+    sessionStorage.removeItem(RESUMES);
+    return path;
+  } catch {
+    return "";
+  }
+})();
+
 /** True if this page was here before, and is loaded again. */
 const isReloaded = () =>
   /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"))[0]
@@ -40,11 +60,11 @@ const isReloaded = () =>
 
 // Pages of several viewers may have one origin.
 /** @param {string} key */
-const keyOfTab = (key) => `${PREFIX}${location.pathname}.${key}`;
+const keyOfTab = (key, path = location.pathname) => `${PREFIX}${path}.${key}`;
 
 /**
- * The value that `read` had under a key before the page was loaded again; null after anything else.
- * Its value is stored when this page goes.
+ * The value that `read` had under a key before the page was loaded again, or in the page that it resumes;
+ * null after anything else. Its value is stored when this page goes.
  *
  * @template T
  * @param {string} key
@@ -60,7 +80,8 @@ export function surviveReload(key, read) {
     }
   });
   try {
-    return isReloaded() ? JSON.parse(sessionStorage.getItem(keyOfTab(key)) ?? "null") : null;
+    if (!resumed && !isReloaded()) return null;
+    return JSON.parse(sessionStorage.getItem(keyOfTab(key, resumed || undefined)) ?? "null");
   } catch {
     return null;
   }

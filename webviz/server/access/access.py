@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import logging
 import math
 import os
@@ -74,6 +75,7 @@ class Access:
         self.asks = asks
         self.path = path
         self._now = now
+        self._everybody = EVERYBODY
         # For the browser of this program that takes pictures; never written, gone with it.
         self._own = make("webviz", Role.WATCHER, now())
         self._others = (*others, self._own)
@@ -81,6 +83,12 @@ class Access:
         self._missed = 0
         # One object, as threads replace it.
         self._file = _stamp(path), self._index(token_file.read(path) if asks and path else ())
+
+    def limited(self, role: Role) -> Access:
+        """Return the same for a server where nobody may do more than a role."""
+        limited = copy.copy(self)
+        limited._everybody, limited._disk = Grant(role), DiskThreads(1)
+        return limited
 
     @property
     def tokens(self) -> Tokens:
@@ -101,7 +109,7 @@ class Access:
     def by_cookie(self, cookie: str) -> Grant | None:
         """Return the grant of a cookie, None if it is not valid."""
         if not self.asks:
-            return EVERYBODY
+            return self._everybody
         token = self._file[1].by_cookie(cookie)
         return None if token is None else self._grant(token)
 
@@ -148,7 +156,8 @@ class Access:
     def _grant(self, token: Token) -> Grant | None:
         if not token.is_valid(self._now()):
             return None
-        return Grant(role_of(token), token.name, token.cookie, token.expires)
+        role = min(role_of(token), self._everybody.role)
+        return Grant(role, token.name, token.cookie, token.expires)
 
 
 def _stamp(path: Path | None) -> tuple[int, ...]:

@@ -25,6 +25,7 @@ from webviz.server.http.listener import Listener
 from webviz.server.http.rate_limited_log import rate_limited_log
 from webviz.server.http.requests import add_policy
 from webviz.server.http.steps import Reply, Step, Visit, answer_of
+from webviz.server.http.tunnels import BackListener, hand_over
 from webviz.server.http.viser_messages import MAX_BYTES
 
 MAX_WAITING_FRAMES = 4
@@ -49,7 +50,7 @@ class RequestGuard(msgspec.Struct):
         embedders: origins of pages that may embed the page.
     """
 
-    listener: Listener
+    listener: Listener | BackListener
     steps: Sequence[Step]
     limits: ConnectionLimits
     tls: ssl.SSLContext | None
@@ -105,6 +106,8 @@ class RequestGuard(msgspec.Struct):
         connection.admit(visit.address, visit.grant)
         if reply is not None:
             return _response(connection, reply)
+        if visit.socket:
+            return hand_over(connection, visit)
         if visit.is_channel:
             connection.is_channel = True
             connection.objection = objection

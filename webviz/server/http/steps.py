@@ -33,6 +33,7 @@ class Visit(msgspec.Struct):
         hosts: by what names the server was addressed.
         host: the one name, if it is allowed, in lower case.
         grant: what the browser may do.
+        socket, below: of the server behind this one that answers, and the path there.
     """
 
     request: Request
@@ -42,6 +43,8 @@ class Visit(msgspec.Struct):
     hosts: Sequence[str] = ()
     host: str = ""
     grant: Grant = EVERYBODY
+    socket: str = ""
+    below: str = ""
 
     @property
     def path(self) -> str:
@@ -84,8 +87,14 @@ class Room(Protocol):
 
 
 def answer_of(steps: Iterable[Step], visit: Visit) -> Reply | None:
-    """Return the answer of the first step that has one, None to let viser open a websocket."""
-    return next((reply for step in steps if (reply := step(visit)) is not None), None)
+    """Return the answer of the first step that has one.
+
+    None lets viser open a websocket, or the server behind this one answer, if there is one.
+    """
+    for step in steps:
+        if (reply := step(visit)) is not None or visit.socket:
+            return reply
+    return None
 
 
 def behind(proxies: Proxies) -> Step:

@@ -3,15 +3,39 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+import msgspec
 import rich
 import viser
 
+from webviz.server.access.access import Access
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.modules import Modules
+from webviz.server.http.hosts import HostList
 from webviz.server.http.shared import SharedFile
+from webviz.server.http.tunnels import Tunnels
+
+
+class Door(msgspec.Struct, frozen=True):
+    """The way of browsers to a server.
+
+    Args:
+        hosts: names by which they address it.
+        access: knows who may connect.
+        port: that they use.
+        link_rate: bytes a second that the link to each takes; None to measure it.
+        embedders: origins of pages that may embed the page.
+        tunnels: the servers behind it.
+    """
+
+    hosts: HostList
+    access: Access
+    port: int
+    link_rate: float | None
+    embedders: Sequence[str]
+    tunnels: Tunnels
 
 
 class Server(viser.ViserServer):
@@ -22,6 +46,7 @@ class Server(viser.ViserServer):
         modules: of its pages.
         shared: the file that its pages can download.
         close: closes all connections; called on the event loop.
+        door: how browsers reach it.
         options: for viser.
     """
 
@@ -31,11 +56,13 @@ class Server(viser.ViserServer):
         modules: Modules,
         shared: SharedFile,
         close: Callable[[], None],
+        door: Door,
         **options: Any,
     ) -> None:
         self.channel = channel
         self.modules = modules
         self.shared = shared
+        self.door = door
         self._close = close
         with replaced(rich.get_console(), "quiet", True):
             super().__init__(**options)

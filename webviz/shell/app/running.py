@@ -131,6 +131,10 @@ class Running(PictureControls):
                 closing.add("The session", session.close)
             from webviz.engine.loop import FrameLoop
             from webviz.engine.parts.part import HostProgram
+            from webviz.shell.app.own_pasts import OwnPasts
+
+            pasts = OwnPasts(server.door)
+            closing.add("The look backs of pages", pasts.close)
 
             self._loop = FrameLoop(
                 shown,
@@ -148,6 +152,7 @@ class Running(PictureControls):
                     server.shared.offer,
                     [Path(file) for file in plugins],
                     [Path(folder) for folder in library],
+                    pasts.open,
                 ),
             )
             self._open_pages(server, allow_hosts, keep)

@@ -8,7 +8,7 @@ import { el, set, setText } from "../dom.js";
 import { sanitized } from "../sanitize.js";
 import { command } from "../commands.js";
 import { setTitlePrefix } from "../title.js";
-import { watch } from "../stores.js";
+import { store, watch } from "../stores.js";
 import { agoText, atMoment, isOpened, isRewound } from "./moment.js";
 import { savedText } from "./saved_text.js";
 
@@ -18,6 +18,18 @@ const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");
 
 export const returnToLive = () => act("ReturnToLive");
+
+/**
+ * Who looks back, if that is another page; "" if it is this one or a program.
+ *
+ * @param {ValuesOf<"playback">} values
+ */
+function leaderText(values) {
+  const leader = values.get("leader") ?? null;
+  if (leader === null || leader === window.webviz.browser) return "";
+  const name = store("people").get(String(leader))?.name;
+  return `${sanitized(name || "Another page")} looks back · `;
+}
 
 /** The banner; hidden while topics are live. */
 export function banner() {
@@ -50,20 +62,19 @@ export function banner() {
       return;
     }
     const shown = atMoment(values, wallNow());
-    setText(ago, `${agoText(shown.get("ago"))} · not live`);
+    setText(ago, `${leaderText(values)}${agoText(shown.get("ago"))} · not live`);
     setTitlePrefix(`${shown.get("ago").toFixed(0)} s ago · `);
   }
 
   watch("playback", (next) => {
     values = next;
     const isPast = isRewound(next) || isOpened(next);
+    const wasPast = !element.hidden;
     clearInterval(timer);
     document.body.classList.toggle("wv-rewound", isPast);
     set(element, { hidden: !isPast });
-    if (!isPast) {
-      setTitlePrefix("");
-      return;
-    }
+    if (wasPast && !isPast) setTitlePrefix("");
+    if (!isPast) return;
     setText(how, why("ReturnToLive") ? "" : ` · ${COARSE.matches ? "tap" : "press L"} to return`);
     tick();
     timer = setInterval(tick, TICK_MS);
