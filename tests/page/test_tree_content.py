@@ -99,13 +99,13 @@ def test_a_rate_has_two_digits_so_that_it_changes_seldom(
 
 
 def test_a_topic_whose_last_message_is_repeated_is_latched(make_row: MakeRow) -> None:
-    publishers = [
-        Publisher(node, "sensor_msgs/msg/LaserScan", "reliable", durability)
-        for node, durability in (("/a", "transient_local"), ("/b", "volatile"))
-    ]
+    publishers = (
+        Publisher("/a", "sensor_msgs/msg/LaserScan", "reliable", "transient_local"),
+        Publisher("/b", "sensor_msgs/msg/LaserScan", "reliable", "volatile"),
+    )
     state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(0.0, 0.0)})
     for count, expected in ((1, {"hz": 0.0, "is_latched": True}), (2, {"hz": 0.0})):
-        offers = {"/scan": Offer(tuple(publishers[:count]))}
+        offers = {"/scan": Offer(publishers[:count])}
         assert shown_by("rate", replace(state, offers=offers), "a") == expected
 
 

@@ -377,7 +377,7 @@ export interface Stores {
   picking: { own: {  }; items: boolean };
   playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; is_opened?: boolean; limit?: number; ahead?: number; held?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null; leader?: number | null }; items: never };
   properties: { own: { name?: string; type?: string; worst?: WorstStatus | null; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, number | string>; [key: `topic.${string}`]: LiveTopic }; items: never };
-  rate: { own: { hz?: number; is_latched: boolean }; items: never };
+  rate: { own: { hz?: number; is_latched?: boolean }; items: never };
   recorded: { own: {  }; items: Array<number> };
   recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null; held?: number | null }; items: never };
   reported: { own: { things?: Array<ReportedThing> }; items: never };
