@@ -77,7 +77,7 @@ const REDO = {
  */
 function step(way, action) {
   const label = () => next(way);
-  const isLocked = why(action.needs) !== ""; // then a click says why
+  const isLocked = () => why(action.needs) !== ""; // then a click says why
   /** @param {Event} event */
   const open = (event) => {
     event.preventDefault();
@@ -86,7 +86,7 @@ function step(way, action) {
   /** @type {HTMLButtonElement} */
   const made = iconButton(action.icon, action.name, action.run, {
     "data-key": action.key[0],
-    disabled: () => !isLocked && label() === undefined,
+    disabled: () => !isLocked() && label() === undefined,
     tip: null,
     "data-tip": () => (label() === undefined ? action.name : `${action.name}: ${label()}`),
     oncontextmenu: open,
