@@ -19,7 +19,7 @@ const PAUSE_MS = 130; // a part counts as 22 messages, of which an owner may sen
 export function install() {
   /** @type {Signal<Progress | null>} */
   const progress = signal(/** @type {Progress | null} */ (null));
-  overlay("scene", "upload", card(progress));
+  overlay("cards", "upload", card(progress));
   fileLoader(ENDINGS, (file) => upload(file, progress));
 }
 

@@ -24,7 +24,7 @@ export function install() {
     if (why("ReadOutput")) return;
     /** @type {Signal<Written | null>} */
     const shown = signal(null);
-    overlay("scene", "output", card(shown));
+    overlay("cards", "output", card(shown));
     const isNew = newest();
     watch("outputs", (values) => {
       const mine = [...values]

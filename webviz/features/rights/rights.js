@@ -18,7 +18,7 @@ export function install() {
   onRole(() => {
     if (why("Allow")) return;
     const values = store("permission_requests");
-    overlay("scene", "rights", requests(values));
+    overlay("cards", "rights", requests(values));
     provide(() =>
       (values.get("allowed") ?? []).map((name) => ({
         name: `Take back the right to use ${name}`,

@@ -51,7 +51,7 @@ export function install() {
   });
   onRole(() => {
     if (why("ShareMoment")) return;
-    overlay("scene", "sharing", progress());
+    overlay("cards", "sharing", progress());
     tellEnds(mine);
   });
 }

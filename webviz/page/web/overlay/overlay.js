@@ -15,7 +15,7 @@ const shown = new Map();
 /**
  * Adds an overlay, or replaces that of the same name.
  *
- * @param {"status" | "pointer" | "legend" | "scene"} place
+ * @param {"status" | "pointer" | "legend" | "cards" | "scene"} place
  * @param {string} name
  * @param {Element} element
  */

@@ -12,13 +12,16 @@ import { store } from "../stores.js";
 
 const COMMAND = "webviz-sim";
 
-/** @param {HTMLElement} scene */
-export function install(scene) {
+/**
+ * @param {HTMLElement} scene
+ * @param {HTMLElement} cards
+ */
+export function install(scene, cards) {
   const graph = store("graph");
   const isEmpty = () => graph.get("is_empty") === true;
   card(scene, "knows-first-run", "Nothing is published yet", isEmpty, nothing());
   const hasSimulator = () => graph.get("has_simulator") === true;
-  card(scene, "knows-demo", "Three things to try", hasSimulator, thingsToTry(), "wv-to-try");
+  card(cards, "knows-demo", "Three things to try", hasSimulator, thingsToTry());
 }
 
 /**
@@ -29,9 +32,8 @@ export function install(scene) {
  * @param {string} title
  * @param {() => boolean} isThere
  * @param {Child | Child[]} content
- * @param {string} [place] class
  */
-function card(scene, key, title, isThere, content, place = "") {
+function card(scene, key, title, isThere, content) {
   const isKnown = signal(recall(key, false));
   const close = () => remember(key, (isKnown.value = true));
   const head = el(
@@ -44,7 +46,7 @@ function card(scene, key, title, isThere, content, place = "") {
     el(
       "section",
       {
-        class: `wv-first-run ${place}`,
+        class: "wv-first-run",
         "aria-label": title,
         hidden: () => isKnown.value || !isThere(),
       },

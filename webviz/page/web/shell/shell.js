@@ -28,6 +28,7 @@ export const places = {
   status: el("div", { class: "wv-top-right" }),
   pointer: el("div", { class: "wv-bottom-left" }),
   legend: el("div", { class: "wv-bottom-right" }),
+  cards: el("div", { class: "wv-stack" }),
   time: el("footer", { class: "wv-time" }),
 };
 
@@ -61,6 +62,6 @@ function build() {
   tooltips.install(page);
   drop.install(page);
   keepTextStill();
-  firstRun.install(scene);
+  firstRun.install(scene, places.cards);
   layout.install();
 }
