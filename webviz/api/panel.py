@@ -18,7 +18,7 @@ those of displays, edited in the tab, and kept in the config under `panels`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, TypeVar
 
@@ -271,6 +271,19 @@ class Panel(Declared, kw_only=True, dict=True):
     def receive(self, topic: str, message: Any, received_ns: int) -> None:
         """As `take`, which it calls, for panels that ask when the message came, in ROS time."""
         self.take(topic, message)
+
+    def begun(self) -> Collection[str]:
+        """Return topics of which it shows something new since the last call, such as a curve.
+
+        It receives what is remembered of them by `receive_past`.
+        """
+        return ()
+
+    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
+        """Take a message of before it began to show something, the oldest first.
+
+        It may have received some of them already.
+        """
 
     def refuse(self, topic: str, reason: str) -> None:
         """Note why a message of one of these topics cannot be decoded."""

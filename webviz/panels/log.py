@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Annotated, Any, Literal
 
 from webviz.api.declared import Prop
@@ -55,6 +55,10 @@ class Log(Panel):
         """Without lines."""
         self.type = LOG
         self.problem = ""
+        self.filled = ""
+        """The topic of which it was given what is remembered."""
+        self.past: set[Line] = set()
+        """Lines of it, which publishers may repeat."""
         self.clock = PanelTimes()
         self.playback: PlaybackState | None = None
         self.lock = threading.Lock()
@@ -84,8 +88,28 @@ class Log(Panel):
         """Return the last lines."""
         return Lookback(count=AFTER_SEEK)
 
+    def begun(self) -> Collection[str]:
+        """Return the topic once there is one."""
+        begun = self.subscriptions().keys() - {self.filled}
+        self.filled = self.topic
+        return begun
+
+    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
+        """Add a line, unless it was received already."""
+        line = self._line(message)
+        if line not in self.past:
+            self.past.add(line)
+            self.add(line, received_ns)
+
     def receive(self, topic: str, message: Any, received_ns: int) -> None:
-        """Add a line."""
+        """Add a line, unless a publisher repeats it."""
+        line = self._line(message)
+        if line in self.past:
+            self.past.remove(line)
+        else:
+            self.add(line, received_ns)
+
+    def _line(self, message: Any) -> Line:
         is_ros_1 = self.type == ROS_1_LOG
         stamp = message.header.stamp if is_ros_1 else message.stamp
         level = ROS_1_LEVELS.get(message.level, 20) if is_ros_1 else int(message.level)
@@ -93,15 +117,12 @@ class Log(Panel):
         place = f"{file}:{message.line}" if file else ""
         function = readable(message.function[:MAX_NAME])
         self.problem = ""
-        self.add(
-            (
-                round(stamp.ns / 1e9, 6),
-                level,
-                readable(message.name[:MAX_NAME]),
-                message.msg[:MAX_TEXT],
-                f"{place} {function}".strip(),
-            ),
-            received_ns,
+        return (
+            round(stamp.ns / 1e9, 6),
+            level,
+            readable(message.name[:MAX_NAME]),
+            message.msg[:MAX_TEXT],
+            f"{place} {function}".strip(),
         )
 
     def add(self, line: Line, received_ns: int) -> None:
@@ -131,6 +152,7 @@ class Log(Panel):
 
     def start_over(self) -> None:
         """Forget all lines."""
+        self.past.clear()
         self.clear()
 
     def show(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Any
 
 from webviz.api.declared import Prop
+from webviz.api.lookback import Lookback
 from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
@@ -28,6 +29,8 @@ class PathPanel(Panel):
         self.id = ""
         self.types: Mapping[str, str] = {}
         self.reading = PathReading("")
+        self.filled: PathReading | None = None
+        """The last one that was given what is remembered."""
         self.found: list[Any] = []
         """The values in the newest message."""
         self.revision = 0
@@ -47,6 +50,23 @@ class PathPanel(Panel):
         if topic == self.reading.topic:
             self.found = self.reading.values(message)
             self.revision += 1
+
+    def begun(self) -> Collection[str]:
+        """Return the topic while it has no values."""
+        topic = self.reading.topic
+        is_new = self.filled is not self.reading and topic in self.types
+        if is_new:
+            self.filled = self.reading
+        return {topic} if is_new else ()
+
+    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
+        """Read the values, unless there are newer ones."""
+        if not self.found:
+            self.take(topic, message)
+
+    def lookback(self, topic: str) -> Lookback:
+        """Return the newest message."""
+        return Lookback(count=1)
 
     def refuse(self, topic: str, reason: str) -> None:
         """Show why a message cannot be read."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Any
 
 import msgspec
@@ -72,6 +72,8 @@ class StateTimeline(Panel):
         self.types: Mapping[str, str] = {}
         self.chooser = FieldChooser(leaf_paths, self._add)
         self.tracks: dict[str, _Track] = {}
+        self.unfilled: set[str] = set()
+        """Topics of tracks that began."""
         self.clock = PanelTimes()
         self.playback: PlaybackState | None = None
 
@@ -98,6 +100,18 @@ class StateTimeline(Panel):
             if track.reading.topic == topic:
                 track.add(message, received_ns / NS_PER_S)
 
+    def begun(self) -> Collection[str]:
+        """Return the topics of new bands."""
+        begun, self.unfilled = self.unfilled, set()
+        return begun
+
+    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
+        """Note what had changed before."""
+        at_s = received_ns / NS_PER_S
+        for track in self.tracks.values():
+            if track.reading.topic == topic and (not track.changes or track.changes[-1][0] < at_s):
+                track.add(message, at_s)
+
     def refuse(self, topic: str, reason: str) -> None:
         """Show why a message cannot be read."""
         for track in self.tracks.values():
@@ -121,7 +135,10 @@ class StateTimeline(Panel):
         self.types = types_of(offers)
         self.chooser.offer(self.types)
         wanted = list(dict.fromkeys(self.paths))[:MAX_PATHS]
-        self.tracks = {text: self.tracks.get(text) or _Track(text) for text in wanted}
+        before = self.tracks
+        self.tracks = {text: before.get(text) or _Track(text) for text in wanted}
+        new = (track for text, track in self.tracks.items() if text not in before)
+        self.unfilled |= {track.reading.topic for track in new}
         now_s = clock.ros_ns / NS_PER_S
         start_s = now_s - self.window
         for track in self.tracks.values():

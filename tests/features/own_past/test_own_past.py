@@ -12,8 +12,8 @@ import pytest
 import websockets.exceptions
 from waiting import until
 
-from tests.features.own_past.conftest import Memory
 from tests.support.guest import Guest
+from tests.support.memory_viewer import Memory
 from webviz.api.roles import Role
 from webviz.commands import Seek
 from webviz.engine.parts.playback import REWOUND

@@ -8,7 +8,7 @@ import playwright.sync_api as playwright
 import pytest
 from playwright.sync_api import expect
 
-from tests.features.own_past.conftest import Memory
+from tests.support.memory_viewer import Memory
 from webviz.shell.pictures.browser import Page
 
 SHOW = "async (view) => (await import('/webviz/act.js')).act('ShowView', { view })"

@@ -20,6 +20,7 @@ from webviz.engine.commands import ignore
 from webviz.engine.parts.advertisements import advertisement_of, publish
 from webviz.engine.parts.declaring import command
 from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.past_messages import past_messages
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import PanelTab
@@ -71,11 +72,24 @@ class PanelsPart(Part):
     def take(self, batches: Batches) -> None:
         """Pass messages on to the open panels that read them."""
         for panel in self._panels():
+            if not self.core.player.is_seeking:
+                self.core.guard(f"The panel {panel.name}", self._fill, panel)
             for topic, type_ in self._topics(panel, "subscriptions").items():
                 offer = self.core.offers.get(topic)
                 if topic in batches and (offer is None or offer.type in ("", type_)):
                     for raw in batches[topic]:
                         self.core.guard(f"The panel {panel.name}", _pass, panel, topic, type_, raw)
+
+    def _fill(self, panel: Panel) -> None:
+        """Let a panel begin with what is remembered."""
+        if not (begun := panel.begun()):
+            return
+        wanted = panel.subscriptions()
+        for topic in begun:
+            if type_ := wanted.get(topic):
+                lookback = self._lookback(panel, topic)
+                for raw in past_messages(self.core.player, topic, type_, lookback):
+                    _pass(panel, topic, type_, raw, is_past=True)
 
     def reset(self) -> None:
         """Let the open panels start over."""
@@ -292,10 +306,10 @@ def parameters_of(panel: type[Panel]) -> Mapping[str, Any]:
     return {each.name: each.default for each in own if each.kind not in variable}
 
 
-def _pass(panel: Panel, topic: str, type_: str, raw: Any) -> None:
+def _pass(panel: Panel, topic: str, type_: str, raw: Any, *, is_past: bool = False) -> None:
     try:
         message = decode(type_, raw.cdr, raw.types)
     except MessageError as error:
         panel.refuse(topic, str(error))
     else:
-        panel.receive(topic, message, raw.received_ns)
+        (panel.receive_past if is_past else panel.receive)(topic, message, raw.received_ns)

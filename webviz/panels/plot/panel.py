@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -75,6 +75,8 @@ class Plot(Panel):
         self.types: Mapping[str, str] = {}
         self.chooser = FieldChooser(numeric_paths, self._add)
         self.active_s = 0.0
+        self.unfilled: set[str] = set()
+        """Topics of curves that began, or rested while nobody looked."""
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the chart, and what adds a curve."""
@@ -100,6 +102,18 @@ class Plot(Panel):
             if each.topic == topic:
                 each.add(message, received_ns, by_stamp=self.time == "Header Stamp")
 
+    def begun(self) -> Collection[str]:
+        """Return the topics of new curves."""
+        begun, self.unfilled = self.unfilled, set()
+        return begun
+
+    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
+        """Add a value to the curves that are not as far."""
+        by_stamp = self.time == "Header Stamp"
+        for each in self.series.values():
+            if each.topic == topic and each.is_behind(message, received_ns, by_stamp=by_stamp):
+                each.add(message, received_ns, by_stamp=by_stamp)
+
     def refuse(self, topic: str, reason: str) -> None:
         """Note why a curve has no values."""
         for each in self.series.values():
@@ -123,6 +137,7 @@ class Plot(Panel):
         if now - self.active_s > CLOSED_S:
             for each in self.series.values():
                 each.history.gap()
+                self.unfilled.add(each.topic)
         self.active_s = now
         self.clock, self.playback = clock, playback
         self.id = id_of(self, panels)
@@ -153,13 +168,15 @@ class Plot(Panel):
 
     def _follow(self) -> None:
         """Have the curves that the properties name, with the values of those that stay."""
-        how = self.window, self.time
+        how, before = (self.window, self.time), self.series
         self.series = {
             text: known
             if (known := self.series.get(text)) and known.how == how
             else Series(text, how, known)
             for text in list(dict.fromkeys([*self._across(), *self.curves]))[:MAX_CURVES]
         }
+        new = (each for text, each in self.series.items() if text not in before)
+        self.unfilled |= {each.topic for each in new}
 
     def _axes(self) -> Mapping[str, int]:
         """Return the axes at the right by curve: the shared one is innermost."""

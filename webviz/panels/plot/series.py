@@ -65,13 +65,14 @@ class Series:
             self.history.gap()
             return
         self.problem = ""
-        header = getattr(message, "header", None)
-        self.has_stamp = isinstance(header, Header)
-        time_ns = received_ns
-        if by_stamp and isinstance(header, Header):
-            time_ns = header.stamp_ns
-        time_s = time_ns / 1e9
+        self.has_stamp = isinstance(getattr(message, "header", None), Header)
+        time_s = _time_s(message, received_ns, by_stamp=by_stamp)
         self.history.add(time_s, self._over_time(time_s, value) if self._over_time else value)
+
+    def is_behind(self, message: Any, received_ns: int, *, by_stamp: bool) -> bool:
+        """Return whether it has no value as new as that of a message."""
+        newest = self.history.newest
+        return newest is None or newest[0] < _time_s(message, received_ns, by_stamp=by_stamp)
 
     def unit(self, types: Mapping[str, str]) -> str:
         """Return the unit of the values, "" if the type of the messages states none."""
@@ -98,3 +99,8 @@ class Series:
         if self.history.late:
             return f"{self.history.late} values were left out: their times go back."
         return ""
+
+
+def _time_s(message: Any, received_ns: int, *, by_stamp: bool) -> float:
+    header = getattr(message, "header", None)
+    return (header.stamp_ns if by_stamp and isinstance(header, Header) else received_ns) / 1e9

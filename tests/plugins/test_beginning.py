@@ -1,0 +1,92 @@
+"""New panels begin with what is remembered, of live topics, of their past and of bags."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from waiting import until
+
+from tests.support.guest import Guest
+from tests.support.memory_viewer import Memory
+from webviz.commands import AddPanel, Pause, RemovePanel, ReturnToLive, Seek, SetPanelProperty
+
+X, Y = "/plan.poses[1].pose.position.x", "/plan.poses[1].pose.position.y"
+
+
+@pytest.fixture(scope="module")
+def memory() -> Iterator[Memory]:
+    memory = Memory()
+    yield memory
+    memory.close()
+
+
+@pytest.fixture(autouse=True)
+def live(memory: Memory) -> Iterator[Guest]:
+    """A page, without panels before and after."""
+    page = memory.enter()
+    until(lambda: memory.memory.recent.size()[0] > 4.0)
+    yield page
+    page.close()
+    memory.guests.remove(page)
+    for tab in memory.viewer.fact("panels"):
+        memory.viewer.do(RemovePanel(tab.id))
+    memory.viewer.do(ReturnToLive())
+
+
+def panel(memory: Memory) -> Any:
+    return memory.viewer.fact("panels")[-1].panel
+
+
+def add(memory: Memory, page: Guest, kind: str, **values: Any) -> Any:
+    memory.viewer.do(AddPanel(kind, values))
+    page.send("Watch", store=f"panel:{kind}")
+    return panel(memory)
+
+
+def span_s(plot: Any, name: str) -> float:
+    series = plot.series.get(name)
+    times = [point[0] for point in series.history.points()] if series else []
+    return times[-1] - times[0] if times else 0.0
+
+
+def test_a_plot_of_a_live_topic_begins_with_the_memory(memory: Memory, live: Guest) -> None:
+    plot = add(memory, live, "Plot", curves=[X])
+    until(lambda: span_s(plot, X) > 3.0, seconds=2.0)
+
+
+def test_a_curve_of_a_topic_that_is_plotted_begins_with_it_too(memory: Memory, live: Guest) -> None:
+    plot = add(memory, live, "Plot", curves=[X])
+    until(lambda: span_s(plot, X) > 3.0)
+    before = span_s(plot, X)
+    memory.viewer.do(SetPanelProperty("Plot", "curves", [X, Y]))
+    until(lambda: span_s(plot, Y) > 3.0, seconds=2.0)
+    assert span_s(plot, X) >= before
+    times = [point[0] for point in plot.series[X].history.points()]
+    assert times == sorted(set(times))
+
+
+def test_a_plot_of_the_past_begins_with_what_came_before(memory: Memory, live: Guest) -> None:
+    playback = memory.viewer.fact("playback")
+    at_s = (playback.end_ns - playback.start_ns) / 1e9 - 0.5
+    memory.viewer.do(Seek(at_s))
+    memory.viewer.do(Pause())
+    plot = add(memory, live, "Plot", curves=[X])
+    until(lambda: span_s(plot, X) > 3.0, seconds=2.0)
+    newest_s = plot.series[X].history.newest[0]
+    assert newest_s <= playback.start_ns / 1e9 + at_s + 0.01
+
+
+def test_states_begin_with_the_memory(memory: Memory, live: Guest) -> None:
+    states = add(memory, live, "StateTimeline", paths=[X])
+    until(lambda: states.tracks.get(X) and len(states.tracks[X].changes) > 40, seconds=2.0)
+
+
+def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> None:
+    memory.pause()
+    table = add(memory, live, "MessageTable", path="/plan.poses")
+    try:
+        until(lambda: table.found, seconds=2.0)
+    finally:
+        memory.resume()
