@@ -70,6 +70,6 @@ class Offer:
 
     @property
     def is_latched(self) -> bool:
-        """Whether every publisher repeats its last messages to those who come later."""
+        """True if every publisher repeats its last messages to those who come later."""
         durabilities = {publisher.durability for publisher in self.publishers}
         return durabilities == {"transient_local"}

@@ -7,7 +7,7 @@ import { command } from "../../commands.js";
 import { openDialog } from "../../controls/dialog.js";
 import { el } from "../../dom.js";
 import { overlay } from "../../overlay/overlay.js";
-import { resumeAs } from "../../remember.js";
+import { recallInTab, rememberInTab, resumeAs } from "../../remember.js";
 import { once, store } from "../../stores.js";
 import { atMoment } from "../../timeline/moment.js";
 import { setTitlePrefix } from "../../title.js";
@@ -85,7 +85,7 @@ function banner() {
 function choose(name, fields, at) {
   const others = store("people").all().size - 1;
   if (!isLive() || !canOpen() || others < 1 || why("LookBackAlone")) return null;
-  const chosen = sessionStorage.getItem(CHOICE);
+  const chosen = recallInTab(CHOICE);
   if (chosen === "everybody") return null;
   if (chosen === "me") return lookBackAlone(at);
   return asked(others).then((choice) => {
@@ -119,7 +119,7 @@ async function asked(others) {
       { label: "For me", value: "me", primary: true, focused: true },
     ],
   });
-  if (choice && again.checked) sessionStorage.setItem(CHOICE, choice);
+  if (choice && again.checked) rememberInTab(CHOICE, choice);
   return choice;
 }
 

@@ -40,18 +40,11 @@ const RESUMES = `${PREFIX}resumes`;
  *
  * @param {string} path
  */
-export const resumeAs = (path) => sessionStorage.setItem(RESUMES, path);
+export const resumeAs = (path) => rememberInTab(RESUMES, path);
 
 /** The path whose state this page resumes, "" for none. */
-const resumed = (() => {
-  try {
-    const path = sessionStorage.getItem(RESUMES) ?? "";
-    sessionStorage.removeItem(RESUMES);
-    return path;
-  } catch {
-    return "";
-  }
-})();
+const resumed = recallInTab(RESUMES);
+rememberInTab(RESUMES, "");
 
 /** True if this page was here before, and is loaded again. */
 const isReloaded = () =>
@@ -72,17 +65,34 @@ const keyOfTab = (key, path = location.pathname) => `${PREFIX}${path}.${key}`;
  * @returns {T | null}
  */
 export function surviveReload(key, read) {
-  window.addEventListener("pagehide", () => {
-    try {
-      sessionStorage.setItem(keyOfTab(key), JSON.stringify(read()));
-    } catch {
-      // then the next page begins as any other
-    }
-  });
+  window.addEventListener("pagehide", () => rememberInTab(keyOfTab(key), JSON.stringify(read())));
+  if (!resumed && !isReloaded()) return null;
+  return JSON.parse(recallInTab(keyOfTab(key, resumed || undefined)) || "null");
+}
+
+/**
+ * The text that this tab of the browser remembers under a key, "" for none.
+ *
+ * @param {string} key
+ */
+export function recallInTab(key) {
   try {
-    if (!resumed && !isReloaded()) return null;
-    return JSON.parse(sessionStorage.getItem(keyOfTab(key, resumed || undefined)) ?? "null");
+    return sessionStorage.getItem(key) ?? "";
   } catch {
-    return null;
+    return ""; // a browser may forbid it
+  }
+}
+
+/**
+ * Remembers a text in this tab of the browser.
+ *
+ * @param {string} key
+ * @param {string} text
+ */
+export function rememberInTab(key, text) {
+  try {
+    sessionStorage.setItem(key, text);
+  } catch {
+    // then it lasts as long as the page
   }
 }
