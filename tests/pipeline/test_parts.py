@@ -137,6 +137,7 @@ PARTS += [
     "Latency",
     "Layouts",
     "Outputs",
+    "Own past",
     "Panels",
     "People",
     "Playback",
