@@ -56,7 +56,7 @@ def page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
     page.tab.add_style_tag(content=STILL)
     buttons = page.tab.locator(".wv-tools [aria-label='2D Goal Pose']")
     page.wait_for(lambda: buttons.count() == 1, "the toolbar")
-    page.tab.evaluate("document.querySelector('.wv-first-run')?.remove()")
+    page.tab.evaluate("document.querySelectorAll('.wv-first-run').forEach((one) => one.remove())")
     page.tab.keyboard.press("Control+b")  # no panels
     page.wait_for(lambda: middle(page)[0] == 450.0, "a scene as wide as the window")
     page.draw()

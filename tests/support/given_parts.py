@@ -78,6 +78,7 @@ class GivenParts:
             playback=state.playback,
             recorded=state.recorded,
             logged=state.logged,
+            _leader=None,
             _display_events=SimpleNamespace(events=state.warned),
         )
         file = state.file
