@@ -24,6 +24,7 @@ displays:
 SIZE = 390, 844
 MIDDLE = 190.0, 420.0
 STEPS = 24
+REST_S = 0.5
 VIEWS = (
     {"type": "Orbit", "distance": 10.0, "yaw": -math.pi / 2, "pitch": 0.8},
     {"type": "XYOrbit", "distance": 10.0, "yaw": -math.pi / 2, "pitch": 0.8},
@@ -59,10 +60,16 @@ class Fingers:
         self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
 
     def drag(self, before: Sequence[Point], after: Sequence[Point]) -> None:
-        """Move fingers evenly over 0.4 s; they come down and leave one after the other."""
+        """Move fingers evenly over 0.4 s; they come down and leave one after the other.
+
+        Before the last step they rest: viser's camera takes one move for a frame that it draws, and
+        forgets those between the last frame and the lifting of a finger.
+        """
         for count in range(1, len(before) + 1):
             self.send("touchStart", before[:count])
         for step in range(1, STEPS + 1):
+            if step == STEPS:
+                time.sleep(REST_S)
             self.send(
                 "touchMove",
                 [blend(*each, step / STEPS) for each in zip(before, after, strict=True)],
