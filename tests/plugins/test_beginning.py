@@ -11,6 +11,8 @@ from waiting import until
 from tests.support.guest import Guest
 from tests.support.memory_viewer import Memory
 from webviz.commands import AddPanel, Pause, RemovePanel, ReturnToLive, Seek, SetPanelProperty
+from webviz.engine.parts import past_messages
+from webviz.panels.plot import Plot
 
 X, Y = "/plan.poses[1].pose.position.x", "/plan.poses[1].pose.position.y"
 
@@ -90,3 +92,23 @@ def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> 
         until(lambda: table.found, seconds=2.0)
     finally:
         memory.resume()
+
+
+def test_what_a_panel_begins_with_is_bounded(
+    memory: Memory, live: Guest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(past_messages, "MAX_MESSAGES", 7)
+    begins = memory.viewer.fact("panels")
+    assert begins == ()
+    given: list[int] = []
+    receive = Plot.receive_past
+
+    def count(self: Plot, topic: str, message: Any, received_ns: int) -> None:
+        given.append(received_ns)
+        receive(self, topic, message, received_ns)
+
+    monkeypatch.setattr(Plot, "receive_past", count)
+    plot = add(memory, live, "Plot", curves=[X])
+    until(lambda: plot.series[X].history.newest)
+    assert len(given) == 7
+    assert given == sorted(given)

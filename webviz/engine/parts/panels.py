@@ -71,9 +71,11 @@ class PanelsPart(Part):
 
     def take(self, batches: Batches) -> None:
         """Pass messages on to the open panels that read them."""
+        if not self.core.player.is_seeking:
+            for panel in self._panels():
+                if _has(panel, "begun"):
+                    self.core.guard(f"The panel {panel.name}", self._fill, panel)
         for panel in self._panels():
-            if not self.core.player.is_seeking:
-                self.core.guard(f"The panel {panel.name}", self._fill, panel)
             for topic, type_ in self._topics(panel, "subscriptions").items():
                 offer = self.core.offers.get(topic)
                 if topic in batches and (offer is None or offer.type in ("", type_)):
@@ -117,6 +119,7 @@ class PanelsPart(Part):
         frames = (
             guard.attempt(f"The panel {panel.name}", frozenset[str](), panel.target_frames)
             for panel in self._panels()
+            if _has(panel, "target_frames")
         )
         return set().union(*frames)
 
@@ -304,6 +307,11 @@ def parameters_of(panel: type[Panel]) -> Mapping[str, Any]:
     _, *own = inspect.signature(panel.show).parameters.values()
     variable = inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD
     return {each.name: each.default for each in own if each.kind not in variable}
+
+
+def _has(panel: Panel, hook: str) -> bool:
+    """Return whether a panel does something in a hook, which most do not."""
+    return getattr(type(panel), hook) is not getattr(Panel, hook)
 
 
 def _pass(panel: Panel, topic: str, type_: str, raw: Any, *, is_past: bool = False) -> None:
