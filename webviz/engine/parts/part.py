@@ -46,7 +46,7 @@ class HostProgram(msgspec.Struct, frozen=True):
     Args:
         offer: lets pages download a file, by its name and content; None without pages.
         plugins: files with plug-ins that were loaded.
-        library: folders whose bags pages may open.
+        bag_folders: folders whose bags pages may open.
         look_back: shows a moment of a history to one page, by the cookie of its browser, and
             returns the address; None if this viewer cannot.
         leave: ends this viewer, which shows one page its own past; None for any other.
@@ -54,7 +54,7 @@ class HostProgram(msgspec.Struct, frozen=True):
 
     offer: Callable[[str, bytes], object] | None = None
     plugins: Sequence[Path] = ()
-    library: Sequence[Path] = ()
+    bag_folders: Sequence[Path] = ()
     look_back: Callable[[Config, MomentHistory, int, str], str] | None = None
     leave: Callable[[], object] | None = None
 

@@ -54,7 +54,7 @@ def made_anew(kept: Snapshot) -> Declared | Unreadable:
 
 
 class Origin(msgspec.Struct, frozen=True):
-    """Where a config comes from.
+    """The source of a config.
 
     Args:
         path: of the config file, None for none.

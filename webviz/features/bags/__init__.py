@@ -96,7 +96,7 @@ class BagsFeature(PageFeature):
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._folders = [Path(BLACK_BOX).absolute(), *map(Path.absolute, core.host.library)]
+        self._folders = [Path(BLACK_BOX).absolute(), *map(Path.absolute, core.host.bag_folders)]
         self._is_watched = False
         self._listing: Future[Sequence[Bag]] | None = None
         self._next_s = 0.0

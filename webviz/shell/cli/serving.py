@@ -119,7 +119,7 @@ def _viewer(
         plugins=options.plugin,
         sessions=sessions,
         config_folders=options.config_folder,
-        library=options.library,
+        library=options.bag_folder,
         publish=not options.no_publish,
         allow_publish=options.allow_publish,
         certfile=options.certfile,

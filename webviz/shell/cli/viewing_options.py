@@ -67,7 +67,7 @@ class ViewingOptions(ConfigOptions):
     """Remember live topics, such as 120s,512MB, to rewind and save them; 0s keeps nothing."""
     config_folder: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
     """Also let the ROS parameter config_file open configs in this folder (repeatable)."""
-    library: Annotated[Repeatable[Path], Parameter(metavar="FOLDER")] = ()
+    bag_folder: Annotated[Repeatable[Path], Parameter(name="--library", metavar="FOLDER")] = ()
     """Let owners open the bags and bug reports of this folder in the page (repeatable)."""
     allow_publish: Annotated[Repeatable[str], Parameter(metavar="NAME")] = ()
     """Let tools use this topic, service or action, besides those of the config (repeatable)."""
