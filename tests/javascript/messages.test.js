@@ -122,3 +122,8 @@ test("statistics are folded by display, and have nothing to fold without values"
     ],
   );
 });
+
+test("a number with a name is copied as a number", () => {
+  const message = { fields: { status: "DISCHARGING (2)", text: "'FULL (4)'" } };
+  assert.equal(textOf(message), "status: 2  # DISCHARGING\ntext: 'FULL (4)'");
+});

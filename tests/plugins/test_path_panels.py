@@ -50,7 +50,7 @@ def test_rows_of_a_table_are_elements_and_its_columns_their_fields() -> None:
     status = [STATUS(name="a", level=2), STATUS(name="b", message="\x1b[31m" + "x" * 999)]
     found = table_of([status])
     assert found["columns"] == ["level", "name", "message", "hardware_id", "values"]
-    assert found["rows"][0] == [2.0, "a", "", "", "0 elements"]
+    assert found["rows"][0] == ["ERROR (2)", "a", "", "", "0 elements"]
     assert len(found["rows"][1][2]) == 200
     assert table_of([np.array([[1.0, math.nan]])])["columns"] == ["x", "y"]
     assert table_of([np.array([1e308, math.inf])])["rows"] == [[1e308], ["inf"]]
@@ -187,3 +187,15 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
         "Arm",
         "x",
     ]
+
+
+def test_states_and_raw_values_have_the_names_of_constants() -> None:
+    battery = message_class("sensor_msgs/msg/BatteryState")
+    bands = built(StateTimeline(paths=["/t.power_supply_status"]))
+    bands.receive("/t", battery(power_supply_status=2), 99 * SECOND)
+    bands.receive("/t", battery(power_supply_status=77), 100 * SECOND)
+    [track] = values(shown(bands))["tracks"]
+    assert track["states"] == ["DISCHARGING (2)", "77"]
+    raw = built(RawMessage(path="/t.power_supply_status"))
+    raw.receive("/t", battery(power_supply_status=4), 0)
+    assert values(shown(raw))["tree"] == {"fields": {"value": "FULL (4)"}}

@@ -10,6 +10,7 @@ from webviz.api.lookback import Lookback
 from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
+from webviz.data.messages.value_names import NO_NAMES, ValueNames
 from webviz.engine.state import PanelTab
 from webviz.panels.reading import PathReading, id_of, subscribed, types_of
 
@@ -33,6 +34,8 @@ class PathPanel(Panel):
         """The last one that was given what is remembered."""
         self.found: list[Any] = []
         """The values in the newest message."""
+        self.names: ValueNames = NO_NAMES
+        """Their names, where the type of the message has some."""
         self.revision = 0
         """Number of messages, so that unchanged values are not made anew."""
 
@@ -49,6 +52,7 @@ class PathPanel(Panel):
         """Read the values of a message."""
         if topic == self.reading.topic:
             self.found = self.reading.values(message)
+            self.names = self.reading.value_names(message)
             self.revision += 1
 
     def begun(self) -> Collection[str]:

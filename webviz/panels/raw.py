@@ -8,6 +8,7 @@ from typing import Any
 from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.data.messages import to_tree
+from webviz.data.messages.value_names import named
 from webviz.engine.state import PanelTab
 from webviz.panels.one_path import PathPanel
 
@@ -39,6 +40,8 @@ class RawMessage(PathPanel):
         if not self.found:
             return None
         several = self.reading.path is not None and self.reading.path.finds_many
+        if not several and (text := named(self.found[0], self.names)):
+            return {"fields": {"value": text}}
         tree = to_tree(self.found if several else self.found[0], max_items=100)
         is_message = isinstance(tree, dict) and "fields" in tree
         return tree if is_message else {"fields": {"value": tree}}

@@ -9,6 +9,7 @@ from webviz.api.offer import Offer
 from webviz.api.panel import Panel
 from webviz.data.messages.message_paths import MessagePath
 from webviz.data.messages.paths import PathError
+from webviz.data.messages.value_names import NO_NAMES, ValueNames
 from webviz.engine.state import PanelTab
 
 
@@ -62,6 +63,10 @@ class PathReading:
             return []
         self.problem = ""
         return found
+
+    def value_names(self, message: Any) -> ValueNames:
+        """Return the names of the values in a message; see `webviz.data.messages.value_names`."""
+        return self.path.value_names(message) if self.path else NO_NAMES
 
     def explanation(self, types: Mapping[str, str]) -> str:
         """Why there is nothing to show, a sentence or ""."""

@@ -14,6 +14,7 @@ from webviz.api.offer import Offer
 from webviz.api.panel import Panel, Send, Ui
 from webviz.commands import SetPanelProperty
 from webviz.data.messages.paths import as_number, leaf_paths
+from webviz.data.messages.value_names import named
 from webviz.data.names import readable
 from webviz.engine.state import PanelTab, PanelTimes
 from webviz.panels.field_chooser import FieldChooser
@@ -44,7 +45,8 @@ class _Track:
         values = self.reading.values(message)
         if not values:
             return
-        text = ", ".join(map(_text, values[:10]))[:MAX_TEXT]
+        names = self.reading.value_names(message)
+        text = ", ".join(named(each, names) or _text(each) for each in values[:10])[:MAX_TEXT]
         if self.changes and at_s < self.changes[-1][0]:
             self.changes.clear()
         if not self.changes or self.changes[-1][1] != text:

@@ -5,6 +5,7 @@ import { csvText } from "webviz/csv.js";
 import { el, setText, showText } from "webviz/dom.js";
 import { download } from "webviz/download.js";
 import { iconButton } from "webviz/icons.js";
+import { NAMED } from "webviz/panels/message_tree.js";
 
 /** @import {Page} from "../page/web/extensions.js" */
 
@@ -21,6 +22,12 @@ export default function install({ widget }) {
     typeof cell === "number" && !Number.isInteger(cell)
       ? String(Number.parseFloat(cell.toPrecision(6)))
       : String(cell);
+
+  /** @param {number | string} cell */
+  const numberOf = (cell) => {
+    const number = typeof cell === "number" ? cell : NAMED.exec(cell)?.[2];
+    return number === undefined ? null : Number(number);
+  };
 
   widget("table", () => {
     /** @type {Row[]} */
@@ -73,8 +80,10 @@ export default function install({ widget }) {
      * @param {number | string} a
      * @param {number | string} b
      */
-    const compare = (a, b) =>
-      typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b));
+    const compare = (a, b) => {
+      const [x, y] = [numberOf(a), numberOf(b)];
+      return x !== null && y !== null ? x - y : String(a).localeCompare(String(b));
+    };
 
     function draw() {
       const order = isUp ? 1 : -1;

@@ -13,6 +13,7 @@ from webviz.api.offer import Offer
 from webviz.api.panel import Send, Ui
 from webviz.data.messages.paths import as_number
 from webviz.data.messages.tree import field_names
+from webviz.data.messages.value_names import NO_NAMES, named, names_in
 from webviz.data.names import readable
 from webviz.data.words import counted
 from webviz.engine.state import PanelTab
@@ -85,9 +86,14 @@ def _cells(value: Any, path: str, depth: int) -> Iterator[tuple[str, Cell]]:
     elif isinstance(value, str):
         yield path, readable(value[:MAX_TEXT])
     elif names := field_names(value):
+        by_field = names_in(value)
         for name in names if depth else ():
             inner = f"{path}.{name}" if path else name
-            yield from _cells(getattr(value, name), inner, depth - 1)
+            item = getattr(value, name)
+            if text := named(item, by_field.get(name, NO_NAMES)):
+                yield inner, text
+            else:
+                yield from _cells(item, inner, depth - 1)
     elif isinstance(value, np.ndarray) and value.ndim == 1 and len(value) <= len(COMPONENTS):
         for name, item in zip(COMPONENTS, value, strict=False):
             yield from _cells(item, f"{path}.{name}" if path else name, depth - 1)

@@ -115,7 +115,7 @@ def message_class(type_name: str, types: MessageTypes = KNOWN) -> type[Any]:
         definition,
         module=__name__,
         # Names of fields and constants begin with a letter.
-        namespace={**constants(name, types), "_types": types},
+        namespace={**constants(name, types), "_types": types, "_type_name": name},
         frozen=True,
         eq=False,
     )

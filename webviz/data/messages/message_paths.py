@@ -22,6 +22,7 @@ from webviz.data.messages.paths import (
     required_number,
 )
 from webviz.data.messages.typestore import KNOWN, MessageTypes, fields
+from webviz.data.messages.value_names import NO_NAMES, ValueNames, names_at
 
 TIMES = "builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"
 """Types that are read as numbers."""
@@ -213,6 +214,12 @@ class MessagePath:
             elif name == "derivative" and unit:
                 unit = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
         return unit
+
+    def value_names(self, message: Any) -> ValueNames:
+        """Return the names of the values in a message; none of what functions give."""
+        if self._field is None or self._calls:
+            return NO_NAMES
+        return names_at(message, self._field.names)
 
     @property
     def has_field(self) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from webviz.data.messages.geometry import NANOSECONDS, Duration, Time
+from webviz.data.messages.value_names import NO_NAMES, named, names_in
 
 MAX_NODES = 500
 """Fields and elements of a message in all."""
@@ -44,7 +45,8 @@ def to_tree(
         is_readable: times as dates and durations in seconds, instead of their two fields.
 
     Returns:
-        A value is its text as in `ros2 topic echo`. A message is {"fields": {name: tree}}, a
+        A value is its text as in `ros2 topic echo`, or "DISCHARGING (2)" where the type has a
+        constant for it. A message is {"fields": {name: tree}}, a
         sequence {"length": of all, "type": of its numbers or "", "items": [the first]}. Where not
         all of a message fits, its last field is "…".
     """
@@ -95,12 +97,14 @@ class _Maker:
 
     def _fields(self, message: Any, names: Iterable[str]) -> dict[str, Tree]:
         fields: dict[str, Tree] = {}
+        by_field = names_in(message)
         for name in names:
             if self._rest <= 0:
                 fields["…"] = "more than is shown here"
                 break
             self._rest -= 1
-            fields[name] = self.tree(getattr(message, name))
+            value = getattr(message, name)
+            fields[name] = named(value, by_field.get(name, NO_NAMES)) or self.tree(value)
         return fields
 
     def _sequence(self, length: int, type_name: str, items: Iterable[Tree]) -> Tree:

@@ -217,7 +217,14 @@ def constants(type_name: str, types: MessageTypes = KNOWN) -> dict[str, bool | i
     Raises:
         UnknownTypeError: No definition of the type is known.
     """
-    return {name: value for name, _, value in _definition(type_name, types)[0]}
+    return {name: value for name, _, value in typed_constants(type_name, types)}
+
+
+def typed_constants(
+    type_name: str, types: MessageTypes = KNOWN
+) -> list[tuple[str, str, bool | int | float | str]]:
+    """Return name, type and value of the constants of a type; see `constants`."""
+    return _definition(type_name, types)[0]
 
 
 def definition(type_name: str, types: MessageTypes = KNOWN) -> str:

@@ -7,7 +7,7 @@ import { iconButton } from "../icons.js";
 import { effect } from "../signals.js";
 import { dragField } from "./field_drag.js";
 import { foldByKey, foldMark, showFold } from "./folds.js";
-import { rowsOf } from "./message_tree.js";
+import { NAMED, rowsOf } from "./message_tree.js";
 import { plotField } from "./plot_field.js";
 
 /** @import {Fields, MessageRow} from "./message_tree.js" */
@@ -72,7 +72,7 @@ function messageRow(row, topic) {
     tabindex: -1,
     tip: "Plot this field",
     size: 14,
-    hidden: () => !NUMBER.test(value()),
+    hidden: () => !NUMBER.test(value()) && !NAMED.test(value()),
   });
   const tip = () => (value().length > 30 ? value() : null);
   const element = el(

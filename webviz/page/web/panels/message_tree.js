@@ -9,6 +9,8 @@
 
 const SHORT = 60; // characters of what a folded row says of its inside
 const OPEN_DEPTH = 2;
+/** A number with its name, "DISCHARGING (2)"; strings stand in quotation marks. */
+export const NAMED = /^([A-Z]\w*) \((-?\d+)\)$/;
 
 /**
  * @param {Tree} tree
@@ -107,7 +109,7 @@ export function textOf(tree, indent = "") {
  * @returns {string}
  */
 function field(name, tree, indent) {
-  if (isLeaf(tree)) return `${indent}${name}: ${tree}`;
+  if (isLeaf(tree)) return `${indent}${name}: ${tree.replace(NAMED, "$2  # $1")}`;
   if ("fields" in tree) return `${indent}${name}:\n${textOf(tree, `${indent}  `)}`;
   if (tree.items.every(isLeaf)) {
     const note = tree.length > tree.items.length ? `  # ${lengthOf(tree)}` : "";
