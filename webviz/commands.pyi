@@ -299,6 +299,21 @@ class MoveDisplay(Command, frozen=True):
     group: str = ...
     before: str = ...
 
+class MoveFrame(Command, frozen=True):
+    """Place the tried frame in its parent.
+
+    Args:
+        x, y, z: in metres.
+        roll, pitch, yaw: about the fixed axes x, y and z, in radians.
+    """
+
+    x: float
+    y: float
+    z: float
+    roll: float
+    pitch: float
+    yaw: float
+
 class Open(FileCommand, frozen=True):
     """Replace the current config by that of a file."""
 

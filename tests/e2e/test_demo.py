@@ -249,7 +249,7 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> N
     tab.set_viewport_size({"width": 900, "height": 700})
     let_mouse_in(page)
     tab.get_by_role("tab", name="TF", exact=True).click()
-    tab.locator(".wv-frame", has_text="base_scan").click()
+    tab.locator(".wv-frame", has_text="base_scan").dblclick()
     tab.get_by_role("button", name="What if…").click()
     card = tab.get_by_role("region", name="What if")
 

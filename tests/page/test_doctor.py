@@ -100,7 +100,7 @@ def test_while_a_frame_is_tried_it_says_so_and_not_that_all_is_well(panel: Tab) 
     page = panel.page
     show(panel)
     expect(page.get_by_text("All is well")).to_be_visible()
-    tried = WhatIfStore("laser", "base_link", (), "", "", None)
+    tried = WhatIfStore("laser", "base_link", (0.0,) * 6, (), "", "", None)
     panel.loop.show(what_if=tried)
     panel.turn()
     expect(page.get_by_text("A trial is on: laser is moved")).to_be_visible()

@@ -68,12 +68,27 @@ def test_each_frame_has_its_publisher_rate_and_age(loop: Loop, panel: Tab) -> No
     assert levels == ["1", "2", "3", "4"]
 
 
-def test_a_click_on_a_frame_looks_at_it(loop: Loop, panel: Tab) -> None:
+def test_a_click_on_a_frame_tells_of_it_and_a_button_looks_at_it(loop: Loop, panel: Tab) -> None:
     loop.show(transforms=TREE)
-    panel.page.locator(".wv-frame-name").get_by_text("base", exact=True).click()
+    frame = panel.page.locator(".wv-frame-name").get_by_text("base", exact=True)
+    frame.click()
+    panel.wait_for(lambda: "base: in odom, 20.0 Hz, 4.0 s old, from /robot." in panel.text())
+    assert not any(isinstance(each, FocusFrame) for each in loop.commands)
+    panel.page.get_by_role("button", name="Look at").click()
     panel.wait_for_command(FocusFrame("base"))
     assert loop.senders[-1].browser is not None
-    assert "base: in odom, 20.0 Hz, 4.0 s old, from /robot." in panel.text()
+
+
+@pytest.mark.parametrize("way", ["double click", "Enter"])
+def test_frames_and_roots_are_looked_at(loop: Loop, panel: Tab, way: str) -> None:
+    loop.show(transforms=TREE)
+    root = panel.page.locator(".wv-frame-name").get_by_text("map", exact=True)
+    if way == "Enter":
+        root.click()
+        panel.page.keyboard.press("Enter")
+    else:
+        root.dblclick()
+    panel.wait_for_command(FocusFrame("map"))
 
 
 def test_problems_are_marked_and_told(loop: Loop, panel: Tab) -> None:

@@ -43,7 +43,7 @@ from webviz.files.config import ConfigError, nearest
 DIGITS = 3
 """Decimals that are shown; a view moved by hand has more."""
 NOTHING_DRAWN = "This display draws nothing to focus on. Check its statuses."
-FRAME_M = 0.5
+FRAME_M = 1.5
 """Half of the edge of the cube around a frame that is looked at."""
 
 

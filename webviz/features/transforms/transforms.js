@@ -11,7 +11,7 @@ import { store } from "../../stores.js";
 import { needs } from "../../access.js";
 import { foldByKey } from "../../panels/folds.js";
 import { panel } from "../../panels/panels.js";
-import { frameActions, wantedFrame } from "../../panels/frame_actions.js";
+import { frameAction, frameActions, wantedFrame } from "../../panels/frame_actions.js";
 import { between } from "./frame_between.js";
 import { openFramePicture } from "./frame_picture.js";
 import { ageText, factOf, frameNames, frameRow, frameRows } from "../../panels/frame_rows.js";
@@ -23,7 +23,22 @@ import { ageText, factOf, frameNames, frameRow, frameRows } from "../../panels/f
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";
 
-export const install = () => panel(transforms);
+export function install() {
+  panel(transforms);
+  frameAction({
+    label: "Look at",
+    tip: "Move the camera to this frame (double click, Enter)",
+    needs: "FocusFrame",
+    isFor: () => true,
+    run: lookAt,
+  });
+}
+
+/** @param {string} frame */
+function lookAt(frame) {
+  if (frame) act("FocusFrame", { frame });
+  return true;
+}
 
 const frames = store("transforms");
 
@@ -94,11 +109,12 @@ function frameList(folded) {
     rowRole: "treeitem",
     height: touchable(ROW_PX),
     row: frameRow,
-    choose: ({ name }) => act("FocusFrame", { frame: name }),
-    onKey: ({ key }, row) => foldByKey(key, row, ({ name }) => toggle(name), list, "\n"),
+    onKey: ({ key }, row) =>
+      foldByKey(key, row, ({ name }) => toggle(name), list, "\n") ||
+      (key === "Enter" && lookAt(row.name)),
   });
   /**
-   * A click on the mark folds, and leaves the camera where it is.
+   * A click on the mark folds, and one on a frame marks it; neither moves the camera.
    *
    * @param {MouseEvent} event
    */
@@ -110,6 +126,7 @@ function frameList(folded) {
     toggle(key.slice(key.lastIndexOf("\n") + 1));
   };
   list.element.addEventListener("click", onclick, { capture: true });
+  list.element.addEventListener("dblclick", () => lookAt(list.marked()?.name ?? ""));
   return list;
 }
 
@@ -125,8 +142,8 @@ function detail(row) {
   };
   const buttons = frameActions.map(({ label, tip, needs: command, isFor, run }) => {
     const hidden = () => {
-      const frame = row()?.frame;
-      return !frame || !isFor(frame);
+      const marked = row();
+      return !marked || !isFor(marked.frame);
     };
     return needs(
       command,

@@ -30,12 +30,15 @@ NO_SCAN = (
     "until they are drawn."
 )
 
+NO_TRIAL = "No frame is being tried. Choose one in the panel TF."
+
 
 class WhatIfStore(PageStore, frozen=True):
     """The frame that is tried in another pose; no field without one.
 
     Args:
         frame, parent: ids.
+        pose: of the frame in its parent: x, y, z in metres, and roll, pitch, yaw in radians.
         fits: how well each scan of the frame lies on walls, and did before, sentences.
         urdf: the origin of its joint in a URDF.
         command: publishes it as a static transform.
@@ -44,6 +47,7 @@ class WhatIfStore(PageStore, frozen=True):
 
     frame: str
     parent: str
+    pose: Sequence[float]
     fits: Sequence[str]
     urdf: str
     command: str
@@ -86,6 +90,7 @@ class WhatIfFeature(Feature):
         return WhatIfStore(
             frame=trial.frame,
             parent=trial.parent,
+            pose=[*trial.pose.position, *to_rpy(trial.pose.wxyz)],
             fits=[
                 f"{names[id]}: {fit.fit.share:.0%} of {fit.fit.points} points on walls of "
                 f"{fit.map_topic}{self._before(id)}"
@@ -131,6 +136,25 @@ class WhatIfFeature(Feature):
             Runner(ID, FrameHandle(trial=trial), self._displays.services)
         ]
 
+    @command(Role.OPERATOR)
+    def move_frame(
+        self, x: float, y: float, z: float, roll: float, pitch: float, yaw: float
+    ) -> None:
+        """Place the tried frame in its parent.
+
+        Args:
+            x, y, z: in metres.
+            roll, pitch, yaw: about the fixed axes x, y and z, in radians.
+        """
+        if self._trial is None:
+            raise Error(NO_TRIAL)
+        if not all(map(math.isfinite, (x, y, z, roll, pitch, yaw))):
+            raise Error("Not moved: a number is not finite. Give metres and radians.")
+        pose = Pose((x, y, z), wxyz=from_rpy(roll, pitch, yaw))
+        if not is_placeable(pose):
+            raise Error("Not moved: that is too far away. Give metres.")
+        self._move(pose)
+
     def _move(self, pose: Pose) -> None:
         trial = self._trial
         if trial is None or not is_placeable(pose):
@@ -146,7 +170,7 @@ class WhatIfFeature(Feature):
         """Move the tried frame to where its laser scan fits the map best."""
         trial = self._trial
         if trial is None:
-            raise Error("No frame is being tried. Choose one in the panel TF.")
+            raise Error(NO_TRIAL)
         buffer = self.core.buffer
         below = {frame for frame in buffer.frames() if self._carries(frame)}
         found = self._displays.consistency.aligned(below)

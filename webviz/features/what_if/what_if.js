@@ -3,7 +3,8 @@
 import { needs, why } from "../../access.js";
 import { act } from "../../act.js";
 import { copyAndTell } from "../../clipboard.js";
-import { el, set, setText } from "../../dom.js";
+import { number } from "../../controls/number.js";
+import { el, set, setText, showText } from "../../dom.js";
 import { textButton } from "../../icons.js";
 import { overlay } from "../../overlay/overlay.js";
 import { doctorSection } from "../../panels/doctor_sections.js";
@@ -12,6 +13,15 @@ import { command } from "../../commands.js";
 import { store, watch } from "../../stores.js";
 import * as registry from "../../tools/registry.js";
 
+/** The numbers of a pose, as `MoveFrame` takes them, with their units. */
+const NUMBERS = /** @type {const} */ ([
+  ["x", "m"],
+  ["y", "m"],
+  ["z", "m"],
+  ["roll", "rad"],
+  ["pitch", "rad"],
+  ["yaw", "rad"],
+]);
 const BESIDE =
   "No laser scan of this frame is compared with a map: add displays of both to see how it fits.";
 
@@ -28,10 +38,10 @@ export function install() {
     label: "What if…",
     tip: "Try this frame in another pose; nothing is published",
     needs: "TryFrame",
-    isFor: (frame) => frame.is_static,
+    isFor: (frame) => frame?.is_static ?? false,
     run: tryFrame,
   });
-  overlay("scene", "what if", banner());
+  overlay("cards", "what if", banner());
   doctorSection(() => ({ trial }));
 }
 
@@ -65,6 +75,7 @@ function banner() {
       needs("EndTrial", done),
     ),
     fits,
+    numbers(),
     urdf.element,
     publisher.element,
   );
@@ -77,7 +88,7 @@ function banner() {
     const who = values.get("browser") === window.webviz.browser ? "you" : "another browser";
     setText(
       title,
-      `What if: ${frame} is moved by ${who}. All pages show it; nothing is published.`,
+      `What if: ${who} moved ${frame} on all pages. Nothing is published.`,
     );
     setText(fits, (values.get("fits") ?? []).join(". ") || BESIDE);
     urdf.show(values.get("urdf") ?? "");
@@ -94,18 +105,44 @@ function banner() {
   return element;
 }
 
+/** The pose of the frame in its parent, to be typed, stepped or dragged; degrees as "30°". */
+function numbers() {
+  const problem = el("p", { class: "wv-problem", role: "alert", hidden: true });
+  const now = () => store("what_if").get("pose");
+  const fields = NUMBERS.map(([name, unit], index) => {
+    const control = number(
+      { kind: "float", unit },
+      {
+        label: name,
+        value: () => now()?.[index],
+        change(/** @type {number} */ value) {
+          const pose = /** @type {number[]} */ (now()).with(index, value);
+          const [x, y, z, roll, pitch, yaw] = pose;
+          return act("MoveFrame", { x, y, z, roll, pitch, yaw });
+        },
+        refused: (text) => showText(problem, text),
+      },
+    );
+    return el("label", {}, el("span", {}, name), needs("MoveFrame", control.element));
+  });
+  return el("div", {}, el("div", { class: "wv-what-if-numbers" }, fields), problem);
+}
+
 /**
  * A line of text with a button that copies it.
  *
  * @param {string} label
  */
 function line(label) {
-  const text = el("code");
+  const text = el("code", { class: "wv-ellipsis" });
   const take = () => copyAndTell(text.textContent ?? "");
   const button = textButton("Copy", take, { "aria-label": label });
   return {
     element: el("div", { class: "wv-what-if-line" }, text, button),
     /** @param {string} value */
-    show: (value) => setText(text, value),
+    show(value) {
+      setText(text, value);
+      set(text, { "data-tip": value });
+    },
   };
 }

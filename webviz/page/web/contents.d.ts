@@ -397,5 +397,5 @@ export interface Stores {
   view_type: { own: { type?: string; target_frame?: string }; items: never };
   views: { own: { saved: Array<SavedView> }; items: never };
   watchers: { own: { count: number }; items: never };
-  what_if: { own: { frame?: string; parent?: string; fits?: Array<string>; urdf?: string; command?: string; browser?: number | null }; items: never };
+  what_if: { own: { frame?: string; parent?: string; pose?: Array<number>; fits?: Array<string>; urdf?: string; command?: string; browser?: number | null }; items: never };
 }

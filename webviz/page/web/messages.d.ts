@@ -221,6 +221,7 @@ export interface Commands {
   LookBackAlone: { at_s: number };
   LookUpTransform: { target: string; source: string };
   MoveDisplay: { display: string; group?: string; before?: string };
+  MoveFrame: { x: number; y: number; z: number; roll: number; pitch: number; yaw: number };
   Open: { path: string };
   OpenRecording: { path: string };
   Pause: { paused?: boolean };

@@ -1,11 +1,11 @@
 // A number: typed with or without its unit, stepped by arrow keys, dragged sideways.
 
-import { el, set } from "../dom.js";
+import { el, set, setText } from "../dom.js";
 import { drag } from "./drag.js";
 import { entry } from "./entry.js";
 import { textField } from "./fields.js";
 import { MIXED_TEXT } from "./mixed.js";
-import { format, parse, stepOf, within } from "./units.js";
+import { format, isAngle, parse, stepOf, unitText, within } from "./units.js";
 
 /** @import {ControlOptions} from "../types.js" */
 /** @import {Mixed} from "./mixed.js" */
@@ -32,12 +32,17 @@ export function number(property, options) {
     "aria-valuemin": property.low ?? property.above,
     "aria-valuemax": property.high ?? property.below,
   });
+  const unit = el("span", {
+    class: "wv-number-unit",
+    "aria-hidden": "true",
+    "data-angle": isAngle(property.unit) ? "" : null,
+  });
   const element = el(
     "div",
     { class: "wv-number-input" },
     prefix && el("span", { class: "wv-number-prefix", "aria-hidden": "true" }, prefix),
     input,
-    property.unit && el("span", { class: "wv-number-unit", "aria-hidden": "true" }, property.unit),
+    property.unit && unit,
   );
   const field = entry(input, {
     ...options,
@@ -53,6 +58,7 @@ export function number(property, options) {
         "aria-valuenow": text,
         "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT,
       });
+      setText(unit, unitText(property.unit ?? "", value));
     },
   });
 

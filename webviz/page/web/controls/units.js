@@ -79,6 +79,25 @@ export function format(value) {
 }
 
 /**
+ * True for radians, and for radians per second.
+ *
+ * @param {string} [unit]
+ */
+export const isAngle = (unit) => unit?.startsWith("rad") ?? false;
+
+/**
+ * The unit of a number as it stands beside it; of an angle with its degrees, "rad (30°)".
+ *
+ * @param {string} unit
+ * @param {unknown} value
+ */
+export function unitText(unit, value) {
+  if (!isAngle(unit) || typeof value !== "number" || !Number.isFinite(value)) return unit;
+  const degrees = Number(((value * 180) / Math.PI).toPrecision(4));
+  return `${unit} (${degrees}${unit.replace("rad", "°")})`;
+}
+
+/**
  * The largest power of ten up to a size.
  *
  * @param {number} size

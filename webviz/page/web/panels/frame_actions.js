@@ -5,8 +5,8 @@
 /**
  * @typedef {{
  *   label: string, tip: string, needs: string,
- *   isFor: (frame: Frame) => boolean, run: (name: string) => unknown,
- * }} FrameAction `needs` names the command of the viewer that it sends
+ *   isFor: (frame: Frame | null) => boolean, run: (name: string) => unknown,
+ * }} FrameAction `needs` names the command of the viewer that it sends; a root has no `Frame`
  */
 
 /** @type {FrameAction[]} */
