@@ -1,6 +1,8 @@
-// Where the mouse is on the ground, and what it points at; until it moves, what its buttons do.
+// Where the mouse or a resting finger is on the ground, and what it points at; until then, what the
+// buttons of the mouse do.
 
 import { act } from "../act.js";
+import { listenToLongPresses } from "../controls/long_press.js";
 import { el, setText } from "../dom.js";
 import { recall, remember } from "../remember.js";
 import { groundAt, toFixedFrame } from "../scene/ground.js";
@@ -78,8 +80,21 @@ export function build() {
     if (isNamed && mouse === at) show(point, (level === "ok" && text) || nameOf(found, names));
   }
 
-  function leave() {
+  /** @param {PointerEvent} event */
+  function press({ clientX, clientY }) {
+    mouse = [clientX, clientY];
+    text.classList.add("wv-touched");
+    show(groundAt(...mouse), "");
+    rest();
+    return false;
+  }
+
+  /** @param {PointerEvent} event */
+  function leave({ type, pointerType }) {
+    const isFinger = pointerType === "touch";
+    if (isFinger !== (type === "pointerdown")) return; // what a finger pressed is read once it is lifted
     mouse = null;
+    text.classList.remove("wv-touched");
     clearTimeout(resting);
     hint();
   }
@@ -105,6 +120,8 @@ export function build() {
   events.addEventListener("wheel", learn, { passive: true });
   events.addEventListener("pointermove", move);
   events.addEventListener("pointerleave", leave);
+  events.addEventListener("pointerdown", leave);
+  listenToLongPresses(events, press);
   views.onShow(() => mouse ?? hint());
   hint();
   return text;

@@ -1,5 +1,6 @@
-// Tooltips: what `data-tip` or `title` says, after a moment under the mouse and on focus.
+// Tooltips: what `data-tip` or `title` says, after a moment under the mouse or a finger, and on focus.
 
+import { listenToLongPresses } from "../controls/long_press.js";
 import { el, setText } from "../dom.js";
 import { keyText } from "../keys.js";
 
@@ -30,7 +31,14 @@ export function install(page) {
     hide();
     if (owner && pointerType !== "touch") timer = setTimeout(() => show(owner), WAIT_MS);
   });
-  page.addEventListener("pointerleave", hide);
+  page.addEventListener("pointerleave", ({ pointerType }) => {
+    if (pointerType !== "touch") hide(); // that of a finger is read once it is lifted
+  });
+  listenToLongPresses(page, ({ target }) => {
+    const owner = ownerOf(target);
+    if (owner) show(owner);
+    return owner !== null && owner === shown;
+  });
   page.addEventListener("focusin", ({ target }) => {
     const owner = ownerOf(target);
     const focused = /** @type {Element} */ (target);

@@ -1,6 +1,7 @@
 // Dragging displays to another place: by mouse, or by a finger that has rested on one.
 
 import { why } from "../../access.js";
+import { swallowClick, swallowClickOfRelease } from "../../controls/long_press.js";
 import { el } from "../../dom.js";
 import { sanitized } from "../../sanitize.js";
 import { toast } from "../../toasts.js";
@@ -190,17 +191,6 @@ export function listenToDrags(canvas, tree) {
     press = drag = null;
   }
 
-  // The click at the end of a drag is none.
-  function swallowClick() {
-    /** @param {Event} event */
-    const stop = (event) => {
-      event.stopPropagation();
-      event.preventDefault();
-    };
-    addEventListener("click", stop, { capture: true, once: true });
-    setTimeout(() => removeEventListener("click", stop, { capture: true }), 50);
-  }
-
   /** @param {KeyboardEvent} event */
   function onKey(event) {
     if (event.key !== "Escape" || !drag) return;
@@ -208,10 +198,6 @@ export function listenToDrags(canvas, tree) {
     event.preventDefault();
     swallowClickOfRelease();
     end();
-  }
-
-  function swallowClickOfRelease() {
-    addEventListener("pointerup", swallowClick, { capture: true, once: true });
   }
 
   /** @param {TouchEvent} event */

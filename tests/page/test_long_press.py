@@ -1,0 +1,86 @@
+"""A finger that rests tells what a mouse tells by resting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.page.conftest import Loop, Tab
+from tests.page.test_toolbar import GOAL
+
+WIDTH, HEIGHT = 390, 844
+HELD_MS = 900
+
+
+@pytest.fixture(scope="module")
+def opened(open_lasting_tab: Callable[..., Tab]) -> Tab:
+    return open_lasting_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+
+
+@pytest.fixture
+def phone(opened: Tab, tab: Tab) -> Tab:
+    """A phone with the panels closed."""
+    opened.page.keyboard.press("Escape")
+    opened.button("Hide the panels").evaluate_all("found => found.forEach((one) => one.click())")
+    return opened
+
+
+@pytest.fixture
+def touch(phone: Tab) -> Iterator[Callable[..., None]]:
+    """Put a finger down at a place, or lift it."""
+    session = phone.page.context.new_cdp_session(phone.page)
+
+    def act(kind: str, *points: tuple[float, float]) -> None:
+        where = [{"x": x, "y": y} for x, y in points]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": where})
+
+    yield act
+    session.detach()
+
+
+def test_a_finger_on_a_tool_reads_what_it_does_and_does_not_choose_it(
+    phone: Tab, loop: Loop, touch: Callable[..., None]
+) -> None:
+    loop.show(tools=[GOAL])
+    tool = phone.page.locator(f'.wv-tool[aria-label="{GOAL.name}"]')
+    expect(tool).to_be_visible()
+    box = tool.bounding_box()
+    assert box is not None
+    tip = phone.page.get_by_role("tooltip")
+    touch("touchStart", (box["x"] + 10.0, box["y"] + 10.0))
+    phone.page.wait_for_timeout(HELD_MS)
+    expect(tip).to_be_visible()
+    touch("touchEnd")
+    expect(tip).to_be_visible()
+    expect(tool).to_have_attribute("aria-pressed", "false")
+    touch("touchStart", (WIDTH / 2, HEIGHT / 2))
+    touch("touchEnd")
+    expect(tip).to_be_hidden()
+
+
+def test_a_finger_on_the_scene_reads_where_it_is_until_the_next_one(
+    phone: Tab, touch: Callable[..., None]
+) -> None:
+    text = phone.page.locator(".wv-pointer")
+    expect(text).to_be_hidden()
+    touch("touchStart", (WIDTH / 2, 0.6 * HEIGHT))
+    phone.page.wait_for_timeout(HELD_MS)
+    touch("touchEnd")
+    expect(text).to_be_visible()
+    expect(text).to_contain_text(" m")
+    touch("touchStart", (WIDTH / 2, 0.6 * HEIGHT))
+    expect(text).to_be_hidden()
+    touch("touchEnd")
+
+
+def test_a_finger_that_moves_does_not_rest(phone: Tab, touch: Callable[..., None]) -> None:
+    x, y = WIDTH / 2, 0.6 * HEIGHT
+    touch("touchStart", (x, y))
+    for step in range(4):
+        touch("touchMove", (x + 10.0 * step, y))
+    phone.page.wait_for_timeout(HELD_MS)
+    expect(phone.page.locator(".wv-pointer")).to_be_hidden()
+    phone.page.wait_for_timeout(500)  # fingers rest before they leave, or the view goes on turning
+    touch("touchEnd")
