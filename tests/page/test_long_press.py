@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Locator, expect
 
 from tests.page.conftest import Loop, Tab
 from tests.page.test_toolbar import GOAL
@@ -84,3 +84,25 @@ def test_a_finger_that_moves_does_not_rest(phone: Tab, touch: Callable[..., None
     expect(phone.page.locator(".wv-pointer")).to_be_hidden()
     phone.page.wait_for_timeout(500)  # fingers rest before they leave, or the view goes on turning
     touch("touchEnd")
+
+
+def test_menus_and_dialogs_of_a_phone_are_sheets_at_its_bottom(phone: Tab, loop: Loop) -> None:
+    phone.page.get_by_role("button", name="More").first.click()
+    menu = phone.page.get_by_role("menu")
+    expect(menu).to_be_visible()
+    assert menu.bounding_box() == _at_the_bottom(menu)
+    phone.page.touchscreen.tap(WIDTH / 2, 150)
+    expect(menu).to_have_count(0)
+    phone.button("Show the panels").click()
+    phone.button("Add display").click()
+    dialog = phone.page.get_by_role("dialog", name="Add display")
+    expect(dialog).to_be_visible()
+    assert dialog.bounding_box() == _at_the_bottom(dialog)
+    phone.page.keyboard.press("Escape")
+
+
+def _at_the_bottom(sheet: Locator) -> dict[str, float]:
+    box = sheet.bounding_box()
+    assert box is not None
+    height = box["height"]
+    return {"x": 0.0, "y": HEIGHT - height, "width": WIDTH, "height": height}
