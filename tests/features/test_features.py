@@ -107,12 +107,12 @@ def test_a_command_without_a_role_is_refused_to_everybody(monkeypatch: pytest.Mo
     assert rules.role_to_watch("counted") is Role.OWNER
 
 
-class Seeking(Feature):
+class Pausing(Feature):
     """Takes the name of a command that there is."""
 
     @command(Role.WATCHER)
-    def seek(self) -> None:
-        """Seek."""
+    def pause(self) -> None:
+        """Pause."""
 
 
 class Failing(Feature):
@@ -131,11 +131,11 @@ def entry_points(*names: str) -> list[EntryPoint]:
 
 def test_one_that_is_not_sound_leaves_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, __name__, sys.modules[Counting.__module__])
-    points = entry_points("Counting", "Seeking", "Missing")
+    points = entry_points("Counting", "Pausing", "Missing")
     monkeypatch.setattr(feature, "installed", lambda group: points)
     found, broken = feature._loaded.__wrapped__()
     assert found == {"Counting": Counting}
-    assert broken["Seeking"].endswith("does not load: ValueError: Seek exists already")
+    assert broken["Pausing"].endswith("does not load: ValueError: Pause exists already")
     assert "AttributeError" in broken["Missing"]
 
 

@@ -3,23 +3,17 @@ import { test } from "node:test";
 
 import { offsetAfter } from "../../webviz/page/web/clock_offset.js";
 import { newest } from "../../webviz/page/web/newest.js";
-import { nearest, placeOf, shareAt, timeAt } from "../../webviz/page/web/timeline/axis.js";
+import { nearest, placeOf, shareAt, timeAt } from "../../webviz/features/playback/axis.js";
 import {
   boundsOf,
   following,
   limited,
   rebounded,
   zoomed,
-} from "../../webviz/page/web/timeline/range.js";
-import {
-  agoText,
-  atMoment,
-  beforeText,
-  behindAt,
-  isNow,
-} from "../../webviz/page/web/timeline/moment.js";
-import { savedText } from "../../webviz/page/web/timeline/saved_text.js";
-import { parseTime } from "../../webviz/page/web/timeline/typed_time.js";
+} from "../../webviz/features/playback/range.js";
+import { agoText, atMoment, beforeText, behindAt, isNow } from "../../webviz/page/web/moment.js";
+import { savedText } from "../../webviz/page/web/time_text.js";
+import { parseTime } from "../../webviz/features/playback/typed_time.js";
 
 test("a window stays within the recording and keeps its length", () => {
   assert.deepEqual(limited([-5, 15], [0, 100]), [0, 20]);

@@ -31,15 +31,16 @@ TESTS = {
     "webviz/engine/pipeline": "tests/pipeline tests/plugins/test_reload.py",
     "webviz/sources": (
         "tests/sources tests/pipeline/test_recording.py tests/pipeline/test_rights.py "
-        "tests/playback"
+        "tests/features/playback"
     ),
     "webviz/sources/player.py": (
-        "tests/playback/test_playing.py tests/playback/test_bags.py tests/playback/test_opening.py "
-        "tests/playback/test_rewinding.py"
+        "tests/features/playback/test_playing.py tests/features/playback/test_bags.py "
+        "tests/features/playback/test_opening.py tests/features/playback/test_rewinding.py"
     ),
     "webviz/sources/history": (
-        "tests/sources/test_bag_past.py tests/playback/test_rewinding.py "
-        "tests/playback/test_seeks_and_transforms.py tests/playback/test_seeking.py"
+        "tests/sources/test_bag_past.py tests/features/playback/test_rewinding.py "
+        "tests/features/playback/test_seeks_and_transforms.py "
+        "tests/features/playback/test_seeking.py"
     ),
     "webviz/shell/export": (
         "tests/capture/test_tape.py tests/capture/test_chunks.py tests/capture/test_pane_tape.py "
@@ -60,7 +61,8 @@ TESTS = {
     ),
     "webviz/features/reports": "tests/features/reports tests/report",
     "webviz/sources/recording": (
-        "tests/features/recording tests/features/black_box tests/playback/test_rewinding.py"
+        "tests/features/recording tests/features/black_box "
+        "tests/features/playback/test_rewinding.py"
     ),
     "webviz/sources/bridge": "tests/sources/bridge/test_pacing.py tests/sources/bridge",
     "webviz/sources/bridge/pacing.py": "tests/sources/bridge/test_pacing.py",

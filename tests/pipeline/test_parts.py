@@ -240,11 +240,12 @@ def test_two_parts_cannot_own_one_command(bench: Benches) -> None:
 def test_every_command_and_every_field_of_the_state_has_one_owner(bench: Benches) -> None:
     b = bench()
     parts = b.viewer._parts._parts
-    of_features = [part for part in parts if isinstance(part, Feature)]
-    own = [name for part in parts if part not in of_features for name in part.state()]
-    assert sorted([*own, "more"]) == sorted(State.__struct_fields__)
-    more = [name for part in of_features for name in part.state()]
-    assert len({*own, *more}) == len(own) + len(more)
+    names = [name for part in parts for name in part.state()]
+    assert len(set(names)) == len(names)
+    # Features have others besides.
+    assert {*State.__struct_fields__} <= {*names, "more"}
+    mechanism = (part for part in parts if not isinstance(part, Feature))
+    assert {name for part in mechanism for name in part.state()} <= {*State.__struct_fields__}
     public = [getattr(commands, name) for name in commands.__all__]
     asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
     assert {kind for part in parts for kind in part.handles} == asked - {*KINDS}

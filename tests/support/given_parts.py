@@ -14,7 +14,6 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
-from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
@@ -23,11 +22,12 @@ from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import State
 from webviz.features.panels import PluginPanels
 from webviz.features.people import People
+from webviz.features.playback import PlaybackFeature
 from webviz.features.undo import HistoryStep, UndoFeature, UndoHistory
 from webviz.features.views import ViewsFeature
 
 KINDS = (
-    *(DisplaysPart, Doctor, FilesPart, PlaybackPart, SettingsPart),
+    *(DisplaysPart, Doctor, FilesPart, PlaybackFeature, SettingsPart),
     *(PanelsPart, TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
@@ -51,7 +51,7 @@ class GivenParts:
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
         self._give(Doctor, _displays=displays)
-        self._give(PlaybackPart, _settings=settings)
+        self._give(PlaybackFeature, _settings=settings, _time=self._by_kind[TimePart], _leader=None)
         self._give(ViewsPart, _settings=settings)
         self.show(State())
 
@@ -67,20 +67,19 @@ class GivenParts:
         self._core.buffer = SimpleNamespace(frames=lambda: state.frames)
         self._give(DisplaysPart, rows=state.rows)
         self._give(SettingsPart, settings=state.settings)
-        self._give(TimePart, times=state.clock)
+        self._give(
+            TimePart,
+            times=state.clock,
+            playback=state.playback,
+            recorded=state.recorded,
+            logged=state.logged,
+        )
         self._give(TopicsPart, traffic=state.traffic)
         self._give(ViewsPart, _cameras=SimpleNamespace(views=lambda: state.views))
         self._give(
             Doctor, findings=state.findings, examined_ns=state.examined_ns, events=state.found
         )
-        self._give(
-            PlaybackPart,
-            playback=state.playback,
-            recorded=state.recorded,
-            logged=state.logged,
-            _leader=None,
-            _display_events=SimpleNamespace(events=state.warned),
-        )
+        self._give(PlaybackFeature, _display_events=SimpleNamespace(events=state.warned))
         file = state.file
         history = state.more.get("history", UndoHistory())
         self._give(

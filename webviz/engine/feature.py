@@ -40,7 +40,6 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
-from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.topics import TopicsPart
@@ -54,7 +53,6 @@ PARTS: tuple[type[Part], ...] = (
     DisplaysPart,
     FilesPart,
     PanelsPart,
-    PlaybackPart,
     SettingsPart,
     TimePart,
     TopicsPart,

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from webviz import commands
 from webviz.api.errors import Error
-from webviz.commands import Seek
+from webviz.engine.commands import Command
 from webviz.engine.state import PanelTimes
 from webviz.sources.past_state import PlaybackState
 
 NS_PER_S = 1e9
 
 
-def seek_to(playback: PlaybackState | None, clock: PanelTimes, received_ns: int) -> Seek:
+def seek_to(playback: PlaybackState | None, clock: PanelTimes, received_ns: int) -> Command:
     """Return the command that shows a time.
 
     Args:
@@ -28,4 +29,4 @@ def seek_to(playback: PlaybackState | None, clock: PanelTimes, received_ns: int)
     end_s = (playback.end_ns - playback.start_ns) / NS_PER_S
     if not playback.first_s <= at_s <= end_s:
         raise Error("This time is no longer in the recording. Choose a later one.")
-    return Seek(at_s)
+    return commands.Seek(at_s)

@@ -8,7 +8,7 @@ from webviz.api.status import Level
 
 
 class PlaybackState(msgspec.Struct, frozen=True, kw_only=True):
-    """The recording that is played; see `webviz.engine.playback`.
+    """The recording that is played; see `webviz.sources.player.Player`.
 
     Args:
         names: of the recordings.

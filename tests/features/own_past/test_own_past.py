@@ -16,7 +16,7 @@ from tests.support.guest import Guest
 from tests.support.memory_viewer import Memory
 from webviz.api.roles import Role
 from webviz.commands import Seek
-from webviz.engine.parts.playback import REWOUND
+from webviz.engine.parts.time import REWOUND
 from webviz.features import own_past
 from webviz.features.own_past import NOT_HERE
 from webviz.shell.app import own_pasts

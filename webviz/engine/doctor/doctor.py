@@ -28,9 +28,8 @@ from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.declaring import store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part
-from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.timeline import EventsStore, events_of
+from webviz.engine.parts.time import TimePart
 from webviz.engine.pipeline.trace import Tracer
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
@@ -191,23 +190,9 @@ class Doctor(Part):
         names = [(row.id, row.name) for row in self._displays.rows]
         return self.findings, names, self._start_ns, self.examined_ns
 
-    @store(name="events", of=lambda part: part.all_events)
-    def events_in_recording(self, argument: str) -> EventsStore | None:
-        """Return warnings and errors in the recording; None without one."""
-        start_ns, *events = self.all_events
-        if start_ns is None:
-            return None
-        return EventsStore(*(events_of(each, start_ns) for each in events))
-
-    @property
-    def all_events(self) -> tuple[int | None, Sequence[Event], Sequence[Event], Sequence[Event]]:
-        """The start of the recording, and what was logged, of displays, and found."""
-        playback = self.core.get(PlaybackPart)
-        return self._start_ns, playback.logged, playback.warned, self.events
-
     @property
     def _start_ns(self) -> int | None:
-        playback = self.core.get(PlaybackPart).playback
+        playback = self.core.get(TimePart).playback
         return playback.start_ns if playback else None
 
     @property
@@ -248,7 +233,7 @@ class Doctor(Part):
 
         None with a bag or bridge, for which neither DDS nor ROS of this machine matters.
         """
-        if self.core.get(PlaybackPart).is_recording or self.core.player.bridges:
+        if self.core.get(TimePart).is_recording or self.core.player.bridges:
             return None
         looking = self._looking
         if looking is not None and looking.done():
@@ -296,7 +281,7 @@ class Doctor(Part):
         self.verdicts = self._judge.judge(self._rules(), seen)
         seen = replace(seen, verdicts=self.verdicts)
         found: list[Finding] = []
-        playback = core.get(PlaybackPart).playback
+        playback = core.get(TimePart).playback
         for check in self._current():
             found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
             yield

@@ -18,7 +18,6 @@ from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.playback import PlaybackPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.state import Row
 
@@ -75,7 +74,7 @@ def observe(
         is_simulated=times.is_simulated,
         clock_hz=times.clock_hz,
         is_paused=times.is_paused,
-        is_recorded=core.get(PlaybackPart).is_recording,
+        is_recorded=core.get(TimePart).is_recording,
         environment=environment,
         bridges=core.player.bridges,
         browsers=browsers,

@@ -28,11 +28,10 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
-from webviz.engine.parts.playback import REWOUND, PlaybackPart
 from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.time import REWOUND, TimePart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
@@ -132,19 +131,11 @@ class FrameLoop:
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, lambda: self._parts.reset(), player)
+        self._time = TimePart(core, lambda: self._parts.reset(), autoplay)
         self._displays = DisplaysPart(core, services)
         self._settings = SettingsPart(core)
-        self._playback = PlaybackPart(
-            core,
-            self._settings,
-            player,
-            self._time.start_over,
-            self.controllers.halt,
-            autoplay,
-        )
         views = ViewsPart(core, self._settings, self._displays)
-        first = [transforms, self._time, self._playback, self._displays, self._settings, views]
+        first = [transforms, self._time, self._displays, self._settings, views]
         others, kept = self._other_parts(config, path, views, player, autosave, session)
         numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
         clock_watch = ClockWatchPart(core)
@@ -282,7 +273,7 @@ class FrameLoop:
         self._calls.answer()
         self._owed += self._requests.obey(self._parts.do)
         self._receive()
-        is_seeking = self._playback.is_seeking
+        is_seeking = core.player.is_seeking
         answers, self._owed = ([], self._owed) if is_seeking else (self._owed, [])
         if core.is_watched() and not is_seeking:
             runners = self._displays.list.active()
@@ -324,16 +315,16 @@ class FrameLoop:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""
         until = time.monotonic() + SEEKING_S
         while True:
-            if self._playback.is_seeking:
+            if self._source.is_seeking:
                 # The source reads what they need of the past, and repeats what was latched if time
                 # goes back on the way.
                 self._subscribe()
             is_late = any(runner.is_late() for runner in self._displays.list.active())
-            self._guard("Playback", self._playback.advance, is_late)
+            self._guard("Playback", self._time.advance, is_late)
             batches = self._arrivals.take(self._parts)
             self._move_on()
             self._parts.take(batches)
-            if is_late or not self._playback.is_seeking or time.monotonic() > until:
+            if is_late or not self._source.is_seeking or time.monotonic() > until:
                 return
 
     def update(self) -> None:
@@ -343,7 +334,6 @@ class FrameLoop:
         self._core.verdicts = self.doctor.verdicts
         statuses |= self._guard.statuses() | self._showing.statuses
         self._core.statuses = {**statuses, **missing_features()}
-        self._guard("Playback", self._playback.note_warnings, self._displays.rows)
         self._guard("Doctor", self.doctor.examine)
 
     def state(self) -> State:

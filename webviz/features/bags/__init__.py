@@ -22,7 +22,7 @@ from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.feature import command, store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.playback import NO_LIVE, PlaybackPart
+from webviz.engine.parts.time import TimePart
 from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
 from webviz.features.bags.uploading import Uploads
@@ -45,6 +45,7 @@ NOT_LISTED = (
     "Not opened: pages open bags of the library and those that this viewer wrote. Start webviz "
     "with --library to name its folder."
 )
+NO_LIVE = "A bag is already open. Start webviz with --bag to play another one."
 ELSEWHERE = "Not opened: {} is a link to another folder. Copy the bag into the library."
 
 
@@ -146,12 +147,15 @@ class BagsFeature(PageFeature):
         if check and not self._is_offered(place):
             raise Error(NOT_LISTED)
 
-        def opened(place: Path) -> BagHistory:
+        if self.core.player.live is None:
+            raise Error(NO_LIVE)
+
+        def opened() -> BagHistory:
             if check:
                 _refuse_elsewhere(place)
             return BagHistory(self._bag_of(place))
 
-        return self.core.get(PlaybackPart).open(place, opened)
+        return Job(opened, self.core.get(TimePart).show)
 
     @command(Role.OWNER, is_noted=True)
     def begin_upload(self, name: str, size: int) -> None:

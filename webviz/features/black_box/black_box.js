@@ -9,7 +9,7 @@ import { openMenu } from "../../controls/menu.js";
 import { timeBarButton } from "../../shell/time_bar.js";
 import { toast } from "../../toasts.js";
 import { watch } from "../../stores.js";
-import { savedText } from "../../timeline/saved_text.js";
+import { savedText } from "../../time_text.js";
 
 export const install = () => timeBarButton(blackBox());
 

@@ -9,7 +9,7 @@ import { el } from "../../dom.js";
 import { overlay } from "../../overlay/overlay.js";
 import { recallInTab, rememberInTab, resumeAs } from "../../remember.js";
 import { once, store } from "../../stores.js";
-import { atMoment } from "../../timeline/moment.js";
+import { atMoment } from "../../moment.js";
 import { setTitlePrefix } from "../../title.js";
 import { effect } from "../../signals.js";
 

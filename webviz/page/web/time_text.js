@@ -40,3 +40,15 @@ export function duration(seconds, digits = 1) {
   const rest = digits ? `.${pad(total % unit, digits)}` : "";
   return `${seconds < 0 && total ? "−" : ""}${h}:${pad(m)}:${pad(s)}${rest}`;
 }
+
+/**
+ * Time and cause of a recording that a rule made, by the name of its folder, which begins with the time.
+ *
+ * @param {string} name
+ */
+export function savedText(name) {
+  const found = /^(\d{4}-\d\d-\d\d)_(\d\d)-(\d\d)-(\d\d)_(.*)$/.exec(name);
+  if (!found) return name;
+  const [, date, hours, minutes, seconds, cause] = found;
+  return `${date} ${hours}:${minutes}:${seconds} · ${cause.replaceAll("_", " ")}`;
+}

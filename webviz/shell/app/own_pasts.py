@@ -10,12 +10,12 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from webviz import commands
 from webviz.api.errors import Error
-from webviz.commands import Seek
 from webviz.data.working_folder import working_folder
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.part import HostProgram
-from webviz.engine.parts.playback import REWOUND
+from webviz.engine.parts.time import REWOUND
 from webviz.files.config import Config
 from webviz.page.pages import Pages
 from webviz.scene import ViserScene
@@ -157,7 +157,7 @@ class OwnPasts:
                 if self._is_closed:
                     raise Error(ENDED)
                 self._loops[name] = loop
-            loop.enqueue(Seek((at_ns - history.origin_ns) / 1e9))
+            loop.enqueue(commands.Seek((at_ns - history.origin_ns) / 1e9))
             tunnels.add(name, path, cookie)
             ended.insert(0, lambda: tunnels.remove(name))
             opened.set_result(None)

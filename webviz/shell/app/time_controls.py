@@ -11,7 +11,7 @@ from typing import Any
 
 from webviz import commands
 from webviz.api.errors import Error
-from webviz.commands import Pause, Play, ReturnToLive, Seek, SetRate
+from webviz.commands import Pause
 from webviz.data.names import new_path
 from webviz.engine.commands import Command
 from webviz.shell.app.arguments import absolute, number
@@ -98,7 +98,7 @@ class TimeControls(ABC):
             raise Error("A recording is shown. Return to live first.")
         if shown.is_live is None:
             raise Error("A bag has no present. Use `seek`.")
-        self.do(Seek((time.time_ns() - shown.start_ns) / 1e9 - seconds))
+        self.do(commands.Seek((time.time_ns() - shown.start_ns) / 1e9 - seconds))
 
     def open_recording(self, path: str | os.PathLike[str]) -> None:
         """Play a recording in the place of live topics, until `return_to_live`.
@@ -113,7 +113,7 @@ class TimeControls(ABC):
 
     def return_to_live(self) -> None:
         """Show live topics as they are."""
-        self.do(ReturnToLive())
+        self.do(commands.ReturnToLive())
 
     # Bags
 
@@ -129,8 +129,8 @@ class TimeControls(ABC):
         """
         if rate is not None:
             rate = number(rate, "rate")
-            self.do(SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
-        self.do(Play())
+            self.do(commands.SetRate(0.0 if math.isinf(rate) and rate > 0 else rate or -1.0))
+        self.do(commands.Play())
 
     def seek(self, at: At) -> None:
         """Show the bag at a time; returns when the scene shows it. A bag that plays plays on.
@@ -143,7 +143,7 @@ class TimeControls(ABC):
         """
         shown = self._playback
         name = ", ".join(shown.names)
-        self.do(Seek(seconds_from_start(position_ns(at, shown, name), shown)))
+        self.do(commands.Seek(seconds_from_start(position_ns(at, shown, name), shown)))
 
     @property
     def span(self) -> tuple[float, float]:

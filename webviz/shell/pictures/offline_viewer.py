@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import msgspec
 
+from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.frames import Frames
 from webviz.api.group import DisplayGroup
 from webviz.api.status import LOADING, Level, Status, worst
 from webviz.api.views import FIXED_FRAME, FPS, TopDownOrtho, View
-from webviz.commands import Seek
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.displays import DisplaysPart
@@ -115,7 +115,7 @@ class OfflineViewer:
         Raises:
             Error: the deadline passed before.
         """
-        answer = self._viewer.enqueue(Seek(seconds_from_start(at_ns, source.history)))
+        answer = self._viewer.enqueue(commands.Seek(seconds_from_start(at_ns, source.history)))
         while not answer.done():
             if time.monotonic() > deadline:
                 reached, wanted = (

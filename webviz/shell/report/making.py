@@ -11,7 +11,7 @@ from pathlib import Path
 
 from webviz import commands
 from webviz.api.status import LOADING
-from webviz.commands import Play, Refresh, Seek, SelectSpan, SetRate
+from webviz.commands import Refresh
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.displays import DisplaysPart
@@ -134,17 +134,17 @@ class _Maker:
 
     def play(self, first_s: float, last_s: float, shown_s: float) -> None:
         """Play a span of a bag to its end, so that the doctor sees it, and show a moment of it."""
-        self.do(SelectSpan(first_s, last_s))
-        self.do(Seek(first_s))
+        self.do(commands.SelectSpan(first_s, last_s))
+        self.do(commands.Seek(first_s))
         self._loop.doctor.slice_s = math.inf
-        self.do(SetRate(0.0))
-        self.do(Play())
+        self.do(commands.SetRate(0.0))
+        self.do(commands.Play())
         self._loop.update()
         while (played := self._loop.fact("playback")) is not None and played.is_playing:
             self._progress("playing", (played.position_s - first_s) / (last_s - first_s))
             self._loop.turn()
             self._loop.update()
-        self.do(Seek(shown_s))
+        self.do(commands.Seek(shown_s))
         self._settle()
 
     def listen(self, seconds: float) -> None:

@@ -13,8 +13,8 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from webviz import commands
 from webviz.api.pictures import Packet
-from webviz.commands import Seek
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.engine.state import Row, State
@@ -144,7 +144,7 @@ def check_seeks(
             played.settle()
             truth[at_s] = played.shown(), _statuses(played)
         for before_s, at_s in zip([0.0, *wanted], wanted, strict=False):
-            sought.do(Seek(at_s))
+            sought.do(commands.Seek(at_s))
             nodes, statuses = truth[at_s]
             when = f"differs at {at_s:g} s after a seek from {before_s:g} s"
             for display, found in sought.shown().items():

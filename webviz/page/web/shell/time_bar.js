@@ -6,11 +6,22 @@ import { rosNow, wallNow, watchTime } from "../clock.js";
 import { el, set, setText } from "../dom.js";
 import { icon, iconButton } from "../icons.js";
 import { recall, remember } from "../remember.js";
-import { timeline } from "../timeline/timeline.js";
 import { command, provide } from "../commands.js";
 import { duration, timeOfDay } from "../time_text.js";
 
 /** @import {ValuesOf} from "../types.js" */
+
+/**
+ * The state of a timeline for the bar: whether a position is shown instead of what arrives, whether topics
+ * are live, and the names of the recordings that are played, null for none.
+ *
+ * @typedef {{isThere(): boolean, isLive(): boolean, names(): string | null}} Timeline
+ */
+/**
+ * Places for a track and for buttons, and a function that plays or pauses.
+ *
+ * @typedef {{track: Element, buttons: Element, toggle: () => unknown}} TimelinePlaces
+ */
 
 const TICK_MS = 100;
 const RESET_HINT = "Reset: forget all transforms and messages (R)";
@@ -20,6 +31,15 @@ const buttonsOfFeatures = [];
 
 /** Adds a button to the bar. @param {Element} button */
 export const timeBarButton = (button) => buttonsOfFeatures.push(button);
+
+/** @type {((places: TimelinePlaces) => Timeline)[]} */
+const timelines = [];
+
+/** Adds a timeline to the bar, made when the bar is. @param {(places: TimelinePlaces) => Timeline} make */
+export const timeBarTimeline = (make) => timelines.push(make);
+
+/** @type {Timeline} */
+const NO_TIMELINE = { isThere: () => false, isLive: () => false, names: () => null };
 
 /**
  * Fills the footer.
@@ -58,7 +78,7 @@ export function build(place) {
     wall.element,
     wallElapsed.element,
   );
-  const recording = timeline({ track, buttons, toggle });
+  const [recording = NO_TIMELINE] = timelines.map((make) => make({ track, buttons, toggle }));
   place.setAttribute("aria-label", "Time");
 
   function toggle() {

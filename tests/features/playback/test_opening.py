@@ -11,12 +11,13 @@ from bags import START_NS
 from bench import benches
 from drives import CONFIG, recorded
 
-from tests.playback.conftest import Drive, Theater
+from tests.features.playback.conftest import Drive, Theater
 from webviz.api.errors import Error
 from webviz.commands import OpenRecording, Pause, Refresh, ReturnToLive, SaveMemory, Seek
 from webviz.data.messages import encode
 from webviz.engine.commands import Command, Sender
-from webviz.engine.parts.playback import NO_LIVE, REWOUND
+from webviz.engine.parts.time import REWOUND
+from webviz.features.bags import NO_LIVE
 from webviz.features.black_box.saved import FOLDER
 from webviz.files.config.model import MemorySettings
 from webviz.shell.testing import BagViewer

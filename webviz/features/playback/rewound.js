@@ -1,18 +1,18 @@
 // A banner over the scene while the page shows the past of live topics, or a recording instead of them, and
 // what returns to live.
 
-import { why } from "../access.js";
-import { act } from "../act.js";
-import { wallNow } from "../clock.js";
-import { el, set, setText } from "../dom.js";
-import { sanitized } from "../sanitize.js";
-import { command } from "../commands.js";
-import { setTitlePrefix } from "../title.js";
-import { store, watch } from "../stores.js";
-import { agoText, atMoment, isOpened, isRewound } from "./moment.js";
-import { savedText } from "./saved_text.js";
+import { why } from "../../access.js";
+import { act } from "../../act.js";
+import { wallNow } from "../../clock.js";
+import { el, set, setText } from "../../dom.js";
+import { sanitized } from "../../sanitize.js";
+import { command } from "../../commands.js";
+import { setTitlePrefix } from "../../title.js";
+import { store, watch } from "../../stores.js";
+import { agoText, atMoment, isOpened, isRewound } from "../../moment.js";
+import { savedText } from "../../time_text.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {ValuesOf} from "../../types.js" */
 
 const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");

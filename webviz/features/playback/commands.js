@@ -1,9 +1,9 @@
 // The commands of the timeline, which have keys while nothing else wants them.
 
-import { isTyping } from "../commands.js";
+import { isTyping } from "../../commands.js";
 import { eventCommand } from "./events.js";
 
-/** @import {LoggedEvent, Moment} from "../types.js" */
+/** @import {LoggedEvent, Moment} from "../../types.js" */
 /** @import {Seeks} from "./seeks.js" */
 
 const JUMP_S = 5;

@@ -120,7 +120,7 @@ def test_transforms_come_late_end_and_start_over(tmp_path: Path, seed: int) -> N
     check_seeks(path, f"fixed_frame: map\n{DISPLAYS}", count=7, seed=seed)
 
 
-TIME = Path(__file__).parents[3] / "shared/data/reports/time"
+TIME = Path(__file__).parents[4] / "shared/data/reports/time"
 """Bags with which seeks once showed other things than playing."""
 REPORTS = [
     ("plain", "mk.yaml", [3.492, 12.63, 1.399, 14.8]),

@@ -1,8 +1,8 @@
 // Warnings and errors of a recording: `[time, level, text]`, of the log and of displays.
 
-import { toast } from "../toasts.js";
+import { toast } from "../../toasts.js";
 
-/** @import {LoggedEvent, ValuesOf} from "../types.js" */
+/** @import {LoggedEvent, ValuesOf} from "../../types.js" */
 /** @import {Seeks} from "./seeks.js" */
 
 const CLOSE_S = 0.001; // positions are given in milliseconds

@@ -1,13 +1,13 @@
 // The track of the timeline: a slider over the whole recording that is zoomed by the wheel.
 
-import { el, set } from "../dom.js";
-import { duration } from "../time_text.js";
+import { el, set } from "../../dom.js";
+import { duration } from "../../time_text.js";
 import { draw } from "./draw.js";
 import { listenToTrack } from "./gestures.js";
-import { beforeText } from "./moment.js";
+import { beforeText } from "../../moment.js";
 import { boundsOf, following, isSame, rebounded } from "./range.js";
 
-/** @import {Moment, Range} from "../types.js" */
+/** @import {Moment, Range} from "../../types.js" */
 /** @import {Marks} from "./gestures.js" */
 /** @import {Seeks} from "./seeks.js" */
 

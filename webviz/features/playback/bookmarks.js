@@ -1,10 +1,10 @@
 // The bookmarks of a recording: a menu to go to them, to add and to remove them.
 
-import { act } from "../act.js";
-import { iconButton } from "../icons.js";
-import { askName } from "../controls/dialog.js";
-import { openMenu } from "../controls/menu.js";
-import { duration } from "../time_text.js";
+import { act } from "../../act.js";
+import { iconButton } from "../../icons.js";
+import { askName } from "../../controls/dialog.js";
+import { openMenu } from "../../controls/menu.js";
+import { duration } from "../../time_text.js";
 
 /** @import {Seeks} from "./seeks.js" */
 

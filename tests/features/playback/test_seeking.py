@@ -152,7 +152,7 @@ def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> Non
     played.close()
 
 
-BAGS = Path(__file__).parents[3] / "shared/data/bags"
+BAGS = Path(__file__).parents[4] / "shared/data/bags"
 REAL = ["nav2_turtlebot.mcap", "husky_filtered_bag", "macfirst_floor_take_2", "thesis_cart"]
 
 

@@ -1,8 +1,8 @@
 // The part of a recording that the timeline shows, in seconds from its start.
 
-import { changed } from "../charts/scale.js";
+import { changed } from "../../charts/scale.js";
 
-/** @import {Moment, Range} from "../types.js" */
+/** @import {Moment, Range} from "../../types.js" */
 
 const MIN_S = 0.01;
 

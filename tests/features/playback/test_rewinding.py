@@ -14,7 +14,7 @@ from bags import START_NS, Bag, ns, strings
 from bench import Bench, Benches, benches
 from drives import CONFIG, recorded
 
-from tests.playback.conftest import Drive
+from tests.features.playback.conftest import Drive
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.nodes import Lines
@@ -34,8 +34,9 @@ from webviz.commands import (
 )
 from webviz.data.messages import encode
 from webviz.engine.driving import DrivingAnswer
-from webviz.engine.parts.playback import LIVE, REWOUND, STOPPED
+from webviz.engine.parts.time import REWOUND, STOPPED
 from webviz.engine.state import State
+from webviz.features.playback import LIVE
 from webviz.files.config.model import MemorySettings
 from webviz.shell.testing import BagViewer
 from webviz.shell.testing.remembering_graph import RememberingGraph

@@ -1,18 +1,18 @@
 // The buttons of a recording: step, rate, loop, and the time to go to.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { textField } from "../controls/fields.js";
-import { el, set, setText } from "../dom.js";
-import { iconButton, textButton } from "../icons.js";
-import { openMenu } from "../controls/menu.js";
-import { duration } from "../time_text.js";
-import { toast } from "../toasts.js";
-import { beforeText, isOpened, isRewound } from "./moment.js";
+import { needs } from "../../access.js";
+import { act } from "../../act.js";
+import { textField } from "../../controls/fields.js";
+import { el, set, setText } from "../../dom.js";
+import { iconButton, textButton } from "../../icons.js";
+import { openMenu } from "../../controls/menu.js";
+import { duration } from "../../time_text.js";
+import { toast } from "../../toasts.js";
+import { beforeText, isOpened, isRewound } from "../../moment.js";
 import { returnToLive } from "./rewound.js";
 import { isDate, parseTime } from "./typed_time.js";
 
-/** @import {Moment} from "../types.js" */
+/** @import {Moment} from "../../types.js" */
 /** @import {Bookmarks} from "./bookmarks.js" */
 /** @import {Seeks} from "./seeks.js" */
 /** @import {Topics} from "./topics.js" */

@@ -1,14 +1,14 @@
 // Gestures over a track: a drag seeks or, with Shift, selects; the wheel zooms and moves.
 
-import { why } from "../access.js";
-import { act } from "../act.js";
-import { toast } from "../toasts.js";
+import { why } from "../../access.js";
+import { act } from "../../act.js";
+import { toast } from "../../toasts.js";
 import { nearest, placeOf, shareAt, timeAt } from "./axis.js";
 import { eventText } from "./events.js";
 import { makeLabel } from "./label.js";
 import { zoomed } from "./range.js";
 
-/** @import {LoggedEvent, Range} from "../types.js" */
+/** @import {LoggedEvent, Range} from "../../types.js" */
 /** @import {Seeks} from "./seeks.js" */
 
 /**

@@ -1,7 +1,7 @@
 // The label below the pointer over a track.
 
-import { el, set, setText } from "../dom.js";
-import { sanitized } from "../sanitize.js";
+import { el, set, setText } from "../../dom.js";
+import { sanitized } from "../../sanitize.js";
 
 /** A label; `show(text, x, width)` puts it at a place of a track as wide as that, `show("")` hides it. */
 export function makeLabel() {

@@ -27,7 +27,7 @@ from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
 from webviz.sources.steps import EVEN_STEPS, steps_of
 
-REPORTS = Path(__file__).parents[3] / "shared/data/reports/T6"
+REPORTS = Path(__file__).parents[4] / "shared/data/reports/T6"
 STEP_NS = 100_000_000
 YEARS_S = START_NS / 1e9
 """From 1970 to when the clock was set."""

@@ -1,12 +1,12 @@
 // Draws the timeline on a canvas: when there are messages, the span that is played, and the head.
 
-import { share, ticks } from "../charts/scale.js";
-import { fitted } from "../charts/canvas.js";
-import { duration } from "../time_text.js";
+import { share, ticks } from "../../charts/scale.js";
+import { fitted } from "../../charts/canvas.js";
+import { duration } from "../../time_text.js";
 import { MARGIN, placeOf } from "./axis.js";
-import { beforeText } from "./moment.js";
+import { beforeText } from "../../moment.js";
 
-/** @import {LoggedEvent, Range} from "../types.js" */
+/** @import {LoggedEvent, Range} from "../../types.js" */
 
 const TOP = 4;
 const BAR = 12;

@@ -1,8 +1,8 @@
 // Places of times in a timeline, in pixels from its left end. Without a document.
 
-import { at, share } from "../charts/scale.js";
+import { at, share } from "../../charts/scale.js";
 
-/** @import {Range} from "../types.js" */
+/** @import {Range} from "../../types.js" */
 
 export const MARGIN = 8;
 const SNAP_PX = 5;

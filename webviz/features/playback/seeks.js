@@ -1,7 +1,7 @@
 // Seeks, one at a time.
 
-import { act } from "../act.js";
-import { newest } from "../newest.js";
+import { act } from "../../act.js";
+import { newest } from "../../newest.js";
 import { returnToLive } from "./rewound.js";
 
 /** @typedef {ReturnType<typeof seeks>} Seeks */

@@ -1,15 +1,15 @@
 // The timeline of a recording: a track over the bar of the time, and buttons within it.
 
-import { act } from "../act.js";
-import { wallNow } from "../clock.js";
-import { copy } from "../clipboard.js";
-import { provide } from "../commands.js";
-import { toast } from "../toasts.js";
-import { store, watch } from "../stores.js";
+import { act } from "../../act.js";
+import { wallNow } from "../../clock.js";
+import { copy } from "../../clipboard.js";
+import { provide } from "../../commands.js";
+import { toast } from "../../toasts.js";
+import { store, watch } from "../../stores.js";
 import { bookmarks as bookmarkMenu } from "./bookmarks.js";
 import { timeCommands } from "./commands.js";
 import { byTime } from "./events.js";
-import { atMoment, behindAt, isNow, isRewound } from "./moment.js";
+import { atMoment, behindAt, isNow, isRewound } from "../../moment.js";
 import { shownLength } from "./range.js";
 import { seeks } from "./seeks.js";
 import { topics as topicList } from "./topics.js";
@@ -17,16 +17,17 @@ import { track as makeTrack } from "./track.js";
 import { transport as makeTransport } from "./transport.js";
 import { parseTime } from "./typed_time.js";
 
-/** @import {LoggedEvent, Moment, Range, ValuesOf} from "../types.js" */
+/** @import {LoggedEvent, Moment, Range, ValuesOf} from "../../types.js" */
+
+/** @import {Timeline, TimelinePlaces} from "../../shell/time_bar.js" */
 
 const TICK_MS = 200;
 
 /**
  * Puts a track and buttons into elements while there is a past; `toggle` plays or pauses.
- * Returns `{isThere(), isLive(), names()}`: whether a position is shown instead of what arrives, and
- * whether topics are live.
  *
- * @param {{ track: Element, buttons: Element, toggle: () => unknown }} places
+ * @param {TimelinePlaces} places
+ * @returns {Timeline}
  */
 export function timeline(places) {
   /** @type {ValuesOf<"playback"> | null} */

@@ -1,13 +1,13 @@
 // The topics of a recording, each with the times of its messages below those of the track.
 
-import { rowList } from "../controls/rows.js";
-import { el, set, setText } from "../dom.js";
-import { watch } from "../stores.js";
-import { fitted } from "../charts/canvas.js";
+import { rowList } from "../../controls/rows.js";
+import { el, set, setText } from "../../dom.js";
+import { watch } from "../../stores.js";
+import { fitted } from "../../charts/canvas.js";
 import { placeOf } from "./axis.js";
 import { bars } from "./draw.js";
 
-/** @import {Range} from "../types.js" */
+/** @import {Range} from "../../types.js" */
 /** @typedef {{key: string, counts: number[]}} Strip */
 
 const ROW = 22;
