@@ -12,7 +12,7 @@ import pytest
 
 from webviz.data.transforms import TransformBuffer, TransformException
 from webviz.data.transforms.cache import TimeCache
-from webviz.data.transforms.pinned import pin, unpin
+from webviz.features.what_if.pinned import pin, unpin
 
 S = 1_000_000_000
 CACHE_NS = 10 * S

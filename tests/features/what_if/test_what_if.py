@@ -15,8 +15,8 @@ from webviz.api.handles import Drag
 from webviz.api.nodes import Pose
 from webviz.commands import DragHandle, EndTrial, FindFrame, MoveFrame, RemoveDisplay, TryFrame
 from webviz.data.rotations import from_rpy, to_rpy, w_first
-from webviz.engine.pipeline.frame_handle import KEY
 from webviz.features.what_if import ID, WhatIfFeature, WhatIfStore
+from webviz.features.what_if.frame_handle import KEY
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.messages import header
 from webviz_displays.laser_scan import LaserScan

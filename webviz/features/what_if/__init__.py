@@ -13,15 +13,15 @@ from webviz.api.nodes import Pose
 from webviz.api.roles import Role
 from webviz.data.rotations import conjugate, from_rpy, to_rpy, w_last
 from webviz.data.transforms import TransformException
-from webviz.data.transforms.pinned import is_pinned, pin, unpin
 from webviz.data.transforms.tree import ancestors
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
-from webviz.engine.pipeline.frame_handle import FrameHandle, FrameTrial
 from webviz.engine.store import PageStore
+from webviz.features.what_if.frame_handle import FrameHandle, FrameTrial
+from webviz.features.what_if.pinned import is_pinned, pin, unpin
 
 ID = "whatif"
 """Of the display with the handle."""
