@@ -17,7 +17,6 @@ from webviz.commands import Seek
 from webviz.data.messages import TFMessage, decode, definition, encode
 from webviz.data.messages.stamps import shifted
 from webviz.engine.loop import FrameLoop
-from webviz.engine.parts.shown_moment import slice_around
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.files.report import read_report
@@ -28,6 +27,7 @@ from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Align, Ghost
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
+from webviz.sources.slices import slice_around
 
 CONFIG = """\
 version: 1

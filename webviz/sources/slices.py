@@ -23,6 +23,7 @@ from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Ghost
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.history import HistoryChannel, NeededMessages, Recorded
+from webviz.sources.player import Player
 from webviz.sources.recording import Channels, Entry, ForwardClock, library
 from webviz.sources.source import Subscription
 
@@ -32,6 +33,14 @@ CLOCK_TOPIC = "/clock"
 
 ALWAYS = (CLOCK_TOPIC, ROSOUT, DISTANCE, DIFFERENCE)
 """Topics of each slice; a panel that is closed subscribes to nothing."""
+
+BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
+"""Of a bag around the moment that is shown, unless a span is selected."""
+MIN_S, MAX_S = 0.1, 86_400.0
+"""Of a span."""
+
+Margins = tuple[float, float]
+"""Seconds before and after the moment that is shown."""
 
 SliceMessage = tuple[RecordedChannel, int, bytes]
 """HistoryChannel, time of recording, and serialised message."""
@@ -255,3 +264,60 @@ def _line(entry: SliceMessage) -> str:
     level = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(message.level, "?")
     when = datetime.fromtimestamp(stamp_ns / 1e9, UTC).isoformat(timespec="milliseconds")
     return f"{when} {level:5} {message.name}: {message.msg}"
+
+
+def margins(before_s: float | None, after_s: float | None) -> Margins | None:
+    """Return the margins that a command asks for, None if it leaves them open.
+
+    Raises:
+        Error: one is negative or too long, or both are zero.
+    """
+    if before_s is None and after_s is None:
+        return None
+    before_s, after_s = before_s or 0.0, after_s or 0.0
+    if not (0.0 <= before_s <= MAX_S and 0.0 <= after_s <= MAX_S and before_s + after_s > 0.0):
+        raise Error("This is not a valid time span. Give seconds before and after the moment.")
+    return before_s, after_s
+
+
+def slice_around(player: Player, around: Margins | None = None) -> tuple[Slice, str]:
+    """Return the slice around the moment that is shown, and the name of its source.
+
+    Of a bag it has the subscribed topics, and what displays need of the time before.
+
+    Args:
+        player: of what is shown.
+        around: the span; None is the selected one or half a minute of a bag, and all of memory. The
+            past of live topics is always shared as a whole.
+
+    Raises:
+        Error: nothing has been received yet.
+    """
+    history = player.history
+    if isinstance(history, BagHistory):
+        at_ns = min(player.position_ns, history.end_ns)
+        if around is not None:
+            first_ns, last_ns = at_ns - _ns(around[0]), at_ns + _ns(around[1])
+        else:
+            first_ns, last_ns = player.selected or (at_ns - BEFORE_NS, at_ns + AFTER_NS)
+        first_ns, last_ns = min(first_ns, at_ns), max(last_ns, at_ns)
+        span_ns = max(first_ns, history.start_ns), min(last_ns, history.end_ns)
+        renamed = {ours: theirs for theirs, ours in history.remappings.items()}
+        wanted = dict(player.subscriptions)
+        part = BagSlice(history.paths, wanted, renamed, span_ns, at_ns, history.ghost)
+        return part, ", ".join(history.names)
+    memory = player.memory
+    if around is not None and player.is_live and memory is not None:
+        entries: Sequence[Entry] = memory.recent.last(max(around[0], MIN_S)).whole
+    else:
+        entries = () if memory is None else memory.entries()
+    if memory is None or not entries:
+        raise Error(
+            "No messages are kept in memory. Show a topic, or raise memory.seconds in the config."
+        )
+    shown_s = None if player.is_live else memory.clock.arrived_s(player.reached_ns)
+    return MemorySlice(memory.recorded_channels, entries, shown_s), "live"
+
+
+def _ns(seconds: float) -> int:
+    return round(seconds * 1e9)

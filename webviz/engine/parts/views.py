@@ -38,7 +38,7 @@ from webviz.engine.parts.part import Core, Part
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
-from webviz.files.config import ConfigError, nearest
+from webviz.files.config import Config, ConfigError, nearest
 
 DIGITS = 3
 """Decimals that are shown; a view moved by hand has more."""
@@ -158,6 +158,14 @@ class ViewsPart(Part):
     def current(self) -> Mapping[int, View]:
         """Return the current view of every browser."""
         return self._cameras.views()
+
+    def as_seen(self, config: Config, sender: Sender) -> Config:
+        """Return a config that begins with the view of the browser that sent a command."""
+        view = self.current().get(sender.browser) if sender.browser is not None else None
+        if view is None:
+            return config
+        settings = msgspec.structs.replace(config.settings, view=view)
+        return msgspec.structs.replace(config, settings=settings)
 
     def _view_of(self, browser: str) -> View | None:
         return self.current().get(int(browser)) if browser.isdecimal() else None

@@ -11,8 +11,8 @@ from webviz.engine.commands import FileCommand, Sender, ignore
 from webviz.engine.feature import command, store
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.shown_moment import as_seen
 from webviz.engine.parts.time import TimePart
+from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
 from webviz.page.dispatcher import Dispatcher, PageFeature
@@ -91,7 +91,8 @@ class OwnPastFeature(PageFeature):
         grant = self._channel.grant_of(sender.browser)
         if grant is None:
             raise Error(NO_PAGE)
-        config = as_seen(self.core.get(FilesPart).config(), self.core, sender)
+        views, files = self.core.get(ViewsPart), self.core.get(FilesPart)
+        config = views.as_seen(files.config(), sender)
         history = MomentHistory(memory)
         at_ns = self.core.get(TimePart).at_ns(at_s)
         cookie = grant.cookie

@@ -19,7 +19,7 @@ from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core
-from webviz.engine.parts.shown_moment import as_seen, slice_around
+from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import Row
 from webviz.engine.store import PageStore
@@ -32,6 +32,7 @@ from webviz.features.reports.writing import (
     write,
 )
 from webviz.files.report import PrivateNames, ReportedPick
+from webviz.sources.slices import slice_around
 
 ROUNDS, ROUNDS_S = 3, 6.0
 """Of the doctor, that a report waits for, and for how long."""
@@ -138,7 +139,7 @@ class ReportsFeature(Feature):
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
         core, rows = self.core, self.core.get(DisplaysPart).rows
         frames = core.buffer.frames()
-        config = as_seen(core.get(FilesPart).config(), core, sender)
+        config = core.get(ViewsPart).as_seen(core.get(FilesPart).config(), sender)
         part, source = slice_around(core.player)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems

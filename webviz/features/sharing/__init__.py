@@ -24,12 +24,12 @@ from webviz.engine.forms import sendable
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, HostProgram
-from webviz.engine.parts.shown_moment import as_seen, margins, slice_around
+from webviz.engine.parts.views import ViewsPart
 from webviz.engine.store import PageStore
 from webviz.features.sharing.exporting import SharedMoment, export
 from webviz.files import config as config_file
 from webviz.files.config import Config
-from webviz.sources.slices import Slice, write_slice
+from webviz.sources.slices import Slice, margins, slice_around, write_slice
 
 MAX_SLICE = 2_000_000_000
 """Bytes of the messages on the disk while the file is made."""
@@ -167,7 +167,7 @@ class SharingFeature(Feature):
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
         part, _ = slice_around(core.player, margins(before_s, after_s))
-        config = as_seen(files.config(), core, sender)
+        config = core.get(ViewsPart).as_seen(files.config(), sender)
         made = Path(path).absolute() if path else new_path("webviz_run", ".html")
         name = files.path.name if files.path else ""
         stopped = threading.Event()
