@@ -18,13 +18,12 @@ from webviz.api.observation import DISCOVERED_S
 from webviz.api.rule import Rule, Verdict
 from webviz.api.status import Level
 from webviz.data.disk import DiskThreads
+from webviz.engine.doctor.clock import ClockWatchPart, SimTime
 from webviz.engine.doctor.environment import look_around, lost_so_far
 from webviz.engine.doctor.findings import FindingsStore, findings_store
-from webviz.engine.doctor.judging import Judge
 from webviz.engine.doctor.observing import observe, problems
 from webviz.engine.doctor.ordering import ordered
-from webviz.engine.doctor.sim_time import SimTime
-from webviz.engine.parts.clock_watch import ClockWatchPart
+from webviz.engine.doctor.rules import Judge
 from webviz.engine.parts.declaring import store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core, Part

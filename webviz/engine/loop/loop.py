@@ -15,6 +15,8 @@ from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.doctor import Doctor
+from webviz.engine.doctor.clock import ClockWatchPart
+from webviz.engine.doctor.rules import RuleNumbersPart
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.feature import features, missing_features
 from webviz.engine.guard import Guard
@@ -23,12 +25,10 @@ from webviz.engine.loop.pacing import FramePacing
 from webviz.engine.loop.showing import Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
-from webviz.engine.parts.clock_watch import ClockWatchPart
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
-from webviz.engine.parts.rule_numbers import RuleNumbersPart
 from webviz.engine.parts.session import SessionPart
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import REWOUND, TimePart

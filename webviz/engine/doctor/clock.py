@@ -1,16 +1,18 @@
-"""A look at /clock and at joint states while the doctor asks for it."""
+"""Looks of the doctor at simulated time: at /clock and joint states, and at who follows it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import time
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Future
 from contextlib import suppress
 from typing import Any
 
 from webviz.api.declared import Topic
 from webviz.api.observation import NO_OFFER, ClockSeen
-from webviz.data.messages import MessageError, decode
+from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.engine.parts.part import Batches, Core, Part
-from webviz.sources import Subscriber, Subscription
+from webviz.sources import Gate, Subscriber, Subscription
 
 CLOCK, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -92,3 +94,53 @@ class ClockWatchPart(Part):
         if self._began_s is None:
             return None
         return ClockSeen(self._time_ns, self.core.clock() - self._moved_s)
+
+
+SERVICE = "rcl_interfaces/srv/GetParameters"
+PARAMETER = "use_sim_time"
+BOOL = 1
+"""Of rcl_interfaces/msg/ParameterType."""
+AGAIN_S = 10.0
+"""Time after which an answer is asked for again."""
+PATIENCE_S = 3.0
+MOST = 20
+"""Nodes that are asked."""
+
+
+class SimTime:
+    """Asks nodes whether they follow simulated time.
+
+    Args:
+        gate: to the nodes.
+    """
+
+    def __init__(self, gate: Gate) -> None:
+        self._gate = gate
+        self._asked: dict[str, tuple[float, Future[bytes]]] = {}
+        """By node: monotonic time in seconds, and the answer."""
+
+    def ask(self, nodes: Iterable[str]) -> Mapping[str, bool]:
+        """Ask nodes by their full names; return what those that have answered follow."""
+        wanted = [*dict.fromkeys(nodes)][:MOST]
+        now = time.monotonic()
+        before, self._asked = self._asked, {}
+        for node in wanted:
+            at_s, answer = before.get(node, (-AGAIN_S, Future[bytes]()))
+            if now - at_s >= AGAIN_S:
+                request = encode(interfaces.service(SERVICE).request, {"names": [PARAMETER]})
+                at_s = now
+                answer = self._gate.query(f"{node}/get_parameters", SERVICE, request, PATIENCE_S)
+            self._asked[node] = at_s, answer
+        read = {node: _read(answer) for node, (_, answer) in self._asked.items()}
+        return {node: follows for node, follows in read.items() if follows is not None}
+
+
+def _read(answer: Future[bytes]) -> bool | None:
+    """Return an answer, None while it is awaited or without one."""
+    if not answer.done() or answer.cancelled() or answer.exception() is not None:
+        return None
+    try:
+        values = decode(interfaces.service(SERVICE).response, answer.result()).values
+    except MessageError:
+        return None
+    return bool(values[0].bool_value) if len(values) == 1 and values[0].type == BOOL else None
