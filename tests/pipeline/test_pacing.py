@@ -2,7 +2,7 @@
 
 import pytest
 
-from webviz.engine.loop.pacing import FramePacing
+from webviz.engine.loop.turn import FramePacing
 
 
 def test_after_a_rest_two_turns_may_follow_at_once_and_the_next_one_waits() -> None:

@@ -20,9 +20,7 @@ from webviz.engine.doctor.rules import RuleNumbersPart
 from webviz.engine.driving import VelocityControllers
 from webviz.engine.feature import features, missing_features
 from webviz.engine.guard import Guard
-from webviz.engine.loop.arrivals import Arrivals
-from webviz.engine.loop.pacing import FramePacing
-from webviz.engine.loop.showing import Showing
+from webviz.engine.loop.turn import Arrivals, FramePacing, Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.displays import DisplaysPart
