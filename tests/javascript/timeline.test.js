@@ -3,12 +3,15 @@ import { test } from "node:test";
 
 import { offsetAfter } from "../../webviz/page/web/clock_offset.js";
 import { newest } from "../../webviz/page/web/newest.js";
-import { nearest, placeOf, shareAt, timeAt } from "../../webviz/features/playback/axis.js";
 import {
   boundsOf,
   following,
   limited,
+  nearest,
+  placeOf,
   rebounded,
+  shareAt,
+  timeAt,
   zoomed,
 } from "../../webviz/features/playback/range.js";
 import { agoText, atMoment, beforeText, behindAt, isNow } from "../../webviz/page/web/moment.js";

@@ -6,7 +6,7 @@ import { askName } from "../../controls/dialog.js";
 import { openMenu } from "../../controls/menu.js";
 import { duration } from "../../time_text.js";
 
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 
 /** @typedef {ReturnType<typeof bookmarks>} Bookmarks */
 

@@ -4,7 +4,7 @@ import { isTyping } from "../../commands.js";
 import { eventCommand } from "./events.js";
 
 /** @import {LoggedEvent, Moment} from "../../types.js" */
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 
 const JUMP_S = 5;
 

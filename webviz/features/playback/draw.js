@@ -3,7 +3,7 @@
 import { share, ticks } from "../../charts/scale.js";
 import { fitted } from "../../charts/canvas.js";
 import { duration } from "../../time_text.js";
-import { MARGIN, placeOf } from "./axis.js";
+import { MARGIN, placeOf } from "./range.js";
 import { beforeText } from "../../moment.js";
 
 /** @import {LoggedEvent, Range} from "../../types.js" */

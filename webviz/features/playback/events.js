@@ -3,7 +3,7 @@
 import { toast } from "../../toasts.js";
 
 /** @import {LoggedEvent, ValuesOf} from "../../types.js" */
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 
 const CLOSE_S = 0.001; // positions are given in milliseconds
 /** @type {Record<string, string>} */

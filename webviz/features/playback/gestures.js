@@ -2,14 +2,14 @@
 
 import { why } from "../../access.js";
 import { act } from "../../act.js";
+import { el, set, setText } from "../../dom.js";
+import { sanitized } from "../../sanitize.js";
 import { toast } from "../../toasts.js";
-import { nearest, placeOf, shareAt, timeAt } from "./axis.js";
 import { eventText } from "./events.js";
-import { makeLabel } from "./label.js";
-import { zoomed } from "./range.js";
+import { nearest, placeOf, shareAt, timeAt, zoomed } from "./range.js";
 
 /** @import {LoggedEvent, Range} from "../../types.js" */
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 
 /**
  * @typedef {{counts: number[], counted: Range, bookmarks: [string, number][], events: LoggedEvent[]}} Marks
@@ -122,4 +122,25 @@ export function listenToTrack(canvas, seek, track) {
     track.setRange(zoomed(track.range(), change, track.bounds()));
   });
   return { label: label.element, hover: () => hover, drag: () => drag };
+}
+
+/** A label of the pointer over a track; `show(text, x, width)` puts it at a place of a track as wide as that, `show("")` hides it. */
+function makeLabel() {
+  const element = el("span", { class: "wv-track-label wv-number", hidden: true });
+  return {
+    element,
+    /**
+     * @param {string} text
+     * @param {number} [x]
+     * @param {number} [width]
+     */
+    show(text, x = 0, width = 0) {
+      set(element, { hidden: !text });
+      if (!text) return;
+      setText(element, sanitized(text));
+      const half = element.offsetWidth / 2;
+      const left = Math.min(Math.max(x, half), width - half) - half;
+      element.style.transform = `translateX(${Math.round(left)}px)`;
+    },
+  };
 }

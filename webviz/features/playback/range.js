@@ -1,9 +1,12 @@
-// The part of a recording that the timeline shows, in seconds from its start.
+// The part of a recording that the timeline shows, in seconds from its start, and places of times in it,
+// in pixels from its left end. Without a document.
 
-import { changed } from "../../charts/scale.js";
+import { at, changed, share } from "../../charts/scale.js";
 
 /** @import {Moment, Range} from "../../types.js" */
 
+export const MARGIN = 8;
+const SNAP_PX = 5;
 const MIN_S = 0.01;
 
 /**
@@ -84,3 +87,44 @@ export function rebounded(range, before, bounds, isBag) {
  * @param {Range} b
  */
 export const isSame = (a, b) => a[0] === b[0] && a[1] === b[1];
+
+/**
+ * The place of a time.
+ *
+ * @param {number} time
+ * @param {Range} range the times at both ends
+ * @param {number} width of the timeline
+ */
+export const placeOf = (time, range, width) => MARGIN + share(time, range) * (width - 2 * MARGIN);
+
+/**
+ * The share of the times between both ends that is left of a place.
+ *
+ * @param {number} x
+ * @param {number} width
+ */
+export const shareAt = (x, width) => (x - MARGIN) / Math.max(1, width - 2 * MARGIN);
+
+/**
+ * The time at a place.
+ *
+ * @param {number} x
+ * @param {Range} range
+ * @param {number} width
+ */
+export const timeAt = (x, range, width) => at(shareAt(x, width), range);
+
+/**
+ * The nearest of what has a time and is near a place; the first of several as near, null for none.
+ *
+ * @template T
+ * @param {T[]} marks
+ * @param {(mark: T) => number} placeOf
+ * @param {number} x
+ */
+export function nearest(marks, placeOf, x) {
+  /** @param {T} mark */
+  const away = (mark) => Math.abs(placeOf(mark) - x);
+  const near = marks.filter((mark) => away(mark) <= SNAP_PX);
+  return near.toSorted((a, b) => away(a) - away(b))[0] ?? null;
+}

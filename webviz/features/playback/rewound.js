@@ -1,4 +1,4 @@
-// A banner over the scene while the page shows the past of live topics, or a recording instead of them, and
+// Seeks, one at a time; a banner over the scene while the page shows the past of live topics, or a recording instead of them, and
 // what returns to live.
 
 import { why } from "../../access.js";
@@ -7,6 +7,7 @@ import { wallNow } from "../../clock.js";
 import { el, set, setText } from "../../dom.js";
 import { sanitized } from "../../sanitize.js";
 import { command } from "../../commands.js";
+import { newest } from "../../newest.js";
 import { setTitlePrefix } from "../../title.js";
 import { store, watch } from "../../stores.js";
 import { agoText, atMoment, isOpened, isRewound } from "../../moment.js";
@@ -18,6 +19,17 @@ const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");
 
 export const returnToLive = () => act("ReturnToLive");
+
+/** @typedef {ReturnType<typeof seeks>} Seeks */
+
+/**
+ * Returns `{to(time), wanted()}`, as of `newest.js`: `to` shows a time of the recording.
+ *
+ * @param {() => void} changed
+ * @param {(time: number) => boolean} isNow whether a time is that of live topics
+ */
+export const seeks = (changed, isNow = () => false) =>
+  newest((time) => (isNow(time) ? returnToLive() : act("Seek", { at_s: time })), changed);
 
 /**
  * Who looks back, if that is another page; "" if it is this one or a program.

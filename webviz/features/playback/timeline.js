@@ -11,7 +11,7 @@ import { timeCommands } from "./commands.js";
 import { byTime } from "./events.js";
 import { atMoment, behindAt, isNow, isRewound } from "../../moment.js";
 import { shownLength } from "./range.js";
-import { seeks } from "./seeks.js";
+import { seeks } from "./rewound.js";
 import { topics as topicList } from "./topics.js";
 import { track as makeTrack } from "./track.js";
 import { transport as makeTransport } from "./transport.js";

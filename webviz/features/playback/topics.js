@@ -4,7 +4,7 @@ import { rowList } from "../../controls/rows.js";
 import { el, set, setText } from "../../dom.js";
 import { watch } from "../../stores.js";
 import { fitted } from "../../charts/canvas.js";
-import { placeOf } from "./axis.js";
+import { placeOf } from "./range.js";
 import { bars } from "./draw.js";
 
 /** @import {Range} from "../../types.js" */

@@ -9,7 +9,7 @@ import { boundsOf, following, isSame, rebounded } from "./range.js";
 
 /** @import {Moment, Range} from "../../types.js" */
 /** @import {Marks} from "./gestures.js" */
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 
 /**
  * Returns `{element, range(), counted(), length(), show(recording), mark(marks)}`: `seek` is of `seeks.js`,

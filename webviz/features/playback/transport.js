@@ -14,7 +14,7 @@ import { isDate, parseTime } from "./typed_time.js";
 
 /** @import {Moment} from "../../types.js" */
 /** @import {Bookmarks} from "./bookmarks.js" */
-/** @import {Seeks} from "./seeks.js" */
+/** @import {Seeks} from "./rewound.js" */
 /** @import {Topics} from "./topics.js" */
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
