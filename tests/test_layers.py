@@ -222,6 +222,13 @@ def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None
         for other in others
         if other.startswith("features/") and name.split("/")[:2] != other.split("/")[:2]
     }
+    # Nor in a docstring.
+    wrong |= {
+        (name, each)
+        for name, path in MODULES.items()
+        if not is_within(name, "webviz.features")
+        for each in re.findall(r"webviz[./]features[./]\w+", path.read_text("utf-8"))
+    }
     assert not wrong
 
 

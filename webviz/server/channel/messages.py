@@ -173,7 +173,7 @@ class SaveCanvas(ToPage, frozen=True):
 
 
 class ShownTool(msgspec.Struct, frozen=True):
-    """A tool in the toolbar; the fields are those of `webviz.features.tools.ToolButton`."""
+    """A tool in the toolbar, as the feature that has the tools describes it."""
 
     id: str
     name: str
@@ -294,7 +294,7 @@ class Do(FromPage, frozen=True):
 
     Args:
         number: of the request, for the page to know its `Done`.
-        command: name of a class of `webviz.server.access.rules.COMMANDS`.
+        command: name of one of `webviz.server.access.rules.commands`.
         arguments: its fields.
         step: of several that are undone together, the number of the first; else 0.
     """

@@ -101,7 +101,7 @@ class Snapshots:
             at: the pixel, from the top left.
 
         Returns:
-            What is known of it, see `webviz.features.selection`; empty if nothing is there.
+            What its display says of it, see `Display.inspect`; empty if nothing is there.
 
         Raises:
             Error: no browser is installed, or the browser does not finish.
