@@ -97,6 +97,46 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
     tab.wait_for(lambda: "No line matches these filters." in tab.text())
 
 
+def test_the_log_follows_again_after_it_began_anew(loop: Loop, tab: Tab) -> None:
+    log = make(Log, {})
+    open_panel(loop, tab, log, offers=offered(rosout=LOG), playback=recorded())
+    follow = tab.button("Follow the newest line")
+    rows = tab.page.get_by_role("listbox", name="Log")
+
+    def add(what: str, count: int) -> None:
+        for i in range(count):
+            log.add((float(i), 20, "arm", f"{what} {i}", ""), i * SECOND)
+        newest = rows.get_by_role("option").filter(has_text=f"{what} {count - 1}")
+        tab.wait_for(lambda: newest.count() == 1 and newest.is_visible())
+
+    def forget() -> None:
+        log.start_over()
+        tab.wait_for(lambda: rows.get_by_role("option").count() == 0)
+        tab.page.evaluate(SCROLLED)  # the browser scrolls an emptied list
+
+    add("live", 500)
+    forget()
+    add("past", 3)
+    forget()
+    add("live again", 500)
+    assert follow.get_attribute("aria-pressed") == "true"
+    rows.hover()
+    tab.page.mouse.wheel(0, -400)
+    tab.wait_for(lambda: follow.get_attribute("aria-pressed") == "false")
+    log.add((0.0, 20, "arm", "one more", ""), 0)
+    tab.wait_for(lambda: tab.page.get_by_text("501 lines", exact=True).count() == 1)
+    assert follow.get_attribute("aria-pressed") == "false", "somebody reads above"
+    forget()
+    add("past again", 500)
+    assert follow.get_attribute("aria-pressed") == "true"
+
+
+SCROLLED = """() => new Promise((resolve) => {
+  requestAnimationFrame(() => requestAnimationFrame(resolve));
+})"""
+"""Waits until the page has handled what its lists scroll by."""
+
+
 def recorded() -> PlaybackState:
     """A bag of a million seconds."""
     return PlaybackState(

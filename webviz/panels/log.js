@@ -16,7 +16,8 @@ import { timeOfDay } from "webviz/time_text.js";
  *   stamps: number[], levels: number[], names: string[], texts: string[], places: string[],
  * }} Chunk
  * @typedef {{key: string, stamp: number, level: number, name: string, text: string, place: string}} Line
- * @typedef {{chunks: [number, number], problem: string, total: number, level: string, nodes: string, text: string}} Values
+ * @typedef {{chunks: [number, number], problem: string, total: number, beginnings: number,
+ *   level: string, nodes: string, text: string}} Values
  */
 
 const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
@@ -51,6 +52,7 @@ export default function install({ widget }) {
     let isFollowing = true;
     let problem = "";
     let total = 0;
+    let beginnings = 0;
 
     const level = signal(LEVELS[0]);
     const lowest = combobox({
@@ -105,8 +107,10 @@ export default function install({ widget }) {
     let top = 0;
     list.element.addEventListener("scroll", () => {
       const { scrollTop, scrollHeight, clientHeight } = list.element;
-      if (scrollTop < top) mark(false);
-      else if (scrollHeight - scrollTop - clientHeight < ROW_PX) mark(true);
+      const isUp = scrollTop < top;
+      // A list that became shorter is scrolled up by the browser, which leaves it at its end.
+      if (scrollHeight - scrollTop - clientHeight < (isUp ? 1 : ROW_PX)) mark(true);
+      else if (isUp) mark(false);
       top = scrollTop;
     });
 
@@ -163,6 +167,7 @@ export default function install({ widget }) {
       const sentence =
         problem || (shown.length ? "" : total ? "No line matches these filters." : "No line yet.");
       showText(empty, sentence);
+      toEnd();
       requestAnimationFrame(toEnd); // the list may have no height yet
     }
 
@@ -218,6 +223,8 @@ export default function install({ widget }) {
       };
       problem = values.problem ?? "";
       total = values.total ?? 0;
+      if (values.beginnings !== beginnings) mark(true); // those of another time
+      beginnings = values.beginnings;
       draw();
     }
 

@@ -62,6 +62,8 @@ class Log(Panel):
         self.clock = PanelTimes()
         self.playback: PlaybackState | None = None
         self.lock = threading.Lock()
+        self.beginnings = 0
+        """Counts how often all lines were forgotten."""
         self.clear()
 
     def clear(self) -> None:
@@ -153,6 +155,7 @@ class Log(Panel):
     def start_over(self) -> None:
         """Forget all lines."""
         self.past.clear()
+        self.beginnings += 1
         self.clear()
 
     def show(
@@ -172,7 +175,7 @@ class Log(Panel):
         if not types and len(parts) == 1 and not self.open:
             problem = f"No publisher on {self.topic}. Start a node, or choose another topic."
         values: dict[str, Any] = {"chunks": [numbers.start, numbers.stop], "problem": problem}
-        values["total"] = total
+        values |= {"total": total, "beginnings": self.beginnings}
         values |= {"level": self.level, "nodes": self.nodes, "text": self.text}
         self.list.show(values, parts)
 
