@@ -79,6 +79,7 @@ SHARED_WITH_THE_SIMULATOR = (
     MESSAGES,
     "webviz.data.rotations",
     "webviz.data.map_file",
+    "webviz.ros.distribution",
     "webviz.ros.types",
 )
 PUBLIC = ("webviz.api", "webviz.data")

@@ -85,9 +85,11 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(nodes: Sequence["SimNode"], stopping: threading.Event) -> None:
     """Step the nodes in real time, and serve their subscriptions in between."""
-    from rclpy.experimental.events_executor import EventsExecutor
+    from rclpy.utilities import get_default_context
 
-    executor = EventsExecutor()
+    from webviz.ros.distribution import executor as new_executor
+
+    executor = new_executor(get_default_context())
     for node in nodes:
         executor.add_node(node)
     period = round(nodes[0].period * 1e9)

@@ -42,8 +42,7 @@ class SimNode(Node):
         super().__init__("sim", namespace=namespace or None)
         self._values: dict[str, Any] = {}
         self._settings = SimulationSettings()
-        self.add_on_set_parameters_callback(self._check)
-        self.add_post_set_parameters_callback(self._apply)
+        self.add_on_set_parameters_callback(self._set)
         for name, option in options.OPTIONS.items():
             self.declare_parameter(name, option.default, _descriptor(option))
         # rclpy declares it without a description.
@@ -101,16 +100,16 @@ class SimNode(Node):
         simulated = self._is_simulated
         self._broadcaster.publish(round(self._simulation.time * 1e9) if simulated else now)
 
-    def _check(self, parameters: list[Parameter]) -> SetParametersResult:
+    def _set(self, parameters: list[Parameter]) -> SetParametersResult:
+        """Take the values of parameters, unless one is refused."""
         values = self._values | {p.name: p.value for p in parameters}
         reason = options.refusal(values)
+        if reason is None:
+            self._values.update(values)
+            for name in ("tour", "tour_speed", "cmd_vel_timeout", "odom_drift", "slip"):
+                if name in values:
+                    setattr(self._settings, name, values[name])
         return SetParametersResult(successful=reason is None, reason=reason or "")
-
-    def _apply(self, parameters: list[Parameter]) -> None:
-        self._values.update({p.name: p.value for p in parameters})
-        for name in ("tour", "tour_speed", "cmd_vel_timeout", "odom_drift", "slip"):
-            if name in self._values:
-                setattr(self._settings, name, self._values[name])
 
     def _drive_stamped(self, message: TwistStamped) -> None:
         self._drive(message.twist)

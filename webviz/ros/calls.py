@@ -11,6 +11,7 @@ import msgspec
 from rclpy.client import Client
 from rclpy.node import Node
 
+from webviz.ros.distribution import service_name
 from webviz.ros.types import from_cdr, service_class, to_cdr
 from webviz.sources.graph import Missing, NotConnected
 
@@ -48,7 +49,7 @@ class _Call(msgspec.Struct, eq=False):
     @property
     def name(self) -> str:
         """Of the service, or of the action that it is a part of."""
-        return self.client.service_name.partition("/_action/")[0]
+        return service_name(self.client).partition("/_action/")[0]
 
 
 class Calls:

@@ -22,6 +22,7 @@ from webviz.commands import Open, Reset, Save, SetFixedFrame, ShowView, StartWit
 from webviz.engine.commands import Command
 from webviz.files.config import Settings
 from webviz.files.config.files import SUFFIXES
+from webviz.ros.distribution import apt_name
 
 if TYPE_CHECKING:
     from webviz.ros.diagnostics import DiagnosticsPublisher
@@ -37,11 +38,11 @@ PARAMETERS = {
 }
 NO_SERVICES = (
     "The viewer's services, such as ~/load_config and ~/screenshot, are unavailable because "
-    "std_srvs is missing. Install ros-jazzy-std-srvs."
+    "std_srvs is missing. Install {package}."
 )
 NO_DIAGNOSTICS = (
     "The service ~/doctor and the parameter publish_diagnostics are unavailable because "
-    "diagnostic_msgs is missing. Install ros-jazzy-diagnostic-msgs."
+    "diagnostic_msgs is missing. Install {package}."
 )
 NO_CONTROL = "This viewer was started with --no-control. Restart it without this option."
 MAX_REQUESTS = 4
@@ -241,7 +242,7 @@ class ControlNode:
         try:
             from std_srvs.srv import Empty, Trigger
         except ImportError:
-            log.warning(NO_SERVICES)
+            log.warning(NO_SERVICES.format(package=apt_name("std_srvs")))
             return []
 
         def load() -> str:
@@ -366,7 +367,7 @@ def _diagnostics() -> ModuleType | None:
     try:
         from webviz.ros import diagnostics
     except ImportError:
-        log.warning(NO_DIAGNOSTICS)
+        log.warning(NO_DIAGNOSTICS.format(package=apt_name("diagnostic_msgs")))
         return None
     return diagnostics
 

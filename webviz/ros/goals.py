@@ -15,6 +15,7 @@ from rclpy.subscription import Subscription
 from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.data.words import joined
 from webviz.ros.calls import WAIT_S, Calls
+from webviz.ros.distribution import publisher_count
 from webviz.ros.types import learn, message_class
 from webviz.sources.graph import Goal, NotConnected
 
@@ -104,7 +105,7 @@ class Goals:
             request,
             WAIT_S * 5,
             answer,
-            lambda: subscription.get_publisher_count() > 0,  # lose no feedback
+            lambda: publisher_count(self._node, subscription) > 0,  # lose no feedback
         )
 
     def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:

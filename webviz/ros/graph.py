@@ -13,8 +13,8 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from webviz.ros.calls import Calls
+from webviz.ros.distribution import NO_EVENTS_OF_PUBLISHERS
 from webviz.ros.goals import Goals
-from webviz.ros.qos import NO_EVENTS_OF_PUBLISHERS
 from webviz.ros.types import MessageTypeError, message_class
 from webviz.sources.graph import Advertisement, Goal, NotConnected
 

@@ -8,24 +8,22 @@ import threading
 import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.clock import JumpThreshold, ROSClock
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
-from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription as RclpySubscription
-from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from webviz.data.messages import typestore
 from webviz.data.messages.distributions import UndefinedMessages, may_differ
-from webviz.ros import qos
+from webviz.ros import distribution, qos
 from webviz.ros.control import ControlNode
 from webviz.ros.graph import RosGraph
 from webviz.ros.guard_condition import GuardCondition
@@ -34,6 +32,9 @@ from webviz.ros.shared_memory import remove_abandoned
 from webviz.ros.types import learn, message_class
 from webviz.sources import Endpoint, Inbox, Offer, Publisher, Raw, Subscription
 from webviz.sources.inbox import MAX_TOTAL
+
+if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 LOOK_S = 0.5
 """Time between two looks at the graph, of whose changes rclpy says nothing."""
@@ -93,7 +94,7 @@ class RosSource:
         self._jumps = self._clock.create_jump_callback(ANY_JUMP, post_callback=self._count_clock)
         self._guard_condition = GuardCondition()
         self.control = ControlNode(self._node, self._guard_condition.trigger)
-        self._executor = _executor(self._context)
+        self._executor = distribution.executor(self._context)
         self.graph = RosGraph(self._node, self._guard_condition.trigger)
         self._wanted: Mapping[str, Subscription] = {}
         self._held: dict[str, _Held] = {}
@@ -261,7 +262,7 @@ class RosSource:
                     functools.partial(self._arrive, topic, layout),
                     qos.profile(held.subscription, reliability, each),
                     raw=True,
-                    event_callbacks=qos.NO_EVENTS_OF_SUBSCRIPTIONS,
+                    event_callbacks=distribution.NO_EVENTS_OF_SUBSCRIPTIONS,
                 )
                 for each in durabilities
             ]
@@ -306,18 +307,6 @@ class _Held:
     policies: tuple[qos.Reliability, qos.Durability]
     is_mixed: bool
     subscriptions: list[RclpySubscription] = field(default_factory=list, compare=False)
-
-
-def _executor(context: Context) -> Executor:
-    """Return the events executor (20 µs per message) if available.
-
-    The default one rebuilds its wait set on every wake-up, 25 µs per subscription.
-    """
-    try:
-        from rclpy.experimental.events_executor import EventsExecutor
-    except ImportError:  # rclpy before 7.1.4
-        return SingleThreadedExecutor(context=context)
-    return EventsExecutor(context=context)  # pyright: ignore[reportReturnType]
 
 
 def _seconds(deadline: Duration) -> float:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from webviz.sources import Publisher, Subscription
@@ -24,13 +23,6 @@ DEPTHS = {
 }
 """Default depth of the history by type; other types have `SENSOR_DEPTH`."""
 SENSOR_DEPTH = 5
-
-
-NO_EVENTS_OF_PUBLISHERS = PublisherEventCallbacks(use_default_callbacks=False)
-NO_EVENTS_OF_SUBSCRIPTIONS = SubscriptionEventCallbacks(use_default_callbacks=False)
-"""For whatever is destroyed while the executor runs: an event that waits then, such as that of an
-incompatible publisher, ends `spin_once` with an InvalidHandle. The statuses of displays report what
-the default events would log."""
 
 
 def adapt(

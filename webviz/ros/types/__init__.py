@@ -12,9 +12,9 @@ the definition of the type:
 
 There is no C struct of the message itself, so messages are serialised CDR bytes only: subscribe
 with `raw=True`, publish `bytes`; requests and responses hold their bytes in `cdr`. The layouts are
-those of ROS 2 Jazzy in the headers of rosidl_runtime_c, rosidl_typesupport_fastrtps_cpp and
-rosidl_typesupport_introspection_c. Other RMW implementations have other structs and need the
-package.
+those of ROS 2 Jazzy and Kilted in the headers of rosidl_runtime_c,
+rosidl_typesupport_fastrtps_cpp and rosidl_typesupport_introspection_c. Other RMW implementations
+and distributions have other structs and need the package.
 """
 
 from webviz.ros.types.classes import (

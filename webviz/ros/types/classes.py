@@ -12,6 +12,7 @@ from rclpy.utilities import get_rmw_implementation_identifier
 
 from webviz.data.messages import MessageError, UnknownTypeError, interfaces
 from webviz.data.words import joined
+from webviz.ros import distribution
 from webviz.ros.types.composing import composed_message, composed_service
 from webviz.ros.types.descriptions import describe
 from webviz.ros.types.wire import RawPayload
@@ -34,8 +35,9 @@ def message_class(type_name: str) -> type:
             whose package is missing with `webviz.data.messages.register`.
 
     Raises:
-        MessageTypeError: the name is malformed or unknown, or the package is missing and the RMW
-            implementation is not rmw_fastrtps_cpp.
+        MessageTypeError: the name is malformed or unknown, or the package is missing and the type
+            cannot be composed: with an RMW implementation other than rmw_fastrtps_cpp, or a
+            distribution with other structs.
     """
     match type_name.split("/"):
         case [package, "msg", name] if package.isidentifier() and name.isidentifier():
@@ -107,10 +109,14 @@ def _composed(
     except MessageError as error:
         raise MessageTypeError(str(error)) from error
     rmw = get_rmw_implementation_identifier()
-    if rmw != "rmw_fastrtps_cpp":
-        package = type_name.partition("/")[0].replace("_", "-")
+    package = distribution.apt_name(type_name.partition("/")[0])
+    if not distribution.has_known_type_supports():
         raise MessageTypeError(
-            f"{type_name} needs its package with {rmw}: install ros-jazzy-{package} with apt, or "
+            f"{type_name} needs its package with this ROS 2: install {package} with apt."
+        )
+    if rmw != "rmw_fastrtps_cpp":
+        raise MessageTypeError(
+            f"{type_name} needs its package with {rmw}: install {package} with apt, or "
             "set RMW_IMPLEMENTATION=rmw_fastrtps_cpp."
         )
     return compose(type_name)
