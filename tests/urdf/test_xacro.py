@@ -99,5 +99,5 @@ def test_files_of_the_kernel_are_no_descriptions(name):
 
 
 def test_a_path_with_a_null_byte_is_refused_by_a_sentence():
-    with pytest.raises(RobotDescriptionError, match="is not a usable path: .*embedded null"):
+    with pytest.raises(RobotDescriptionError, match=r"is not a usable path: .*embedded null"):
         load_file("/tmp/a\0b.urdf")

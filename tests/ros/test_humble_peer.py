@@ -1,0 +1,110 @@
+"""A viewer and a robot that speaks as Humble does, by another implementation of DDS."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import venv
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from program import Program
+from waiting import until
+
+pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
+
+from webviz import Topic
+from webviz.data.messages import decode, encode
+from webviz.ros.node import RosSource
+from webviz.sources import Advertisement, Subscription
+
+ROOT = Path(__file__).parents[2]
+STRING, RANGE = "std_msgs/msg/String", "sensor_msgs/msg/Range"
+TYPES = {"/humble_text": STRING, "/humble_latched": STRING, "/humble_range": RANGE}
+
+
+@pytest.fixture(scope="module")
+def python() -> Path:
+    """A Python with Cyclone DDS and without ROS; that of `tests/e2e/test_independent_peer.py`."""
+    folder = ROOT / ".venv-peer"
+    python = folder / "bin/python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+    if subprocess.run([python, "-c", "import cyclonedds"], capture_output=True).returncode:
+        command = [python, "-m", "pip", "install", "--quiet", "cyclonedds==11.0.1"]
+        if subprocess.run(command).returncode:
+            pytest.skip("cyclonedds could not be installed")
+    return python
+
+
+@pytest.fixture(scope="module")
+def robot(python: Path, webviz_domain: int, tmp_path_factory: Any) -> Iterator[Program]:
+    # The wheels of ROS mark the environment of child processes, which are not theirs here.
+    own = "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "PYTHONPATH"
+    env = {name: value for name, value in os.environ.items() if name not in own}
+    peer = ROOT / "tests/support/humble_peer.py"
+    command = [str(python), "-u", str(peer), str(webviz_domain), "300"]
+    program = Program(command, env, tmp_path_factory.mktemp("humble") / "output.txt")
+    yield program
+    program.end(signal.SIGTERM)
+
+
+@pytest.fixture(scope="module")
+def source(robot: Program, webviz_domain: int) -> Iterator[RosSource]:
+    with pytest.MonkeyPatch.context() as patch:
+        # With it, rclpy announces itself to other processes in a way that only Fast DDS looks for.
+        patch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+        source = RosSource(domain_id=webviz_domain)
+        until(lambda: TYPES.keys() <= source.offers().keys(), lambda: robot.output())
+        yield source
+        source.close()
+
+
+def test_its_topics_have_types_and_qos_without_hashes(source: RosSource) -> None:
+    def offered() -> dict[str, tuple[str, str]]:
+        offers = source.offers()
+        return {
+            topic: (publisher.type, publisher.durability)
+            for topic in TYPES
+            for publisher in offers[topic].publishers
+        }
+
+    latched = {"/humble_latched": "transient_local"}
+    expected = {topic: (type, latched.get(topic, "volatile")) for topic, type in TYPES.items()}
+    until(lambda: offered() == expected, lambda: str(offered()))
+
+
+def test_its_messages_arrive_and_what_they_lack_has_its_default(source: RosSource) -> None:
+    found: dict[str, Any] = {}
+
+    def have_all_arrived() -> bool:
+        for topic, messages in source.inbox.drain().items():
+            found[topic] = decode(TYPES[topic], messages[-1].cdr)
+        return found.keys() == TYPES.keys()
+
+    source.want({topic: Subscription(type, Topic(topic)) for topic, type in TYPES.items()})
+    until(have_all_arrived, lambda: str(found))
+    assert found["/humble_text"].data == "moving"
+    assert found["/humble_latched"].data == "latched"
+    distance = found["/humble_range"]
+    assert (distance.header.frame_id, distance.range, distance.variance) == ("sonar", 2.0, 0.0)
+
+
+def test_it_receives_what_the_viewer_publishes(source: RosSource, robot: Program) -> None:
+    advertisement = Advertisement("/to_humble", STRING)
+    source.graph.advertise([advertisement]).result(10)
+    cdr = encode(STRING, {"data": "from the viewer"})
+
+    def is_heard() -> bool:
+        """Return whether it has said so; a first message may come before its match."""
+        source.graph.publish(advertisement, cdr).result(10)
+        return "heard from the viewer" in robot.output()
+
+    until(is_heard, robot.output)
+
+
+def test_its_services_are_listed_with_their_types(source: RosSource) -> None:
+    until(lambda: source.graph.services().get("/humble_switch") == "std_srvs/srv/SetBool")
