@@ -15,6 +15,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from webviz.checks.peer.distributions import _list_each_other
 from webviz.shell.cli import main
 from webviz.shell.doctor import peer_program
 from webviz.shell.doctor.report import DoctorReport, ReportedFinding
@@ -194,6 +195,19 @@ def test_software_that_differs(tmp_path: Path) -> None:
         "This machine uses rmw_fastrtps_cpp, robot uses rmw_cyclonedds_cpp.",
         "This machine runs jazzy, robot runs humble.",
     ]
+    (finding,) = found["ENV023"]
+    assert finding.remedy.startswith("Nodes are not listed across them; topics arrive.")
+    assert str(finding.evidence["nodes and parameters"]).startswith("not listed")
+
+
+@pytest.mark.parametrize(
+    ("ours", "theirs", "are_listed"),
+    [("jazzy", "kilted", True), ("humble", "galactic", True), ("iron", "humble", False)],
+)
+def test_nodes_of_humble_and_older_are_not_listed_by_others(
+    ours: str, theirs: str, are_listed: bool
+) -> None:
+    assert _list_each_other([ours], [theirs]) == are_listed
 
 
 @needs_namespaces

@@ -37,6 +37,7 @@ PLACE = "webviz/ros/distribution.py"
 NAMES = re.compile(r"\b(foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling)\b|ROS2_[A-Z]", re.I)
 NAMED = {
     PLACE,
+    "webviz/checks/peer/distributions.py",  # of whose nodes others know nothing
     "webviz/data/messages/distributions.py",  # fields of messages
     "webviz/data/messages/typestore.py",  # the fields that are known here
     "webviz/data/recordings/folder_writing.py",  # of whose types bags are written
