@@ -132,6 +132,7 @@ setup(
             "bridges = webviz.features.bridges:BridgesFeature",
             "doctor = webviz.features.doctor:DoctorFeature",
             "driving = webviz.features.driving:DrivingFeature",
+            "files = webviz.features.files:FilesFeature",
             "goals = webviz.features.goals:GoalsFeature",
             "handles = webviz.features.handles:HandlesFeature",
             "latency = webviz.features.latency:LatencyFeature",

@@ -121,6 +121,7 @@ PARTS = [
     "Bags",
     "Black box",
     "Clock",
+    "Config",
     "Connection",
     "Counter",
     "Displays",

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 from tests.support.stand_ins import stand_in
 from webviz.engine.doctor import Doctor
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.display_rows import TreeRows
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.settings import SettingsPart
@@ -20,6 +19,7 @@ from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import State
+from webviz.features.files import FilesFeature
 from webviz.features.panels import PluginPanels
 from webviz.features.people import People
 from webviz.features.playback import PlaybackFeature
@@ -27,7 +27,7 @@ from webviz.features.undo import HistoryStep, UndoFeature, UndoHistory
 from webviz.features.views import ViewsFeature
 
 KINDS = (
-    *(DisplaysPart, Doctor, FilesPart, PlaybackFeature, SettingsPart),
+    *(ConfigPart, DisplaysPart, Doctor, FilesFeature, PlaybackFeature, SettingsPart),
     *(PanelsPart, TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
@@ -83,10 +83,9 @@ class GivenParts:
         file = state.file
         history = state.more.get("history", UndoHistory())
         self._give(
-            FilesPart,
+            FilesFeature,
+            _config=SimpleNamespace(path=file.path or None, is_changed=file.is_changed),
             _listing=None,
-            _path=Path(file.path) if file.path else None,
-            _is_changed=file.is_changed,
             _folder=file.folder,
             _others=file.others,
         )

@@ -28,6 +28,7 @@ from webviz.api.entry_points import installed
 from webviz.api.status import Level, Status
 from webviz.engine import commands as engine_commands
 from webviz.engine.doctor import Doctor
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.declaring import (
     DeclaredCommand,
     DeclaredStore,
@@ -37,7 +38,6 @@ from webviz.engine.parts.declaring import (
     stores_of,
 )
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Part
 from webviz.engine.parts.settings import SettingsPart
@@ -51,7 +51,7 @@ __all__ = ["Feature", "command", "commands", "features", "store", "stores"]
 GROUP = "webviz.features"
 PARTS: tuple[type[Part], ...] = (
     DisplaysPart,
-    FilesPart,
+    ConfigPart,
     PanelsPart,
     SettingsPart,
     TimePart,

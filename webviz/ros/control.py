@@ -18,7 +18,7 @@ from rclpy.parameter import Parameter
 from webviz import commands
 from webviz.api.errors import Error
 from webviz.api.finding import Finding
-from webviz.commands import Open, Reset, Save, SetFixedFrame, ShowView, StartWithView
+from webviz.commands import Reset, SetFixedFrame, ShowView, StartWithView
 from webviz.engine.commands import Command
 from webviz.files.config import Settings
 from webviz.files.config.files import SUFFIXES
@@ -209,7 +209,7 @@ class ControlNode:
         if name == CONFIG_FILE:
             if not value:
                 raise Error("config_file needs a file name.")
-            return (Open(self._allowed(value)),)
+            return (commands.Open(self._allowed(value)),)
         return (SetFixedFrame(value),)
 
     def _allowed(self, value: str) -> str:
@@ -249,13 +249,13 @@ class ControlNode:
             path = _absolute(viewer.path)
             if not path:
                 raise Error("No config file to load. Set the parameter config_file.")
-            viewer.do(Open(path))
+            viewer.do(commands.Open(path))
             return f"Opened {path}."
 
         def save() -> str:
             if not viewer.path:
                 raise Error("The config has no file yet. Save it on the page first.")
-            viewer.do(Save())
+            viewer.do(commands.Save())
             return f"Saved {_absolute(viewer.path)}."
 
         def reset() -> str:

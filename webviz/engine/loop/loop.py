@@ -23,8 +23,8 @@ from webviz.engine.guard import Guard
 from webviz.engine.loop.turn import Arrivals, FramePacing, Showing
 from webviz.engine.parts import Core, Part, Parts
 from webviz.engine.parts.autosave import AutosavePart
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import NO_PROGRAM, HostProgram, P
 from webviz.engine.parts.session import SessionPart
@@ -178,7 +178,7 @@ class FrameLoop:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
         core, displays, settings = self._core, self._displays, self._settings
         panels = PanelsPart(core, settings)
-        files = self._files = FilesPart(
+        files = self._files = ConfigPart(
             core, displays, settings, views, core.tools, panels.list, config, path
         )
         kept = SessionPart(core, files, session) if session else None

@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from webviz.data.disk import in_thread
-from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.part import Core, Part
 from webviz.files import config as config_file
 from webviz.files.config import Config, ConfigError
@@ -37,7 +37,7 @@ class AutosavePart(Part):
 
     name = "Autosave"
 
-    def __init__(self, core: Core, files: FilesPart, path: Path) -> None:
+    def __init__(self, core: Core, files: ConfigPart, path: Path) -> None:
         super().__init__(core)
         self._files = files
         self._path = path

@@ -14,7 +14,7 @@ from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.commands import Command
 from webviz.engine.parts.autosave import AutosavePart
-from webviz.engine.parts.files import FilesPart, Restore
+from webviz.engine.parts.config import ConfigPart, Restore
 from webviz.engine.parts.part import Core
 from webviz.files import config as config_file
 from webviz.files import sessions
@@ -35,7 +35,7 @@ class SessionPart(AutosavePart):
 
     name = "Session"
 
-    def __init__(self, core: Core, files: FilesPart, path: Path) -> None:
+    def __init__(self, core: Core, files: ConfigPart, path: Path) -> None:
         super().__init__(core, files, path)
         self._start = files.path
         self._base = Base.of(files.saved(self._start) or {})

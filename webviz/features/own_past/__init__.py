@@ -9,7 +9,7 @@ from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.engine.commands import FileCommand, Sender, ignore
 from webviz.engine.feature import command, store
-from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.views import ViewsPart
@@ -91,7 +91,7 @@ class OwnPastFeature(PageFeature):
         grant = self._channel.grant_of(sender.browser)
         if grant is None:
             raise Error(NO_PAGE)
-        views, files = self.core.get(ViewsPart), self.core.get(FilesPart)
+        views, files = self.core.get(ViewsPart), self.core.get(ConfigPart)
         config = views.as_seen(files.config(), sender)
         history = MomentHistory(memory)
         at_ns = self.core.get(TimePart).at_ns(at_s)

@@ -16,8 +16,8 @@ from webviz.data.transforms import diagnose, tree_text
 from webviz.engine.commands import FileCommand, Picks, Sender
 from webviz.engine.doctor import Doctor
 from webviz.engine.feature import Feature, command, store
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
@@ -139,7 +139,7 @@ class ReportsFeature(Feature):
     def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
         core, rows = self.core, self.core.get(DisplaysPart).rows
         frames = core.buffer.frames()
-        config = core.get(ViewsPart).as_seen(core.get(FilesPart).config(), sender)
+        config = core.get(ViewsPart).as_seen(core.get(ConfigPart).config(), sender)
         part, source = slice_around(core.player)
         tree = tree_text(core.buffer, core.now_ns)
         problems = diagnose(core.buffer, core.now_ns).problems

@@ -16,7 +16,7 @@ from webviz.data.names import problem_of
 from webviz.engine.commands import Command
 from webviz.engine.feature import command, commands, store
 from webviz.engine.guard import Guard
-from webviz.engine.parts.files import FilesPart
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.pipeline.own_names import PATTERN, own_names
@@ -175,7 +175,7 @@ class RightsFeature(PageFeature):
         except Error:
             return None
         waiting = [each for each in self._current() if each.name == full]
-        path = self.core.get(FilesPart).path
+        path = self.core.get(ConfigPart).path
         return PermissionStore(
             refusal=gate.lasting_refusal(full),
             is_open=gate.is_open(full),
@@ -337,7 +337,7 @@ class RightsFeature(PageFeature):
     def _own_names(self) -> set[str]:
         """Return what the current config uses, which it may if it has no list."""
         names = set()
-        for each in own_names(self.core.get(FilesPart).config(), Guard("Rights", strict=False)):
+        for each in own_names(self.core.get(ConfigPart).config(), Guard("Rights", strict=False)):
             try:
                 names.add(self.core.player.resolve(each))
             except ValueError:

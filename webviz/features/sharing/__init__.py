@@ -21,8 +21,8 @@ from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.parts.part import Core, HostProgram
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.store import PageStore
@@ -159,7 +159,7 @@ class SharingFeature(Feature):
             before_s, after_s: seconds around the moment; without, the selected span or half a
                 minute of a bag, and all that is remembered of live topics.
         """
-        core, files = self.core, self.core.get(FilesPart)
+        core, files = self.core, self.core.get(ConfigPart)
         if core.host.offer is None:
             raise Error("This viewer cannot make files to share. Use `webviz export`.")
         if path and sender.browser is not None:

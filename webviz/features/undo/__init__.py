@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from webviz.api.roles import Role
 from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import Feature, command, store
-from webviz.engine.parts.files import RESTORE, FilesPart, Restore
+from webviz.engine.parts.config import RESTORE, ConfigPart, Restore
 from webviz.engine.parts.part import Core
 from webviz.engine.store import PageStore
 from webviz.features.undo.rebasing import rebased
@@ -65,7 +65,7 @@ class UndoFeature(Feature):
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)
-        self._files = core.get(FilesPart)
+        self._files = core.get(ConfigPart)
         self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._redo: deque[_Done] = deque(maxlen=MAX_STEPS)
         self._count = 0

@@ -19,8 +19,8 @@ from webviz.api.finding import Finding
 from webviz.api.views import View
 from webviz.commands import Refresh, ShowView, StartWithView
 from webviz.engine.commands import PROGRAM, Command, Sender, wrong_text
+from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.files import FilesPart
 from webviz.engine.state import Row, State
 from webviz.files.config import Config, Settings
 from webviz.files.sessions import Sessions
@@ -297,7 +297,7 @@ class Running(PictureControls):
     @property
     def path(self) -> str:
         """The config file, or ""."""
-        path = self._loop.get(FilesPart).path
+        path = self._loop.get(ConfigPart).path
         return str(path) if path else ""
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> str:

@@ -16,11 +16,7 @@ from webviz.api.status import Status
 from webviz.api.views import View
 from webviz.commands import (
     AddDisplay,
-    Export,
-    Load,
-    Open,
     Reset,
-    Save,
     SetBackground,
     SetFixedFrame,
     SetFrameRate,
@@ -279,7 +275,7 @@ class Viewer(Running, TimeControls):
         Raises:
             Error: the file cannot be read; nothing was changed.
         """
-        self.do(Open(absolute(path, "path")))
+        self.do(commands.Open(absolute(path, "path")))
 
     def save(self, path: str | os.PathLike[str] = "") -> Path:
         """Save the config, by default to its file, and return the file.
@@ -287,14 +283,14 @@ class Viewer(Running, TimeControls):
         Raises:
             Error: the config has no file, or the file cannot be written.
         """
-        self.do(Save(absolute(path, "path") if path != "" else ""))
+        self.do(commands.Save(absolute(path, "path") if path != "" else ""))
         return Path(self.path)
 
     @property
     def config_text(self) -> str:
         """The current config as YAML."""
         texts: list[str] = []
-        self.do(Export(texts.append))
+        self.do(commands.Export(texts.append))
         return texts[0]
 
     @property
@@ -305,7 +301,7 @@ class Viewer(Running, TimeControls):
     @config.setter
     def config(self, config: str | Mapping[str, Any]) -> None:
         text = config if isinstance(config, str) else msgspec.json.encode(config).decode()
-        self.do(Load(text, "the config"))
+        self.do(commands.Load(text, "the config"))
 
     def _group_id(self, group: DisplayHandle | str | None) -> str:
         if group is None:
