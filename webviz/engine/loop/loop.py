@@ -111,6 +111,7 @@ class FrameLoop:
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._offers: object = None
+        self._part_statuses: Mapping[str, Status] = {}
         self._advertised: set[Advertisement] = set()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         self._owed: list[Callable[[], None]] = []
@@ -328,11 +329,13 @@ class FrameLoop:
     def update(self) -> None:
         """Have all parts note what there is to show, as of the last turn."""
         self._parts.update()
-        statuses = self._parts.statuses()
+        if not self._source.is_seeking:  # on the way, transforms and messages are missing
+            self._part_statuses = self._parts.statuses()
         self._core.verdicts = self.doctor.verdicts
-        statuses |= self._guard.statuses() | self._showing.statuses
-        self._core.statuses = {**statuses, **missing_features()}
-        self._guard("Doctor", self.doctor.examine)
+        own = self._guard.statuses() | self._showing.statuses
+        self._core.statuses = {**self._part_statuses, **own, **missing_features()}
+        if not self._source.is_seeking:
+            self._guard("Doctor", self.doctor.examine)
 
     def state(self) -> State:
         """Return all that programs may read, as of the last turn."""

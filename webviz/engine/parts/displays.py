@@ -17,7 +17,7 @@ from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY
 from webviz.api.registry import display_types
 from webviz.api.roles import Role
-from webviz.api.status import Level, Status
+from webviz.api.status import LOADING, Level, Status
 from webviz.engine.commands import ignore
 from webviz.engine.parts.captions import (
     AttributionsStore,
@@ -42,6 +42,7 @@ from webviz.engine.parts.part import Batches, Core, Part
 from webviz.engine.parts.status_lines import StatusesStore, causes, lines
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.pipeline import Runner, Services
+from webviz.engine.pipeline.runner import WORKING
 from webviz.engine.pipeline.trace import Trace
 from webviz.engine.state import Row, Traffic
 from webviz.engine.store import PageStore
@@ -123,6 +124,8 @@ class DisplaysPart(Part):
         self.consistency = ConsistencyCheck(core, self.list)
         self.rows: tuple[Row, ...] = ()
         """The list as of the last turn; the same objects for what has not changed."""
+        self._statuses: dict[str, Mapping[str, Status]] = {}
+        """Those of each display before the seek that is under way, if any."""
         self.tree = TreeRows()
         """The rows of the page's tree."""
 
@@ -155,15 +158,24 @@ class DisplaysPart(Part):
 
     def update(self) -> None:
         """Make the rows of the list."""
-        self.core.guard("Consistency check", self.consistency.update)
+        if not self.core.player.is_seeking:
+            self._statuses = {}
+            self.core.guard("Consistency check", self.consistency.update)
         self.rows = rows(self.list.entries, self._statuses_of, self.rows)
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core
-        if self._is_unseen(runner):
-            return {"Display": UNSEEN}
+        if (
+            core.player.is_seeking
+        ):  # what it lacks may be read yet, and what it shows is from before
+            return self._statuses.get(runner.id, {LOADING: WORKING})
         dropped = core.player.inbox.dropped
-        return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
+        self._statuses[runner.id] = statuses = (
+            {"Display": UNSEEN}
+            if self._is_unseen(runner)
+            else runner.statuses(core.offers, core.frames, dropped, core.is_watched())
+        )
+        return statuses
 
     def _is_unseen(self, runner: Runner) -> bool:
         """Return whether all that a display shows is a pane that nobody sees."""

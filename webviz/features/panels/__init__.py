@@ -197,7 +197,8 @@ class PluginPanels(PageFeature):
         tab = self._tabs.get(name)
         if tab is None:
             return PanelStore({}, [], self._broken.get(name, ""))
-        tab.show(self.core.get(PanelsPart))
+        if not (self.core.player.is_seeking and tab.is_shown):  # on the way, it lacks messages
+            tab.show(self.core.get(PanelsPart))
         widgets = dict(tab.ui.widgets)
         values = {id_: widget.values for id_, widget in widgets.items()}
         parts = {
@@ -314,13 +315,14 @@ class _Tab:
         self.failure = ""
         self._guard = Guard(f"The panel {self.title}", strict=False)
         self._acts = Guard(f"The panel {self.title}", strict=False)
-        self._is_built = False
+        self._is_built = self.is_shown = False
         self._guard("build", self._build, send)
 
     def show(self, panels: PanelsPart) -> None:
         """Let the panel show the viewer, and note what it raises."""
         if self._is_built:
             self._guard("show", panels.show, self.panel)
+            self.is_shown = True
         self.failure = next(iter(self._guard.crashes.values()), "")
 
     def use(self, widget: Widget, value: Any, browser: int) -> str:
