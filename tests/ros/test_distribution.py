@@ -22,16 +22,21 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.service import Service
-from rclpy.subscription import Subscription
+from rclpy.subscription import Subscription as RclpySubscription
 from rclpy.task import Future
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import String
 from std_srvs.srv import Empty
 from waiting import until
 
+from webviz import Topic
+from webviz.data.messages import encode
 from webviz.ros import distribution
+from webviz.ros.node import RosSource
 from webviz.ros.types import MessageTypeError, classes, message_class
+from webviz.sources import Subscription
 
+EMPTY = "std_srvs/srv/Empty_Request"
 ROOT = Path(__file__).parents[2]
 PLACE = "webviz/ros/distribution.py"
 NAMES = re.compile(r"\b(foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling)\b|ROS2_[A-Z]", re.I)
@@ -53,7 +58,7 @@ CLASSES = (
     Node,
     Publisher,
     Service,
-    Subscription,
+    RclpySubscription,
     TopicEndpointInfo,
 )
 
@@ -204,7 +209,7 @@ def test_names_and_counts_without_the_attributes_that_humble_lacks(
 
     until(lambda: reads() == ("/nothing", 1))
     monkeypatch.delattr(Client, "service_name")
-    monkeypatch.delattr(Subscription, "get_publisher_count")
+    monkeypatch.delattr(RclpySubscription, "get_publisher_count")
     until(lambda: reads() == ("/nothing", 1))
 
 
@@ -221,13 +226,26 @@ def test_events_come_from_the_module_that_humble_has(monkeypatch: pytest.MonkeyP
     assert type(older.NO_EVENTS_OF_SUBSCRIPTIONS) is callbacks
 
 
-def test_the_default_executor_stands_in_for_that_of_events(
-    webviz_domain: int, monkeypatch: pytest.MonkeyPatch
+def test_the_default_executor_serves_a_viewer_too(
+    spun: SpunNode, webviz_domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Humble, Iron and the first releases of Jazzy have no other."""
     monkeypatch.setitem(sys.modules, "rclpy.experimental.events_executor", None)
-    context = Context()
-    context.init(domain_id=webviz_domain)
-    executor = distribution.executor(context)
-    assert isinstance(executor, SingleThreadedExecutor)
-    executor.shutdown()
-    context.try_shutdown()
+    spun.node.create_service(Empty, "/reset", lambda _, response: response)
+    publisher = spun.node.create_publisher(String, "/text", 1)
+    source = RosSource(domain_id=webviz_domain)
+    try:
+        assert isinstance(source._executor, SingleThreadedExecutor)
+        source.want({"/text": Subscription("std_msgs/msg/String", Topic("/text"))})
+
+        def is_received() -> bool:
+            """Return whether one has come; the first may be sent before its match."""
+            publisher.publish(String(data="hello"))
+            return bool(source.inbox.drain().get("/text"))
+
+        spun.until(is_received)
+        answer = source.graph.call("/reset", "std_srvs/srv/Empty", encode(EMPTY), 10.0)
+        spun.until(answer.done)
+        assert answer.result()
+    finally:
+        source.close()

@@ -38,6 +38,10 @@ class GuardCondition:
         """Return whether it was triggered."""
         return self._is_triggered
 
+    def cancelled(self) -> bool:
+        """Return that it was not: the default executor of Jazzy and later asks."""
+        return False
+
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
         """Have this called when it is triggered, at once if it already is."""
         with self._lock:
