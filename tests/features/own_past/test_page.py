@@ -50,7 +50,7 @@ def test_alone_there_is_no_question(memory: Memory, enter: Callable[[], Page]) -
 
 
 def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
-    memory: Memory, enter: Callable[[], Page]
+    memory: Memory, enter: Callable[[], Page], caplog: pytest.LogCaptureFixture
 ) -> None:
     page, other = enter(), enter()
     page.evaluate(SHOW, VIEW)
@@ -67,6 +67,7 @@ def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
     banner.click()
     page.tab.wait_for_function("window.webviz?.hasView() && window.webviz.browser !== null")
     assert "/past/" not in page.tab.url
+    assert "Refused" not in caplog.text, "an operator's page asks for nothing that owners see"
     page.wait_for(lambda: distance(memory, page) == pytest.approx(7.0), "the same view")
 
 

@@ -37,9 +37,10 @@ const OF_LIVE = [
 
 const playback = store("playback");
 const sharing = store("sharing");
+const maySee = signal(false); // once the role of this page is known; others are refused to watch it
 
 /** The share of the work that is done while a file is made, else null; read in effects. */
-const done = () => sharing.get("share") ?? null;
+const done = () => (maySee.value ? (sharing.get("share") ?? null) : null);
 const isBag = () => playback.get("is_live") === null;
 
 export function install() {
@@ -51,6 +52,7 @@ export function install() {
   });
   onRole(() => {
     if (why("ShareMoment")) return;
+    maySee.value = true;
     overlay("cards", "sharing", progress());
     tellEnds(mine);
   });
