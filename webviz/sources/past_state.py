@@ -23,6 +23,7 @@ class PlaybackState(msgspec.Struct, frozen=True, kw_only=True):
         first_s: of the first message that there is, in seconds from the start.
         is_live: whether topics are live, and shown as they arrive; None for a bag.
         gap: the first and the last second of what was forgotten while the past was shown.
+        is_memory: whether it is what live topics brought, not a bag.
         is_opened: whether it is shown in the place of live topics, to which one can return.
         counted: the first and the last second in which messages are counted, None for all.
     """
@@ -38,6 +39,7 @@ class PlaybackState(msgspec.Struct, frozen=True, kw_only=True):
     selected: tuple[float, float] | None
     first_s: float = 0.0
     is_live: bool | None = None
+    is_memory: bool = False
     is_opened: bool = False
     gap: tuple[float, float] | None = None
     counted: tuple[float, float] | None = None

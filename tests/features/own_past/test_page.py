@@ -62,6 +62,7 @@ def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
     expect(banner).to_be_visible(timeout=60_000)
     assert "/past/" in page.tab.url
     expect(page.tab).to_have_title("Own past · webviz")
+    expect(page.tab.locator(".wv-time .wv-badge")).to_have_text("past")
     assert is_live(memory)
     expect(other.tab.locator(".wv-rewound-banner")).to_be_hidden()
     banner.click()

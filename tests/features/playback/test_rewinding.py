@@ -268,8 +268,8 @@ def test_a_topic_that_was_not_displayed_then_says_so(bench: Bench) -> None:
     publish(bench, 0, "/late")
     assert bench.statuses()["Topic"] == (
         "WARN",
-        "No message yet on /late: none was received before this moment, since only displayed "
-        "topics are remembered.",
+        "No message yet on /late: none of this moment or before is remembered; only displayed "
+        "topics are, and the oldest messages go first.",
     )
 
 

@@ -16,5 +16,7 @@ def is_silent(seen: Observation, display: DisplaySeen, each: InputSeen, offer: O
     publishers = [p for p in offer.publishers if p.type in each.types]
     if each.received or offer.problem or not publishers or seen.is_recorded:
         return False
+    if offer.begins:  # the past, in which it says nothing of a publisher that memory has no message
+        return False
     status = display.problem(each.status)
     return offer.requested is not None and status is not None and status.remedy is None

@@ -11,6 +11,9 @@ from webviz.api.observation import Observation
 
 VERSION = re.compile(r"/python(3\.\d+)/(?:site|dist)-packages/?$")
 
+OLDEST = 3, 11
+"""The oldest Python that webviz runs on; ROS Humble's is 3.10."""
+
 
 class OtherPython(Check):
     """ROS for another version of Python.
@@ -41,9 +44,13 @@ class OtherPython(Check):
         if not found or environment.python in found:
             return
         version, entry = next(iter(found.items()))
+        is_supported = tuple(map(int, version.split("."))) >= OLDEST
         yield self.found(
             f"ROS for Python {version} is sourced, but Python {environment.python} runs.",
-            f"Run webviz with Python {version}, or source a ROS for Python {environment.python}.",
+            f"Run webviz with Python {version}, or source a ROS for Python {environment.python}."
+            if is_supported
+            else f"webviz needs Python {OLDEST[0]}.{OLDEST[1]} or newer: start it with its own ROS in "
+            "a terminal in which no ROS is sourced, or connect it to a bridge.",
             evidence={"python": environment.python, "PYTHONPATH": entry},
-            command=f"python{version} -m venv --system-site-packages .venv",
+            command=f"python{version} -m venv --system-site-packages .venv" if is_supported else "",
         )

@@ -20,6 +20,7 @@ from webviz.engine.store import PageStore
 from webviz.sources.history import History
 from webviz.sources.past_state import Event, PlaybackState
 from webviz.sources.player import END_NS, Player
+from webviz.sources.recording.entries_history import EntriesHistory
 
 BUCKETS = 500
 """Parts of the span whose messages are counted: about one for each three pixels of a wide page."""
@@ -253,6 +254,7 @@ def _state_of(player: Player) -> PlaybackState:
         end_ns=history.end_ns,
         first_s=(history.start_ns - start_ns) / 1e9,
         is_live=player.is_live if history.is_growing else None,
+        is_memory=isinstance(history, EntriesHistory),
         is_opened=player.is_opened,
         position_s=(player.position_ns - start_ns) / 1e9,
         rate=player.rate,

@@ -29,6 +29,7 @@ class PlaybackStore(PageStore, frozen=True):
         loop: whether the span starts over at its end.
         selected: first and last second to play, None for all.
         is_live: whether live topics are shown, None for a recording.
+        is_memory: whether it is what live topics brought, not a bag.
         is_opened: whether a recording is shown in the place of live topics.
         limit: seconds that the memory keeps at most.
         ahead: wall time over that of recording.
@@ -47,6 +48,7 @@ class PlaybackStore(PageStore, frozen=True):
     loop: bool
     selected: tuple[float, float] | None
     is_live: bool | None
+    is_memory: bool
     is_opened: bool
     limit: float | msgspec.UnsetType = msgspec.UNSET
     ahead: float | msgspec.UnsetType = msgspec.UNSET
@@ -117,6 +119,7 @@ def playback_store(
         loop=recording.loop,
         selected=recording.selected,
         is_live=recording.is_live,
+        is_memory=recording.is_memory,
         is_opened=recording.is_opened,
     )
     position_s = round(recording.position_s, 3)

@@ -151,7 +151,7 @@ export function timeline(places) {
 
   return {
     isThere: () => isBag() || isRewound(values),
-    isLive: () => values !== null && !isBag(),
+    isPast: () => values !== null && (!isBag() || values.get("is_memory") === true),
     names: () => (isBag() ? (values?.get("names") ?? []).join(", ") : null),
   };
 }

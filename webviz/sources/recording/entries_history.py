@@ -15,7 +15,10 @@ from webviz.sources.recording.recent import Entry
 from webviz.sources.recording.wall_clock import WallClock
 from webviz.sources.source import Offer, Source, Subscription
 
-NOT_REMEMBERED = "none was received before this moment, since only displayed topics are remembered"
+NOT_REMEMBERED = (
+    "none of this moment or before is remembered; only displayed topics are, and the oldest "
+    "messages go first"
+)
 """Why a topic has no message in the past."""
 Numbered = tuple[int, Raw]
 """The place of a message in the order of arrival, and the message."""

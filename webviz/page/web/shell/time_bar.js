@@ -15,7 +15,7 @@ import { duration, timeOfDay } from "../time_text.js";
  * The state of a timeline for the bar: whether a position is shown instead of what arrives, whether topics
  * are live, and the names of the recordings that are played, null for none.
  *
- * @typedef {{isThere(): boolean, isLive(): boolean, names(): string | null}} Timeline
+ * @typedef {{isThere(): boolean, isPast(): boolean, names(): string | null}} Timeline
  */
 /**
  * Places for a track and for buttons, and a function that plays or pauses.
@@ -39,7 +39,7 @@ const timelines = [];
 export const timeBarTimeline = (make) => timelines.push(make);
 
 /** @type {Timeline} */
-const NO_TIMELINE = { isThere: () => false, isLive: () => false, names: () => null };
+const NO_TIMELINE = { isThere: () => false, isPast: () => false, names: () => null };
 
 /**
  * Fills the footer.
@@ -104,7 +104,7 @@ export function build(place) {
       : timeOfDay;
     setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
     set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
-    const past = recording.isLive() ? "past" : "bag";
+    const past = recording.isPast() ? "past" : "bag";
     setText(badge, recording.isThere() ? past : badgeOf(isSimulated, clock.get("hz")));
     set(badge, { "data-tip": recording.names() ?? null });
     set(badge, { "data-simulated": isSimulated });
@@ -123,7 +123,7 @@ export function build(place) {
     const [name, tip] = recording.isThere()
       ? [
           paused ? "Play" : "Pause",
-          `${paused ? "Play" : "Pause"} the ${recording.isLive() ? "past" : "recording"} in all browsers (Space)`,
+          `${paused ? "Play" : "Pause"} the ${recording.isPast() ? "past" : "recording"} in all browsers (Space)`,
         ]
       : [nameOf(paused), `${nameOf(paused)} the scene in all browsers; messages wait meanwhile`];
     if (pause.ariaLabel === name) return;
