@@ -16,6 +16,7 @@ from webviz.engine.commands import Command, FileCommand, Picks
 from webviz.engine.pipeline.trace import Trace
 from webviz.files.config import Config, Layout
 from webviz.files.report import ReportedPick
+from webviz.sources.bag.ghost import Align
 
 __all__: list[str]
 
@@ -111,6 +112,20 @@ class ChangeView(Command, frozen=True):
     value: Any
     browser: int | None = ...
 
+class CompareRecording(FileCommand, frozen=True):
+    """Show a second run beside the recording that was opened: tinted, on one timeline.
+
+    `EndComparison` ends it, as does opening another recording.
+
+    Args:
+        path: a file or folder, as for `OpenRecording`.
+        align: "start" lets both begin together, "stamp" keeps its times, "path" moves it to
+            where the robots are closest.
+    """
+
+    path: str
+    align: Align = ...
+
 class Decline(Command, frozen=True):
     """Answer a request with no."""
 
@@ -142,6 +157,9 @@ class DuplicateDisplay(Command, frozen=True):
 
     display: str
     made: Callable[[str], None] = ...
+
+class EndComparison(FileCommand, frozen=True):
+    """Show the recording alone again, at the same position."""
 
 class EndTrial(Command, frozen=True):
     """Return the tried frame to where its transforms have it."""

@@ -17,10 +17,10 @@ from webviz.commands import Seek
 from webviz.data.messages import TFMessage, decode, definition, encode
 from webviz.data.messages.stamps import shifted
 from webviz.engine.loop import FrameLoop
+from webviz.engine.parts.ghost_config import OPACITY, with_ghost
 from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.files.report import read_report
-from webviz.shell.app.ghost_config import OPACITY, with_ghost
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
 from webviz.shell.testing.recording import RecordingScene

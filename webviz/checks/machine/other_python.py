@@ -49,8 +49,8 @@ class OtherPython(Check):
             f"ROS for Python {version} is sourced, but Python {environment.python} runs.",
             f"Run webviz with Python {version}, or source a ROS for Python {environment.python}."
             if is_supported
-            else f"webviz needs Python {OLDEST[0]}.{OLDEST[1]} or newer: start it with its own ROS in "
-            "a terminal in which no ROS is sourced, or connect it to a bridge.",
+            else f"webviz needs Python {OLDEST[0]}.{OLDEST[1]} or newer: start it with its own ROS "
+            "in a terminal in which no ROS is sourced, or connect it to a bridge.",
             evidence={"python": environment.python, "PYTHONPATH": entry},
             command=f"python{version} -m venv --system-site-packages .venv" if is_supported else "",
         )

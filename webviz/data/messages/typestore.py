@@ -23,6 +23,7 @@ from webviz.data.messages.msg_text import (
     Description,
     TextError,
     Types,
+    Value,
     types_in_msg,
 )
 
@@ -220,9 +221,7 @@ def constants(type_name: str, types: MessageTypes = KNOWN) -> dict[str, bool | i
     return {name: value for name, _, value in typed_constants(type_name, types)}
 
 
-def typed_constants(
-    type_name: str, types: MessageTypes = KNOWN
-) -> list[tuple[str, str, bool | int | float | str]]:
+def typed_constants(type_name: str, types: MessageTypes = KNOWN) -> list[tuple[str, str, Value]]:
     """Return name, type and value of the constants of a type; see `constants`."""
     return _definition(type_name, types)[0]
 

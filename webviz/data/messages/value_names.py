@@ -1,7 +1,7 @@
 """Names of the values of fields, such as DISCHARGING of a battery's `power_supply_status` 2.
 
-Definitions do not say which constants are values of which field. Two customs of ROS's interfaces do:
-constants begin with the name of their field or with the end of it (`POWER_SUPPLY_STATUS_FULL`,
+Definitions do not say which constants are values of which field. Two customs of ROS's interfaces
+do: constants begin with the name of their field or with the end of it (`POWER_SUPPLY_STATUS_FULL`,
 `COVARIANCE_TYPE_KNOWN` of `position_covariance_type`), or a message has one field of their type.
 Where neither holds, as with type and action of a marker, a value has no name here.
 """
@@ -69,11 +69,9 @@ def value_names(type_name: str, types: MessageTypes = KNOWN) -> Mapping[str, Val
         types: that define it.
     """
     try:
-        whole = {
-            field.name: base
-            for field in fields(type_name, types)
-            if field.size is None and field.name != NO_FIELD and (base := _SAME.get(field.base, field.base)) in _WHOLE
-        }
+        single = [field for field in fields(type_name, types) if field.size is None]
+        bases = {each.name: _SAME.get(each.base, each.base) for each in single}
+        whole = {name: b for name, b in bases.items() if b in _WHOLE and name != NO_FIELD}
         constants = [
             (name, _SAME.get(base, base), value)
             for name, base, value in typed_constants(type_name, types)

@@ -16,19 +16,27 @@ from typing import Any, TypeVar
 import msgspec
 
 from webviz.api.errors import Error
+from webviz.api.group import DisplayGroup
 from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads, in_thread
 from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.feature import command, store
 from webviz.engine.forms import sendable
+from webviz.engine.parts.displays import DisplaysPart
+from webviz.engine.parts.ghost_config import NAME as GHOST_NAME
+from webviz.engine.parts.ghost_config import with_ghost, without_ghost
+from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Core
+from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
 from webviz.features.bags.uploading import Uploads
+from webviz.files.config import Config
 from webviz.files.report import read_report
 from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.sources.bag.ghost import Align, Ghost
 from webviz.sources.bag.history import BagHistory
 
 BLACK_BOX = "webviz_black_box"
@@ -47,14 +55,19 @@ NOT_LISTED = (
 )
 NO_LIVE = "A bag is already open. Start webviz with --bag to play another one."
 ELSEWHERE = "Not opened: {} is a link to another folder. Copy the bag into the library."
-
-
+NOTHING_BESIDE = (
+    "Not compared: open a bag first, beside which the second run is shown. A viewer that was "
+    "started with a bag takes --ghost."
+)
 PAGES_ONLY = "Only pages upload files. Programs know the path."
 
 _disk = DiskThreads(4)
 """For files that pages upload."""
 
 T = TypeVar("T")
+
+Compared = tuple[BagHistory, BagHistory]
+"""The recording that is shown, and what takes its place."""
 
 
 class Bag(msgspec.Struct, frozen=True):
@@ -82,11 +95,15 @@ class BagsStore(PageStore, frozen=True):
         bags: at most `MAX_LISTED`.
         can_open: whether there are live topics, in whose place they are shown.
         has_library: whether a folder was named.
+        opened: the name of the bag that is shown in the place of live topics, "" for none.
+        second: the name of the second run that is shown beside it, "" for none.
     """
 
     bags: Sequence[Bag]
     can_open: bool
     has_library: bool
+    opened: str
+    second: str
 
 
 class BagsFeature(PageFeature):
@@ -104,6 +121,8 @@ class BagsFeature(PageFeature):
         self._bags: Sequence[Bag] = ()
         self._unpacked: list[Path] = []
         self._uploads = Uploads()
+        self._compared: BagHistory | None = None
+        """The recording that was shown with a second run last."""
 
     def attach(self, dispatcher: Dispatcher) -> None:
         """Take files of pages, which no frame waits for."""
@@ -115,7 +134,9 @@ class BagsFeature(PageFeature):
         self._is_watched, self._next_s = bool(stores), 0.0
 
     def keep_up(self, commanded: bool) -> None:
-        """List the folders again now and then."""
+        """List the folders again now and then; a second run goes with its recording."""
+        if self._compared is not None and self.core.player.history is not self._compared:
+            self._remove_ghost()
         if self._listing is not None and self._listing.done():
             self._bags = () if self._listing.exception() else self._listing.result()
             self._listing = None
@@ -129,8 +150,16 @@ class BagsFeature(PageFeature):
     @store(Role.OWNER)
     def bags(self, argument: str) -> BagsStore:
         """Return the bags that pages may open."""
-        can_open = self.core.player.live is not None
-        return BagsStore(self._bags, can_open, len(self._folders) > 1)
+        player = self.core.player
+        shown = player.history if player.is_opened else None
+        bag = shown if isinstance(shown, BagHistory) else None
+        return BagsStore(
+            self._bags,
+            player.live is not None,
+            len(self._folders) > 1,
+            opened=str(sendable(bag.paths[0].name)) if bag else "",
+            second=str(sendable(bag.ghost.path.name)) if bag and bag.ghost else "",
+        )
 
     @command(Role.OWNER, FileCommand)
     def open_recording(self, path: str, sender: Sender) -> Job[BagHistory]:
@@ -156,6 +185,97 @@ class BagsFeature(PageFeature):
             return BagHistory(self._bag_of(place))
 
         return Job(opened, self.core.get(TimePart).show)
+
+    @command(Role.OWNER, FileCommand)
+    def compare_recording(self, path: str, sender: Sender, align: Align = "start") -> Job[Compared]:
+        """Show a second run beside the recording that was opened: tinted, on one timeline.
+
+        `EndComparison` ends it, as does opening another recording.
+
+        Args:
+            path: a file or folder, as for `OpenRecording`.
+            align: "start" lets both begin together, "stamp" keeps its times, "path" moves it to
+                where the robots are closest.
+        """
+        place, shown = Path(path), self._opened()
+        check = sender.browser is not None
+        if check and not self._is_offered(place):
+            raise Error(NOT_LISTED)
+
+        def opened() -> Compared:
+            if check:
+                _refuse_elsewhere(place)
+            ghost = Ghost(self._bag_of(place), align)
+            both = BagHistory(shown.paths, shown.extras, shown.remappings, ghost)
+            return shown, both
+
+        return Job(opened, self._show_compared)
+
+    @command(Role.OWNER, FileCommand)
+    def end_comparison(self) -> Job[Compared]:
+        """Show the recording alone again, at the same position."""
+        shown = self._opened()
+        if shown.ghost is None:
+            raise Error("No second run is shown.")
+        return Job(
+            lambda: (shown, BagHistory(shown.paths, shown.extras, shown.remappings)),
+            self._show_compared,
+        )
+
+    def _opened(self) -> BagHistory:
+        """Return the recording that was opened.
+
+        Raises:
+            Error: there is none.
+        """
+        player = self.core.player
+        if not (player.is_opened and isinstance(player.history, BagHistory)):
+            raise Error(NOTHING_BESIDE)
+        return player.history
+
+    def _show_compared(self, compared: Compared) -> str:
+        """Show the recording with or without a second run, and its displays, where it is now."""
+        before, after = compared
+        player = self.core.player
+        if player.history is not before:
+            after.close()
+            raise Error("Not compared: another recording was opened meanwhile.")
+        at_ns, is_playing = player.position_ns, player.is_playing
+        answer = self.core.get(TimePart).show(after)
+        player.seek(at_ns)
+        if not is_playing:
+            player.pause()
+        self._remove_ghost()
+        if after.ghost is not None:
+            self._add_ghost(after)
+            self._compared = after
+        return answer
+
+    def _add_ghost(self, both: BagHistory) -> None:
+        displays, panels = self.core.get(DisplaysPart).list, self.core.get(PanelsPart).list
+        settings = self.core.get(SettingsPart)
+        config = Config(settings.settings, displays.items(), panels=panels.items())
+        known = len(config.displays), len(config.panels)
+        config = with_ghost(config, both)
+        settings.settings = config.settings
+        displays.add(config.displays[known[0] :])
+        for panel in config.panels[known[1] :]:
+            panels.add(panel)
+
+    def _remove_ghost(self) -> None:
+        self._compared = None
+        settings = self.core.get(SettingsPart)
+        alone = without_ghost(settings.settings)
+        if alone.robots == settings.settings.robots:
+            return
+        settings.settings = alone
+        displays, panels = self.core.get(DisplaysPart).list, self.core.get(PanelsPart).list
+        for entry in tuple(displays.entries):
+            group = entry.content
+            if isinstance(group, DisplayGroup) and group.name == GHOST_NAME:
+                displays.remove(entry.id)
+        with contextlib.suppress(Error):  # somebody may have removed it
+            panels.remove(GHOST_NAME)
 
     @command(Role.OWNER, is_noted=True)
     def begin_upload(self, name: str, size: int) -> None:

@@ -2,7 +2,7 @@
 
 import { act } from "../../act.js";
 import { el } from "../../dom.js";
-import { icon } from "../../icons.js";
+import { icon, textButton } from "../../icons.js";
 import { filesSection } from "../../shell/files.js";
 import { each } from "../../signals.js";
 import { store } from "../../stores.js";
@@ -35,11 +35,34 @@ function section(close) {
       each(
         bags,
         ({ path }) => path,
-        (item, path) => row(item, () => close({ run: () => play(path) })),
+        (item, path) =>
+          el(
+            "div",
+            { class: "wv-bag-line" },
+            row(item, () => close({ run: () => play(path) })),
+            beside(() => close({ run: () => act("CompareRecording", { path }) })),
+          ),
       ),
+    ),
+    el(
+      "p",
+      { class: "wv-bag-line", hidden: () => !values.get("second") },
+      el("span", {}, () => `${values.get("second")} is shown beside ${values.get("opened")}.`),
+      textButton("End comparison", () => close({ run: () => act("EndComparison", {}) })),
     ),
   ];
 }
+
+/**
+ * The button that shows a bag beside the one that is open.
+ *
+ * @param {() => void} choose
+ */
+const beside = (choose) =>
+  textButton("Compare", choose, {
+    hidden: () => !store("bags").get("opened"),
+    tip: () => `Show it beside ${store("bags").get("opened")}, tinted, on one timeline`,
+  });
 
 /** @param {string} path */
 const play = (path) => act("OpenRecording", { path });
@@ -51,7 +74,10 @@ const play = (path) => act("OpenRecording", { path });
 function row(item, choose) {
   const about = () => {
     const { megabytes, changed_s: changed } = item.value;
-    return `${megabytes} MB · ${timeOfDay(changed)}`;
+    // Beside a button, there is room for the name or the time.
+    return store("bags").get("opened")
+      ? `${megabytes} MB`
+      : `${megabytes} MB · ${timeOfDay(changed)}`;
   };
   return el(
     "button",
@@ -59,7 +85,7 @@ function row(item, choose) {
       type: "button",
       class: "wv-file-row wv-bag-row",
       disabled: () => store("bags").get("can_open") !== true,
-      "data-tip": () => item.value.folder,
+      "data-tip": () => item.value.path,
       onclick: choose,
     },
     icon("play"),

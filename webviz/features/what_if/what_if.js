@@ -86,10 +86,7 @@ function banner() {
     set(element, { hidden: !isTried });
     if (!isTried) return;
     const who = values.get("browser") === window.webviz.browser ? "you" : "another browser";
-    setText(
-      title,
-      `What if: ${who} moved ${frame} on all pages. Nothing is published.`,
-    );
+    setText(title, `What if: ${who} moved ${frame} on all pages. Nothing is published.`);
     setText(fits, (values.get("fits") ?? []).join(". ") || BESIDE);
     urdf.show(values.get("urdf") ?? "");
     publisher.show(values.get("command") ?? "");

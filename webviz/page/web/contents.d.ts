@@ -339,7 +339,7 @@ export interface WrittenFile {
 export interface Stores {
   addresses: { own: {  }; items: string };
   attributions: { own: { texts: Array<string> }; items: never };
-  bags: { own: { bags: Array<Bag>; can_open: boolean; has_library: boolean }; items: never };
+  bags: { own: { bags: Array<Bag>; can_open: boolean; has_library: boolean; opened: string; second: string }; items: never };
   between: { own: { problem?: string; translation?: [number, number, number]; rotation?: [number, number, number, number]; rpy?: [number, number, number]; distance?: number; age?: number | null }; items: never };
   black_box: { own: { saving?: string; saved?: Array<[string, number, string, string]> }; items: never };
   bookmarks: { own: { all?: Array<[string, number]> }; items: never };

@@ -108,7 +108,7 @@ export const iconButton = (name, label, onclick, { tip = label, size, ...attribu
  *
  * @param {string} text
  * @param {(event: MouseEvent) => unknown} onclick
- * @param {Record<string, Attribute> & {tip?: string, icon?: string}} [options] and other attributes
+ * @param {Record<string, Attribute> & {tip?: string | (() => string), icon?: string}} [options] and others
  */
 export const textButton = (text, onclick, { tip, icon: name, ...attributes } = {}) =>
   el(

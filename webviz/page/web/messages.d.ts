@@ -202,11 +202,13 @@ export interface Commands {
   BeginUpload: { name: string; size: number };
   CancelGoal: { goal: string };
   ChangeView: { key: string; value: unknown };
+  CompareRecording: { path: string; align?: "path" | "stamp" | "start" };
   Decline: { name: string };
   Dismiss: { visitor: number; revokes: boolean };
   DismissGoal: { goal: string };
   DragHandle: { display: string; drag: { handle: string; control: number; kind: "choose" | "hold" | "move" | "press" | "release"; pose?: { position?: [number, number, number]; wxyz?: [number, number, number, number] } | null; turned?: number; point?: [number, number, number] | null; entry?: number } };
   DuplicateDisplay: { display: string };
+  EndComparison: Record<string, never>;
   EndTrial: Record<string, never>;
   Export: { name?: string };
   FindFrame: Record<string, never>;

@@ -15,6 +15,7 @@ from webviz.api.registry import display_types
 from webviz.api.views import Orbit
 from webviz.data.recordings.latched import TF
 from webviz.engine.parts.by_topic import Pick, picks
+from webviz.engine.parts.ghost_config import root_of
 from webviz.files.config import STANDARD, Config, Item
 from webviz.sources.bag.ghost import BASES, ROOT
 from webviz.sources.bag.history import BagHistory
@@ -133,12 +134,3 @@ def robot_frame_of(links: Sequence[tuple[str, str]], fixed_frame: str) -> str:
         and root_of(frame, parents) == root_of(fixed_frame, parents)
     ]
     return min(robots, default=(0, ""))[1]
-
-
-def root_of(frame: str, parents: Mapping[str, str]) -> str:
-    """Return the frame at the root of the transforms above a frame."""
-    seen = {frame}
-    while (parent := parents.get(frame)) is not None and parent not in seen:
-        seen.add(parent)
-        frame = parent
-    return frame

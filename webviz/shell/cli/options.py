@@ -81,7 +81,7 @@ class ConfigOptions:
         Raises:
             Error: see `read`.
         """
-        from webviz.shell.app.ghost_config import with_ghost
+        from webviz.engine.parts.ghost_config import with_ghost
         from webviz.shell.bag_player import bag_of
 
         config = self.read(self.display_config, source)

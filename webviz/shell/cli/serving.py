@@ -13,10 +13,10 @@ from pathlib import Path
 from webviz.api.check_registry import known_checks
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
+from webviz.engine.parts.ghost_config import with_ghost
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions, name_of
 from webviz.server.access.starting import link
-from webviz.shell.app.ghost_config import with_ghost
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.bag_player import bag_of
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end

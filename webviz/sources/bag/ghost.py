@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Literal
 
@@ -120,8 +121,7 @@ def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | Compute
     Raises:
         Error: a bag cannot be read, or the paths of the robots are unknown.
     """
-    own, other = BagFiles(paths), BagFiles([ghost.path])
-    try:
+    with closing(BagFiles(paths)) as own, closing(BagFiles([ghost.path])) as other:
         here, there = Track.of(own), Track.of(other)
         offset_ns = _offset_ns(own, other, here, there, ghost.align)
         ros_ns = _ros_offset_ns(other) - _ros_offset_ns(own)
@@ -134,9 +134,6 @@ def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | Compute
             ghost_times, ghost_values = _numbers(other, ghost.difference)
             there_values = _interpolated(times - offset_ns, ghost_times, ghost_values)
             _add(found, DIFFERENCE, times, values - there_values)
-    finally:
-        own.close()
-        other.close()
     numbers = [_numbers_file(found)] if found else []
     return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
 

@@ -168,6 +168,7 @@ class BagHistory:
     ) -> None:
         self.paths = (paths,) if isinstance(paths, Path) else tuple(paths)
         self.ghost = ghost
+        self.extras = tuple(extras)
         self.remappings = dict(remappings or {})
         others = ghost_files(self.paths, ghost) if ghost else ()
         self.files = BagFiles(self.paths, others, extras)

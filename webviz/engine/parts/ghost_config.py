@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -15,7 +15,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages.message_paths import MessagePath
 from webviz.files.config import Branch, Config, Item
-from webviz.shell.app.bag_config import root_of
+from webviz.files.config.model import Settings
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
 from webviz.sources.bag.history import BagHistory
 
@@ -24,6 +24,8 @@ OPACITY = 0.4
 """Of what the displays show of the first run."""
 COVERING = {"Map", "Costmap", "OccupancyGrid", "OccupancyMap", "GridMap"}
 """Displays that would lie over those of the first run; their copies are switched off."""
+NAME = "Ghost"
+"""Of the group of displays, and of the panel."""
 
 
 def with_ghost(config: Config, bag: BagHistory) -> Config:
@@ -34,7 +36,7 @@ def with_ghost(config: Config, bag: BagHistory) -> Config:
         bag: has a ghost.
     """
     copies: list[Item] = list(filter(None, map(_copy, _displays(config.displays))))
-    config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": "Ghost"}), copies)]
+    config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": NAME}), copies)]
     parents = {child: parent for parent, child in bag.links()}
     root = root_of(config.settings.fixed_frame, parents)
     robot = NamespacedRobot(NAMESPACE, f"{NAMESPACE}/", (root,), tint=TINT, opacity=OPACITY)
@@ -44,9 +46,15 @@ def with_ghost(config: Config, bag: BagHistory) -> Config:
     curves = {f"{topic}.data": unit for topic, unit in units.items() if bag.has(topic)}
     if curves and (plot := plugin_types(Panel).get("Plot")):
         known = {name: unit for name, unit in curves.items() if unit}
-        values = {"name": "Ghost", "curves": list(curves), "units": known}
+        values = {"name": NAME, "curves": list(curves), "units": known}
         config.panels = [*config.panels, make(plot, values)]
     return config
+
+
+def without_ghost(settings: Settings) -> Settings:
+    """Return settings without the robot of the second run."""
+    robots = tuple(robot for robot in settings.robots if robot.namespace != NAMESPACE)
+    return msgspec.structs.replace(settings, robots=robots)
 
 
 def _unit(bag: BagHistory) -> str:
@@ -84,3 +92,12 @@ def _copy(display: Display) -> Display | None:
     if cls.__name__ in COVERING or getattr(display, "has_pane", False):
         values["enabled"] = False
     return make(cls, values)
+
+
+def root_of(frame: str, parents: Mapping[str, str]) -> str:
+    """Return the frame at the root of the transforms above a frame."""
+    seen = {frame}
+    while (parent := parents.get(frame)) is not None and parent not in seen:
+        seen.add(parent)
+        frame = parent
+    return frame
