@@ -8,7 +8,6 @@ import pytest
 from bags import strings
 
 from tests.features.bags.conftest import Desk
-from webviz.commands import AddDisplay
 from webviz.features.bags import NOT_LISTED, NOTHING_BESIDE
 from webviz.sources.bag.ghost import ROOT
 
@@ -30,7 +29,7 @@ def topics(desk: Desk) -> list[str]:
 
 def test_a_second_run_is_shown_and_removed_without_a_restart(desk: Desk, second: Path) -> None:
     desk.guest.do("OpenRecording", path=str(desk.folder / "run.mcap"))
-    desk.viewer.do(AddDisplay("Text", {"name": "Words", "topic": "/chatter"}))
+    desk.viewer.config = {"robots": ["robot1"], "displays": [{"type": "Text", "topic": "/chatter"}]}
     before = desk.viewer.config
     assert desk.guest.do("CompareRecording", path=str(second)) == ""
     assert desk.names() == ("run.mcap", "second.mcap")

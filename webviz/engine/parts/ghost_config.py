@@ -53,7 +53,11 @@ def with_ghost(config: Config, bag: BagHistory) -> Config:
 
 def without_ghost(settings: Settings) -> Settings:
     """Return settings without the robot of the second run."""
-    robots = tuple(robot for robot in settings.robots if robot.namespace != NAMESPACE)
+    robots = tuple(
+        robot
+        for robot in settings.robots
+        if not isinstance(robot, NamespacedRobot) or robot.namespace != NAMESPACE
+    )
     return msgspec.structs.replace(settings, robots=robots)
 
 
