@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -78,6 +80,22 @@ def test_a_plot_of_the_past_begins_with_what_came_before(memory: Memory, live: G
     until(lambda: span_s(plot, X) > 3.0, seconds=2.0)
     newest_s = plot.series[X].history.newest[0]
     assert newest_s <= playback.start_ns / 1e9 + at_s + 0.01
+
+
+def test_a_plot_that_comes_back_to_the_front_fills_its_gap(memory: Memory, live: Guest) -> None:
+    plot = add(memory, live, "Plot", curves=[X])
+    until(lambda: span_s(plot, X) > 3.0)
+    live.send("Unwatch", store="panel:Plot")
+    hidden_s = time.time()
+    time.sleep(2.0)
+    live.send("Watch", store="panel:Plot")
+
+    def steps_s() -> list[float]:
+        times = [point[0] for point in plot.series[X].history.points()]
+        since = [each for each in times if each > hidden_s - 1.0]
+        return [b - a for a, b in pairwise(since)] if since and since[-1] > hidden_s + 2.0 else []
+
+    until(lambda: steps_s() and max(steps_s()) < 0.8, lambda: f"{steps_s()}", seconds=5.0)
 
 
 def test_states_begin_with_the_memory(memory: Memory, live: Guest) -> None:

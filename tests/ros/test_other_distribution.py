@@ -20,7 +20,13 @@ ROOT = Path(__file__).parents[2]
 OTHER = ROOT / (".venv" if ".venv-kilted" in sys.prefix else ".venv-kilted") / "bin/python"
 """Python of the other distribution."""
 PYTHONS = {"here": sys.executable, "there": str(OTHER)}
-VIEWER = """
+PARAMETER = "scan_noise"
+VIEWER = (
+    f"""
+PARAMETER = {PARAMETER!r}
+"""
+    + """
+import queue
 import time
 
 import webviz
@@ -40,7 +46,19 @@ with webviz.Viewer(port=0) as viewer:
     print(", ".join(each.type for each in viewer.displays), flush=True)
     print(viewer.do(CallService("/reset_odom", "std_srvs/srv/Empty", {})), flush=True)
     print(viewer.tool("Nav2 Goal").send(1.0, 0.0), flush=True)
+    answers = queue.SimpleQueue()
+    value = {"type": 3, "double_value": 0.25}
+    request = {"parameters": [{"name": PARAMETER, "value": value}]}
+    for service, type, request in (
+        ("/sim/set_parameters", "rcl_interfaces/srv/SetParameters", request),
+        ("/sim/get_parameters", "rcl_interfaces/srv/GetParameters", {"names": [PARAMETER]}),
+    ):
+        called = CallService(service, type, request, answered=answers.put, failed=answers.put)
+        viewer.do(called)
+        answer = answers.get(timeout=60)
+        print(answer.results[0].successful if "set" in service else answer.values[0].double_value)
 """
+)
 
 
 @pytest.fixture
@@ -51,7 +69,9 @@ def domain() -> Iterator[int]:
 
 @pytest.mark.skipif(not OTHER.exists(), reason="needs `make test ROS=kilted` before")
 @pytest.mark.parametrize(("viewer", "robot"), [("here", "there"), ("there", "here")])
-def test_topics_services_and_goals(domain: int, tmp_path: Path, viewer: str, robot: str) -> None:
+def test_topics_services_goals_and_parameters(
+    domain: int, tmp_path: Path, viewer: str, robot: str
+) -> None:
     # Its wheels of ROS set these for this process, and would not for another while they are there.
     own = "LD_LIBRARY_PATH", "_ROS_WHEELS"
     env = {name: value for name, value in os.environ.items() if not name.startswith(own)}
@@ -71,4 +91,4 @@ def test_topics_services_and_goals(domain: int, tmp_path: Path, viewer: str, rob
     assert done.returncode == 0, done.stderr
     displays, *answers = done.stdout.splitlines()
     assert displays == "LaserScan, Map, TF, RobotModel, Odometry"
-    assert answers == ["", "/navigate_to_pose accepted the goal."]
+    assert answers == ["", "/navigate_to_pose accepted the goal.", "True", "0.25"]

@@ -6,8 +6,10 @@ import os
 from pathlib import Path
 
 import pytest
+from waiting import until
 
 from tests.features.bags.conftest import Desk
+from webviz.commands import AddPanel, Pause, Seek
 from webviz.features import black_box
 from webviz.features.bags import BLACK_BOX, NOT_LISTED
 
@@ -82,6 +84,21 @@ def test_a_truncated_bag_is_played_as_far_as_it_goes(desk: Desk) -> None:
     (desk.folder / "cut.mcap").write_bytes(whole[: len(whole) * 2 // 3])
     desk.guest.do("OpenRecording", path=str(desk.folder / "cut.mcap"))
     assert desk.guest.do("ReturnToLive") is not None
+
+
+def test_a_new_panel_begins_with_what_the_bag_holds_until_the_moment(desk: Desk) -> None:
+    desk.guest.do("OpenRecording", path=str(desk.folder / "run.mcap"))
+    desk.viewer.do(Pause())
+    desk.viewer.do(Seek(1.2))
+    desk.viewer.do(AddPanel("StateTimeline", {"paths": ["/words.data"]}))
+    desk.guest.send("Watch", store="panel:StateTimeline")
+    panel = desk.viewer.fact("panels")[-1].panel
+
+    def states() -> list[str]:
+        track = panel.tracks.get("/words.data")
+        return [state for _, state in track.changes] if track else []
+
+    until(lambda: states() == ["0", "1"], lambda: f"{states()}", seconds=10.0)
 
 
 def test_the_black_box_is_part_of_it() -> None:

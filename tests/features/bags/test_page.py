@@ -45,6 +45,25 @@ def test_a_bag_is_opened_beside_configs_and_live_topics_come_back(
     until(lambda: desk.names() == ())
 
 
+def test_a_second_run_is_compared_and_goes_again(desk: Desk, page: playwright.Page) -> None:
+    strings(0.0, 0.5).write_file(desk.folder / "second.mcap")
+    dialog = page.get_by_role("dialog", name="Open")
+    page.keyboard.press("Control+o")
+    expect(dialog.get_by_role("button", name="Compare")).to_have_count(0)
+    dialog.get_by_role("button", name="run.mcap").click()
+    until(lambda: desk.names() == ("run.mcap",))
+    page.keyboard.press("Control+o")
+    line = dialog.locator(".wv-bag-line", has_text="second.mcap")
+    line.get_by_role("button", name="Compare").click()
+    until(lambda: desk.names() == ("run.mcap", "second.mcap"))
+    expect(page.get_by_role("treeitem", name="Ghost", exact=False).first).to_be_visible()
+    page.keyboard.press("Control+o")
+    expect(dialog).to_contain_text("second.mcap is shown beside run.mcap.")
+    dialog.get_by_role("button", name="End comparison").click()
+    until(lambda: desk.names() == ("run.mcap",))
+    expect(page.get_by_role("treeitem", name="Ghost", exact=False)).to_have_count(0)
+
+
 def test_what_is_saved_reaches_people(desk: Desk, page: playwright.Page) -> None:
     page.get_by_role("button", name="Save last").click()
     card = page.get_by_label("File", exact=True)
