@@ -40,7 +40,7 @@ def wait(condition):
         time.sleep(0.1)
 
 
-with webviz.Viewer(port=0) as viewer:
+with webviz.Viewer(port=0, allow_publish=["/sim/*"]) as viewer:
     viewer.config = {"fixed_frame": "map", "displays": [{"type": name} for name in DISPLAYS]}
     wait(lambda: all(each.status.level is webviz.Level.OK for each in viewer.displays))
     print(", ".join(each.type for each in viewer.displays), flush=True)
