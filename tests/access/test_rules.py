@@ -54,6 +54,8 @@ WATCHING = {
     "WriteDisplays",
 }
 OWNING = {
+    "CompareRecording",
+    "EndComparison",
     "Load",
     "Open",
     "OpenRecording",
