@@ -38,6 +38,7 @@ class GivenParts:
     def __init__(self) -> None:
         self._state = State()
         self._core: Any = SimpleNamespace(
+            player=SimpleNamespace(is_seeking=False),
             get=lambda kind: self._by_kind[kind],
             fact=lambda name, other: getattr(self._state, name, other),
             state=lambda: self._state,
