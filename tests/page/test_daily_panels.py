@@ -213,7 +213,7 @@ def test_a_message_is_a_tree_a_table_a_lamp_and_a_band(loop: Loop, tab: Tab) -> 
             tab.wait_for(lambda rows=rows: rows.count() == 3)
             tab.page.get_by_role("columnheader", name="level").click()
             tab.page.get_by_role("columnheader", name="level").click()
-            tab.wait_for(lambda rows=rows: rows.first.inner_text().startswith("2"))
+            tab.wait_for(lambda rows=rows: rows.first.inner_text().startswith("ERROR (2)"))
         elif panel is lamp:
             tab.wait_for(lambda: tab.page.get_by_role("img", name="red").count() == 1)
             assert "Bad" in tab.text()
