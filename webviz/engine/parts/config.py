@@ -88,7 +88,7 @@ class ConfigPart(Part):
         )
 
     def origin(self) -> Origin:
-        """Where the config comes from."""
+        """Return the origin of the config."""
         return Origin(self._path, self._report, self._templates)
 
     def set_origin(self, origin: Origin) -> None:

@@ -196,7 +196,7 @@ class TimePart(Part):
         """Return a position of what people count as seconds, not before the first message.
 
         Raises:
-            Error: there is no past to play, or it is no time.
+            Error: there is no past to play, or the time is NaN.
         """
         history = self.known_player().history
         if math.isnan(seconds):

@@ -5,7 +5,7 @@ const STILL_PX = 10;
 const CLICK_MS = 50; // after a release, within which its click comes
 
 /**
- * Calls `run` once a finger has rested; if that returns true, its release is no click.
+ * Calls `run` once a finger has rested. Lifting it afterwards clicks, unless `run` returned true.
  *
  * @param {EventTarget} element
  * @param {(event: PointerEvent) => boolean} run
