@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from webviz.data.messages import message_class, to_tree
+from webviz.data.messages import message_class, register, to_tree
 from webviz.data.messages.message_paths import MessagePath
 from webviz.data.messages.typestore import DefinedTypes
 from webviz.data.messages.value_names import NO_NAMES, named, value_names
@@ -68,6 +68,14 @@ def test_a_definition_names_values_of_its_own_messages() -> None:
     types = DefinedTypes("a/msg/B", "int32 MODE_IDLE=0\nint32 MODE_RUN=1\nint32 mode\n", ())
     message = message_class("a/msg/B", types)(mode=1)
     assert to_tree(message) == {"fields": {"mode": "RUN (1)"}}
+
+
+def test_names_follow_a_definition_that_is_replaced() -> None:
+    name = "value_names_test/msg/Mode"
+    register(name, "int32 MODE_IDLE=0\nint32 MODE_RUN=1\nint32 mode\n")
+    assert names(name, "mode") == {0: "IDLE", 1: "RUN"}
+    register(name, "int32 MODE_RUN=0\nint32 MODE_IDLE=1\nint32 mode\n")
+    assert names(name, "mode") == {0: "RUN", 1: "IDLE"}
 
 
 def test_names_are_of_numbers_alone() -> None:

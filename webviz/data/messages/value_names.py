@@ -10,12 +10,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from typing import Any
 
 from webviz.data.messages.classes import types_of
 from webviz.data.messages.errors import MessageError
-from webviz.data.messages.typestore import KNOWN, MessageTypes, fields, typed_constants
+from webviz.data.messages.typestore import (
+    KNOWN,
+    MessageTypes,
+    fields,
+    per_definitions,
+    typed_constants,
+)
 
 ValueNames = Mapping[int, str]
 
@@ -60,7 +65,7 @@ def names_at(message: object, path: Sequence[str]) -> ValueNames:
         return NO_NAMES
 
 
-@lru_cache(1000)
+@per_definitions
 def value_names(type_name: str, types: MessageTypes = KNOWN) -> Mapping[str, ValueNames]:
     """Return the names of values of a type's fields by field; of those alone that have names.
 
