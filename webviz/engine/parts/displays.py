@@ -124,8 +124,6 @@ class DisplaysPart(Part):
         self.consistency = ConsistencyCheck(core, self.list)
         self.rows: tuple[Row, ...] = ()
         """The list as of the last turn; the same objects for what has not changed."""
-        self._statuses: dict[str, Mapping[str, Status]] = {}
-        """Those of each display before the seek that is under way, if any."""
         self.tree = TreeRows()
         """The rows of the page's tree."""
 
@@ -158,24 +156,27 @@ class DisplaysPart(Part):
 
     def update(self) -> None:
         """Make the rows of the list."""
-        if not self.core.player.is_seeking:
-            self._statuses = {}
+        statuses = self._statuses_of
+        if self.core.player.is_seeking:
+            statuses = self._statuses_before()
+        else:
             self.core.guard("Consistency check", self.consistency.update)
-        self.rows = rows(self.list.entries, self._statuses_of, self.rows)
+        self.rows = rows(self.list.entries, statuses, self.rows)
+
+    def _statuses_before(self) -> Callable[[Runner], Mapping[str, Status]]:
+        """Return the statuses of the last turn.
+
+        During a seek, what displays lack may be read yet, and what they show is from before.
+        """
+        before = {row.id: row.statuses for row in self.rows if row.enabled}
+        return lambda runner: before.get(runner.id, {LOADING: WORKING})
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
         core = self.core
-        if (
-            core.player.is_seeking
-        ):  # what it lacks may be read yet, and what it shows is from before
-            return self._statuses.get(runner.id, {LOADING: WORKING})
+        if self._is_unseen(runner):
+            return {"Display": UNSEEN}
         dropped = core.player.inbox.dropped
-        self._statuses[runner.id] = statuses = (
-            {"Display": UNSEEN}
-            if self._is_unseen(runner)
-            else runner.statuses(core.offers, core.frames, dropped, core.is_watched())
-        )
-        return statuses
+        return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
 
     def _is_unseen(self, runner: Runner) -> bool:
         """Return whether all that a display shows is a pane that nobody sees."""
