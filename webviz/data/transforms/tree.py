@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from webviz.data.transforms.cache import Cache, StaticCache
 from webviz.data.transforms.errors import (
     ConnectivityException,
@@ -255,3 +257,12 @@ def roots(tree: FrameTree) -> dict[str, str]:
             frame = cache.parent
         found |= dict.fromkeys(chain, found.get(frame, frame))
     return found
+
+
+def root_of(frame: str, parents: Mapping[str, str]) -> str:
+    """Return the frame at the root of the transforms above a frame."""
+    seen = {frame}
+    while (parent := parents.get(frame)) is not None and parent not in seen:
+        seen.add(parent)
+        frame = parent
+    return frame

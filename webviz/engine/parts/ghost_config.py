@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -14,6 +14,7 @@ from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.robots import NamespacedRobot
 from webviz.data.messages.message_paths import MessagePath
+from webviz.data.transforms.tree import root_of
 from webviz.files.config import Branch, Config, Item
 from webviz.files.config.model import Settings
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
@@ -96,12 +97,3 @@ def _copy(display: Display) -> Display | None:
     if cls.__name__ in COVERING or getattr(display, "has_pane", False):
         values["enabled"] = False
     return make(cls, values)
-
-
-def root_of(frame: str, parents: Mapping[str, str]) -> str:
-    """Return the frame at the root of the transforms above a frame."""
-    seen = {frame}
-    while (parent := parents.get(frame)) is not None and parent not in seen:
-        seen.add(parent)
-        frame = parent
-    return frame

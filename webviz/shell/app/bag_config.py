@@ -14,8 +14,8 @@ from webviz.api.ports import TRANSPORTS
 from webviz.api.registry import display_types
 from webviz.api.views import Orbit
 from webviz.data.recordings.latched import TF
+from webviz.data.transforms.tree import root_of
 from webviz.engine.parts.by_topic import Pick, picks
-from webviz.engine.parts.ghost_config import root_of
 from webviz.files.config import STANDARD, Config, Item
 from webviz.sources.bag.ghost import BASES, ROOT
 from webviz.sources.bag.history import BagHistory
