@@ -148,11 +148,9 @@ class WhatIfFeature(Feature):
         """
         if self._trial is None:
             raise Error(NO_TRIAL)
-        if not all(map(math.isfinite, (x, y, z, roll, pitch, yaw))):
-            raise Error("Not moved: a number is not finite. Give metres and radians.")
         pose = Pose((x, y, z), wxyz=from_rpy(roll, pitch, yaw))
         if not is_placeable(pose):
-            raise Error("Not moved: that is too far away. Give metres.")
+            raise Error("Not moved: too far away, or not finite. Give metres and radians.")
         self._move(pose)
 
     def _move(self, pose: Pose) -> None:
