@@ -6,15 +6,14 @@ import functools
 import os
 import re
 import signal
-import subprocess
 import time
-import venv
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from pages import let_mouse_in
+from peer_python import peer_python
 from program import Program
 from side import Side
 
@@ -53,34 +52,20 @@ SENT = {
 
 
 @pytest.fixture(scope="module")
-def peer_python() -> str:
-    """A Python with Cyclone DDS and nothing of ours."""
+def peer(
+    webviz_domain: int, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[..., Program]]:
+    """Run programs of the peer on the domain of the viewer."""
     if not PEER.exists():
         pytest.skip("the independent peer is not here: ../shared/tools/cyclone_peer.py")
-    folder = ROOT / ".venv-peer"
-    python = folder / "bin" / "python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    installed = subprocess.run([python, "-c", "import cyclonedds"], capture_output=True)
-    if installed.returncode:
-        command = [python, "-m", "pip", "install", "--quiet", "cyclonedds==11.0.1"]
-        if subprocess.run(command).returncode:
-            pytest.skip("cyclonedds could not be installed")
-    return str(python)
-
-
-@pytest.fixture(scope="module")
-def peer(
-    peer_python: str, webviz_domain: int, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Callable[..., Program]]:
-    """Run the peer's Python on the domain of the viewer."""
+    python = str(peer_python())
     programs: list[Program] = []
     # The wheels of rclpy mark the environment of child processes, which are not theirs here.
     env = {k: v for k, v in os.environ.items() if k != "_ROS_WHEELS_BOOTSTRAP_COMPLETE"}
 
     def run(*arguments: str) -> Program:
         command = [
-            peer_python,
+            python,
             "-u",
             *arguments,
             "--seconds",

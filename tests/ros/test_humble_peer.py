@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import venv
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from peer_python import peer_python
 from program import Program
 from waiting import until
 
@@ -28,26 +27,12 @@ TYPES = {"/humble_text": STRING, "/humble_latched": STRING, "/humble_range": RAN
 
 
 @pytest.fixture(scope="module")
-def python() -> Path:
-    """A Python with Cyclone DDS and without ROS; that of `tests/e2e/test_independent_peer.py`."""
-    folder = ROOT / ".venv-peer"
-    python = folder / "bin/python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    if subprocess.run([python, "-c", "import cyclonedds"], capture_output=True).returncode:
-        command = [python, "-m", "pip", "install", "--quiet", "cyclonedds==11.0.1"]
-        if subprocess.run(command).returncode:
-            pytest.skip("cyclonedds could not be installed")
-    return python
-
-
-@pytest.fixture(scope="module")
-def robot(python: Path, webviz_domain: int, tmp_path_factory: Any) -> Iterator[Program]:
+def robot(webviz_domain: int, tmp_path_factory: Any) -> Iterator[Program]:
     # The wheels of ROS mark the environment of child processes, which are not theirs here.
     own = "_ROS_WHEELS_BOOTSTRAP_COMPLETE", "PYTHONPATH"
     env = {name: value for name, value in os.environ.items() if name not in own}
     peer = ROOT / "tests/support/humble_peer.py"
-    command = [str(python), "-u", str(peer), str(webviz_domain), "300"]
+    command = [str(peer_python()), "-u", str(peer), str(webviz_domain), "300"]
     program = Program(command, env, tmp_path_factory.mktemp("humble") / "output.txt")
     yield program
     program.end(signal.SIGTERM)
