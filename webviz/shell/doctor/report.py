@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any
@@ -161,6 +162,10 @@ def report_of(
 def schema_text() -> str:
     """Return the JSON Schema of reports."""
     schema = msgspec.json.schema(DoctorReport)
+    for definition in schema["$defs"].values():
+        # msgspec before 0.23 keeps the indentation of docstrings.
+        if "description" in definition:
+            definition["description"] = inspect.cleandoc(definition["description"])
     return msgspec.json.format(msgspec.json.encode(schema), indent=2).decode() + "\n"
 
 
