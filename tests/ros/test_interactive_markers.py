@@ -283,4 +283,4 @@ def test_the_scene_of_the_tutorials_is_shown_as_a_whole(
     modes = {control.mode for handle in handles(viewer).values() for control in handle.controls}
     assert len(modes) == 10
     viewer.wait_for(lambda: status(viewer, "moving") == "Locked to frame moving_frame.", "moving")
-    assert viewer.viewer.snapshot().rows[0].level is Level.OK
+    viewer.wait_for(lambda: viewer.viewer.snapshot().rows[0].level is Level.OK, "every status OK")
