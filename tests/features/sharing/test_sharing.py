@@ -207,6 +207,7 @@ def test_a_page_chooses_the_span_and_cancels(
     page.get_by_role("button", name="Share this moment").click()
     dialog.get_by_role("button", name="Share", exact=True).click()
     expect(page.get_by_text("Sharing…")).to_be_visible()
+    expect(dialog).to_have_count(0)
     page.get_by_role("button", name="Cancel").click()
     expect(page.get_by_text("Stopped; no file was written.")).to_be_visible()
     expect(page.get_by_text("Sharing…")).to_be_hidden()
