@@ -74,7 +74,7 @@ CALM = """{
 whole processor."""
 
 
-SHARING = ("tests/capture", "tests/page", "tests/pictures", "tests/scene")
+SHARING = ("tests/shell/pictures", "tests/page", "tests/pictures", "tests/scene")
 """Folders whose tests share tabs: each process that runs some of them opens the tabs for itself."""
 
 

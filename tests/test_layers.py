@@ -334,3 +334,33 @@ def test_no_two_classes_share_a_name() -> None:
                 named[node.name].append(module)
     shared = {name: where for name, where in named.items() if len(where) > 1}
     assert not {name: where for name, where in shared.items() if not name.startswith("_")}
+
+
+BESIDE = {
+    "attack",
+    "benchmarks",
+    "course",
+    "doctor_trial",
+    "e2e",
+    "javascript",
+    "mutants",
+    "package",
+    "pictures",
+    "release",
+    "site",
+    "support",
+}
+"""Folders of tests that belong to no room."""
+
+
+def test_tests_mirror_the_rooms() -> None:
+    tests = ROOT / "tests"
+    rooms = {name.removeprefix("webviz."): ROOT / name.replace(".", "/") for name in ROOMS}
+    rooms |= {"displays": ROOT / "displays/webviz_displays", "urdf": ROOT / "urdf", "sim": ROOT}
+    modules = [path for path in tests.rglob("test_*.py") if "__pycache__" not in path.parts]
+    folders = {path.parent.relative_to(tests) for path in modules} - {Path()}
+    beyond = {str(f) for f in folders if f.parts[0] not in BESIDE and f.parts[0] not in rooms}
+    assert beyond == set()
+    of_rooms = (f for f in folders if f.parts[0] in rooms)
+    missing = [str(f) for f in of_rooms if not rooms[f.parts[0]].joinpath(*f.parts[1:]).is_dir()]
+    assert missing == [], "tests of folders that do not exist"

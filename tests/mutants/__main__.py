@@ -20,62 +20,6 @@ from pathlib import Path
 from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import TestOutcome, WorkerOutcome, WorkItem, WorkResult
 
-TESTS = {
-    "webviz/data/messages": "tests/messages tests/displays/test_marker.py",
-    "webviz/data/transforms": "tests/transforms",
-    "webviz/server/access": "tests/access/test_tokens.py tests/access/test_proxies.py tests/access",
-    "webviz/page/driving.py": "tests/page/test_driving.py",
-    "webviz/engine/driving": (
-        "tests/pipeline/test_velocity_controller.py tests/pipeline/test_driving.py"
-    ),
-    "webviz/engine/pipeline": "tests/pipeline tests/plugins/test_reload.py",
-    "webviz/sources": (
-        "tests/sources tests/pipeline/test_recording.py tests/pipeline/test_rights.py "
-        "tests/features/playback"
-    ),
-    "webviz/sources/player.py": (
-        "tests/features/playback/test_playing.py tests/features/playback/test_bags.py "
-        "tests/features/playback/test_opening.py tests/features/playback/test_rewinding.py"
-    ),
-    "webviz/sources/history": (
-        "tests/sources/test_bag_past.py tests/features/playback/test_rewinding.py "
-        "tests/features/playback/test_seeks_and_transforms.py "
-        "tests/features/playback/test_seeking.py"
-    ),
-    "webviz/shell/export": (
-        "tests/capture/test_tape.py tests/capture/test_chunks.py tests/capture/test_pane_tape.py "
-        "tests/features/sharing tests/capture/test_export.py"
-    ),
-    "webviz/files/report": "tests/report/test_archive.py tests/report/test_tests.py",
-    "webviz/shell/report": "tests/report/test_tests.py tests/report",
-    "webviz/data/tiles": "tests/sources/test_tiles.py",
-    "webviz/engine/doctor": (
-        "tests/checks/test_ordering.py tests/checks/test_rules.py tests/checks"
-    ),
-    "webviz/features": "tests/features",
-    "webviz/features/recording": "tests/features/recording",
-    "webviz/features/black_box": "tests/features/black_box",
-    "webviz/features/sharing": "tests/features/sharing",
-    "webviz/features/sharing/exporting.py": (
-        "tests/features/sharing/test_exporting.py tests/features/sharing"
-    ),
-    "webviz/features/reports": "tests/features/reports tests/report",
-    "webviz/sources/recording": (
-        "tests/features/recording tests/features/black_box "
-        "tests/features/playback/test_rewinding.py"
-    ),
-    "webviz/sources/bridge": "tests/sources/bridge/test_pacing.py tests/sources/bridge",
-    "webviz/sources/bridge/pacing.py": "tests/sources/bridge/test_pacing.py",
-    "webviz/sources/gate.py": (
-        "tests/pipeline/test_rights.py tests/pipeline/test_driving.py "
-        "tests/pipeline/test_kept_sessions.py"
-    ),
-    "displays/webviz_displays/interactive_markers": (
-        "tests/displays/test_interactive_markers.py "
-        "tests/displays/test_interactive_marker_client.py tests/ros/test_interactive_markers.py"
-    ),
-}
-"""The nearest tests of a room, the fastest first."""
 UNION = "core/ReplaceBinaryOperator_BitOr_"
 """Nearly all `|` are in type hints, which nothing evaluates."""
 SAME = {
@@ -102,9 +46,15 @@ def main() -> None:
 
 
 def nearest_tests(room: str) -> str:
-    """Return the tests of a room, or of the one that it is in."""
-    holding = [each for each in TESTS if f"{room}/".startswith(f"{each}/")]
-    return TESTS[max(holding, key=len)]
+    """Return the folder of `tests/` that mirrors a room, or the one that it is in.
+
+    The tests of a module, `tests/sources/test_inbox.py` of `webviz/sources/inbox.py`, come first.
+    """
+    path = Path(room.removeprefix("webviz/"))
+    module = Path("tests", path.with_name(f"test_{path.name}"))
+    folder = next(each for each in (path, *path.parents) if Path("tests", each).is_dir())
+    first = [str(module)] if module.is_file() else []
+    return shlex.join([*first, str(Path("tests", folder))])
 
 
 def copy_of_checkout(copy: Path) -> None:

@@ -19,7 +19,7 @@ from webviz.data.messages.classes import WRITTEN, attribute
 from webviz.data.messages.markers import NOTHING, Marker
 from webviz.data.messages.typestore import constants, fields
 
-BAGS = Path(__file__).parents[2] / "../shared/data/bags"
+BAGS = Path(__file__).parents[3] / "../shared/data/bags"
 BUSY_TYPES = [
     "geometry_msgs/msg/PoseArray",
     "geometry_msgs/msg/PoseStamped",

@@ -14,7 +14,7 @@ from webviz.data.recordings import open_recording
 
 NAME = "wide_msgs/msg/Wide"
 TEXTS = ["", "a", "ab", "gr\xfcn", "\N{SNOWMAN}\N{GRINNING FACE}", "x" * 5000]
-REPORT = Path(__file__).parents[3] / "shared/data/reports/B3w/wstring.mcap"
+REPORT = Path(__file__).parents[4] / "shared/data/reports/B3w/wstring.mcap"
 
 
 @pytest.fixture(autouse=True)

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from webviz.data.transforms import TransformBuffer, diagnose, tree_text
 
-DATA = Path(__file__).parents[3] / "shared" / "data"
+DATA = Path(__file__).parents[4] / "shared" / "data"
 TURTLEBOT = DATA / "bags" / "macfirst_floor_take_2"
 NAV2 = DATA / "bags" / "nav2_turtlebot.mcap"
 MAP = DATA / "maps" / "mac_1st_floor_final.pgm"

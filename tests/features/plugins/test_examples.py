@@ -28,7 +28,7 @@ from webviz.shell.testing.messages import header
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz_displays.odometry import Odometry
 
-EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
+EXAMPLES = Path(__file__).parents[3] / "displays/docs/examples"
 T = 100_000_000_000
 
 

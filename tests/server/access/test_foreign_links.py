@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import playwright.sync_api as playwright
 import pytest
 
-from tests.access.conftest import House
+from tests.server.access.conftest import House
 from webviz.api.roles import Role
 from webviz.server.access.roles import LINKS
 

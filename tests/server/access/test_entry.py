@@ -16,8 +16,8 @@ from waiting import until
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 
-from tests.access.conftest import PATIENCE_S, House
 from tests.scene.conftest import Peer
+from tests.server.access.conftest import PATIENCE_S, House
 from tests.support.guest import Guest
 from webviz.api.roles import Role
 from webviz.commands import DragHandle, UseTool

@@ -14,7 +14,7 @@ from webviz.engine.pipeline.plugins import PluginError, Watcher, load
 from webviz.files.config import dump
 from webviz.files.opening import parse
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 IMPORT = "from webviz import Display\n"
 
 

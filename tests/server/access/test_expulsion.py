@@ -12,7 +12,7 @@ import pytest
 from waiting import until
 from websockets.exceptions import ConnectionClosed
 
-from tests.access.conftest import House
+from tests.server.access.conftest import House
 from tests.support.guest import Guest
 from webviz.api.roles import Role
 from webviz.data.disk import MAX_THREADS, in_thread

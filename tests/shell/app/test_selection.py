@@ -25,7 +25,7 @@ from webviz.shell.pictures.browser import Page
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource
 
-SHARED = Path(__file__).parents[3] / "shared/data"
+SHARED = Path(__file__).parents[4] / "shared/data"
 PCD = SHARED / "clouds/251370668.pcd"
 BAG = SHARED / "bags/macfirst_floor_take_2"
 MARKERS = "visualization_msgs/msg/MarkerArray"

@@ -12,7 +12,7 @@ import webviz
 from webviz.shell.testing.comparing import share_of_difference
 from webviz.sources.bag.extras import map_of_file, static_transform
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 DATA = ROOT.parent / "shared/data"
 BAG = DATA / "bags/macfirst_floor_take_2"
 DIFFERENT = 0.01
