@@ -111,7 +111,7 @@ DOORS: Mapping[str, Door] = {
     "the simulator's topics": Door(("simulator",), ("sim/webviz_sim/*",)),
     "other machines": Door(
         (),
-        ("webviz/shell/doctor/*", "webviz/engine/doctor/*"),
+        ("webviz/shell/doctor/*", "webviz/engine/machine/*"),
         "The kernel, and a machine that the user logs in to (tests/checks/test_peer.py).",
     ),
     "the user's own files": Door(

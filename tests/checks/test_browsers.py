@@ -19,7 +19,8 @@ from webviz.api.views import Orbit, View
 from webviz.checks.browser import no_webgl, throttled_tab, viewer_behind
 from webviz.commands import AddDisplay, InspectLatency, RemoveDisplay, SetProperty, ShowView
 from webviz.data.messages import encode
-from webviz.engine.doctor import doctor
+from webviz.engine import examiner
+from webviz.features import doctor
 from webviz.features.latency.stages import BrowserLatency
 from webviz.files.config import Config
 from webviz.files.opening import parse
@@ -114,7 +115,7 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
     source = HandFedSource()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(doctor, "EVERY_S", 0.1)
-        patch.setattr(doctor, "SLICE_S", 1.0)
+        patch.setattr(examiner, "SLICE_S", 1.0)
         running = Running(port=0, source=source, read=read, plugins=[plugin])
         yield running, source
         running.close()

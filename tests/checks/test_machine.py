@@ -13,14 +13,14 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from webviz.engine.doctor.environment import look_around
+from webviz.engine.machine.environment import look_around
 from webviz.shell.doctor.examination import examine_machine
 from webviz.shell.doctor.report import DoctorReport
 
 EXAMINER = """
 import ctypes, json, subprocess, sys
 from multiprocessing import get_context
-from webviz.engine.doctor.environment import look_around
+from webviz.engine.machine.environment import look_around
 from webviz.shell.doctor.examination import examine_machine
 
 NEW_MOUNTS, NEW_PROCESSES, NEW_NETWORK = 0x00020000, 0x20000000, 0x40000000
@@ -321,8 +321,8 @@ def test_segments_of_another_user() -> None:
 
 SATURATE = """
 import array, fcntl, os, socket, struct, subprocess, sys, threading, time
-import webviz.engine.doctor.interfaces as interfaces
-from webviz.engine.doctor.environment import look_around
+import webviz.engine.machine.interfaces as interfaces
+from webviz.engine.machine.environment import look_around
 from webviz.shell.doctor.examination import examine_machine
 from webviz.shell.doctor.report import to_json
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from webviz.api.finding import CauseLevel, Finding, Severity, Symptom
-from webviz.engine.doctor.ordering import ordered
+from webviz.api.finding import CauseLevel, Finding, Severity, Symptom, ordered
 
 SCAN, MAP, SUM = Symptom("scan", "Topic"), Symptom("map", "Topic"), Symptom("", "Transforms")
 NOTE, WARNING, ERROR = Severity

@@ -20,7 +20,7 @@ from webviz.api.rule import parse_rule
 from webviz.api.status import Level, Status
 from webviz.data.messages import encode
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.doctor.rules import value_of
+from webviz.features.doctor.rules import value_of
 from webviz.files.config import WatchRule
 from webviz.shell.cli import main
 from webviz.shell.doctor.rule_results import RuleResults

@@ -38,6 +38,10 @@ try:
             getattr(commands, name)
         except Error as error:
             print(error)
+    try:
+        viewer.last_findings()
+    except Error as error:
+        print(error)
     if "UseTool" in sys.argv:
         try:
             viewer.tool("2D Goal Pose").send(0.0, 0.0)
@@ -177,3 +181,4 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
     asked = [*own, *(["UseTool"] if "UseTool" in own else [])]
     said = [f"There is no {each} without {lost}. Install webviz anew." for each in asked]
     assert re.findall(r"^There is no .*", done.stdout, re.MULTILINE) == said
+    assert ("This viewer has no Doctor. Install webviz anew." in done.stdout) == (name == "doctor")

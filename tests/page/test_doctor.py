@@ -13,8 +13,8 @@ from tests.page.conftest import Tab
 from webviz import Finding, HideDisplays, OtherFixedFrame, Severity, Symptom, TryYaw
 from webviz.api.status import Level, Status
 from webviz.commands import Seek, SetFixedFrame, SetProperty, TryFrame
-from webviz.engine.doctor.findings import findings_store
 from webviz.engine.state import Row
+from webviz.features.doctor.findings import findings_store
 from webviz.features.latency.stages import BrowserLatency, Latency, Stage
 from webviz.features.what_if import WhatIfStore
 from webviz_displays.grid import Grid

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 from typing import Any
 
 from tests.support.stand_ins import stand_in
-from webviz.engine.doctor import Doctor
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.display_rows import TreeRows
 from webviz.engine.parts.displays import DisplaysPart
@@ -19,6 +18,7 @@ from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.state import State
+from webviz.features.doctor import DoctorFeature
 from webviz.features.files import FilesFeature
 from webviz.features.panels import PluginPanels
 from webviz.features.people import People
@@ -27,7 +27,7 @@ from webviz.features.undo import HistoryStep, UndoFeature, UndoHistory
 from webviz.features.views import ViewsFeature
 
 KINDS = (
-    *(ConfigPart, DisplaysPart, Doctor, FilesFeature, PlaybackFeature, SettingsPart),
+    *(ConfigPart, DisplaysPart, DoctorFeature, FilesFeature, PlaybackFeature, SettingsPart),
     *(PanelsPart, TimePart, TopicsPart, TransformsPart, ViewsPart),
 )
 
@@ -51,7 +51,7 @@ class GivenParts:
         """Those that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
-        self._give(Doctor, _displays=displays)
+        self._give(DoctorFeature, _displays=displays)
         self._give(PlaybackFeature, _settings=settings, _time=self._by_kind[TimePart], _leader=None)
         self._give(ViewsPart, _settings=settings)
         self.show(State())
@@ -78,7 +78,10 @@ class GivenParts:
         self._give(TopicsPart, traffic=state.traffic)
         self._give(ViewsPart, _cameras=SimpleNamespace(views=lambda: state.views))
         self._give(
-            Doctor, findings=state.findings, examined_ns=state.examined_ns, events=state.found
+            DoctorFeature,
+            findings=state.findings,
+            examined_ns=state.examined_ns,
+            events=state.found,
         )
         self._give(PlaybackFeature, _display_events=SimpleNamespace(events=state.warned))
         file = state.file

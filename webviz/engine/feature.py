@@ -27,7 +27,6 @@ from typing import Any, ClassVar
 from webviz.api.entry_points import installed
 from webviz.api.status import Level, Status
 from webviz.engine import commands as engine_commands
-from webviz.engine.doctor import Doctor
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.declaring import (
     DeclaredCommand,
@@ -58,7 +57,6 @@ PARTS: tuple[type[Part], ...] = (
     TopicsPart,
     TransformsPart,
     ViewsPart,
-    Doctor,
 )
 """The parts with commands or stores that every viewer has."""
 

@@ -21,8 +21,8 @@ from webviz.api.status import Level, Status
 from webviz.data.messages import decode, defined, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.engine.commands import Picks
-from webviz.engine.doctor import Doctor
 from webviz.engine.state import Row, State
+from webviz.features.doctor import DoctorFeature
 from webviz.features.reports import ReportedThing, reported_store
 from webviz.features.reports.writing import (
     MAX_MOMENTS,
@@ -96,8 +96,8 @@ def moment(state: State = STATE, *, with_names: bool = False, source: str = "run
     )
 
 
-def doctor(*findings: Finding, events: Sequence[Event] = ()) -> Doctor:
-    return stand_in(Doctor, findings=findings, events=events)
+def doctor(*findings: Finding, events: Sequence[Event] = ()) -> DoctorFeature:
+    return stand_in(DoctorFeature, findings=findings, events=events)
 
 
 NO_FINDINGS = doctor()
@@ -107,7 +107,7 @@ NO_FINDINGS = doctor()
 def written(tmp_path: Path) -> Callable[..., BugReport]:
     """Write a report, and read it."""
 
-    def written(given: ReportMoment, later: Doctor = NO_FINDINGS) -> BugReport:
+    def written(given: ReportMoment, later: DoctorFeature = NO_FINDINGS) -> BugReport:
         (folder := tmp_path / "read").mkdir()
         path = tmp_path / "bug.zip"
         size = write(path, given, later, None)

@@ -14,10 +14,8 @@ from webviz.api.robots import NamespacedRobot, robots_of
 from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import PROGRAM, Command, Sender
-from webviz.engine.doctor import Doctor
-from webviz.engine.doctor.clock import ClockWatchPart
-from webviz.engine.doctor.rules import RuleNumbersPart
 from webviz.engine.driving import VelocityControllers
+from webviz.engine.examiner import Examiner
 from webviz.engine.feature import features, missing_features
 from webviz.engine.guard import Guard
 from webviz.engine.loop.turn import Arrivals, FramePacing, Showing
@@ -125,7 +123,7 @@ class FrameLoop:
         )
         self.controllers = VelocityControllers(gate, live_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
-        core = Core(player, gate, self.controllers, scene, self._guard, clock, host)
+        core = Core(player, gate, self.controllers, scene, self._guard, clock, waiting, host)
         self._core = core
         services = self._services(strict)
         self._tracer = services.tracer
@@ -136,11 +134,7 @@ class FrameLoop:
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._displays, self._settings, views]
         others, kept = self._other_parts(config, path, views, player, autosave, session)
-        numbers = RuleNumbersPart(core, self._settings, lambda: self.doctor.rules)
-        clock_watch = ClockWatchPart(core)
-        self.doctor = Doctor(core, self._displays, numbers.numbers, clock_watch, waiting)
-        """Finds the causes behind the statuses."""
-        core.parts = [*first, *others, numbers, clock_watch, self.doctor]
+        core.parts = [*first, *others]
         made = [self._guard.attempt(each.name, None, each, core) for each in features().values()]
         core.parts += [*(make(core) for make in parts), *(each for each in made if each)]
         self._parts = Parts(core.parts, self._guard)
@@ -206,6 +200,15 @@ class FrameLoop:
     def parts(self) -> Sequence[Part]:
         """All parts and features."""
         return self._core.parts
+
+    @property
+    def doctor(self) -> Examiner:
+        """The part that finds the causes behind statuses.
+
+        Raises:
+            webviz.Error: this viewer has none.
+        """
+        return self.get(Examiner)
 
     def get(self, kind: type[P]) -> P:
         """Return the part or feature of a class; see `Core.get`."""
@@ -331,11 +334,10 @@ class FrameLoop:
         self._parts.update()
         if not self._source.is_seeking:  # on the way, transforms and messages are missing
             self._part_statuses = self._parts.statuses()
-        self._core.verdicts = self.doctor.verdicts
         own = self._guard.statuses() | self._showing.statuses
         self._core.statuses = {**self._part_statuses, **own, **missing_features()}
         if not self._source.is_seeking:
-            self._guard("Doctor", self.doctor.examine)
+            self._parts.review()
 
     def state(self) -> State:
         """Return all that programs may read, as of the last turn."""

@@ -9,6 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from webviz.api.display import Display, inputs
+from webviz.api.finding import Symptom
 from webviz.api.group import DisplayGroup
 from webviz.api.registry import type_name
 from webviz.api.status import Level, Status, worst_status
@@ -179,3 +180,20 @@ def topics_of_row(row: Row | None) -> list[str]:
     """Return the topics that a display subscribes to, in the order of its inputs."""
     display = row.display if row else None
     return [topic.name for _, _, topic in inputs(display) if topic.name] if display else []
+
+
+def problems(statuses: Mapping[str, Status], rows: Sequence[Row]) -> Mapping[Symptom, Status]:
+    """Return the warnings and errors of the viewer and of its displays, without groups."""
+    owners = [("", statuses)]
+    owners += [(row.id, row.statuses) for row in rows if not is_group(row)]
+    return {
+        Symptom(id, key): status
+        for id, statuses in owners
+        for key, status in statuses.items()
+        if status.level >= Level.WARN
+    }
+
+
+def is_group(row: Row) -> bool:
+    """Return whether a row is a group of others."""
+    return isinstance(row.display, DisplayGroup)

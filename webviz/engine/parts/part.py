@@ -8,6 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 import msgspec
 
+from webviz.api.errors import Error
 from webviz.api.frames import Frames
 from webviz.api.rule import Verdict
 from webviz.api.status import Status
@@ -38,6 +39,10 @@ It raises a `webviz.Error` with one sentence to refuse the command.
 
 
 P = TypeVar("P", bound="Part")
+
+
+class MissingPart(Error, LookupError):
+    """A viewer has no such part."""
 
 
 class HostProgram(msgspec.Struct, frozen=True):
@@ -73,6 +78,7 @@ class Core:
         scene: where to draw.
         guard: for all calls.
         clock: monotonic time in seconds.
+        waiting: the same, which goes on while a recording is paused.
         host: what the program around it gives.
     """
 
@@ -84,6 +90,7 @@ class Core:
         scene: Scene,
         guard: Guard,
         clock: Callable[[], float],
+        waiting: Callable[[], float],
         host: HostProgram,
     ) -> None:
         self.player = player
@@ -92,6 +99,7 @@ class Core:
         self.scene = scene
         self.guard = guard
         self.clock = clock
+        self.waiting = waiting
         self.host = host
         self.tools = PluginList(Tool)
         """Those of the config."""
@@ -119,14 +127,22 @@ class Core:
         """Return the part of a class.
 
         Raises:
-            LookupError: this viewer has none.
+            MissingPart: this viewer has none.
         """
+        found = self.find(kind)
+        if found is None:
+            raise MissingPart(
+                f"This viewer has no {kind.name or kind.__name__}. Install webviz anew."
+            )
+        return found
+
+    def find(self, kind: type[P]) -> P | None:
+        """Return the part of a class, None if this viewer has none."""
         found: P | None = self._by_kind.get(kind)
         if found is None:
             found = next((part for part in self.parts if isinstance(part, kind)), None)
-            if found is None:
-                raise LookupError(f"This viewer has no {kind.__name__}.")
-            self._by_kind[kind] = found
+            if found is not None:
+                self._by_kind[kind] = found
         return found
 
     def fact(self, name: str, otherwise: Any) -> Any:
@@ -227,6 +243,9 @@ class Part:
 
     def update(self) -> None:
         """Note what there is to show, before stores are made."""
+
+    def review(self) -> None:
+        """Look at what all parts have noted, and at their statuses."""
 
     def state(self) -> Mapping[str, Any]:
         """Return what programs, panels and other parts may read of it, by name.

@@ -17,7 +17,7 @@ from webviz.sources import Advertisement, Subscription, merged
 
 _HOOKS = (
     *("subscriptions", "advertisements", "after", "take", "reset", "keep_up", "update"),
-    *("statuses", "close"),
+    *("review", "statuses", "close"),
 )
 
 
@@ -105,6 +105,11 @@ class Parts:
         """Have all parts note what there is to show."""
         for part in self._overriding["update"]:
             self._guard(part.name, part.update)
+
+    def review(self) -> None:
+        """Have parts look at what all have noted."""
+        for part in self._overriding["review"]:
+            self._guard(part.name, part.review)
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the viewer as a whole, by key."""

@@ -14,7 +14,7 @@ from webviz.api.roles import Role
 from webviz.data.names import new_path
 from webviz.data.transforms import diagnose, tree_text
 from webviz.engine.commands import FileCommand, Picks, Sender
-from webviz.engine.doctor import Doctor
+from webviz.engine.examiner import Examiner
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
@@ -93,7 +93,8 @@ class ReportsFeature(Feature):
             with_names: whether names of hosts, users and home folders would be in it.
         """
         moment = self._moment(sender, (), with_names)
-        self.core.get(Doctor).ask()  # so that there are findings once it is written
+        if doctor := self.core.find(Examiner):
+            doctor.ask()  # so that there are findings once it is written
         return Job(lambda: "\n".join(listing(moment)), lambda text: text)
 
     @command(Role.OWNER, FileCommand)
@@ -118,12 +119,13 @@ class ReportsFeature(Feature):
             raise Error("Pages cannot choose the file of a report.")
         image = read_picture(picture)
         moment = self._moment(sender, selection, with_names)
-        doctor = self.core.get(Doctor)
+        doctor = self.core.find(Examiner)
 
         def work() -> tuple[Path, str]:
             until_s = time.monotonic() + ROUNDS_S
-            doctor.ask()
-            while doctor.rounds < ROUNDS and time.monotonic() < until_s:
+            if doctor:
+                doctor.ask()
+            while doctor and doctor.rounds < ROUNDS and time.monotonic() < until_s:
                 time.sleep(REST_S)
                 doctor.ask()
             file = Path(path) if path else new_path("webviz_report", ".zip")

@@ -22,7 +22,7 @@ from webviz.api.status import Status
 from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
 from webviz.engine.commands import Picks
-from webviz.engine.doctor import Doctor
+from webviz.engine.examiner import Examiner
 from webviz.engine.state import Row
 from webviz.files import config as config_file
 from webviz.files.config import Config
@@ -99,7 +99,7 @@ def listing(moment: ReportMoment) -> list[str]:
 
 
 def write(
-    path: Path, moment: ReportMoment, doctor: Doctor, picture: tuple[str, bytes] | None
+    path: Path, moment: ReportMoment, doctor: Examiner | None, picture: tuple[str, bytes] | None
 ) -> int:
     """Write a report with the newest findings of the doctor; its size in bytes.
 
@@ -137,11 +137,11 @@ def _private(names: PrivateNames, data: bytes) -> bytes:
     return names.text(data.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
 
 
-def _report(moment: ReportMoment, written: WrittenSlice, doctor: Doctor) -> BugReport:
+def _report(moment: ReportMoment, written: WrittenSlice, doctor: Examiner | None) -> BugReport:
     began = {(event.name, event.text): event.at_ns / 1e9 for event in reversed(moment.warned)}
     rows = [row for row in moment.rows if row.type != "Group"]
     places = [("", moment.statuses), *((row.name, row.statuses) for row in rows)]
-    events = [*moment.logged, *moment.warned, *doctor.events]
+    events = [*moment.logged, *moment.warned, *(doctor.events if doctor else ())]
     return BugReport(
         source=moment.source,
         made=time.time(),
@@ -170,7 +170,7 @@ def _report(moment: ReportMoment, written: WrittenSlice, doctor: Doctor) -> BugR
                 each.first_ns / 1e9,
                 each.last_ns / 1e9,
             )
-            for each in doctor.findings
+            for each in (doctor.findings if doctor else ())
         ),
         moments=tuple(_told(each) for each in sorted(events, key=_time)[-MAX_MOMENTS:]),
         selection=moment.selection,

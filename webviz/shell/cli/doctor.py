@@ -109,7 +109,7 @@ def _examine(
 ) -> int:
     """Tell the report as soon as it is made: to leave the graph takes time on a busy machine."""
     from webviz.api.errors import Error
-    from webviz.engine.doctor.environment import look_around
+    from webviz.engine.machine.environment import look_around
     from webviz.shell.app.reading import read_config
     from webviz.shell.bag_player import bag_player
     from webviz.shell.doctor.examination import examine_bag, examine_live, examine_machine

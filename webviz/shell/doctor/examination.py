@@ -17,14 +17,13 @@ from webviz.api.check_registry import known_checks
 from webviz.api.declared import to_values
 from webviz.api.display import Display
 from webviz.api.environment import Environment
-from webviz.api.finding import CauseLevel, Finding
+from webviz.api.finding import CauseLevel, Finding, ordered
 from webviz.api.observation import Observation
 from webviz.api.registry import type_name
 from webviz.api.two_ends import TwoEnds
 from webviz.checks.graph.stopped_publisher import StoppedPublisher
 from webviz.commands import AddDisplay, SetFixedFrame
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.doctor.ordering import ordered
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.files.config import Config

@@ -13,7 +13,7 @@ from webviz.api.finding import Fact, Finding, Severity
 from webviz.api.status import Level, Measurement, Status
 from webviz.data.names import readable
 from webviz.data.words import counted
-from webviz.engine.doctor.observing import problems
+from webviz.engine.parts.display_rows import problems
 from webviz.engine.state import Row
 
 WIDTH = 90

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from types import MappingProxyType
 
 from webviz.api.browser import BrowserSeen
 from webviz.api.display import Display
 from webviz.api.environment import Environment
-from webviz.api.finding import Symptom
 from webviz.api.frames import Frames
-from webviz.api.group import DisplayGroup
 from webviz.api.nodes import Pose
 from webviz.api.observation import DisplaySeen, Observation
-from webviz.api.status import Level, Status
 from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
+from webviz.engine.parts.display_rows import is_group
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.time import TimePart
-from webviz.engine.state import Row
 
 POINTS = 10_000
 """Of a cloud that are looked at for its extent."""
@@ -58,7 +55,7 @@ def observe(
             order=order,
         )
         for order, row in enumerate(displays.rows)
-        if row.id in runners and isinstance(row.display, Display) and not _is_group(row)
+        if row.id in runners and isinstance(row.display, Display) and not is_group(row)
     ]
     times = core.get(TimePart).times
     browsers = core.guard.attempt("Scene", (), core.scene.browsers.seen)
@@ -83,18 +80,6 @@ def observe(
     )
 
 
-def problems(statuses: Mapping[str, Status], rows: Sequence[Row]) -> Mapping[Symptom, Status]:
-    """Return the warnings and errors of the viewer and of its displays, without groups."""
-    owners = [("", statuses)]
-    owners += [(row.id, row.statuses) for row in rows if not _is_group(row)]
-    return {
-        Symptom(id, key): status
-        for id, statuses in owners
-        for key, status in statuses.items()
-        if status.level >= Level.WARN
-    }
-
-
 def _camera(browser: BrowserSeen, frames: Frames) -> Camera | None:
     """Return the camera of a browser in the fixed frame, None if it is unknown."""
     view = browser.view
@@ -103,7 +88,3 @@ def _camera(browser: BrowserSeen, frames: Frames) -> Camera | None:
     is_fixed = view.target_frame == FIXED_FRAME
     target = Pose() if is_fixed else frames.latest(view.target_frame)
     return target and rig_of(view, target).outward(camera_of(view, browser.size[1]))
-
-
-def _is_group(row: Row) -> bool:
-    return isinstance(row.display, DisplayGroup)

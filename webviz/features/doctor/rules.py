@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from webviz.api.declared import Topic
 from webviz.api.finding import Severity
 from webviz.api.observation import DisplaySeen, InputSeen, Observation
 from webviz.api.rule import DOCTOR, Rule, Verdict
 from webviz.api.status import worst
-from webviz.engine.parts.part import Batches, Core, Part
-from webviz.engine.parts.settings import SettingsPart
+from webviz.engine.parts.part import Batches, Core
 from webviz.engine.watch.path_numbers import PathNumbers
 from webviz.sources import Subscriber, Subscription
 
@@ -19,33 +18,24 @@ MAX_KEPT = 1000
 """Numbers of a path between two rounds of the doctor; of more, the last count."""
 
 
-class RuleNumbersPart(Part):
+class RuleNumbers:
     """Reads the message paths of rules.
 
     Args:
         core: shared by all parts.
-        settings: have the rules of the config.
-        more: returns other rules.
     """
 
-    name = "Rules"
-
-    def __init__(
-        self, core: Core, settings: SettingsPart, more: Callable[[], Sequence[Rule]]
-    ) -> None:
-        super().__init__(core)
-        self._settings = settings
-        self._more = more
+    def __init__(self, core: Core) -> None:
+        self._core = core
         self._read: dict[str, PathNumbers] = {}
         self._kept: dict[str, deque[float]] = {}
         self._types: dict[str, str] = {}
         """The type of each topic, as it is read."""
         self._subscriber = Subscriber()
 
-    def subscriptions(self) -> Mapping[str, Subscription]:
-        """Return the topics of the paths, as the first type of each."""
-        conditions = [rule.condition for rule in self._settings.settings.watch]
-        wanted = {rule.path for rule in [*self._more(), *conditions] if rule and rule.path}
+    def subscriptions(self, rules: Iterable[Rule]) -> Mapping[str, Subscription]:
+        """Return the topics of the paths of rules, as the first type of each."""
+        wanted = {rule.path for rule in rules if rule.path}
         if self._read.keys() != wanted:
             self._read = {text: self._read.get(text) or PathNumbers(text) for text in wanted}
             self._kept = {text: self._kept.get(text) or _empty() for text in wanted}
@@ -53,7 +43,7 @@ class RuleNumbersPart(Part):
         self._types = {
             topic: offer.type or offer.publishers[0].type
             for topic in topics.values()
-            if (offer := self.core.offers.get(topic)) and offer.publishers
+            if (offer := self._core.offers.get(topic)) and offer.publishers
         }
         return self._subscriber.subscribe(
             {topic: Subscription(type_, Topic(topic)) for topic, type_ in self._types.items()}
@@ -81,7 +71,7 @@ class RuleNumbersPart(Part):
         """Yield each path and the full name of its topic."""
         for text, each in self._read.items():
             try:
-                yield text, self.core.player.resolve(each.path.topic)
+                yield text, self._core.player.resolve(each.path.topic)
             except ValueError:  # no name of a topic
                 continue
 

@@ -14,8 +14,8 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 from webviz.api.environment import Environment, NetworkInterface, SharedMemory
-from webviz.engine.doctor.interfaces import GROUP, interfaces_since, traffic
-from webviz.engine.doctor.settings import daemon_differences, security_problem
+from webviz.engine.machine.interfaces import GROUP, interfaces_since, traffic
+from webviz.engine.machine.settings import daemon_differences, security_problem
 
 WAIT_S = 0.3
 ZENOH, ZENOH_PORT = "rmw_zenoh_cpp", 7447

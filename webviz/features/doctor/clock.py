@@ -11,7 +11,7 @@ from typing import Any
 from webviz.api.declared import Topic
 from webviz.api.observation import NO_OFFER, ClockSeen
 from webviz.data.messages import MessageError, decode, encode, interfaces
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Core
 from webviz.sources import Gate, Subscriber, Subscription
 
 CLOCK, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
@@ -20,7 +20,7 @@ MAX_TOPICS = 5
 """Of joint states."""
 
 
-class ClockWatchPart(Part):
+class ClockWatch:
     """Measures whether simulated time moves, also of a viewer that does not follow it.
 
     It keeps the newest joint states, too, of which a robot by its transforms reads none.
@@ -29,10 +29,8 @@ class ClockWatchPart(Part):
         core: shared by all parts.
     """
 
-    name = "Clock"
-
     def __init__(self, core: Core) -> None:
-        super().__init__(core)
+        self._core = core
         self.is_wanted = False
         """True to subscribe; a simulator may send a thousand messages per second."""
         self._subscriber = Subscriber()
@@ -56,20 +54,20 @@ class ClockWatchPart(Part):
     def _joint_topics(self) -> dict[str, Subscription]:
         topics = [
             topic
-            for topic, offer in self.core.offers.items()
+            for topic, offer in self._core.offers.items()
             if any(each.type == JOINT_STATE for each in offer.publishers)
         ]
         return {topic: Subscription(JOINT_STATE, Topic(topic)) for topic in topics[:MAX_TOPICS]}
 
     def _has_clock(self) -> bool:
         """Return whether /clock is published, and note when webviz subscribed to it."""
-        offer = self.core.offers.get(CLOCK, NO_OFFER)
+        offer = self._core.offers.get(CLOCK, NO_OFFER)
         is_published = any(each.type == TYPE for each in offer.publishers)
         if not is_published or offer.is_recorded:
             self._began_s = self._time_ns = None
             return False
         if self._began_s is None and offer.requested is not None:
-            self._began_s = self._moved_s = self.core.clock()
+            self._began_s = self._moved_s = self._core.clock()
         return True
 
     def take(self, batches: Batches) -> None:
@@ -87,13 +85,13 @@ class ClockWatchPart(Part):
                 continue
             time_ns = clock.sec * 1_000_000_000 + clock.nanosec
             if time_ns != self._time_ns:
-                self._time_ns, self._moved_s = time_ns, self.core.clock()
+                self._time_ns, self._moved_s = time_ns, self._core.clock()
 
     def seen(self) -> ClockSeen | None:
         """Return what is known of /clock, None while it is not looked at."""
         if self._began_s is None:
             return None
-        return ClockSeen(self._time_ns, self.core.clock() - self._moved_s)
+        return ClockSeen(self._time_ns, self._core.clock() - self._moved_s)
 
 
 SERVICE = "rcl_interfaces/srv/GetParameters"

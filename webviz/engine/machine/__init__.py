@@ -1,0 +1,1 @@
+"""This machine, as the doctor, its command and reports look at it."""
