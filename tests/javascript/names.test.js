@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { inWords, rounded } from "../../webviz/page/web/overlay/lengths.js";
-import { checkedName } from "../../webviz/page/web/shell/file_names.js";
+import { checkedName } from "../../webviz/features/files/file_names.js";
 import { search } from "../../webviz/page/web/controls/option_list.js";
 
 test("a file name without a known suffix becomes YAML", () => {

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import webviz.page
+import webviz
 from webviz import commands
 from webviz.api.roles import Role
 from webviz.engine import feature
@@ -174,7 +174,7 @@ def test_every_role_has_limits_and_a_link() -> None:
 
 
 def test_the_page_sends_no_longer_config_than_an_owner_may() -> None:
-    source = (Path(webviz.page.__file__).parent / "web/shell/files.js").read_text()
+    source = (Path(webviz.__file__).parent / "features/files/files.js").read_text()
     assert "const MAX_CHARACTERS = (3 << 20) - 1000;" in source
     assert LIMITS[Role.OWNER].max_characters == 3 << 20
     assert LIMITS[Role.OWNER].max_values == 3 << 20

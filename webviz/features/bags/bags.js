@@ -3,7 +3,7 @@
 import { act } from "../../act.js";
 import { el } from "../../dom.js";
 import { icon, textButton } from "../../icons.js";
-import { filesSection } from "../../shell/files.js";
+import { filesSection } from "../../shell/opening.js";
 import { each } from "../../signals.js";
 import { store } from "../../stores.js";
 import { timeOfDay } from "../../time_text.js";

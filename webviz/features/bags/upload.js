@@ -4,7 +4,7 @@ import { act } from "../../act.js";
 import { el } from "../../dom.js";
 import { textButton } from "../../icons.js";
 import { overlay } from "../../overlay/overlay.js";
-import { fileLoader } from "../../shell/files.js";
+import { fileLoader } from "../../shell/opening.js";
 import { signal } from "../../signals.js";
 import { toast } from "../../toasts.js";
 

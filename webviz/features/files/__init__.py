@@ -36,6 +36,7 @@ class FilesFeature(Feature):
     """Opens and saves config files."""
 
     name = "Files"
+    module = "files.js"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)

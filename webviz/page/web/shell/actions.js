@@ -4,7 +4,6 @@ import { act } from "../act.js";
 import { openAdd } from "../panels/displays/add.js";
 import { openCommandList } from "./command_list.js";
 import { command } from "../commands.js";
-import * as files from "./files.js";
 import { openKeys } from "./key_help.js";
 import { fold } from "../docks/layout.js";
 import { openPeople } from "./people.js";
@@ -22,32 +21,6 @@ import { toggle } from "./video.js";
  * @type {Record<string, Command & {icon: string}>}
  */
 export const actions = {
-  save: {
-    name: "Save",
-    icon: "save",
-    key: "Ctrl+s",
-    inFields: true,
-    needs: "Save",
-    run: () => files.save(),
-  },
-  saveAs: {
-    name: "Save as…",
-    icon: "save",
-    key: "Ctrl+Shift+s",
-    inFields: true,
-    needs: "Save",
-    run: () => files.saveAs(),
-  },
-  open: {
-    name: "Open…",
-    icon: "folder",
-    key: "Ctrl+o",
-    inFields: true,
-    needs: "Open",
-    run: () => files.open(),
-  },
-  yaml: { name: "Download as YAML", icon: "download", run: () => files.exportAs("yaml") },
-  rviz: { name: "Download as .rviz", icon: "download", run: () => files.exportAs("rviz") },
   image: { name: "Save image", icon: "camera", group: "View", run: () => act("SaveImage") },
   video: {
     name: "Record or stop a video",
@@ -106,6 +79,19 @@ export function action(wanted) {
   added.push(wanted);
   command(wanted);
 }
+
+/** @type {(() => (MenuItem | null)[])[]} */
+const starts = [];
+
+/**
+ * Adds entries at the beginning of the menu.
+ *
+ * @param {() => (MenuItem | null)[]} make those of the moment, whenever it opens
+ */
+export const menuStart = (make) => starts.push(make);
+
+/** @returns {(MenuItem | null)[]} */
+export const menuStarts = () => starts.flatMap((make) => [...make(), null]);
 
 /** Further menus of the menu, of features. @type {{label: string, icon: string, make: () => (MenuItem | null)[]}[]} */
 const submenus = [];

@@ -1,7 +1,7 @@
 // A file that is dropped on the page.
 
 import { el } from "../dom.js";
-import * as files from "./files.js";
+import { load } from "./opening.js";
 
 /** @param {HTMLElement} page */
 export function install(page) {
@@ -30,6 +30,6 @@ export function install(page) {
     event.stopPropagation();
     cover.hidden = true;
     const [file] = event.dataTransfer?.files ?? [];
-    if (file && !document.querySelector("dialog[open]")) files.load(file);
+    if (file && !document.querySelector("dialog[open]")) load(file);
   });
 }

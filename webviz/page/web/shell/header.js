@@ -1,21 +1,26 @@
-// The head of the side: the config file, and what is done with it.
+// The head of the side: what features put there, and the menu.
 
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
-import { actions, added, item, submenuItems } from "./actions.js";
-import * as files from "./files.js";
+import { actions, added, item, menuStarts, submenuItems } from "./actions.js";
 import { fold, openPanel } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { isSevere } from "../panels/findings.js";
-import { effect } from "../signals.js";
 import { store } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
-import { setTitle } from "../title.js";
 
 /** @import {MenuItem} from "../controls/menu.js" */
 
+const lead = el("span", { class: "wv-head-buttons" });
 const ofFeatures = el("span", { class: "wv-head-buttons" });
+
+/**
+ * Adds what the head begins with, such as the name of what is shown.
+ *
+ * @param {...HTMLElement} elements
+ */
+export const headStart = (...elements) => lead.append(...elements);
 
 /**
  * Adds a button of a feature.
@@ -26,36 +31,13 @@ export const headButton = (button) => ofFeatures.append(button);
 
 export function build() {
   /** @type {HTMLButtonElement} */
-  const name = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-file",
-      "aria-haspopup": "menu",
-      "data-tip": () => (files.isThere() ? files.path() || "Not yet saved in a file" : null),
-      onclick: () => openMenuBelow(name, fileMenu()),
-    },
-    () => (files.isThere() ? files.fileName() || "webviz" : "Connecting…"),
-  );
-  effect(() => {
-    const title = [files.fileName(), "webviz"].filter(Boolean).join(" · ");
-    if (files.isThere()) setTitle(files.isChanged() ? `* ${title}` : title);
-  });
-  /** @type {HTMLButtonElement} */
   const more = iconButton("dots", "Menu", () => openMenuBelow(more, menu()), {
     "aria-haspopup": "menu",
   });
   return el(
     "header",
     { class: "wv-head" },
-    name,
-    el("span", {
-      class: "wv-mark",
-      role: "img",
-      "aria-label": "Unsaved changes",
-      "data-tip": "Unsaved changes",
-      hidden: () => !files.isChanged(),
-    }),
+    lead,
     roleMark(),
     el("span", { class: "wv-gap" }),
     badge(),
@@ -90,22 +72,11 @@ function badge() {
 }
 
 /** @returns {(MenuItem | null)[]} */
-const fileMenu = () => [
-  item(actions.save),
-  item(actions.saveAs),
-  item(actions.open),
-  null,
-  item(actions.yaml),
-  item(actions.rviz),
-];
-
-/** @returns {(MenuItem | null)[]} */
 function menu() {
   /** @param {string} name */
   const isTheme = (name) => ({ checked: theme() === name });
   return [
-    ...fileMenu(),
-    null,
+    ...menuStarts(),
     item(actions.image),
     item(actions.video),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),

@@ -9,7 +9,6 @@ import { keepKeysFree } from "./click_focus.js";
 import * as commands from "../commands.js";
 import * as displayCommands from "./display_commands.js";
 import * as drop from "./drop.js";
-import * as files from "./files.js";
 import * as firstRun from "./first_run.js";
 import * as header from "./header.js";
 import * as layout from "../docks/layout.js";
@@ -41,7 +40,6 @@ export function install() {
 function build() {
   commands.install();
   actions.install();
-  files.install();
   displayCommands.install();
   const side = el("aside", { class: "wv-side", "aria-label": "Panels" });
   const { scene, time, ...corners } = places;

@@ -1,29 +1,31 @@
-// The config file: saving, opening, downloading.
+// The config file: its name in the head, saving, opening, downloading.
 
-import { act } from "../act.js";
-import * as channel from "../channel.js";
-import { textField } from "../controls/fields.js";
-import { el, setText } from "../dom.js";
-import { icon, textButton } from "../icons.js";
-import { each, root } from "../signals.js";
-import { store } from "../stores.js";
-import { ask, openDialog } from "../controls/dialog.js";
-import { download } from "../download.js";
+import { act } from "../../act.js";
+import * as channel from "../../channel.js";
+import { textField } from "../../controls/fields.js";
+import { el, setText } from "../../dom.js";
+import { icon, textButton } from "../../icons.js";
+import { each, effect, root } from "../../signals.js";
+import { store } from "../../stores.js";
+import { ask, openDialog } from "../../controls/dialog.js";
+import { openMenuBelow } from "../../controls/menu.js";
+import { download } from "../../download.js";
 import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
-import { toast } from "../toasts.js";
+import { command } from "../../commands.js";
+import { item, menuStart } from "../../shell/actions.js";
+import { headStart } from "../../shell/header.js";
+import { endings, fileLoader, load, sections } from "../../shell/opening.js";
+import { setTitle } from "../../title.js";
+import { toast } from "../../toasts.js";
 
-/** @import {Children} from "../types.js" */
-/** @import {Close} from "../controls/dialog.js" */
-/** @import {Commands} from "../messages.js" */
+/** @import {Close} from "../../controls/dialog.js" */
+/** @import {Command} from "../../commands.js" */
+/** @import {MenuItem} from "../../controls/menu.js" */
+/** @import {Commands} from "../../messages.js" */
 
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it
 const NEW_NAME = "webviz.yaml";
-
-/** @type {((close: Close) => Children[])[]} */
-const sections = [];
-/** @type {Map<string, (file: File) => unknown>} */
-const loaders = new Map();
 
 const file = store("file");
 
@@ -34,26 +36,101 @@ const file = store("file");
  */
 const baseName = (path) => path.slice(path.lastIndexOf("/") + 1);
 /** The name of the file, "" if there is none; read in effects, as all that follows. */
-export const fileName = () => baseName(path());
-export const path = () => file.get("path") ?? "";
-export const isChanged = () => file.get("is_changed") ?? false;
+const fileName = () => baseName(path());
+const path = () => file.get("path") ?? "";
+const isChanged = () => file.get("is_changed") ?? false;
 /** True once the server has reported the file. */
-export const isThere = () => typeof file.get("folder") === "string";
+const isThere = () => typeof file.get("folder") === "string";
 const others = () => file.get("others") ?? [];
 
-export const install = () => channel.on("Download", ({ name, text }) => download(name, text));
+/** @type {Record<string, Command & {icon: string}>} */
+const actions = {
+  save: {
+    name: "Save",
+    icon: "save",
+    key: "Ctrl+s",
+    inFields: true,
+    needs: "Save",
+    run: () => save(),
+  },
+  saveAs: {
+    name: "Save as…",
+    icon: "save",
+    key: "Ctrl+Shift+s",
+    inFields: true,
+    needs: "Save",
+    run: () => saveAs(),
+  },
+  open: {
+    name: "Open…",
+    icon: "folder",
+    key: "Ctrl+o",
+    inFields: true,
+    needs: "Open",
+    run: () => open(),
+  },
+  yaml: { name: "Download as YAML", icon: "download", run: () => exportAs("yaml") },
+  rviz: { name: "Download as .rviz", icon: "download", run: () => exportAs("rviz") },
+};
 
-export const save = () => (path() ? act("Save") : saveAs());
+/** @returns {(MenuItem | null)[]} */
+const menu = () => [
+  item(actions.save),
+  item(actions.saveAs),
+  item(actions.open),
+  null,
+  item(actions.yaml),
+  item(actions.rviz),
+];
+
+export function install() {
+  channel.on("Download", ({ name, text }) => download(name, text));
+  for (const action of Object.values(actions)) command(Object.assign(action, { group: "File" }));
+  menuStart(menu);
+  fileLoader([...SUFFIXES, ""], loadConfig);
+  headStart(nameButton(), changedMark());
+  effect(() => {
+    const title = [fileName(), "webviz"].filter(Boolean).join(" · ");
+    if (isThere()) setTitle(isChanged() ? `* ${title}` : title);
+  });
+}
+
+function nameButton() {
+  /** @type {HTMLButtonElement} */
+  const name = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-file",
+      "aria-haspopup": "menu",
+      "data-tip": () => (isThere() ? path() || "Not yet saved in a file" : null),
+      onclick: () => openMenuBelow(name, menu()),
+    },
+    () => (isThere() ? fileName() || "webviz" : "Connecting…"),
+  );
+  return name;
+}
+
+const changedMark = () =>
+  el("span", {
+    class: "wv-mark",
+    role: "img",
+    "aria-label": "Unsaved changes",
+    "data-tip": "Unsaved changes",
+    hidden: () => !isChanged(),
+  });
+
+const save = () => (path() ? act("Save") : saveAs());
 
 /**
  * Sends the config here, as "yaml" or "rviz".
  *
  * @param {"yaml" | "rviz"} suffix
  */
-export const exportAs = (suffix) =>
+const exportAs = (suffix) =>
   act("Export", { name: `${(fileName() || NEW_NAME).replace(/\.[^.]*$/, "")}.${suffix}` });
 
-export function saveAs() {
+function saveAs() {
   const input = textField("File name", { autofocus: true });
   input.value = fileName() || NEW_NAME;
   const problem = el("p", { class: "wv-problem", role: "alert" });
@@ -95,25 +172,7 @@ export function saveAs() {
   });
 }
 
-/**
- * Adds a section to the dialog "Open": `make(close)` returns its elements; `close({run})` closes it and
- * runs what was chosen.
- *
- * @param {(close: Close) => Children[]} make
- */
-export const filesSection = (make) => sections.push(make);
-
-/**
- * Has files with an ending opened by `load(file)`, which are dropped on the page or uploaded.
- *
- * @param {string[]} endings such as ".mcap"
- * @param {(file: File) => unknown} load
- */
-export function fileLoader(endings, load) {
-  for (const ending of endings) loaders.set(ending, load);
-}
-
-export const open = () =>
+const open = () =>
   root(async (end) => {
     const chosen = await openDialog({
       title: "Open",
@@ -144,7 +203,7 @@ function filesToOpen(close) {
   /** @type {HTMLInputElement} */
   const upload = el("input", {
     type: "file",
-    accept: [...SUFFIXES, ...loaders.keys()].join(","),
+    accept: endings().join(","),
     hidden: true,
     "aria-label": "File of this computer",
     onchange: () => upload.files?.[0] && close({ upload: upload.files[0] }),
@@ -159,7 +218,7 @@ function filesToOpen(close) {
     el("div", { class: "wv-files", role: "group", "aria-label": "Files" }, rows, () =>
       others().length ? null : el("p", { class: "wv-quiet" }, "No config files there."),
     ),
-    ...sections.map((make) => el("section", {}, ...make(close))),
+    ...sections(close),
     upload,
     textButton("Upload from this computer", () => upload.click(), {
       class: "wv-button wv-upload",
@@ -169,16 +228,14 @@ function filesToOpen(close) {
 }
 
 /**
- * Opens a file of this computer.
+ * Opens a config of this computer, or reports that a file is none.
  *
  * @param {File} upload
  */
-export async function load(upload) {
+async function loadConfig(upload) {
   /** @param {string} text */
   const fail = (text) => toast(text, { level: "error" });
   const name = baseName(upload.name);
-  const own = loaders.get(name.slice(name.lastIndexOf(".")).toLowerCase());
-  if (own) return own(upload);
   if (!hasSuffix(name))
     return fail(`Not opened: ${name} is not a config. Choose a .yaml or .rviz file.`);
   const large = `Not opened: ${name} is too large for a config; the limit is 2 MB.`;
