@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -15,14 +16,15 @@ SHEETS = sorted(path for path in ROOT.rglob("*.css") if path != TOKENS)
 COLOR = re.compile(
     r"#(?:[0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})\b(?=[^{]*[;}])|\b(?:rgb|hsl)a?\(", re.I
 )
-KINDS = {
-    "border-radius": ("radius", "round", "pill"),
-    "font-size": ("tiny", "small", "large"),
-    "box-shadow": ("lift", "lift-alarm", "lift-strong", "shadow"),
-    "font": ("mono",),
-    "transition": ("fold",),
-}
-"""Properties, and the tokens that have values for them."""
+SIZED = re.compile(
+    r"(?:padding|margin|border|outline)(?:-\w+)*|(?:row-|column-)?gap|font(?:-size)?|box-shadow"
+    r"|transition(?:-duration)?|animation(?:-duration)?"
+)
+"""Properties whose lengths and durations have names: spacing, lines, shapes, text and motion."""
+SIZE = re.compile(r"(?<![\w.-])-?(?:\d*\.)?\d*[1-9]\d*(?:\.\d+)?(?:px|rem|pt|m?s)\b")
+CONTRAST = {"#fff", "#000"}
+"""On a colour that comes from a message, which no token knows."""
+COMMENT = re.compile(r"^ *(/\*\*|\*|//).*$", re.MULTILINE)
 FROM_MODULES = re.compile(r"""["'`](--[\w-]+)["'`]""")
 
 
@@ -32,14 +34,6 @@ def declarations(path: Path) -> list[tuple[str, str]]:
     return re.findall(r"(?<=[{;\s])([\w-]+):\s*([^;{}]+?)\s*(?=[;}])", text)
 
 
-def tokens() -> dict[str, set[str]]:
-    """Return all values of each token, without the prefix of its name."""
-    values: dict[str, set[str]] = {}
-    for name, value in declarations(TOKENS):
-        values.setdefault(name.removeprefix("--wv-"), set()).add(value)
-    return values
-
-
 @pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
 def test_colours_stand_in_one_file(path: Path) -> None:
     wrong = [(name, value) for name, value in declarations(path) if COLOR.search(f"{value};")]
@@ -47,14 +41,40 @@ def test_colours_stand_in_one_file(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
-def test_a_value_that_has_a_name_stands_under_it(path: Path) -> None:
-    known = tokens()
+def test_spacing_lines_shapes_text_and_motion_have_names(path: Path) -> None:
     wrong = [
-        (property_, value, token)
-        for property_, value in declarations(path)
-        for token in KINDS.get(property_, ())
-        if any(own in value for own in known[token])
+        (name, value)
+        for name, value in declarations(path)
+        if SIZED.fullmatch(name) and SIZE.search(value)
     ]
+    assert not wrong, f"name them in {TOKENS.name}"
+
+
+def test_a_size_is_found_wherever_it_stands_in_a_value() -> None:
+    found = ("8px", "0 -8px", "0.5px auto", "calc(100% - 8px)", "rotate 0.1s", "600 13px/1.4 x")
+    assert all(SIZE.search(value) for value in found)
+    named = ("0", "0px auto", "var(--wv-space-8)", "50%", "2em", "none", "var(--wv-8px)")
+    assert not any(SIZE.search(value) for value in named)
+
+
+def test_each_token_has_one_value_per_theme() -> None:
+    """A colour or size that stands twice would be changed in one place only."""
+    text = TOKENS.read_text("utf-8").split("@media")[0]
+    blocks = re.findall(r"([^{}]+)\{([^{}]*)\}", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL))
+    names = [
+        (at.strip(), name) for at, rules in blocks for name in re.findall(r"--[\w-]+(?=:)", rules)
+    ]
+    assert not [one for one, count in Counter(names).items() if count > 1]
+
+
+def test_modules_draw_with_colours_of_the_tokens() -> None:
+    literal = re.compile(r"""["'`](#[0-9a-f]{3,8})["'`]""", re.I)
+    wrong = {
+        (path.name, color)
+        for path in ROOT.rglob("*.js")
+        for color in literal.findall(COMMENT.sub("", path.read_text("utf-8")))
+        if color not in CONTRAST
+    }
     assert not wrong
 
 
@@ -68,7 +88,6 @@ def test_the_tokens_that_style_sheets_use_exist() -> None:
         for name in re.findall(r"var\((--[\w-]+)\)", path.read_text("utf-8"))
     }
     assert used <= defined
-    assert {f"--wv-{token}" for tokens_ in KINDS.values() for token in tokens_} <= defined
 
 
 def test_no_module_has_rules_in_a_string() -> None:

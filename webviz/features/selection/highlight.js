@@ -9,8 +9,6 @@ import * as selection from "../../tools/selection.js";
 
 /** @import {Outline, Three, Vec2} from "../../types.js" */
 
-const COLOR = "#00e5ff";
-const BACK = "rgba(0, 0, 0, 0.65)";
 const POINT_PX = 5; // half of the square around a point
 const OLD_MS = 10_000; // how long something is marked that is not drawn any more
 
@@ -86,9 +84,10 @@ function stroke(pen, outlines, dash) {
   pen.beginPath();
   for (const outline of outlines) trace(pen, outline);
   pen.setLineDash(dash);
+  const style = getComputedStyle(pen.canvas);
   for (const look of [
-    { strokeStyle: BACK, lineWidth: 3.5 },
-    { strokeStyle: COLOR, lineWidth: 1.5 },
+    { strokeStyle: style.getPropertyValue("--wv-rim"), lineWidth: 3.5 },
+    { strokeStyle: style.getPropertyValue("--wv-picked"), lineWidth: 1.5 },
   ]) {
     Object.assign(pen, look);
     pen.stroke();
