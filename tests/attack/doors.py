@@ -67,7 +67,10 @@ DOORS: Mapping[str, Door] = {
         ),
     ),
     "bug reports": Door(("reports",), ("webviz/files/report/*", "webviz/shell/report/*")),
-    "bridges": Door(("bridges",), ("webviz/sources/bridge/*", "webviz/sources/fleet/*")),
+    "bridges": Door(
+        ("bridges",),
+        ("webviz/sources/bridge/*", "webviz/sources/fleet/*", "webviz/sources/zenoh/*"),
+    ),
     "robot descriptions and meshes": Door(("files",), ("urdf/webviz_urdf/*",)),
     "configs": Door(
         ("files", "uploads", "saving"),

@@ -1,0 +1,1 @@
+"""Robots over Zenoh, ROS's own engine for fleets and clouds, without ROS on this machine."""

@@ -1,0 +1,203 @@
+"""Liveliness tokens: one per node, publisher, subscription, service server and client.
+
+rmw_zenoh_cpp:
+
+    @ros2_lv/DOMAIN/SESSION/NODE ID/ID/KIND/ENCLAVE/NAMESPACE/NODE[/TOPIC/TYPE/HASH/QOS]
+
+with `%` for slashes within a component. Messages have the key `DOMAIN/TOPIC/TYPE/HASH`, slashes of
+the topic kept, and requests of a service the same with its name; Humble writes
+`TypeHashNotSupported` for the hash.
+
+zenoh-bridge-ros2dds:
+
+    @/SESSION/@ros2_lv/KIND/KEY/TYPE[/QOS]
+
+with `§` for slashes. The key of messages, and of requests, is the name of the topic without its
+first slash, below the namespace of the bridge if it has one. It has tokens for actions, too, but
+none for nodes.
+
+Read in ros2/rmw_zenoh (`liveliness_utils.cpp`), ZettaScaleLabs/hiroz, Pico-ROS and
+eclipse-zenoh/zenoh-plugin-ros2dds (`liveliness_mgt.rs`).
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+from webviz.sources.names import is_full_name
+from webviz.sources.zenoh.names import dds_type, is_ros_type, node_name, ros_type
+from webviz.sources.zenoh.qos import TokenQos, read_dds_qos, read_qos
+
+ADMIN = "@ros2_lv"
+MAX_TOKEN = 2048
+"""Characters; names and types have 255 at most."""
+MAX_HASH = 80
+MAX_DOMAIN = 232
+NO_HASH = "TypeHashNotSupported"
+_SLASH, _DDS_SLASH = "%", "§"
+Kind = Literal["node", "publisher", "subscription", "server", "client", "action"]
+_KINDS: dict[str, Kind] = {
+    "NN": "node",
+    "MP": "publisher",
+    "MS": "subscription",
+    "SS": "server",
+    "SC": "client",
+}
+_DDS_KINDS: dict[str, Kind] = {
+    "MP": "publisher",
+    "MS": "subscription",
+    "SS": "server",
+    "SC": "client",
+    "AS": "action",
+}
+_LETTERS = {kind: letters for letters, kind in _KINDS.items()}
+
+
+class LivelinessError(ValueError):
+    """A token is not of ROS."""
+
+
+class GraphEntity(NamedTuple):
+    """A node or an endpoint, as its token states it.
+
+    Attributes:
+        kind: of the entity.
+        node: full name of its node, "" behind zenoh-bridge-ros2dds.
+        name: full name of the topic, service or action; "" of a node.
+        type: ROS's name of its type; "" of a node.
+        key: of its messages or requests; "" of a node.
+        qos: of a publisher or subscription.
+        session: identity of its Zenoh session.
+        is_bridged: whether it is behind zenoh-bridge-ros2dds.
+        hash: of its type, "" if it has none.
+    """
+
+    kind: Kind
+    node: str
+    name: str = ""
+    type: str = ""
+    key: str = ""
+    qos: TokenQos = TokenQos()
+    session: str = ""
+    is_bridged: bool = False
+    hash: str = ""
+
+
+def graph_pattern(domain: int) -> str:
+    """Return the pattern of all tokens of rmw_zenoh_cpp in a domain."""
+    return f"{ADMIN}/{domain}/**"
+
+
+BRIDGED_PATTERN = f"@/*/{ADMIN}/**"
+"""Of all tokens of zenoh-bridge-ros2dds."""
+
+
+def read_token(token: str) -> GraphEntity | None:
+    """Return the entity of a token; None if it is of a kind that the graph does not need.
+
+    Raises:
+        LivelinessError: it is not a token of ROS; one phrase.
+    """
+    if len(token) > MAX_TOKEN:
+        raise LivelinessError(f"a token of more than {MAX_TOKEN} characters")
+    try:
+        return _bridged(token) if token.startswith("@/") else _native(token)
+    except LivelinessError:
+        raise
+    except ValueError as error:
+        raise LivelinessError(str(error)) from error
+
+
+def data_key(domain: int, name: str, type: str, hash: str) -> str:
+    """Return the key of the messages of a topic, or of the requests of a service.
+
+    Args:
+        domain: number of the ROS domain.
+        name: full name.
+        type: ROS's name of the type.
+        hash: of the type, or "*" for any.
+    """
+    return f"{domain}/{name.strip('/')}/{dds_type(type)}/{hash}"
+
+
+def write_token(
+    domain: int,
+    session: str,
+    ids: tuple[int, int],
+    node: str,
+    entity: GraphEntity,
+    qos: str = "",
+) -> str:
+    """Return a token of rmw_zenoh_cpp.
+
+    Args:
+        domain: number of the ROS domain.
+        session: identity of the Zenoh session.
+        ids: numbers of the node and of the entity within the session.
+        node: full name of the node.
+        entity: with kind, and of an endpoint name, type and hash.
+        qos: see `webviz.sources.zenoh.qos.write_qos`.
+    """
+    namespace, _, name = node.rpartition("/")
+    parts = [
+        ADMIN,
+        str(domain),
+        session,
+        *map(str, ids),
+        _LETTERS[entity.kind],
+        _SLASH,
+        (namespace or "/").replace("/", _SLASH),
+        name,
+    ]
+    if entity.kind != "node":
+        parts += [entity.name.replace("/", _SLASH), dds_type(entity.type), entity.hash, qos]
+    return "/".join(parts)
+
+
+def _native(token: str) -> GraphEntity | None:
+    parts = token.split("/", 14)
+    if len(parts) not in (9, 13) or parts[0] != ADMIN or not all(parts):
+        raise LivelinessError("a token without the components of rmw_zenoh_cpp")
+    domain, session, _, _, letters, _, namespace, name = parts[1:9]
+    kind = _KINDS.get(letters)
+    if kind is None:
+        return None
+    if not (domain.isascii() and domain.isdigit() and len(domain) <= 3):
+        raise LivelinessError("a token with an invalid domain")
+    node = node_name(namespace.replace(_SLASH, "/"), name)
+    if not node:
+        raise LivelinessError("a node with an invalid name")
+    if kind == "node":
+        return GraphEntity(kind, node, session=session)
+    if len(parts) != 13:
+        raise LivelinessError("an endpoint without a topic")
+    topic, dds, hash, qos = parts[9:]
+    topic = topic.replace(_SLASH, "/")
+    type = ros_type(dds)
+    if not is_full_name(topic):
+        raise LivelinessError("an endpoint with an invalid name")
+    if not type:
+        raise LivelinessError("an endpoint with an invalid type")
+    if len(hash) > MAX_HASH or not hash.isascii() or not hash.replace("_", "a").isalnum():
+        raise LivelinessError("an endpoint with an invalid type hash")
+    key = data_key(int(domain), topic, type, hash)
+    return GraphEntity(kind, node, topic, type, key, read_qos(qos), session, False, hash)
+
+
+def _bridged(token: str) -> GraphEntity | None:
+    parts = token.split("/", 7)
+    if len(parts) < 6 or parts[0] != "@" or parts[2] != ADMIN or not all(parts):
+        raise LivelinessError("a token without the components of zenoh-bridge-ros2dds")
+    session, letters, key, type = parts[1], parts[3], parts[4], parts[5]
+    kind = _DDS_KINDS.get(letters)
+    if kind is None:
+        return None
+    key, type = key.replace(_DDS_SLASH, "/"), type.replace(_DDS_SLASH, "/")
+    if not is_full_name(f"/{key}"):
+        raise LivelinessError("an endpoint with an invalid name")
+    if not is_ros_type(type):
+        raise LivelinessError("an endpoint with an invalid type")
+    if kind in ("publisher", "subscription") and len(parts) != 7:
+        raise LivelinessError("an endpoint without QoS")
+    qos = read_dds_qos(parts[6]) if len(parts) == 7 else TokenQos()
+    return GraphEntity(kind, "", f"/{key}", type, key, qos, session, True)
