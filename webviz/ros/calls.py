@@ -13,14 +13,12 @@ from rclpy.node import Node
 
 from webviz.ros.distribution import service_name
 from webviz.ros.types import from_cdr, service_class, to_cdr
+from webviz.sources.goals import WAIT_S
 from webviz.sources.graph import Missing, NotConnected
 
 MAX_CLIENTS = 100
 MAX_CALLS = 100
 """Pending service calls."""
-WAIT_S = 2.0
-"""Time to wait for a service or action to appear, and for an answer that is still on its way
-when the node has ended."""
 
 
 class _Call(msgspec.Struct, eq=False):

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import queue
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
-from typing import TypeVar
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -14,9 +12,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from webviz.ros.calls import Calls
 from webviz.ros.distribution import NO_EVENTS_OF_PUBLISHERS
-from webviz.ros.goals import Goals
-from webviz.ros.types import MessageTypeError, message_class
-from webviz.sources.graph import Advertisement, Goal, NotConnected
+from webviz.ros.feedback import FeedbackSubscriptions
+from webviz.ros.types import MessageTypeError, learn, message_class
+from webviz.sources.goals import Goals
+from webviz.sources.graph import Advertisement, Goal
+from webviz.sources.jobs import Jobs
 
 MAX_PUBLISHERS = 100
 
@@ -70,57 +70,6 @@ class AdvertisedPublishers:
             self._node.destroy_publisher(publisher)
 
 
-T = TypeVar("T")
-
-MAX_JOBS = 1000
-
-
-class Jobs:
-    """A bounded queue of functions.
-
-    Args:
-        wake: makes the thread call `run` soon.
-    """
-
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._wake = wake
-        self._queue: queue.Queue[tuple[Callable[[], object], Future]] = queue.Queue(MAX_JOBS)
-        self._has_ended = False
-
-    def put(self, do: Callable[[], T]) -> Future[T]:
-        """Queue `do`; the future receives what it returns or raises."""
-        future: Future[T] = Future()
-        try:
-            self._queue.put_nowait((do, future))
-        except queue.Full:
-            future.set_exception(NotConnected("Too many requests at once. Try again later."))
-        if self._has_ended:
-            self.end()
-        self._wake()
-        return future
-
-    def run(self) -> None:
-        """Call the queued functions."""
-        for _ in range(self._queue.qsize()):
-            do, future = self._queue.get_nowait()
-            if not future.set_running_or_notify_cancel():
-                continue
-            try:
-                future.set_result(do())
-            except Exception as error:
-                future.set_exception(error)
-
-    def end(self) -> None:
-        """Fail the queued functions and all later ones."""
-        self._has_ended = True
-        while True:
-            try:
-                _, future = self._queue.get_nowait()
-            except queue.Empty:
-                return
-            future.set_exception(NotConnected("The connection to ROS has ended."))
-
-
 class RosGraph:
     """Publishes, calls services and sends goals; see `webviz.sources.Graph`.
 
@@ -131,10 +80,10 @@ class RosGraph:
 
     def __init__(self, node: Node, wake: Callable[[], None]) -> None:
         self._node = node
-        self._jobs = Jobs(wake)
+        self._jobs = Jobs(wake, "The connection to ROS has ended.")
         self._publishers = AdvertisedPublishers(node)
         self._calls = Calls(node)
-        self._goals = Goals(node, self._calls, self.call)
+        self._goals = Goals(self.call, self._calls.send, FeedbackSubscriptions(node).listen)
         self._nodes: tuple[str, ...] = ()
         self._services: Mapping[str, str] = {}
 
@@ -160,7 +109,12 @@ class RosGraph:
     ) -> Goal:
         """Send a goal to an action."""
         sent = self._goals.new(action)
-        self._start(sent.accepted, lambda: self._goals.send(action, type, goal, sent, feedback))
+
+        def send() -> None:
+            learn(type)
+            self._goals.send(action, type, goal, sent, feedback)
+
+        self._start(sent.accepted, send)
         return sent
 
     def nodes(self) -> tuple[str, ...]:

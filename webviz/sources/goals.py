@@ -1,4 +1,4 @@
-"""The action clients of the node."""
+"""Goals for actions, by the services and topics of which ROS makes them."""
 
 from __future__ import annotations
 
@@ -6,17 +6,10 @@ import logging
 import uuid
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, TypeVar
-
-from rclpy.node import Node
-from rclpy.qos import QoSProfile
-from rclpy.subscription import Subscription
+from typing import Any, Protocol, TypeVar
 
 from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.data.words import joined
-from webviz.ros.calls import WAIT_S, Calls
-from webviz.ros.distribution import publisher_count
-from webviz.ros.types import learn, message_class
 from webviz.sources.graph import Goal, NotConnected
 
 T = TypeVar("T")
@@ -24,27 +17,58 @@ T = TypeVar("T")
 log = logging.getLogger("webviz")
 
 CANCEL = "action_msgs/srv/CancelGoal"
-FEEDBACK_DEPTH = 10
+WAIT_S = 2.0
+"""Time to wait for a service or action to appear, and for an answer that is still on its way
+when the node has ended."""
 GOAL_ID = slice(4, 20)
 """Of a serialised feedback message, after the encapsulation header."""
 Call = Callable[[str, str, bytes, float], Future[bytes]]
 """Calls a service from any thread: its name, type, request and time limit; the response."""
 
 
+class SendRequest(Protocol):
+    """Calls a service as soon as it appears and `may_send` allows it."""
+
+    def __call__(
+        self,
+        service: str,
+        type: str,
+        request: bytes,
+        timeout_s: float,
+        answer: Future[bytes],
+        may_send: Callable[[], bool],
+    ) -> None:
+        """Call a service, whose response `answer` receives.
+
+        Raises:
+            NotConnected: too many calls are pending.
+        """
+        ...
+
+
+class ListenToFeedback(Protocol):
+    """Subscribes to the feedback of an action, once however often it is called."""
+
+    def __call__(
+        self, topic: str, type: str, arrive: Callable[[bytes], None]
+    ) -> Callable[[], bool]:
+        """Have `arrive` called with each message; return whether a publisher is known by now."""
+        ...
+
+
 class Goals:
     """Sends goals and follows them.
 
     Args:
-        node: that has the subscriptions to feedback.
-        calls: for the node's thread.
         call: for any thread.
+        send: for the thread of `Goals.send`.
+        listen: likewise.
     """
 
-    def __init__(self, node: Node, calls: Calls, call: Call) -> None:
-        self._node = node
-        self._calls = calls
+    def __init__(self, call: Call, send: SendRequest, listen: ListenToFeedback) -> None:
         self._call = call
-        self._subscriptions: dict[str, Subscription] = {}
+        self._send = send
+        self._listen = listen
         self._feedback: dict[bytes, Callable[[bytes], object]] = {}
 
     def new(self, action: str) -> Goal:
@@ -72,13 +96,12 @@ class Goals:
         sent: Goal,
         feedback: Callable[[bytes], object],
     ) -> None:
-        """Send a goal, and wait for its result if it is accepted. In the node's thread."""
-        learn(type)
+        """Send a goal, and wait for its result if it is accepted; from one thread."""
         parts = interfaces.action(type)
         values = {"goal_id": _id(sent.id), "goal": decode(parts.goal, goal)}
         request = encode(f"{parts.send_goal}_Request", values)
-        subscription = self._subscribe(action, parts.feedback)
         self._feedback[sent.id] = feedback
+        may_send = self._listen(f"{action}/_action/feedback", parts.feedback, self._arrive)
         answer: Future[bytes] = Future()
 
         def take(cdr: bytes) -> bool:
@@ -99,13 +122,13 @@ class Goals:
                 _fail(sent.result, error)
 
         answer.add_done_callback(on_answer)
-        self._calls.send(
+        self._send(
             f"{action}/_action/send_goal",
             parts.send_goal,
             request,
             WAIT_S * 5,
             answer,
-            lambda: publisher_count(self._node, subscription) > 0,  # lose no feedback
+            may_send,  # lose no feedback
         )
 
     def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
@@ -119,24 +142,14 @@ class Goals:
         sent.result.add_done_callback(lambda _: answer.cancel())
         _then(answer, sent.result, status)
 
-    def _subscribe(self, action: str, type: str) -> Subscription:
-        """Return the subscription to the feedback of all goals of an action."""
-        topic = f"{action}/_action/feedback"
-        if topic in self._subscriptions:
-            return self._subscriptions[topic]
-
-        def arrive(cdr: bytes) -> None:
-            listener = self._feedback.get(cdr[GOAL_ID])
-            if listener is not None:
-                try:
-                    listener(cdr)
-                except Exception:  # in the tool that sent the goal; keep the node running
-                    log.exception("Feedback of %s could not be handled", action)
-
-        self._subscriptions[topic] = self._node.create_subscription(
-            message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
-        )
-        return self._subscriptions[topic]
+    def _arrive(self, cdr: bytes) -> None:
+        """Pass feedback on to who sent the goal."""
+        listener = self._feedback.get(cdr[GOAL_ID])
+        if listener is not None:
+            try:
+                listener(cdr)
+            except Exception:  # in the tool that sent the goal; keep receiving
+                log.exception("Feedback of an action could not be handled")
 
 
 def _read(type: str, cdr: bytes, action: str) -> Any:
