@@ -269,7 +269,7 @@ def test_a_topic_that_was_not_displayed_then_says_so(bench: Bench) -> None:
     assert bench.statuses()["Topic"] == (
         "WARN",
         "No message yet on /late: none of this moment or before is remembered; only displayed "
-        "topics are, and the oldest messages go first.",
+        "topics are, and the oldest messages go first, large ones before others.",
     )
 
 

@@ -24,7 +24,7 @@ from webviz.features.recording import (
     RunningRecording,
     recording_store,
 )
-from webviz.files.config import Settings
+from webviz.files.config import Settings, model
 from webviz.files.config.model import MemorySettings
 from webviz.sources import Offer, Publisher, Raw
 from webviz.sources.recording import RecentMessages, recent, recorder
@@ -76,6 +76,48 @@ def test_a_memory_forgets_what_is_old_and_what_does_not_fit() -> None:
         ("/a", 19),
         ("/big", 20),
     ]
+
+
+def test_large_messages_do_not_leave_a_past_without_small_ones() -> None:
+    now_s = time.monotonic()
+    memory = RecentMessages(lambda topic: 0, seconds=60.0, max_bytes=10 * recent.LARGE_BYTES)
+    for second in range(50):
+        memory.put("/tf", raw(now_s - 50 + second, size=1000))
+        memory.put("/points", raw(now_s - 50 + second, size=recent.LARGE_BYTES))
+    past = memory.last(1e9).messages
+    assert [topic for topic, _ in past].count("/tf") == 50
+    assert [topic for topic, _ in past].count("/points") == 9
+    assert [m.arrived_s for _, m in past] == sorted(m.arrived_s for _, m in past)
+    assert memory.size()[1] <= 10 * recent.LARGE_BYTES
+    topics, seconds = memory.cut() or ((), 0.0)
+    assert topics == ("/points",)
+    assert 9.0 <= seconds < 15.0
+    assert memory.after(now_s - 2.5)[0][0] == "/tf"
+
+
+def test_small_messages_beyond_their_share_make_room_for_large_ones() -> None:
+    now_s, size = time.monotonic(), 10 * recent.LARGE_BYTES
+    memory = RecentMessages(lambda topic: 0, seconds=60.0, max_bytes=size)
+    for number in range(40):
+        memory.put("/scan", raw(now_s - 8 + number / 10, size=recent.LARGE_BYTES // 2))
+    assert memory.size()[1] > 0.9 * size, "alone they have all"
+    for number in range(40):
+        memory.put("/points", raw(now_s - 4 + number / 10, size=recent.LARGE_BYTES))
+    held = [topic for topic, _ in memory.last(1e9).messages]
+    assert held.count("/scan") * recent.LARGE_BYTES / 2 > (recent.SMALL_SHARE - 0.1) * size
+    assert held.count("/points") >= 7
+    assert memory.is_full
+
+
+@pytest.mark.parametrize(
+    ("machine", "megabytes"), [(None, 512), (32_000_000_000, 512), (1_000_000_000, 125)]
+)
+def test_a_small_machine_remembers_less(
+    machine: int | None, megabytes: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(model, "memory_bytes", lambda: machine)
+    assert MemorySettings().size_mb == megabytes
+    assert MemorySettings(megabytes=2000.0).size_mb == 2000.0
 
 
 def test_the_newest_latched_message_is_not_forgotten() -> None:

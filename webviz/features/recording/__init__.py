@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -43,6 +43,8 @@ class MemoryState(msgspec.Struct, frozen=True):
         is_full: whether younger messages than wanted were forgotten for their size.
         pinned: topics whose latched messages are kept although they are older.
         held_s: seconds that people look back on; None live.
+        cut: topics of large messages that reach back less than others, and for how many seconds;
+            None if there are none.
     """
 
     seconds: float
@@ -50,6 +52,7 @@ class MemoryState(msgspec.Struct, frozen=True):
     is_full: bool = False
     pinned: tuple[str, ...] = ()
     held_s: float | None = None
+    cut: tuple[tuple[str, ...], float] | None = None
 
 
 class RecordingState(msgspec.Struct, frozen=True, kw_only=True):
@@ -126,7 +129,7 @@ class RecordingFeature(Feature):
         if self._memory is not None:
             bounds, recent = self._bounds, self._memory.recent
             recent.seconds = bounds.seconds
-            recent.max_bytes = round(bounds.megabytes * MEGABYTE)
+            recent.max_bytes = round(bounds.size_mb * MEGABYTE)
             self._memory.recorded_channels.look()
         if self._recorder is not None and self._recorder.problem:
             self._problem = joined(self._recorder.problem, "The recording has ended.")
@@ -140,7 +143,8 @@ class RecordingFeature(Feature):
     def _remembered(self, memory: MemoryHistory) -> MemoryState:
         seconds, size = memory.recent.size()
         held_s = memory.held_s if memory.is_held else None
-        return MemoryState(seconds, size, memory.recent.is_full, memory.recent.pinned(), held_s)
+        recent = memory.recent
+        return MemoryState(seconds, size, recent.is_full, recent.pinned(), held_s, recent.cut())
 
     def _recorded(self) -> RecordingState | None:
         recorder = self._recorder
@@ -303,7 +307,7 @@ def recording_store(
         )
     return RecordingStore(
         remembered=(int(memory.seconds), memory.size // 1_000_000),
-        is_remembering=bounds.seconds > 0 and bounds.megabytes > 0,
+        is_remembering=bounds.seconds > 0 and bounds.size_mb > 0,
         about=str(sendable(_about(memory, bounds))),
         recording=running,
         held=None if memory.held_s is None else int(memory.held_s),
@@ -312,13 +316,24 @@ def recording_store(
 
 def _about(memory: MemoryState, limits: MemorySettings) -> str:
     """Sentences on the memory: its bounds, which of them is reached, and what is kept beyond."""
-    if not (limits.seconds and limits.megabytes):
+    if not (limits.seconds and limits.size_mb):
         return MEMORY_OFF
-    bound = f"the last {limits.seconds:g} s of the displayed topics, up to {limits.megabytes:g} MB"
+    bound = f"the last {limits.seconds:g} s of the displayed topics, up to {limits.size_mb:g} MB"
     sentences = [f"Remembers {bound}."]
-    if memory.is_full:
+    if memory.cut is not None:
+        topics, seconds = memory.cut
+        sentences.append(
+            f"Of large messages ({_named(topics)}) it holds the last {seconds:.0f} s, as more do "
+            "not fit: raise memory.megabytes."
+        )
+    elif memory.is_full:
         sentences.append("Older messages are dropped already: raise memory.megabytes.")
     if pinned := memory.pinned:
-        names = ", ".join(pinned[:NAMED]) + (" …" if len(pinned) > NAMED else "")
-        sentences.append(f"Older latched messages and last transforms are kept of {names}.")
+        sentences.append(
+            f"Older latched messages and last transforms are kept of {_named(pinned)}."
+        )
     return " ".join(sentences)
+
+
+def _named(topics: Sequence[str]) -> str:
+    return ", ".join(topics[:NAMED]) + (" …" if len(topics) > NAMED else "")

@@ -15,6 +15,7 @@ from webviz.api.registry import display_types, plugin_types
 from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
+from webviz.data.machine_memory import memory_bytes
 from webviz.files.config.layout import MAX_LAYOUTS, Layout
 from webviz.files.config.robots import Template
 from webviz.files.config.watch import WatchLimits, WatchRule
@@ -23,6 +24,9 @@ VERSION = 1
 STANDARD = ("Grid", "TF", "RobotModel", "LaserScan", "Map", "Path", "Odometry")
 """The displays shown without a config."""
 
+
+MEMORY_MB = 512
+"""Largest size of the memory of live topics in MB, unless the config says more."""
 
 _WORD = "[A-Za-z_*][A-Za-z0-9_*]*"
 Name = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^(~?/)?{_WORD}(/{_WORD})*$")]
@@ -34,8 +38,21 @@ class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     seconds: Annotated[float, Prop(ge=0, le=3600, unit="s", help="0 keeps nothing.")] = 60.0
     megabytes: Annotated[
-        float, Prop(ge=0, le=65536, unit="MB", help="Total size of the messages.")
-    ] = 512.0
+        Annotated[float, msgspec.Meta(ge=0, le=65536)] | None,
+        Prop(
+            unit="MB",
+            help="Total size of the messages; automatic is an eighth of this machine's memory, "
+            "at most 512 MB.",
+        ),
+    ] = None
+
+    @property
+    def size_mb(self) -> float:
+        """Total size of the messages in MB."""
+        if self.megabytes is not None:
+            return self.megabytes
+        machine = memory_bytes()
+        return MEMORY_MB if machine is None else min(MEMORY_MB, machine // 8 // 1_000_000)
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):

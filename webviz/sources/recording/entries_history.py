@@ -17,7 +17,7 @@ from webviz.sources.source import Offer, Source, Subscription
 
 NOT_REMEMBERED = (
     "none of this moment or before is remembered; only displayed topics are, and the oldest "
-    "messages go first"
+    "messages go first, large ones before others"
 )
 """Why a topic has no message in the past."""
 Numbered = tuple[int, Raw]
