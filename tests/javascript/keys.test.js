@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { afterEach, test } from "node:test";
 
-import { keyOf, keyText } from "../../webviz/page/web/keys.js";
+import { keyOf, keyText, shortcutGroups, shortcuts } from "../../webviz/page/web/keys.js";
 import * as keys from "../../webviz/features/driving/teleop_keys.js";
 
 const press = (code, more = {}, canGoSideways = true) =>
@@ -70,4 +70,20 @@ test("a repeat begins nothing, and a shortcut ends all that is held", () => {
   press("KeyW");
   assert.equal(press("KeyD", { ctrlKey: true }), false);
   assert.deepEqual(keys.share(), [0, 0, 0]);
+});
+
+test("shortcuts of a part do what the table of keys says", () => {
+  const done = [];
+  const take = shortcuts("A part", [
+    { does: "Zoom", keys: ["Wheel"] },
+    { does: "Zoom", keys: ["+"], unnamed: ["="], run: (context) => done.push(context) },
+    { does: "Never", keys: ["0"], run: () => false },
+    { does: "Go", keys: [], unnamed: ["Home"], run: () => done.push("home") },
+  ]);
+  assert.equal(shortcutGroups().get("A part")?.length, 4);
+  assert.equal(take("here", { key: "=" }), true);
+  assert.equal(take("here", { key: "Home" }), true);
+  assert.equal(take("here", { key: "0" }), false, "it does nothing now");
+  assert.equal(take("here", { key: "+", ctrlKey: true }), false);
+  assert.deepEqual(done, ["here", "home"]);
 });

@@ -129,6 +129,23 @@ def test_keys_do_what_rviz_does(tab: Tab, loop: Loop, keys: str, command: Comman
     tab.wait_for_command(command)
 
 
+def test_the_dialog_of_keys_has_those_of_commands_and_of_parts(tab: Tab) -> None:
+    tab.page.keyboard.press("?")
+    dialog = tab.page.get_by_role("dialog", name="Keyboard and mouse")
+    for group, does, keys in (
+        ("File", "Save", "Ctrl+S"),
+        ("Tree of displays", "Move in the list", "Alt+↑Alt+↓"),
+        ("Image", "Zoom", "Wheel+-"),
+        ("Plot", "Move in time", "←→"),
+        ("While driving", "Drive", "WASD"),
+        ("Scene", "Look at what is under the mouse", "F"),
+    ):
+        section = dialog.locator("section").filter(has=tab.page.get_by_role("heading", name=group))
+        row = section.locator("dl > div").filter(has=tab.page.locator("dt", has_text=does)).first
+        assert row.locator("dd").inner_text().replace("\n", "") == keys
+    tab.page.keyboard.press("Escape")
+
+
 @pytest.mark.parametrize(
     ("keys", "title"),
     [

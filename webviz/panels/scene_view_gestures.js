@@ -1,6 +1,7 @@
 // Mouse, fingers and keys over a 3D scene, as over the scene itself: left turns, middle or Shift moves,
 // right and the wheel come closer; one finger turns, two move and zoom.
 
+import { takeKeysOf } from "webviz/keys.js";
 import { focused, moved, turned, zoomed } from "./scene_view_camera.js";
 
 /** @import {Vec2} from "../page/web/types.js" */
@@ -62,17 +63,18 @@ export function listen(canvas, change) {
     const { clientWidth, clientHeight } = canvas;
     change((camera) => focused(camera, [offsetX, offsetY], [clientWidth, clientHeight]));
   });
-  canvas.addEventListener("keydown", (event) => {
+  takeKeysOf(canvas, (event) => {
     const arrow = ARROWS[event.key];
     const zoom = { "+": 1 / 1.12, "=": 1 / 1.12, "-": 1.12 }[event.key];
-    if (event.ctrlKey || event.metaKey || event.altKey || !(arrow || zoom)) return;
-    event.preventDefault();
-    event.stopPropagation(); // viser's camera turns by arrow keys
-    if (zoom) return change((camera) => zoomed(camera, zoom));
-    /** @type {Vec2} */
-    const by = [arrow[0] * STEP, arrow[1] * STEP];
-    if (event.shiftKey) move(by);
-    else change((camera) => turned(camera, by));
+    if (event.ctrlKey || event.metaKey || event.altKey || !(arrow || zoom)) return false;
+    if (zoom) change((camera) => zoomed(camera, zoom));
+    else {
+      /** @type {Vec2} */
+      const by = [arrow[0] * STEP, arrow[1] * STEP];
+      if (event.shiftKey) move(by);
+      else change((camera) => turned(camera, by));
+    }
+    return true;
   });
 }
 

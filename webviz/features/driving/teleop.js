@@ -5,6 +5,7 @@
 
 import * as channel from "../../channel.js";
 import { isTyping, takeKeys } from "../../commands.js";
+import { shortcuts } from "../../keys.js";
 import { places } from "../../shell/shell.js";
 import { watch } from "../../stores.js";
 import { gesture } from "../../tools/gestures.js";
@@ -52,6 +53,11 @@ const tool = ({ icon, gesture }) => ({
 });
 
 export function install() {
+  shortcuts("While driving", [
+    { does: "Drive", keys: ["w", "a", "s", "d"] },
+    { does: "Drive with one hand", keys: ["ArrowUp", "ArrowLeft", "ArrowDown", "ArrowRight"] },
+    { does: "Sideways", keys: ["q", "e"] },
+  ]);
   gesture("drive", tool);
   registry.onChange(follow);
   takeKeys((/** @type {KeyboardEvent} */ event) => {

@@ -1,6 +1,7 @@
 // The tool that selects: a click, or a box. Shift adds, Ctrl removes, and Alt leaves the mouse to the
 // camera, as in RViz.
 
+import { command } from "../../commands.js";
 import { el } from "../../dom.js";
 import { focus } from "../../scene/mouse.js";
 import { outlineOf } from "../../scene/picking/outline.js";
@@ -12,7 +13,7 @@ import { canvas } from "../../viser_page.js";
 import { install as installHighlight, middle } from "./highlight.js";
 import { tell } from "../../tools/hint.js";
 import { makeLayer } from "../../tools/layer.js";
-import { provide } from "../../tools/registry.js";
+import { active, provide } from "../../tools/registry.js";
 import * as selection from "../../tools/selection.js";
 
 /** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../../types.js" */
@@ -43,17 +44,24 @@ export const select = {
   select() {
     // Meanwhile the server knows for a moment what it has replaced.
     endPicking = watch("picking", (values) => (unselectable = values));
-    window.addEventListener("keydown", onKey, { capture: true });
   },
   leave() {
     endPicking();
-    window.removeEventListener("keydown", onKey, { capture: true });
     cancel();
   },
 };
 
 export function install() {
   provide("selection", [select]);
+  // As in RViz, F is about the selection while this tool is active.
+  command({
+    name: "Look at what is selected",
+    key: "f",
+    group: "Scene",
+    isHidden: true,
+    isThere: () => active() === select && selection.all().size > 0,
+    run: lookAtSelection,
+  });
   installHighlight();
 }
 
@@ -162,17 +170,4 @@ function cancel() {
   drag = null;
   box?.layer.element.remove();
   box = null;
-}
-
-/**
- * As in RViz, F is about the selection while this tool is active.
- *
- * @param {KeyboardEvent} event
- */
-function onKey(event) {
-  const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(/** @type {Element} */ (event.target).tagName);
-  const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
-  if (event.key !== "f" || isTyping || !isPlain || !selection.all().size) return;
-  event.stopImmediatePropagation();
-  lookAtSelection();
 }

@@ -1,7 +1,8 @@
-// Everything that can be done, by name; and the one place that listens to keys.
+// Everything that can be done, by name, and what keys do in parts of the page: the one table of keys,
+// and the one place that listens to them. Controls have the keys of their kind besides.
 
 import { why } from "./access.js";
-import { keyOf } from "./keys.js";
+import { keyOf, shortcutGroups, takesDrag, takesPart } from "./keys.js";
 import { toast } from "./toasts.js";
 
 /**
@@ -12,6 +13,8 @@ import { toast } from "./toasts.js";
  * }} Command
  */
 
+/** @import {Taker} from "./keys.js" */
+
 const TYPED =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +
   "[contenteditable]:not([contenteditable=false])";
@@ -20,7 +23,7 @@ const TYPED =
 const fixed = new Set();
 /** @type {Set<() => Command[]>} */
 const makers = new Set();
-/** @type {Set<(event: KeyboardEvent) => boolean>} */
+/** @type {Set<Taker>} */
 const takers = new Set();
 
 /**
@@ -54,11 +57,26 @@ export function provide(make) {
 /**
  * Lets `take(event)` have keys before commands: it says whether it took one. Returns what ends it.
  *
- * @param {(event: KeyboardEvent) => boolean} take
+ * @param {Taker} take
  */
 export function takeKeys(take) {
   takers.add(take);
   return () => takers.delete(take);
+}
+
+/** All keys by group: what they do, and which they are. */
+export function keyTable() {
+  /** @type {Map<string, Map<string, string[]>>} */
+  const table = new Map();
+  const rows = [
+    ...known().map((one) => ({ group: one.group ?? "Tools", does: one.name, keys: keysOf(one) })),
+    ...[...shortcutGroups()].flatMap(([group, all]) => all.map((one) => ({ group, ...one }))),
+  ];
+  for (const { group, does, keys } of rows.filter((row) => row.keys.length)) {
+    const own = table.get(group) ?? new Map();
+    table.set(group, own.set(does, [...(own.get(does) ?? []), ...keys]));
+  }
+  return table;
 }
 
 /** All commands, also those that cannot be done now. */
@@ -92,18 +110,31 @@ export const keysOf = ({ key }) => (key ? [key].flat() : []);
  */
 export const isTyping = ({ target }) => target instanceof Element && target.closest(TYPED) !== null;
 
+/** @param {Event} event */
+function end(event) {
+  event.preventDefault();
+  event.stopPropagation();
+}
+
 export function install() {
   let isWaiting = false; // for an answer before a held key does more, after an error until it is let go
 
+  const onDrag = (/** @type {KeyboardEvent} */ event) => {
+    if (!takesDrag(event)) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  };
+  addEventListener("keydown", onDrag, { capture: true });
   // Within viser's listeners, which are on the document and further out, and around those of
   // controls, which come first. Dialogs and menus keep their keys to themselves.
   document.body.addEventListener("keydown", (event) => {
+    // Ctrl+S is a command; the camera of viser would walk as well.
+    if (event.ctrlKey || event.metaKey || event.altKey) event.stopPropagation();
     if (event.defaultPrevented || event.isComposing) return;
     const key = keyOf(event);
     const isInField = isTyping(event);
-    if (!isInField && [...takers].some((take) => take(event))) {
-      event.preventDefault();
-      event.stopPropagation();
+    if (takesPart(event) || (!isInField && [...takers].some((take) => take(event)))) {
+      end(event);
       return;
     }
     /** @param {Command} one */
@@ -112,8 +143,7 @@ export function install() {
     // As in RViz, the last one with a key has it.
     const found = all().findLast(matches);
     if (!found) return;
-    event.preventDefault();
-    event.stopPropagation();
+    end(event);
     if (event.repeat && (!found.repeats || isWaiting)) return;
     // What was typed counts before anything is saved.
     if (isInField) /** @type {HTMLElement} */ (document.activeElement).blur();

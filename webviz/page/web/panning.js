@@ -1,5 +1,7 @@
 // Drags, wheel and keys over a canvas that shows a part of something larger.
 
+import { takeKeysOf } from "./keys.js";
+
 /**
  * Listens to a canvas. `move` gets pixels, and `click` what was no drag of `slack` pixels or more.
  *
@@ -33,10 +35,9 @@ export function listenToPanning(canvas, { wheel, move, keys, click = () => {}, s
     held = null;
   });
   canvas.addEventListener("pointercancel", () => (held = null));
-  canvas.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+  takeKeysOf(canvas, (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return false;
     keys[event.key]();
-    event.preventDefault();
-    event.stopPropagation();
+    return true;
   });
 }

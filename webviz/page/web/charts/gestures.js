@@ -1,5 +1,6 @@
 // Gestures over the curves of a chart, which read out, pan, and zoom by the wheel, a box and keys.
 
+import { shortcuts, takeKeysOf } from "../keys.js";
 import { el } from "../dom.js";
 import { boxBetween, boxed, panned, scaled, shareOf } from "./zoom.js";
 
@@ -9,22 +10,39 @@ import { boxBetween, boxed, panned, scaled, shareOf } from "./zoom.js";
 const WHEEL = 1.2;
 const CLICK_PX = 3;
 const UP_PX = 20; // of a drag, from which on it moves values, too
-/** @type {Record<string, {move?: number, by?: number}>} */
-const KEYS = {
-  ArrowLeft: { move: -0.1 },
-  ArrowRight: { move: 0.1 },
-  "+": { by: 1 / WHEEL },
-  "-": { by: WHEEL },
-};
+
+/**
+ * @typedef {{
+ *   shown: () => Shown, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void, pause: () => void,
+ * }} Zoomed
+ */
+
+/** @param {{move?: number, by?: number}} step */
+const zooming =
+  (step) =>
+  (/** @type {Zoomed} */ { shown, zoom, setZoom }) =>
+    setZoom(scaled(shown(), zoom(), step, false));
+
+/** @type {ReturnType<typeof shortcuts<Zoomed>>} */
+const takeKey = shortcuts("Plot", [
+  { does: "Zoom", keys: ["Wheel"] },
+  { does: "Zoom", keys: ["+"], run: zooming({ by: 1 / WHEEL }) },
+  { does: "Zoom", keys: ["-"], run: zooming({ by: WHEEL }) },
+  { does: "Move in time", keys: ["ArrowLeft"], run: zooming({ move: -0.1 }) },
+  { does: "Move in time", keys: ["ArrowRight"], run: zooming({ move: 0.1 }) },
+  { does: "Pause", keys: [" "], run: ({ pause }) => pause() },
+  {
+    does: "Show all of it",
+    keys: ["Escape"],
+    run: ({ zoom, setZoom }) => (zoom() ? setZoom(null) : false),
+  },
+]);
 
 /**
  * Listens to gestures over a canvas; returns the element of the box that is dragged.
  *
  * @param {HTMLCanvasElement} canvas
- * @param {{
- *   area: () => Area, shown: () => Shown, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void,
- *   point: (share: number | null) => void, pause: () => void,
- * }} chart `point` gets the share of the time axis left of the pointer, null when it is not over it
+ * @param {Zoomed & {area: () => Area, point: (share: number | null) => void}} chart `point` gets the share of the time axis left of the pointer, null when it is not over it
  */
 export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pause }) {
   /** @type {{from: Vec2, shown: Shown, isBox: boolean, isFar: boolean} | null} */
@@ -79,13 +97,6 @@ export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pa
   canvas.addEventListener("pointercancel", end);
   canvas.addEventListener("pointerleave", () => point(null));
   canvas.addEventListener("dblclick", () => setZoom(null));
-  canvas.addEventListener("keydown", (event) => {
-    if (KEYS[event.key]) setZoom(scaled(shown(), zoom(), KEYS[event.key], false));
-    else if (event.key === "Escape" && zoom()) setZoom(null);
-    else if (event.key === " ") pause();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  });
+  takeKeysOf(canvas, (event) => takeKey({ shown, zoom, setZoom, pause }, event));
   return box;
 }

@@ -1,6 +1,7 @@
 // The panels beside, below and over the scene, as the layout says that all browsers share.
 
 import { el, setChildren } from "../dom.js";
+import { command } from "../commands.js";
 import { openMenuBelow } from "../controls/menu.js";
 import { each, effect, owned, signal, untracked } from "../signals.js";
 import { watch } from "../stores.js";
@@ -71,11 +72,16 @@ export function install(page) {
   );
   effect(() => draw(unknown));
   window.addEventListener("resize", measure);
-  document.addEventListener("keydown", (event) => {
-    const isElsewhere = document.querySelector("#webviz :is(dialog[open], .wv-menu, .wv-popover)");
-    if (event.key !== "Escape" || !full.value || alone || isElsewhere) return;
-    event.stopPropagation();
-    full.value = "";
+  command({
+    name: "Restore the enlarged panel",
+    key: "Escape",
+    group: "View",
+    isHidden: true,
+    isThere: () =>
+      full.value !== "" &&
+      !alone &&
+      !document.querySelector("#webviz :is(dialog[open], .wv-menu, .wv-popover)"),
+    run: () => (full.value = ""),
   });
 }
 

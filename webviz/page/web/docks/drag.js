@@ -1,5 +1,6 @@
 // Dragging a panel by its tab or its head to another place.
 
+import { takeKeysFirst } from "../keys.js";
 import { el } from "../dom.js";
 import { signal } from "../signals.js";
 import { targetAt } from "./places.js";
@@ -74,25 +75,23 @@ function follow(handle, { clientX, clientY, pointerId }, { boxes, drop, home }) 
     if (event.type === "pointerup" && target.value) drop(target.value, grab);
   }
 
-  /** @param {KeyboardEvent} event */
-  function key(event) {
-    if (event.key !== "Escape" || !all) return;
-    event.stopPropagation();
+  const endKeys = takeKeysFirst((event) => {
+    if (event.key !== "Escape" || !all) return false;
     end();
-  }
+    return true;
+  });
 
   function end() {
     preview.remove();
     window.removeEventListener("pointermove", move);
     window.removeEventListener("pointerup", up);
     window.removeEventListener("pointercancel", up);
-    window.removeEventListener("keydown", key, { capture: true });
+    endKeys();
   }
 
   window.addEventListener("pointermove", move);
   window.addEventListener("pointerup", up);
   window.addEventListener("pointercancel", up);
-  window.addEventListener("keydown", key, { capture: true });
 }
 
 /**

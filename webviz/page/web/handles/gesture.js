@@ -3,6 +3,7 @@
 import { why } from "../access.js";
 import * as act from "../act.js";
 import * as channel from "../channel.js";
+import { takeKeysFirst } from "../keys.js";
 import { pickAt } from "../scene/picking/pick.js";
 import { tell, tellLive } from "../tools/hint.js";
 import { canvas, eachFrame, requestRender } from "../viser_page.js";
@@ -65,16 +66,12 @@ export function install() {
     if (drag && number >= drag.first) lose(drag);
   });
   channel.onOpen(() => drag && lose(drag));
-  window.addEventListener(
-    "keydown",
-    (event) => {
-      if (event.key === "Escape" && drag) {
-        event.stopImmediatePropagation();
-        release(drag);
-      } else if (drag) setKeys(drag, event);
-    },
-    true,
-  );
+  takeKeysFirst((event) => {
+    if (!drag) return false;
+    if (event.key === "Escape") release(drag);
+    else setKeys(drag, event);
+    return event.key === "Escape";
+  });
   window.addEventListener("keyup", (event) => drag && setKeys(drag, event), true);
 }
 

@@ -1,6 +1,7 @@
 // A pane: the picture of one display, its title, and the value under the mouse.
 
 import { el, set, showText } from "../dom.js";
+import { takeKeysOf } from "../keys.js";
 import { sanitized } from "../sanitize.js";
 import { recall, remember } from "../remember.js";
 import { makeCamera } from "./camera.js";
@@ -11,7 +12,7 @@ import { marksOver } from "./pane_marks.js";
 import { makePicture } from "./picture.js";
 import { makeReading } from "./pixel_reading.js";
 import { makeReadout } from "./readout.js";
-import { makeZoom } from "./zoom.js";
+import { makeZoom, takeKey } from "./zoom.js";
 
 /** @import {PictureHeader} from "../messages.js" */
 /** @import {PaneCaption} from "../contents.js" */
@@ -92,16 +93,12 @@ export function makePane(id, changed, withScene) {
     frames.refresh(); // a larger picture has more to show
   }
 
-  canvas.addEventListener("keydown", (event) => {
-    if (!zoom.key(event)) return;
-    event.preventDefault();
-    event.stopPropagation(); // viser's camera turns by arrow keys
-  });
-  element.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || !isFull()) return;
-    event.stopPropagation();
+  takeKeysOf(canvas, (event) => takeKey(zoom, event));
+  takeKeysOf(element, (event) => {
+    if (event.key !== "Escape" || !isFull()) return false;
     setFull(false);
     changed();
+    return true;
   });
 
   function mark() {

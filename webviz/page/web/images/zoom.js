@@ -1,5 +1,7 @@
 // The part of a picture that a pane shows: zoomed by wheel, pinch and keys, moved by a drag.
 
+import { shortcuts } from "../keys.js";
+
 /** @import {Vec2} from "../types.js" */
 
 const MAX_ZOOM = 32;
@@ -8,12 +10,34 @@ const PINCH_STEP = 0.01; // pinching on a touchpad comes as small turns of the w
 const LINE_PX = 16;
 const KEY_STEP = 1.5;
 const MOVE_STEP = 0.1; // of the pane
-/** @type {Record<string, Vec2>} */
-const MOVES = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/** @typedef {ReturnType<typeof makeZoom>} Zoom */
+
+/**
+ * Moves by a step.
+ *
+ * @param {number} right
+ * @param {number} down
+ */
+const moving = (right, down) => (/** @type {Zoom} */ zoom) =>
+  zoom.moveBy([right * MOVE_STEP, down * MOVE_STEP]);
+
+/** Takes a key of a zoomed canvas: `takeKey(zoom, event)`. @type {ReturnType<typeof shortcuts<Zoom>>} */
+export const takeKey = shortcuts("Image", [
+  { does: "Zoom", keys: ["Wheel"] },
+  { does: "Zoom", keys: ["+"], unnamed: ["="], run: (zoom) => zoom.zoomBy(KEY_STEP) },
+  { does: "Zoom", keys: ["-"], run: (zoom) => zoom.zoomBy(1 / KEY_STEP) },
+  { does: "Move", keys: ["Drag"] },
+  { does: "Move", keys: ["ArrowLeft"], run: moving(1, 0) },
+  { does: "Move", keys: ["ArrowUp"], run: moving(0, 1) },
+  { does: "Move", keys: ["ArrowRight"], run: moving(-1, 0) },
+  { does: "Move", keys: ["ArrowDown"], run: moving(0, -1) },
+  { does: "Show all of it", keys: ["0"], run: (zoom) => zoom.reset() },
+]);
 
 /**
  * Lets a canvas that fills its parent be zoomed; `changed()` is called whenever it shows another part.
- * Returns `{zoom(), corner(), reset(), key(event)}`; `key` says whether it took a key.
+ * Returns `{zoom(), corner(), reset(), zoomBy(factor), moveBy(shares)}`.
  *
  * @param {HTMLCanvasElement} canvas
  * @param {() => void} changed
@@ -102,16 +126,11 @@ export function makeZoom(canvas, changed) {
     /** @returns {Vec2} The left upper corner of the zoomed canvas, as shares of the pane. */
     corner: () => [x, y],
     reset: () => show(1, 0, 0),
-    /** @param {KeyboardEvent} event */
-    key(event) {
-      if (event.ctrlKey || event.metaKey || event.altKey) return false;
-      const move = zoom > 1 ? MOVES[event.key] : undefined;
-      if (move) show(zoom, x + MOVE_STEP * move[0], y + MOVE_STEP * move[1]);
-      else if (event.key === "+" || event.key === "=") zoomBy(KEY_STEP);
-      else if (event.key === "-") zoomBy(1 / KEY_STEP);
-      else if (event.key === "0") show(1, 0, 0);
-      else return false;
-      return true;
+    zoomBy: (/** @type {number} */ factor) => zoomBy(factor),
+    /** Moves what is shown by shares of the pane; false if all of it is shown. */
+    moveBy(/** @type {Vec2} */ [right, down]) {
+      if (zoom === 1) return false;
+      show(zoom, x + right, y + down);
     },
   };
 }

@@ -3,6 +3,8 @@
 // Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
 // under the mouse.
 
+import { command } from "../commands.js";
+import { shortcuts } from "../keys.js";
 import constants from "../constants.js";
 import { pickAt } from "./picking/pick.js";
 import { casterAt } from "./rays.js";
@@ -13,6 +15,16 @@ import * as viser from "../viser_page.js";
 
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
+
+// Seen to below, and by viser's camera.
+shortcuts("Scene", [
+  { does: "Turn the view", keys: ["Drag"] },
+  { does: "Move the view", keys: ["Shift+Drag", "Middle button"] },
+  { does: "Zoom", keys: ["Wheel", "Right button"] },
+  { does: "Walk", keys: ["w", "a", "s", "d"] },
+  { does: "Down, up", keys: ["q", "e"] },
+  { does: "Turn", keys: ["ArrowLeft", "ArrowUp", "ArrowRight", "ArrowDown"] },
+]);
 
 /** True for a view whose camera stays where it is in its frame. */
 export const isLocked = () => Boolean(views.options().lock_camera);
@@ -182,14 +194,16 @@ export function install() {
     else zoom(Math.pow(1.01, event.movementY));
   });
   events.addEventListener("pointerleave", () => (mouse = null));
-  window.addEventListener("keydown", (event) => {
-    const isTyping = /^(INPUT|TEXTAREA|SELECT)$/.test(
-      /** @type {Element} */ (event.target).tagName,
-    );
-    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey;
-    if (event.key !== "f" || isTyping || !isPlain || mouse === null) return;
-    const point = pick(mouse);
-    if (point) focus(point);
+  command({
+    name: "Look at what is under the mouse",
+    key: "f",
+    group: "Scene",
+    isHidden: true,
+    isThere: () => mouse !== null,
+    run: () => {
+      const point = mouse && pick(mouse);
+      if (point) focus(point);
+    },
   });
   views.onShow(() => arm());
   arm();

@@ -1,6 +1,7 @@
 // Dragging displays to another place: by mouse, or by a finger that has rested on one.
 
 import { why } from "../../access.js";
+import { takeKeysFirst } from "../../keys.js";
 import { swallowClick, swallowClickOfRelease } from "../../controls/long_press.js";
 import { el } from "../../dom.js";
 import { sanitized } from "../../sanitize.js";
@@ -191,14 +192,12 @@ export function listenToDrags(canvas, tree) {
     press = drag = null;
   }
 
-  /** @param {KeyboardEvent} event */
-  function onKey(event) {
-    if (event.key !== "Escape" || !drag) return;
-    event.stopImmediatePropagation();
-    event.preventDefault();
+  const endKeys = takeKeysFirst((event) => {
+    if (event.key !== "Escape" || !drag) return false;
     swallowClickOfRelease();
     end();
-  }
+    return true;
+  });
 
   /** @param {TouchEvent} event */
   const keepStill = (event) => press?.isReady && event.cancelable && event.preventDefault();
@@ -207,9 +206,8 @@ export function listenToDrags(canvas, tree) {
   canvas.addEventListener("pointerup", onUp);
   canvas.addEventListener("pointercancel", end);
   canvas.addEventListener("touchmove", keepStill, { passive: false });
-  addEventListener("keydown", onKey, { capture: true });
   return () => {
     if (press) end();
-    removeEventListener("keydown", onKey, { capture: true });
+    endKeys();
   };
 }

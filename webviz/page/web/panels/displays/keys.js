@@ -1,5 +1,6 @@
 // The keys of the tree, as the pattern for trees of ARIA has them, and those that move displays.
 
+import { shortcuts, takeKeysOf } from "../../keys.js";
 import * as actions from "./actions.js";
 import { isOpen, setOpen } from "./folding.js";
 import { topmost } from "./model.js";
@@ -7,107 +8,148 @@ import * as selection from "./selection.js";
 
 /** @import {Item, Tree, Way} from "./types.js" */
 
-/** @type {Record<string, Way>} */
-const WAYS = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "out", ArrowRight: "into" };
+const ROW_PX = 26;
 
 /**
- * Answers to keys in a tree; see `tree.js` for what is asked of that.
+ * A key by itself, and with those that extend the selection or keep it.
+ *
+ * @param {string} key
+ */
+const extending = (key) => ["", "Shift+", "Ctrl+", "Ctrl+Shift+"].map((before) => before + key);
+
+/**
+ * Does something to the row that keys act on, if there is one.
+ *
+ * @param {(tree: Tree, item: Item, event: KeyboardEvent) => unknown} act
+ */
+const onRow = (act) => (/** @type {Tree} */ tree, /** @type {KeyboardEvent} */ event) => {
+  const item = tree.rows()[here(tree)];
+  return item ? act(tree, item, event) : false;
+};
+
+/**
+ * Goes to the row that `index(here, page)` names, where a page is as many rows as are seen.
+ *
+ * @param {(here: number, page: number) => number} index
+ */
+const going = (index) => (/** @type {Tree} */ tree, /** @type {KeyboardEvent} */ event) =>
+  go(
+    tree,
+    index(here(tree), Math.max(1, Math.floor(tree.element.clientHeight / ROW_PX) - 1)),
+    event,
+  );
+
+/** @param {Way} way */
+const moving = (way) => (/** @type {Tree} */ tree) =>
+  actions.moveBy(tree.model(), selection.ids(), way);
+
+/** @param {Tree} tree */
+const here = (tree) => tree.rows().findIndex(({ id }) => id === selection.active());
+/** @param {Tree} tree */
+const chosen = (tree) => topmost(tree.model(), selection.ids());
+
+/** @type {ReturnType<typeof shortcuts<Tree>>} */
+const take = shortcuts("Tree of displays", [
+  { does: "Show or hide displays", keys: [" "], unnamed: ["Ctrl+ "], run: onRow(switchOn) },
+  { does: "Copy as YAML", keys: ["Ctrl+c"], run: copy },
+  { does: "Select all", keys: ["Ctrl+a"], run: selectAll },
+  {
+    does: "Unfold, fold",
+    keys: ["ArrowRight", "ArrowLeft"],
+    unnamed: [...extending("ArrowRight"), ...extending("ArrowLeft")],
+    run: onRow(fold),
+  },
+  {
+    does: "Properties in the tree",
+    keys: ["Enter"],
+    run: onRow((tree, item) => tree.setOpen(item, !isOpen(item))),
+  },
+  { does: "Move in the list", keys: ["Alt+ArrowUp"], run: moving("up") },
+  { does: "Move in the list", keys: ["Alt+ArrowDown"], run: moving("down") },
+  { does: "Into and out of a group", keys: ["Alt+ArrowRight"], run: moving("into") },
+  { does: "Into and out of a group", keys: ["Alt+ArrowLeft"], run: moving("out") },
+  {
+    does: "Actions",
+    keys: ["Shift+F10"],
+    unnamed: ["ContextMenu"],
+    run: onRow((tree, { id }) => tree.openMenu(id)),
+  },
+  { does: "", keys: [], unnamed: extending("ArrowDown"), run: going((at) => at + 1) },
+  { does: "", keys: [], unnamed: extending("ArrowUp"), run: going((at) => at - 1) },
+  { does: "", keys: [], unnamed: extending("PageDown"), run: going((at, page) => at + page) },
+  { does: "", keys: [], unnamed: extending("PageUp"), run: going((at, page) => at - page) },
+  { does: "", keys: [], unnamed: extending("Home"), run: going(() => 0) },
+  { does: "", keys: [], unnamed: extending("End"), run: going(() => Infinity) },
+]);
+
+/**
+ * Answers to keys in a tree; letters are for tools, wherever the focus is.
  *
  * @param {HTMLElement} element
  * @param {Tree} tree
  */
-export function listenToKeys(element, tree) {
-  const rows = () => tree.rows();
-  const here = () => rows().findIndex(({ id }) => id === selection.active());
-  const chosen = () => topmost(tree.model(), selection.ids());
-
-  /**
-   * @param {number} index
-   * @param {KeyboardEvent} event
-   */
-  function go(index, event) {
-    const row = rows()[Math.max(0, Math.min(index, rows().length - 1))];
-    if (!row) return;
-    if (event.shiftKey) selection.extend(row.id, rows());
-    else if (event.ctrlKey || event.metaKey) selection.activate(row.id);
-    else selection.choose(row.id);
-    tree.showActive();
-  }
-
-  /**
-   * @param {KeyboardEvent} event
-   * @param {Item} item
-   */
-  function fold(event, item) {
-    if (event.key === "ArrowRight") {
-      if (!isOpen(item)) setOpen(item, true);
-      else if (item.children.length) return go(here() + 1, event);
-    } else if (isOpen(item)) setOpen(item, false);
-    else if (item.parent) return go(rows().indexOf(item.parent), event);
-    tree.refresh();
-  }
-
-  /**
-   * @param {KeyboardEvent} event
-   * @param {Item} item
-   */
-  function switchOn(event, item) {
-    if (event.ctrlKey || event.metaKey) {
-      selection.toggle(item.id);
-      tree.refresh();
-      return;
-    }
-    const isOne = !selection.isSelected(item.id);
-    const items = (
-      isOne ? [item] : [...selection.ids()].flatMap((id) => tree.model().byId.get(id) ?? [])
-    ).filter((each) => each.can_edit);
-    if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
-  }
-
-  /** @param {KeyboardEvent} event */
-  function onKey(event) {
-    const item = rows()[here()];
-    const { key, altKey, shiftKey } = event;
-    const withCtrl = event.ctrlKey || event.metaKey;
-    const page = Math.max(1, Math.floor(element.clientHeight / 26) - 1);
-    const to = {
-      ArrowDown: here() + 1,
-      ArrowUp: here() - 1,
-      Home: 0,
-      End: Infinity,
-      PageDown: here() + page,
-      PageUp: here() - page,
-    }[key];
-    if (altKey) {
-      if (!WAYS[key] || withCtrl) return false;
-      actions.moveBy(tree.model(), selection.ids(), WAYS[key]);
-    } else if (to !== undefined) go(to, event);
-    else if (!item) return false;
-    else if (key === "ArrowLeft" || key === "ArrowRight") fold(event, item);
-    else if (key === "Enter") tree.setOpen(item, !isOpen(item));
-    else if (key === " ") switchOn(event, item);
-    else if (key === "F2") tree.rename(item.id);
-    else if (key === "Delete" && !shiftKey) actions.remove(tree.model(), rows(), chosen());
-    else if (key === "ContextMenu" || (key === "F10" && shiftKey)) tree.openMenu(item.id);
-    else if (withCtrl && key === "a") selectAll();
-    else if (withCtrl && key === "c" && chosen().length) actions.copyAsYaml(chosen());
-    else return false; // letters are for tools, wherever the focus is
-    return true;
-  }
-
-  function selectAll() {
-    for (const { id } of tree.model().items) selection.ids().add(id);
-    tree.refresh();
-  }
-
-  element.addEventListener("keydown", (event) => {
-    if (
-      /** @type {Element} */ (event.target).getAttribute("role") !== "treeitem" ||
-      event.isComposing
-    )
-      return;
-    if (!onKey(event)) return;
-    event.preventDefault();
-    event.stopPropagation();
+export const listenToKeys = (element, tree) =>
+  takeKeysOf(element, (event) => {
+    const target = /** @type {Element} */ (event.target);
+    return target.getAttribute("role") === "treeitem" && take(tree, event);
   });
+
+/**
+ * @param {Tree} tree
+ * @param {number} index
+ * @param {KeyboardEvent} event
+ */
+function go(tree, index, event) {
+  const rows = tree.rows();
+  const row = rows[Math.max(0, Math.min(index, rows.length - 1))];
+  if (!row) return;
+  if (event.shiftKey) selection.extend(row.id, rows);
+  else if (event.ctrlKey || event.metaKey) selection.activate(row.id);
+  else selection.choose(row.id);
+  tree.showActive();
+}
+
+/**
+ * @param {Tree} tree
+ * @param {Item} item
+ * @param {KeyboardEvent} event
+ */
+function fold(tree, item, event) {
+  if (event.key === "ArrowRight") {
+    if (!isOpen(item)) setOpen(item, true);
+    else if (item.children.length) return go(tree, here(tree) + 1, event);
+  } else if (isOpen(item)) setOpen(item, false);
+  else if (item.parent) return go(tree, tree.rows().indexOf(item.parent), event);
+  tree.refresh();
+}
+
+/**
+ * @param {Tree} tree
+ * @param {Item} item
+ * @param {KeyboardEvent} event
+ */
+function switchOn(tree, item, event) {
+  if (event.ctrlKey || event.metaKey) {
+    selection.toggle(item.id);
+    tree.refresh();
+    return;
+  }
+  const isOne = !selection.isSelected(item.id);
+  const items = (
+    isOne ? [item] : [...selection.ids()].flatMap((id) => tree.model().byId.get(id) ?? [])
+  ).filter((each) => each.can_edit);
+  if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
+}
+
+/** @param {Tree} tree */
+function selectAll(tree) {
+  for (const { id } of tree.model().items) selection.ids().add(id);
+  tree.refresh();
+}
+
+/** @param {Tree} tree */
+function copy(tree) {
+  const displays = chosen(tree);
+  if (!displays.length) return false;
+  actions.copyAsYaml(displays);
 }
