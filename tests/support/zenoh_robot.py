@@ -6,10 +6,22 @@ from the engine's own serialiser.
 
 from __future__ import annotations
 
+import itertools
+import json
+import socket
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
 import pamoja.ros2 as pamoja
+import xxhash
+import zenoh
 import zenoh.ext
 
-from webviz.data.messages import type_hash
+from webviz.data.messages import decode, encode, interfaces, type_hash
+
+DEFINITIONS = {"std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message"}
+"""Of services that webviz does not know by itself."""
 
 
 def robot_token(
@@ -39,4 +51,149 @@ def robot_attachment(sequence: int, stamp_ns: int, gid: bytes) -> bytes:
     return zenoh.ext.z_serialize(fields).to_bytes()
 
 
-__all__ = ["robot_attachment", "robot_token", "type_hash"]
+def free_port() -> int:
+    """Return a port of this machine that nothing listens on."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return server.getsockname()[1]
+
+
+def config(mode: str, connect: str = "", listen: str = "", **values: Any) -> zenoh.Config:
+    """Return a config of a session that scouts nobody.
+
+    Args:
+        mode: such as "router".
+        connect, listen: endpoints.
+        values: further ones, with `__` for slashes.
+    """
+    made = zenoh.Config()
+    made.insert_json5("mode", json.dumps(mode))
+    made.insert_json5("scouting/multicast/enabled", "false")
+    made.insert_json5("timestamping/enabled", "true")  # as rmw_zenoh_cpp, for caches
+    made.insert_json5("connect/endpoints", json.dumps([connect] if connect else []))
+    if listen:
+        made.insert_json5("listen/endpoints", json.dumps([listen]))
+    for key, value in values.items():
+        made.insert_json5(key.replace("__", "/"), json.dumps(value))
+    return made
+
+
+class ZenohRouter:
+    """A router on a port of this machine.
+
+    Args:
+        port: 0 for a free one.
+        values: of its config, with `__` for slashes.
+    """
+
+    def __init__(self, port: int = 0, **values: Any) -> None:
+        self.port = port or free_port()
+        self.endpoint = f"tcp/127.0.0.1:{self.port}"
+        self.session = zenoh.open(config("router", listen=self.endpoint, **values))
+
+    def close(self) -> None:
+        """End it."""
+        self.session.close()
+
+
+class ZenohRobot:
+    """A robot as rmw_zenoh_cpp has it: a session with one node.
+
+    Args:
+        endpoint: of its router.
+        node: name of the node, with its namespace.
+        domain: number of the ROS domain.
+    """
+
+    def __init__(self, endpoint: str, node: str = "/robot", domain: int = 0, **values: Any) -> None:
+        self.session = zenoh.open(config("client", endpoint, **values))
+        self.zid = str(self.session.zid())
+        self.domain = domain
+        self.namespace, _, self.name = node.rpartition("/")
+        self._ids = itertools.count(1)
+        self._sequence = itertools.count(1)
+        self._kept: list[Any] = []
+        mangled = pamoja.percent_mangle(self.namespace or "/")
+        self.declare(f"@ros2_lv/{domain}/{self.zid}/0/0/NN/%/{mangled}/{self.name}")
+
+    def declare(self, token: str) -> Any:
+        """Declare a token, whatever it says."""
+        declared = self.session.liveliness().declare_token(token)
+        self._kept.append(declared)
+        return declared
+
+    def token(self, kind: str, topic: str, type: str, hash: str = "", qos: str = "") -> str:
+        """Declare an endpoint; return its token."""
+        token = robot_token(
+            self.domain,
+            self.zid,
+            kind,
+            self.namespace,
+            self.name,
+            topic,
+            type,
+            hash or type_hash(type),
+            qos or "::,10:,:,:,,",
+            (0, next(self._ids)),
+        )
+        self.declare(token)
+        return token
+
+    def publisher(
+        self, topic: str, type: str, is_latched: bool = False, hash: str = ""
+    ) -> Callable[..., None]:
+        """Return a function that publishes a message from values by field, or from bytes."""
+        hash = hash or type_hash(type)
+        key = pamoja.entity_key(self.domain, topic, type, hash)
+        assert key is not None
+        cache = zenoh.ext.CacheConfig(10) if is_latched else None
+        declared = zenoh.ext.declare_advanced_publisher(
+            self.session, key, cache=cache, publisher_detection=is_latched
+        )
+        self._kept.append(declared)
+        token = self.token("MP", topic, type, hash, f":{1 if is_latched else ''}:,10:,:,:,,")
+        gid = xxhash.xxh3_128_intdigest(token.encode()).to_bytes(16, "little")
+
+        def publish(values: Mapping[str, Any] | bytes) -> None:
+            cdr = values if isinstance(values, bytes) else encode(type, values)
+            sent = robot_attachment(next(self._sequence), time.time_ns(), gid)
+            declared.put(cdr, attachment=sent)
+
+        return publish
+
+    def subscription(self, topic: str, type: str) -> list[tuple[Any, bytes]]:
+        """Return the messages of a topic with their attachments, as they arrive."""
+        key = pamoja.entity_key(self.domain, topic, type, type_hash(type))
+        assert key is not None
+        found: list[tuple[Any, bytes]] = []
+
+        def take(sample: zenoh.Sample) -> None:
+            assert sample.attachment is not None, "rmw_zenoh_cpp drops messages without one"
+            found.append((decode(type, sample.payload.to_bytes()), sample.attachment.to_bytes()))
+
+        self._kept.append(self.session.declare_subscriber(key, take))
+        self.token("MS", topic, type)
+        return found
+
+    def service(
+        self, name: str, type: str, answer: Callable[[Any], Mapping[str, Any]], hash: str = ""
+    ) -> None:
+        """Serve a service by a function from its request to the fields of its response."""
+        interfaces.service(type, DEFINITIONS.get(type, ""))
+        hash = hash or f"RIHS01_{'5e' * 32}"
+        key = pamoja.entity_key(self.domain, name, type, hash)
+        assert key is not None
+
+        def reply(query: zenoh.Query) -> None:
+            assert query.payload is not None
+            assert query.attachment is not None
+            assert len(query.attachment.to_bytes()) == 33
+            request = decode(f"{type}_Request", query.payload.to_bytes())
+            response = encode(f"{type}_Response", answer(request))
+            query.reply(key, response, attachment=query.attachment)
+
+        self._kept.append(self.session.declare_queryable(key, reply, complete=True))
+        self.token("SS", name, type, hash)
+
+    def close(self) -> None:
+        """End it."""
+        self.session.close()

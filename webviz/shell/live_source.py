@@ -1,4 +1,4 @@
-"""Live topics: of the ROS graph, or through bridges without ROS."""
+"""Live topics: of the ROS graph, or through bridges and over Zenoh without ROS."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from webviz.shell.ros_source import ros_source
 
 if TYPE_CHECKING:
     from webviz.sources import Source
-    from webviz.sources.bridge.source import BridgeSource
     from webviz.sources.fleet.source import FleetSource
 
 
@@ -23,11 +22,11 @@ def bridge_source(
     url: str,
     headers: str | os.PathLike[str] | None = None,
     ros_args: Sequence[str] = (),
-) -> BridgeSource:
-    """Return the topics of a bridge, which may be connected later.
+) -> Source:
+    """Return the topics of a bridge or over Zenoh, which may be connected later.
 
     Args:
-        url: such as ws://robot:8765.
+        url: such as ws://robot:8765 or tcp/robot:7447.
         headers: file with headers for the bridge, see `webviz.sources.bridge.address`.
         ros_args: remappings of topics.
 
@@ -36,7 +35,15 @@ def bridge_source(
     """
     from webviz.sources.bridge.address import address
     from webviz.sources.bridge.source import BridgeSource
+    from webviz.sources.zenoh.address import is_zenoh, zenoh_address
 
+    if is_zenoh(url):
+        if headers:
+            raise Error("Zenoh has no headers. Name credentials in a session config (.json5).")
+        found = zenoh_address(url)
+        from webviz.sources.zenoh.source import ZenohSource
+
+        return ZenohSource(found, remappings(ros_args, "Zenoh"))
     renamed = remappings(ros_args, "a bridge")
     return BridgeSource(address(url, Path(headers) if headers else None), renamed)
 
@@ -50,7 +57,7 @@ def live_source(
     """Return the topics of a bridge, or of the ROS graph, and of robots with connections.
 
     Args:
-        connect: URL of the bridge, "" for the ROS graph.
+        connect: URL of the bridge or address of Zenoh, "" for the ROS graph.
         headers: for the bridge.
         ros_args: command line arguments for ROS.
         robots: of the config.

@@ -19,11 +19,14 @@ from webviz.server.access.tokens import role_name
 from webviz.shell.cli.commands import app
 from webviz.shell.cli.options import MESH_ROOT
 from webviz.shell.pictures.browser import VARIABLE
+from webviz.sources.zenoh.address import PASSWORD, USER
 from webviz_urdf.expand import ALLOWED_BY
 
 COMMAND = "make docs"
 ENVIRONMENT = {
     "WEBVIZ_CONNECT_HEADERS": "Headers for the bridge of `--connect`, with tokens, one a line.",
+    USER: "User for a Zenoh router that asks for one.",
+    PASSWORD: "Password of that user.",
     VARIABLE: "Chromium or Chrome for pictures; otherwise one is searched for.",
     MESH_ROOT: "Folders of meshes besides ROS packages, separated by colons: `--mesh-root`.",
     ALLOWED_BY: "`1` lets RobotModel expand xacro files, which can run any Python as this user.",

@@ -53,8 +53,8 @@ class Viewer(Running, TimeControls):
         source: of messages, closed with the viewer; None for the ROS graph.
         bag: an MCAP or db3 file, a rosbag2 folder, a ROS 1 bag, or several of them, to play instead
             of the ROS graph; without a config, its topics are shown. It is paused at its start.
-        connect: URL of a bridge whose topics are live, such as "ws://robot:8765", instead of the
-            ROS graph.
+        connect: bridge or Zenoh router whose topics are live, such as "ws://robot:8765" or
+            "tcp/robot:7447", instead of the ROS graph.
         connect_headers: file with HTTP headers for the bridge, one `Name: value` a line.
         autoplay: play the bag as soon as a browser is connected.
         ros_args: for the ROS node: `["--ros-args", "-r", "/scan:=/front/scan"]`; with a bag,

@@ -107,11 +107,12 @@ class ConfigOptions:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ConnectOptions:
-    """The bridge whose topics are live, instead of the ROS graph."""
+    """The bridge or Zenoh router whose topics are live, instead of the ROS graph."""
 
     connect: Annotated[str, Parameter(metavar="URL", show_default=False)] = ""
-    """Connect to a bridge without ROS here, such as ws://robot:8765 of foxglove_bridge or
-    ws://robot:9090 of rosbridge."""
+    """Connect without ROS here: to a bridge, such as ws://robot:8765 of foxglove_bridge or
+    ws://robot:9090 of rosbridge, or over Zenoh: tcp/robot:7447, tls/…, several with commas, or a
+    session config such as zenoh.json5."""
     connect_headers: File | None = None
     """File with headers for the bridge, such as `Authorization: Bearer TOKEN`, one a line."""
 

@@ -67,8 +67,8 @@ def address(
     if not is_valid or not url.isascii() or any(c.isspace() for c in url):
         raise Error(
             f"{url!r} is not the address of a bridge. Write ws://HOST:PORT, such as "
-            "ws://robot:8765 of Foxglove's bridge or ws://robot:9090 of rosbridge, or wss:// for "
-            "one with TLS."
+            "ws://robot:8765 of Foxglove's bridge or ws://robot:9090 of rosbridge, wss:// for one "
+            "with TLS, or tcp/HOST:7447 for a Zenoh router."
         )
     lines = environment.get(HEADERS, "").splitlines()
     if headers is not None:

@@ -22,6 +22,12 @@ MAX_SERVICE_TEXT = 8 << 20
 large robots have a tenth of it."""
 
 
+UNDEFINED = (
+    "the bridge does not send the definition of {type}. Source the workspace that has its package "
+    "before starting the bridge"
+)
+
+
 class TopicTypes(NamedTuple):
     """The types by which a topic is read.
 
@@ -44,9 +50,13 @@ class Definitions:
     """The types of the topics of a bridge, and those of its services.
 
     Each topic is read by its own definition alone, whatever others have the names of its types.
+
+    Args:
+        undefined: why a topic without definition cannot be read, with {type}.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, undefined: str = UNDEFINED) -> None:
+        self._undefined = undefined
         self._topics: dict[str, TopicTypes] = {}
         self._services = set[str]()
         self._service_text = 0
@@ -65,7 +75,7 @@ class Definitions:
         """
         known = self._topics.get(topic, TopicTypes())
         if not text or known[:2] != (type, text):
-            known = self._topics[topic] = _types(type, text)
+            known = self._topics[topic] = _types(type, text, self._undefined)
         return known.problem
 
     def learn_service(self, type: str, request: str, response: str) -> None:
@@ -105,13 +115,10 @@ class Definitions:
         self._topics.pop(topic, None)
 
 
-def _types(type: str, text: str) -> TopicTypes:
+def _types(type: str, text: str, undefined: str) -> TopicTypes:
     if not text:
-        missing = (
-            f"the bridge does not send the definition of {type}. Source the workspace that "
-            "has its package before starting the bridge"
-        )
-        return TopicTypes(type, text, problem="" if type_exists(type) else missing)
+        missing = "" if type_exists(type) else undefined.format(type=type)
+        return TopicTypes(type, text, problem=missing)
     try:
         types = defined(type, text)
         try:
