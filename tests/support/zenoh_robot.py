@@ -178,7 +178,8 @@ class ZenohRobot:
         self, name: str, type: str, answer: Callable[[Any], Mapping[str, Any]], hash: str = ""
     ) -> None:
         """Serve a service by a function from its request to the fields of its response."""
-        interfaces.service(type, DEFINITIONS.get(type, ""))
+        if "/srv/" in type:
+            interfaces.service(type, DEFINITIONS.get(type, ""))
         hash = hash or f"RIHS01_{'5e' * 32}"
         key = pamoja.entity_key(self.domain, name, type, hash)
         assert key is not None
@@ -193,6 +194,111 @@ class ZenohRobot:
 
         self._kept.append(self.session.declare_queryable(key, reply, complete=True))
         self.token("SS", name, type, hash)
+
+    def action(
+        self, name: str, type: str, run: Callable[[Any, Callable[..., None]], Mapping[str, Any]]
+    ) -> dict[str, int]:
+        """Serve an action; return how often its parts were called.
+
+        Args:
+            name: full name.
+            type: such as "nav2_msgs/action/Spin", which is known.
+            run: takes the goal and a function that publishes fields of feedback; returns the fields
+                of the result. It decides on the goal, too: None rejects it.
+        """
+        parts = interfaces.action(type)
+        calls = {"send_goal": 0, "cancel_goal": 0, "get_result": 0}
+        goals: dict[bytes, Any] = {}
+        publish = self.publisher(f"{name}/_action/feedback", parts.feedback)
+
+        def send_goal(request: Any) -> Mapping[str, Any]:
+            calls["send_goal"] += 1
+            goals[bytes(request.goal_id.uuid)] = request.goal
+            return {"accepted": request.goal.target_yaw >= 0}
+
+        def get_result(request: Any) -> Mapping[str, Any]:
+            calls["get_result"] += 1
+            id = bytes(request.goal_id.uuid)
+
+            def feedback(**fields: Any) -> None:
+                publish({"goal_id": {"uuid": list(id)}, "feedback": fields})
+
+            return {"status": 4, "result": run(goals[id], feedback)}
+
+        def cancel_goal(request: Any) -> Mapping[str, Any]:
+            calls["cancel_goal"] += 1
+            return {"return_code": 0}
+
+        self.service(f"{name}/_action/send_goal", parts.send_goal, send_goal)
+        self.service(f"{name}/_action/get_result", parts.get_result, get_result)
+        cancel = "action_msgs/srv/CancelGoal"
+        self.service(f"{name}/_action/cancel_goal", cancel, cancel_goal)
+        return calls
+
+    def close(self) -> None:
+        """End it."""
+        self.session.close()
+
+
+class BridgedRobot:
+    """A robot on DDS behind zenoh-bridge-ros2dds, as its side of Zenoh is.
+
+    Args:
+        endpoint: of its router.
+        namespace: of the bridge, such as "robot1"; "" for none.
+    """
+
+    def __init__(self, endpoint: str, namespace: str = "") -> None:
+        self.session = zenoh.open(config("client", endpoint))
+        self.zid = str(self.session.zid())
+        self._prefix = f"{namespace}/" if namespace else ""
+        own = self.session.liveliness().declare_token(f"@/{self.zid}/@ros2_lv")
+        self._kept: list[Any] = [own]
+
+    def token(self, kind: str, name: str, type: str, qos: str = "") -> str:
+        """Declare a route; return its key."""
+        key = f"{self._prefix}{name.removeprefix('/')}"
+        token = f"@/{self.zid}/@ros2_lv/{kind}/{key.replace('/', '§')}/{type.replace('/', '§')}"
+        token += f"/{qos}" if qos else ""
+        self._kept.append(self.session.liveliness().declare_token(token))
+        return key
+
+    def publisher(
+        self, topic: str, type: str, is_latched: bool = False
+    ) -> Callable[[Mapping[str, Any]], None]:
+        """Return a function that publishes a message, without an attachment."""
+        key = self.token("MP", topic, type, f":1:{1 if is_latched else 0}:0,10")
+        cache = zenoh.ext.CacheConfig(10) if is_latched else None
+        declared = zenoh.ext.declare_advanced_publisher(
+            self.session, key, cache=cache, publisher_detection=is_latched
+        )
+        self._kept.append(declared)
+        return lambda values: declared.put(encode(type, values))
+
+    def subscription(self, topic: str, type: str) -> list[Any]:
+        """Return the messages of a topic, as they arrive."""
+        key = self.token("MS", topic, type, ":1:0:0,10")
+        found: list[Any] = []
+        self._kept.append(
+            self.session.declare_subscriber(
+                key, lambda sample: found.append(decode(type, sample.payload.to_bytes()))
+            )
+        )
+        return found
+
+    def service(self, name: str, type: str, answer: Callable[[Any], Mapping[str, Any]]) -> None:
+        """Serve a service by a function from its request to the fields of its response."""
+        if "/srv/" in type:
+            interfaces.service(type, DEFINITIONS.get(type, ""))
+        is_part = "/_action/" in name
+        key = f"{self._prefix}{name[1:]}" if is_part else self.token("SS", name, type)
+
+        def reply(query: zenoh.Query) -> None:
+            assert query.payload is not None
+            request = decode(f"{type}_Request", query.payload.to_bytes())
+            query.reply(key, encode(f"{type}_Response", answer(request)))
+
+        self._kept.append(self.session.declare_queryable(key, reply))
 
     def close(self) -> None:
         """End it."""

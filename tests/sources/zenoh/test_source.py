@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 
 import pytest
 import xxhash
@@ -19,28 +18,6 @@ from webviz.sources.zenoh.source import ZenohSource
 STRING = "std_msgs/msg/String"
 SET_BOOL = "std_srvs/srv/SetBool"
 TWIST = "geometry_msgs/msg/Twist"
-
-
-@pytest.fixture
-def router() -> Iterator[ZenohRouter]:
-    router = ZenohRouter()
-    yield router
-    router.close()
-
-
-@pytest.fixture
-def robot(router: ZenohRouter) -> Iterator[ZenohRobot]:
-    robot = ZenohRobot(router.endpoint)
-    yield robot
-    robot.close()
-
-
-@pytest.fixture
-def source(router: ZenohRouter) -> Iterator[ZenohSource]:
-    source = ZenohSource(zenoh_address(router.endpoint, {}))
-    until(lambda: source.bridges[0].is_up)
-    yield source
-    source.close()
 
 
 def want(source: ZenohSource, topic: str, type: str = STRING, asked: int = 0) -> None:
@@ -223,3 +200,39 @@ def test_says_that_nothing_listens() -> None:
         router.close()
     finally:
         source.close()
+
+
+def test_finds_the_domain_in_which_the_robot_is(source: ZenohSource, router: ZenohRouter) -> None:
+    robot = ZenohRobot(router.endpoint, domain=42)
+    try:
+        until(lambda: source.bridges[0].remarks)
+        (remark,) = source.bridges[0].remarks
+        assert remark == (
+            "ROS_DOMAIN_ID 0 has no nodes on this network, but 42 has 1 node. "
+            "Start webviz with ROS_DOMAIN_ID=42."
+        )
+        own = ZenohRobot(router.endpoint)
+        until(lambda: not source.bridges[0].remarks)
+        own.close()
+    finally:
+        robot.close()
+
+
+def test_another_version_of_a_type_is_reported(source: ZenohSource, robot: ZenohRobot) -> None:
+    robot.publisher("/words", STRING, hash=f"RIHS01_{'0' * 64}")
+    until(lambda: "/words" in source.offers())
+    want(source, "/words")
+    until(lambda: source.bridges[0].remarks)
+    assert "/words have another version of its type" in source.bridges[0].remarks[0]
+
+
+def test_simulated_time_is_that_of_clock(source: ZenohSource, robot: ZenohRobot) -> None:
+    assert source.clock_messages() is None
+    publish = robot.publisher("/clock", "rosgraph_msgs/msg/Clock")
+
+    def is_simulated() -> bool:
+        publish({"clock": {"sec": 12, "nanosec": 5}})
+        return source.clock_messages() is not None
+
+    until(is_simulated, look_s=0.05)
+    assert source.now_ns() == 12_000_000_005

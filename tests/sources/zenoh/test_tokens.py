@@ -114,6 +114,9 @@ def test_reads_zenoh_bridge_ros2dds() -> None:
         ZID,
         True,
     )
+    assert read_token(f"@/{ZID}/@ros2_lv") == GraphEntity(
+        "bridge", "", session=ZID, is_bridged=True
+    )
     action = read_token(f"@/{ZID}/@ros2_lv/AS/spin/nav2_msgs§action§Spin")
     assert action is not None
     assert (action.kind, action.name, action.type) == ("action", "/spin", "nav2_msgs/action/Spin")

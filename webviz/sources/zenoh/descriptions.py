@@ -25,35 +25,7 @@ string failure_reason
 TypeDescription type_description
 TypeSource[] type_sources
 KeyValue[] extra_information
-===
-MSG: type_description_interfaces/TypeDescription
-IndividualTypeDescription type_description
-IndividualTypeDescription[] referenced_type_descriptions
-===
-MSG: type_description_interfaces/IndividualTypeDescription
-string type_name
-Field[] fields
-===
-MSG: type_description_interfaces/Field
-string name
-FieldType type
-string default_value
-===
-MSG: type_description_interfaces/FieldType
-uint8 type_id
-uint64 capacity
-uint64 string_capacity
-string nested_type_name
-===
-MSG: type_description_interfaces/TypeSource
-string type_name
-string encoding
-string raw_file_contents
-===
-MSG: type_description_interfaces/KeyValue
-string key
-string value
-""".replace("===", "=" * 80)
+"""
 TIMEOUT_S = 5.0
 MAX_SOURCES = 1000
 MAX_ASKED = 1000

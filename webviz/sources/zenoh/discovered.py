@@ -10,7 +10,7 @@ from typing import NamedTuple
 from webviz.api.offer import Endpoint, Publisher
 from webviz.data.words import counted, joined, listed
 from webviz.sources.bridge.session import CarriedTopic
-from webviz.sources.names import NODE
+from webviz.sources.names import is_own
 from webviz.sources.zenoh.attachment import gid_of
 from webviz.sources.zenoh.tokens import GraphEntity, LivelinessError, read_token
 
@@ -18,6 +18,11 @@ MAX_ENTITIES = 20_000
 """Nodes and endpoints that are known at once; a fleet of fifty robots has about 10 000."""
 NAMED = 3
 """Topics that one sentence names."""
+
+IDLE_BRIDGE = (
+    "A zenoh-bridge-ros2dds routes nothing. Start it in the ROS_DOMAIN_ID of the robot, and check "
+    "the lists `allow` and `deny` of its config."
+)
 
 
 class GraphSnapshot(NamedTuple):
@@ -41,6 +46,11 @@ class GraphSnapshot(NamedTuple):
     actions: Mapping[str, GraphEntity] = {}
     transports: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has nobody but this viewer."""
+        return not self.transports
 
     @property
     def services(self) -> Mapping[str, str]:
@@ -118,7 +128,10 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
     nodes: list[str] = []
     servers: dict[str, GraphEntity] = {}
     actions: dict[str, GraphEntity] = {}
+    bridges, routing = set[str](), set[str]()
     for token, entity in entities.items():
+        if entity.is_bridged:
+            (bridges if entity.kind == "bridge" else routing).add(entity.session)
         match entity.kind:
             case "node":
                 nodes.append(entity.node)
@@ -130,8 +143,10 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
                 servers.setdefault(entity.name, entity)
             case "action":
                 actions.setdefault(entity.name, entity)
-            case "client":
+            case "client" | "bridge":
                 pass
+    if bridges - routing:
+        remarks = [*remarks, IDLE_BRIDGE]
     doubled = _once(publishers)
     if doubled:
         names = listed(sorted(doubled), NAMED)
@@ -140,7 +155,7 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
             f"Two ways lead to one robot: {names} come over rmw_zenoh and through "
             "zenoh-bridge-ros2dds. Stop the bridge; webviz reads rmw_zenoh only.",
         ]
-    uses = {e.is_bridged for e in entities.values() if not e.node.endswith(f"/{NODE}")}
+    uses = {e.is_bridged for e in entities.values() if not is_own(e.node)}
     names = {False: "rmw_zenoh", True: "zenoh-bridge-ros2dds"}
     topics = {
         topic: _carried(publishers.get(topic, {}), readers.get(topic, {})) for topic in publishers

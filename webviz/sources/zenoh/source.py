@@ -35,6 +35,7 @@ from webviz.sources.zenoh.subscriptions import (
     wanted_durability,
     wanted_reliability,
 )
+from webviz.sources.zenoh.survey import DomainSurvey
 from webviz.sources.zenoh.tokens import BRIDGED_PATTERN, graph_pattern
 
 INBOX_LIMIT = 1000
@@ -95,6 +96,7 @@ class ZenohSource:
         self._requests = 0
         self.calls = ZenohCalls(lambda: self.snapshot, self._request_attachment)
         self._descriptions = TypeDescriptions(self.calls, self._learn)
+        self._survey = DomainSurvey(address.domain)
         self._listening: list[Any] = []
         """Subscriptions to tokens, which end with what refers to them."""
         self.link = ZenohLink(address, self)
@@ -154,6 +156,7 @@ class ZenohSource:
             listen(pattern, directly(self._token), history=True)
             for pattern in (graph_pattern(domain), BRIDGED_PATTERN)
         ]
+        self._survey = DomainSurvey(domain)
         self._is_wish_new = True
 
     def turn(self) -> None:
@@ -166,6 +169,8 @@ class ZenohSource:
             session = self.link.session
         except NotConnected:
             session = None
+        else:
+            self._survey.turn(session, self.snapshot.is_empty)
         self.calls.turn(session)
 
     def lost(self, problem: str) -> None:
@@ -314,7 +319,6 @@ class ZenohSource:
         """Describe the link as it is now."""
         before, problem = self._bridges[0], self.link.problem
         is_up = problem is None
-        silent_s = self.link.silent_s
         link = replace(
             before,
             protocol="Zenoh",
@@ -322,12 +326,15 @@ class ZenohSource:
             was_up=before.was_up or is_up,
             problem="" if problem is None else problem.cause,
             remedy="" if problem is None else problem.remedy,
-            remarks=remarks(self.snapshot, silent_s if silent_s > STALLED_S else 0.0)
-            if is_up
-            else (),
+            remarks=self._remarks() if is_up else (),
             limits=limits(self.snapshot),
             round_trip_s=self.link.round_trip_s if is_up else None,
         )
         if link != before:
             self._bridges = (link,)
             self.inbox.arrived.set()
+
+    def _remarks(self) -> tuple[str, ...]:
+        silent_s = self.link.silent_s
+        silent_s = silent_s if silent_s > STALLED_S else 0.0
+        return remarks(self.snapshot, silent_s, self._survey.remark, self._opened)

@@ -10,11 +10,11 @@ the topic kept, and requests of a service the same with its name; Humble writes
 
 zenoh-bridge-ros2dds:
 
-    @/SESSION/@ros2_lv/KIND/KEY/TYPE[/QOS]
+    @/SESSION/@ros2_lv[/KIND/KEY/TYPE[/QOS]]
 
-with `§` for slashes. The key of messages, and of requests, is the name of the topic without its
-first slash, below the namespace of the bridge if it has one. It has tokens for actions, too, but
-none for nodes.
+with `§` for slashes; the short one is of the bridge itself. The key of messages, and of requests,
+is the name of the topic without its first slash, below the namespace of the bridge if it has one.
+It has tokens for actions, too, but none for nodes.
 
 Read in ros2/rmw_zenoh (`liveliness_utils.cpp`), ZettaScaleLabs/hiroz, Pico-ROS and
 eclipse-zenoh/zenoh-plugin-ros2dds (`liveliness_mgt.rs`).
@@ -35,7 +35,7 @@ MAX_HASH = 80
 MAX_DOMAIN = 232
 NO_HASH = "TypeHashNotSupported"
 _SLASH, _DDS_SLASH = "%", "§"
-Kind = Literal["node", "publisher", "subscription", "server", "client", "action"]
+Kind = Literal["node", "publisher", "subscription", "server", "client", "action", "bridge"]
 _KINDS: dict[str, Kind] = {
     "NN": "node",
     "MP": "publisher",
@@ -186,6 +186,8 @@ def _native(token: str) -> GraphEntity | None:
 
 def _bridged(token: str) -> GraphEntity | None:
     parts = token.split("/", 7)
+    if len(parts) == 3 and parts[2] == ADMIN:
+        return GraphEntity("bridge", "", session=parts[1], is_bridged=True)
     if len(parts) < 6 or parts[0] != "@" or parts[2] != ADMIN or not all(parts):
         raise LivelinessError("a token without the components of zenoh-bridge-ros2dds")
     session, letters, key, type = parts[1], parts[3], parts[4], parts[5]
