@@ -20,6 +20,7 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from viser_internals import cut_connections
 
 import webviz
 from webviz.commands import AddDisplay
@@ -165,8 +166,7 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
 
 def cut(page: Page, viewer: webviz.Viewer) -> None:
     server = viewer._scene.link.server
-    for connection in tuple(server._websock_server._live_connections.values()):
-        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(server)
 
 
 @contextmanager

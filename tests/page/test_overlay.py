@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from msgspec.structs import replace
+from viser_internals import cut_connections
 
 from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
 from webviz.api.bridge import Bridge
@@ -67,8 +68,7 @@ def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: 
           on("StartView", () => { window.isBack = true; });
         }"""
     )
-    for connection in tuple(server._websock_server._live_connections.values()):
-        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(server)
     tab.wait_for(lambda: tab.page.evaluate("window.isBack"))
     assert tab.page.evaluate("window.turned") < 0.1
     tab.page.get_by_role("button", name="Look from X", exact=True).dispatch_event("click")

@@ -8,6 +8,7 @@ from functools import partial
 import playwright.sync_api as playwright
 import pytest
 from msgspec.structs import replace
+from viser_internals import cut_connections
 
 from tests.page.conftest import Tab
 from tests.page.properties_pane import Pane
@@ -164,8 +165,7 @@ def test_a_browser_that_was_cut_off_comes_back_to_how_things_are_now(
 ) -> None:
     mine.field("count").fill("5")
     cut_off = mine.page.evaluate("webviz.browser")
-    for connection in tuple(server._websock_server._live_connections.values()):
-        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(server)
     mine.tab.wait_for(lambda: mine.page.evaluate("webviz.browser") not in (None, cut_off))
     mine.tab.loop.show(make_row("a", count=9, channel="ring"))
     mine.wait_for_value("channel", "ring")

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 from playwright.sync_api import Locator, Position, expect
+from viser_internals import cut_connections
 
 from tests.page.conftest import Loop, Tab
 from webviz.api.errors import Error
@@ -144,8 +145,7 @@ def test_seeks_go_on_after_a_lost_connection(timeline: Tab, server: Server) -> N
         }"""
     )
     track.click(position=at(timeline, 40))
-    for connection in tuple(server._websock_server._live_connections.values()):
-        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(server)
     timeline.page.wait_for_function("window.isBack")
     timeline.wait_for(lambda: timeline.page.locator(".wv-track").is_visible())
     track.click(position=at(timeline, 60))

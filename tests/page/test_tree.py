@@ -9,6 +9,7 @@ from typing import Any
 import playwright.sync_api as playwright
 import pytest
 from msgspec.structs import replace
+from viser_internals import cut_connections
 
 from tests.page.conftest import Loop, Tab
 from tests.page.trees import Tree, group
@@ -460,8 +461,7 @@ def test_five_hundred_displays_are_a_few_rows_in_the_page(
 def cut_off(tab: Tab, server: Server) -> None:
     """End the connections of all pages, and wait until the page has a new one."""
     before = set(server.get_clients())
-    for connection in tuple(server._websock_server._live_connections.values()):
-        server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(server)
     tab.wait_for(lambda: server.get_clients() and not before & set(server.get_clients()))
 
 

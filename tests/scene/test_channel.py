@@ -17,6 +17,7 @@ import pytest
 import websockets.exceptions
 import websockets.sync.client
 from several import Make
+from viser_internals import live_connections
 from waiting import until
 from websockets.sync.connection import Connection
 
@@ -194,7 +195,7 @@ def test_a_page_that_reads_nothing_has_to_connect_anew(
 ) -> None:
     peer = call()
     browser, key = key_of(peer)
-    live = server._websock_server._live_connections
+    live = live_connections(server)
     with channel(server, max_queue=1) as page:
         page.send(hello(key))
         for _ in range(MAX_WAITING):
@@ -211,7 +212,7 @@ def test_when_the_channel_ends_viser_notifies_the_page(server: Server, call: Mak
         page.send(hello(key))
         server.channel.send(News("hello"))
         receive(page)
-    until(lambda: browser not in server._websock_server._live_connections)
+    until(lambda: browser not in live_connections(server))
 
 
 def test_when_viser_s_connection_ends_so_does_the_channel(server: Server, call: Make) -> None:
@@ -268,7 +269,7 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     server.stop()
 
     def greet_late(server: Server, *rest: Any) -> None:
-        until(lambda: bool(server._websock_server._live_connections))
+        until(lambda: bool(live_connections(server)))
         greet(server, *rest)
 
     # The worst case: the page is there before anybody has told the server how to greet it.

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from viser import _messages as wire
+from viser_internals import live_connections
 
 from tests.scene.conftest import Peer
 from tests.support.slow_link import SlowLink
@@ -183,7 +184,7 @@ def test_a_connection_holds_little_that_nothing_can_overtake(
     scene: ViserScene, call: Callable[..., Any]
 ) -> None:
     call().replay()
-    (connection,) = scene.link._socket._live_connections.values()
+    (connection,) = live_connections(scene.link.server).values()
     sock = connection.transport.get_extra_info("socket")
     # Linux counts its own bookkeeping, for which it doubles what it was asked for.
     assert sock.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) <= 2 * SEND_BUFFER_BYTES

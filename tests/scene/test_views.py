@@ -15,6 +15,7 @@ import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
 from pages import let_mouse_in
+from viser_internals import cut_connections
 
 from tests.scene import conftest
 from webviz.api.nodes import Instances, Labels, Lines, Pose
@@ -438,8 +439,7 @@ def test_a_page_that_lost_its_connection_keeps_its_view(window: Window) -> None:
     view = TopDownOrtho(scale=33.0, x=2.0)
     window.look(view)
     before, axes = set(window.server.get_clients()), window.evaluate(AXES)
-    for connection in tuple(window.scene.link._socket._live_connections.values()):
-        window.server.get_event_loop().call_soon_threadsafe(connection.transport.abort)
+    cut_connections(window.server)
     window.wait_for(lambda: set(window.server.get_clients()) - before, "it is back")
     window.wait_for(
         lambda: list(window.scene.cameras.views().values()) == [view], "its view was reported"
