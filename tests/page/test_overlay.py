@@ -189,9 +189,9 @@ def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
     tab.wait_for(lambda: " ms" in rates.inner_text())
     assert " fps" in rates.inner_text()
     rates.click()
-    assert "Server and back" in tab.text()
+    assert "Round trip" in tab.text()
     rates.click()
-    assert "Server and back" not in tab.text()
+    assert "Round trip" not in tab.text()
 
 
 def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: Tab, server: Server) -> None:

@@ -118,7 +118,7 @@ class Draggable(ProtocolClient):
         return {}
 
     def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
-        """Take up what a browser does with a handle. One at a time holds it."""
+        """Handle a drag. One browser at a time drags a handle."""
 
 
 CAPABILITIES = (Comparable, Draggable, SelfPlacing, ProtocolClient, Selective, Sweep)

@@ -32,7 +32,7 @@ CANCEL = "action_msgs/srv/CancelGoal"
 RETURN_CODES = {
     0: "no goal is active",
     1: "rejected",
-    2: "no such goal",
+    2: "unknown goal",
     3: "the goal has ended already",
 }
 ACTIONS: Mapping[str, tuple[str, Callable[[Any], Mapping[str, str]]]] = {

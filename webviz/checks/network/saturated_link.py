@@ -23,8 +23,8 @@ class SaturatedLink(Check):
 
     Why:
         Clouds and raw images take more than 100 Mbit/s, and one that is sent to two machines takes
-        twice that. What does not fit is delayed or lost, transforms and scans with it. Wi-Fi does
-        not tell its speed, so only the packets that it drops are seen.
+        twice that. What does not fit is delayed or lost, transforms and scans with it. Wi-Fi
+        drivers do not report their speed, so only the packets that they drop are seen.
 
     Repair:
         Subscribe to fewer clouds and images over this link, compress them (`image_transport`,

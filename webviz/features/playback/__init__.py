@@ -36,7 +36,7 @@ from webviz.files.config import nearest
 from webviz.sources.past_state import Event, PlaybackState
 
 MIN_RATE, MAX_RATE = 0.01, 1000.0
-LIVE = "Topics are live, so there is nothing to play. Seek to a past moment first."
+LIVE = "Nothing to play while live. Seek back first."
 
 
 class PlaybackFeature(Feature):

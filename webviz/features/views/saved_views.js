@@ -41,7 +41,7 @@ export function savedViews() {
     el("button", { type: "submit", class: "wv-button" }, icon("save"), "Save"),
   );
   const start = textButton("Start with this", () => act("StartWithView"), {
-    tip: "New browsers and pictures begin with this view",
+    tip: "Default view for new browsers and pictures",
     icon: "flag",
   });
   const isEmpty = () => views.isThere() && !saved().length;

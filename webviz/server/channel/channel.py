@@ -253,7 +253,7 @@ class Channel:
         try:
             browser, outbox = await asyncio.wait_for(self._introduce(connection), HELLO_S)
         except (ConnectionClosed, TimeoutError, msgspec.MsgspecError, KeyError):
-            await connection.close(1008, "This is no page of webviz")
+            await connection.close(1008, "Not a webviz page")
             return
         outbox.abort = connection.transport.abort
         connection.window.join(outbox.congestion)

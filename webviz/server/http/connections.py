@@ -206,7 +206,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self._bytes_per_message = limits.bytes_per_message
 
     def admit(self, address: str, grant: Grant) -> None:
-        """Note whose connection it is, which goes on from what this browser has spent before.
+        """Identify the browser of a connection and restore its rate budget.
 
         Args:
             address: IP address of the browser.

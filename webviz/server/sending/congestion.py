@@ -33,7 +33,7 @@ GOOD = 0.75
 """Share of the rates of delivery that the assumed one exceeds: pauses of a busy browser, and pongs
 that come late, do not make a link slow."""
 FAST = 12.5e6
-"""Bytes a second from which on a link is none that anything is reduced for."""
+"""Bytes a second from which on a link is not throttled."""
 STALLED_S = 1.0
 """A browser that does not answer for so long is sent nothing until it does."""
 REST_S = 5.0

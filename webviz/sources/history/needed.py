@@ -136,7 +136,7 @@ class NeededMessages:
         return [(stamp_ns - BEFORE_NS, stamp_ns + AFTER_NS) for stamp_ns in stamps]
 
     def _start_ns(self, topic: str) -> int:
-        """From when on a topic is needed."""
+        """Return the first time at which a topic is needed."""
         if topic not in self._starts:
             self._starts[topic] = self._history.start_ns  # if inputs refer to each other
             subscription, channels = self._wanted[topic], self._channels[topic]
@@ -232,7 +232,7 @@ class NeededMessages:
                 return
 
     def _limit_ns(self, lookback: Lookback) -> int:
-        """From when on messages may count."""
+        """Return the first time at which messages may count."""
         limit_ns = self._history.start_ns
         if lookback.seconds:
             limit_ns = max(limit_ns, self._at_ns - round(min(lookback.seconds, 1e9) * 1e9))

@@ -99,7 +99,7 @@ function facts(rate, trip) {
   const watching = watchers();
   return [
     ["Frames drawn", `${rate} a second; none while nothing changes`],
-    ["Server and back", trip === null ? "not measured yet" : `${trip.toFixed(1)} ms`],
+    ["Round trip", trip === null ? "not measured yet" : `${trip.toFixed(1)} ms`],
     ["Watching", `${watching} ${watching === 1 ? "browser" : "browsers"}`],
     [
       "Drawn at once",

@@ -57,7 +57,7 @@ export const COLUMNS = [
   {
     id: "rate",
     title: "Rate",
-    hint: "Messages per second, of topics that are shown or looked at",
+    hint: "Messages per second (subscribed topics only)",
     isNumber: true,
     value: (topic) => topic.hz,
     text: ({ hz, qos }) => (hz === 0 && qos.endsWith(LATCHED) ? "latched" : rateText(hz)),
