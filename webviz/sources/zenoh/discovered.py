@@ -49,7 +49,7 @@ class GraphSnapshot(NamedTuple):
 
     @property
     def is_empty(self) -> bool:
-        """Whether it has nobody but this viewer."""
+        """Return whether it has nobody but this viewer."""
         return not self.transports
 
     @property

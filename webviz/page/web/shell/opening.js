@@ -1,4 +1,4 @@
-// What can be opened: features add sections to the dialog "Open", and take files by their endings.
+// Openers: features add sections to the dialog "Open", and take files by their endings.
 
 import { el } from "../dom.js";
 
