@@ -179,7 +179,7 @@ _HOMES = {
     "webviz.api.ports": ("Input", "Output"),
     "webviz.api.sample": ("Sample",),
     "webviz.api.status": ("Level", "Measurement", "OtherFixedFrame", "Remedy", "Status"),
-    "webviz.api.tool": ("Gesture", "Stroke", "Tool", "ToolContext"),
+    "webviz.api.tool": ("Gesture", "Tool", "ToolContext"),
     "webviz.engine.state": ("PanelTimes", "Row", "State", "Traffic"),
     "webviz.shell.pictures.capture": ("capture",),
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, ClassVar
 
 import lenses
@@ -16,8 +15,6 @@ from inspecting import Benches
 from webviz import Topic
 from webviz.api.declared import make
 from webviz.api.group import DisplayGroup
-from webviz.api.nodes import Pane
-from webviz.api.pictures import OverlayCamera, Readout
 from webviz.data.images import values as values_of
 from webviz.engine.parts.visibility import hidden_in, names
 from webviz.engine.state import Row
@@ -39,25 +36,6 @@ def send(at: Any, stamp_ns: int | None = None, frame: str = "camera") -> None:
 def send_info(at: Any, stamp_ns: int | None = None, **changes: Any) -> None:
     values = photos.info(16, 12) | changes
     at.send(photos.INFO, values, frame="camera", topic=INFO, stamp_ns=stamp_ns)
-
-
-def test_the_former_name_of_the_camera_of_a_pane_still_works() -> None:
-    camera = OverlayCamera(
-        position=(0.0, 0.0, 0.0),
-        wxyz=(1.0, 0.0, 0.0, 0.0),
-        size=(16, 12),
-        focal=(16.0, 16.0),
-        principal=(8.0, 6.0),
-        part=(0.0, 0.0, 1.0, 1.0),
-        far=100.0,
-        zoom=1.0,
-        overlay=0.5,
-        is_background=True,
-        warp=None,
-    )
-    with pytest.warns(DeprecationWarning, match=r"^Pane\.sight is Pane\.camera now"):
-        pane = Pane(Readout("/joints", "std_msgs/msg/String", None), sight=camera)
-    assert replace(pane, order=1).camera is camera
 
 
 def test_the_camera_sees_from_where_it_was_at_the_stamp(bench: Benches) -> None:

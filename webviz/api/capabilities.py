@@ -9,9 +9,8 @@ The pipeline asks for each of them once, when a display starts to run.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from webviz.api.connection import GraphConnection
@@ -123,49 +122,9 @@ class Draggable(ProtocolClient):
 
 CAPABILITIES = (Comparable, Draggable, SelfPlacing, ProtocolClient, Selective, Sweep)
 
-FORMER_HOOKS = {"communicate": "talk", "drag": "grip"}
-"""Names that hooks had in the version before."""
-
 C = TypeVar("C", bound=Comparable | SelfPlacing | ProtocolClient | Selective | Sweep)
 
 
 def capability(display: object, kind: type[C]) -> C | None:
     """Return a display as one with a capability, None if it has not opted in."""
-    own = [hook for hook in vars(kind) if not hook.startswith("_") and hook != "uses"]
-    name = type(display).__name__
-    former = {hook: FORMER_HOOKS[hook] for hook in own if _has(display, FORMER_HOOKS.get(hook))}
-    for hook, old in former.items():
-        _warn(f"{name}.{old} is {hook} now; the next version calls only that.")
-    if isinstance(display, kind):
-        return cast("C", _Adapted(display, kind, former)) if former else display
-    if not former and not any(_has(display, hook) for hook in own):
-        return None
-    _warn(
-        f"{name} has {kind.__name__}'s hooks but not its base class, which the next version "
-        f"requires. Derive it from webviz.{kind.__name__}, too."
-    )
-    return cast("C", _Adapted(display, kind, former))
-
-
-def _has(display: object, hook: str | None) -> bool:
-    """Return whether the class of a display has a hook; a property may have its name."""
-    return hook is not None and callable(getattr(type(display), hook, None))
-
-
-def _warn(text: str) -> None:
-    warnings.warn(text, DeprecationWarning, stacklevel=3)
-
-
-class _Adapted:
-    """A display without the base class of a capability, or with former names of its hooks."""
-
-    def __init__(self, display: object, kind: type, former: Mapping[str, str]) -> None:
-        self._display = display
-        self._kind = kind
-        self._former = former
-
-    def __getattr__(self, name: str) -> Any:
-        name = self._former.get(name, name)
-        if hasattr(self._display, name):
-            return getattr(self._display, name)
-        return getattr(self._kind, name).__get__(self._display)
+    return display if isinstance(display, kind) else None

@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from webviz.api.former_names import former_names
 from webviz.api.nodes import Pose
 
 Mode = Literal[
@@ -134,6 +133,3 @@ class Drag:
     turned: float = 0.0
     point: Position | None = None
     entry: Annotated[int, msgspec.Meta(ge=0, lt=1 << 32)] = 0
-
-
-__getattr__ = former_names(__name__, {"Grip": Drag})

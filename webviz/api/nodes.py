@@ -8,8 +8,7 @@ Arrays must not be changed once they are part of a node.
 from __future__ import annotations
 
 import functools
-import warnings
-from dataclasses import InitVar, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
@@ -311,7 +310,6 @@ class Pane(_Node):
         order: see `Context.order`.
         camera: that took the picture, if the scene is drawn with it.
         marks: figures over the picture, of which later ones lie on top.
-        sight: former name of `camera`, which works for one more version.
     """
 
     picture: Picture
@@ -319,12 +317,6 @@ class Pane(_Node):
     order: int = 0
     camera: OverlayCamera | None = None
     marks: tuple[Mark, ...] = ()
-    sight: InitVar[OverlayCamera | None] = None
-
-    def __post_init__(self, sight: OverlayCamera | None) -> None:
-        if sight is not None:
-            warnings.warn("Pane.sight is Pane.camera now.", DeprecationWarning, stacklevel=3)
-            object.__setattr__(self, "camera", sight)
 
 
 Node = Points | Lines | Arrows | Axes | Labels | Mesh | Instances | Models | Glb | Image | Pane

@@ -26,7 +26,6 @@ from typing import Annotated, Any, ClassVar, Literal
 import msgspec
 
 from webviz.api.declared import Declared, Prop, Topic
-from webviz.api.former_names import former_names
 from webviz.api.frames import Frames
 from webviz.api.goal import GoalRequest, goal_request, nothing
 from webviz.api.ports import Output
@@ -311,6 +310,3 @@ def outputs_of(cls: type[Tool]) -> dict[str, Output]:
 def outputs(tool: Tool) -> list[tuple[str, Output, Topic]]:
     """Each output of a tool: property name, declaration, and the topic chosen for it."""
     return [(name, spec, getattr(tool, name)) for name, spec in outputs_of(type(tool)).items()]
-
-
-__getattr__ = former_names(__name__, {"Stroke": Gesture})

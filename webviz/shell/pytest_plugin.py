@@ -6,7 +6,6 @@ pytest imports this module whenever webviz is installed, so fixtures import the 
 from __future__ import annotations
 
 import contextlib
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -106,13 +105,6 @@ def webviz_bench() -> Iterator[Callable[..., DisplayBench]]:
     workers = Workers(lambda: None)
     yield lambda display, **options: DisplayBench(display, workers, **options)
     workers.close()
-
-
-@pytest.fixture
-def webviz_stage(webviz_harness: Callable[..., Harness]) -> Callable[..., Harness]:
-    """Warn about the former name of `webviz_harness`, and return the same."""
-    warnings.warn("webviz_stage is webviz_harness now.", DeprecationWarning, stacklevel=2)
-    return webviz_harness
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-import webviz.testing
 from webviz import Level
 from webviz.engine.requests import Refused
 from webviz.shell.testing import SECOND, Harness
@@ -99,8 +98,3 @@ def test_a_ros_message_is_published_as_it_is(webviz_harness: Callable[..., Harne
     np.testing.assert_allclose(stage.points()[0], (2.0, 0.0, 0.0))
     with pytest.raises(TypeError, match="object is not a ROS message"):
         stage.publish("/scan", object())
-
-
-def test_the_former_names_work_and_say_what_they_are_called_now() -> None:
-    with pytest.warns(DeprecationWarning, match=r"webviz\.testing\.Stage is Harness now"):
-        assert webviz.testing.Stage is Harness

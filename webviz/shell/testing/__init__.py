@@ -3,8 +3,6 @@
 They are created by the fixtures of `webviz.shell.pytest_plugin`; import them for annotations.
 """
 
-import warnings
-
 from webviz.data.messages import encode as serialized
 from webviz.shell.testing.bench import DisplayBench, check_details
 from webviz.shell.testing.comparing import NOTICEABLE, TOLERANCE, share_of_difference
@@ -37,11 +35,3 @@ __all__ = [
     "share_of_difference",
     "turned",
 ]
-
-
-def __getattr__(name: str) -> type[Harness]:
-    """Return what has another name now."""
-    if name != "Stage":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    warnings.warn("webviz.testing.Stage is Harness now.", DeprecationWarning, stacklevel=2)
-    return Harness
