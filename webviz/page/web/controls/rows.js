@@ -3,19 +3,10 @@
 // The list has the focus; arrow keys move the row that is marked, which screen readers announce.
 
 import { el, newId, set } from "../dom.js";
-import { batch, effect, owned, root, signal, untracked } from "../signals.js";
-
-/** @import {Signal} from "../signals.js" */
-/** @import {End} from "../types.js" */
+import { batch, effect, owned, signal, untracked } from "../signals.js";
+import { VirtualList } from "./virtual.js";
 
 /** @typedef {HTMLElement & {wvKey: string, wvDepth?: number}} Row */
-
-/**
- * A row in the page: it is made once, and follows its item.
- *
- * @template T
- * @typedef {{element: Row, item: Signal<T>, end: End}} Mounted
- */
 
 /**
  * `role` is that of the list, `rowRole` that of its rows. `row(item)` makes the element of an item,
@@ -68,15 +59,9 @@ class RowList {
   #numbers = 0;
   #height;
   #options;
-  /** @type {Map<string, Mounted<T>>} */
-  #mounted = new Map();
-  /** @type {Map<string, number>} */
-  #places = new Map();
-  /** @type {T[]} */
-  #items = [];
-  #shown = signal(0); // counts what was shown
+  /** @type {VirtualList<T, {element: Row}>} */
+  #list;
   #marked = signal(/** @type {string | null} */ (null));
-  #canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
   #seenHeight = 0;
   #observer = new ResizeObserver(() => this.#resized());
 
@@ -85,17 +70,19 @@ class RowList {
     const { label, role = "listbox", height, host } = options;
     this.#options = options;
     this.#height = height;
-    this.element = el(
-      "div",
-      {
-        class: "wv-rows",
-        role: host ? "rowgroup" : null,
-        onscroll: () => this.#render(),
-        onclick: (/** @type {MouseEvent} */ event) => this.#click(event),
-      },
-      this.#canvas,
-    );
+    const canvas = el("div", { class: "wv-rows-canvas", role: "presentation" });
+    const onclick = (/** @type {MouseEvent} */ event) => this.#click(event);
+    this.element = el("div", { class: "wv-rows", role: host ? "rowgroup" : null, onclick }, canvas);
     this.focused = host ?? this.element;
+    this.#list = new VirtualList({
+      scroller: this.element,
+      canvas,
+      keyOf: ({ key }) => key,
+      height: () => this.#height,
+      beyond: () => BEYOND * this.#height,
+      held: () => untracked(() => this.#marked.value),
+      make: (item, index, key) => this.#make(item, index, key),
+    });
     set(this.focused, {
       role,
       tabindex: 0,
@@ -107,43 +94,35 @@ class RowList {
 
   /** @param {T[]} items */
   show(items) {
-    this.#items = items;
-    this.#places = new Map(items.map(({ key }, index) => [key, index]));
     batch(() => {
-      if (!this.#places.has(this.#marked.value ?? "")) this.#marked.value = null;
-      this.#shown.value += 1;
-      this.#render();
+      this.#list.show(items);
+      if (this.#list.indexOf(this.#marked.value) < 0) this.#marked.value = null;
     });
+    this.#announce();
   }
 
   marked() {
-    return this.#shown.value ? (this.#itemOf(this.#marked.value) ?? null) : null;
+    const items = this.#list.items();
+    return items[this.#list.indexOf(this.#marked.value)] ?? null;
   }
 
   /** @param {string} key */
   mark(key) {
     this.#marked.value = key;
-    const index = this.#places.get(key);
-    if (index !== undefined) {
-      const { element } = this;
-      const top = index * this.#height;
-      if (top < element.scrollTop) element.scrollTop = top;
-      const over = top + this.#height - element.scrollTop - element.clientHeight;
-      if (over > 0) element.scrollTop += over;
-    }
-    this.#render();
+    this.#list.reveal(key, this.#height);
+    this.#announce();
   }
 
   /** @param {number} pixels */
   resize(pixels) {
     if (pixels === this.#height) return;
     this.#height = pixels;
-    this.#render();
+    this.#list.resize();
   }
 
   close() {
     this.#observer.disconnect();
-    for (const { end } of this.#mounted.values()) end();
+    this.#list.close();
   }
 
   #resized() {
@@ -151,44 +130,21 @@ class RowList {
     this.#seenHeight = this.element.clientHeight;
     // What was chosen stays in sight.
     if (isSmaller && this.#marked.value !== null) this.mark(this.#marked.value);
-    else this.#render();
   }
 
-  #render() {
-    const { scrollTop, clientHeight } = this.element;
-    const total = `${this.#items.length * this.#height}px`;
-    if (this.#canvas.style.height !== total) this.#canvas.style.height = total;
-    const first = Math.max(0, Math.floor(scrollTop / this.#height) - BEYOND);
-    const last = Math.ceil((scrollTop + clientHeight) / this.#height) + BEYOND;
-    const seen = this.#items.slice(first, last);
-    const wanted = new Set(seen.map(({ key }) => key));
-    for (const [key, { element, end }] of this.#mounted) {
-      if (wanted.has(key)) continue;
-      end();
-      element.remove();
-      this.#mounted.delete(key);
-    }
-    seen.forEach((item, index) => {
-      const known = this.#mounted.get(item.key);
-      const { element, item: own } = known ?? root((end) => this.#mount(item, end));
-      own.value = item;
-      this.#place(element, first + index);
-      const before = this.#canvas.children[index] ?? null;
-      if (before !== element) this.#canvas.insertBefore(element, before);
-    });
-    const id = this.#mounted.get(this.#marked.value ?? "")?.element.id;
+  #announce() {
+    const id = this.#list.row(this.#marked.value)?.element.id;
     set(this.focused, { "aria-activedescendant": id });
   }
 
   /**
-   * @param {T} first
-   * @param {End} end
+   * @param {() => T} item
+   * @param {() => number} index
+   * @param {string} key
    */
-  #mount(first, end) {
+  #make(item, index, key) {
     const { row, make, update, rowRole = "option" } = this.#options;
-    const { key } = first;
-    const item = signal(first);
-    const element = /** @type {Row & E} */ (row?.(() => item.value) ?? make?.(first));
+    const element = /** @type {Row & E} */ (row?.(item) ?? make?.(item()));
     this.#numbers += 1;
     element.classList.add("wv-row");
     element.wvKey = key;
@@ -196,36 +152,22 @@ class RowList {
       id: `${this.#id}-${this.#numbers}`,
       role: rowRole,
       "aria-selected": () => String(this.#marked.value === key),
+      ...(rowRole === "row"
+        ? { "aria-rowindex": () => index() + 2 }
+        : {
+            "aria-posinset": () => index() + 1,
+            "aria-setsize": () => this.#list.items().length,
+          }),
     });
-    effect(() => {
-      if (this.#shown.value) update?.(element, item.value);
-    });
-    const mounted = { element, item, end };
-    this.#mounted.set(key, mounted);
-    return mounted;
-  }
-
-  /**
-   * @param {Row} row
-   * @param {number} index
-   */
-  #place(row, index) {
-    const top = `${index * this.#height}px`;
-    if (row.style.top !== top) row.style.top = top;
-    if (this.#options.rowRole === "row") set(row, { "aria-rowindex": index + 2 });
-    else set(row, { "aria-posinset": index + 1, "aria-setsize": this.#items.length });
-  }
-
-  /** @param {string | null} key */
-  #itemOf(key) {
-    return key === null ? undefined : this.#items[this.#places.get(key) ?? -1];
+    if (update) effect(() => update(element, item()));
+    return { element };
   }
 
   /** @param {MouseEvent} event */
   #click({ target }) {
     const clicked = /** @type {Element} */ (target);
     const row = /** @type {Row | null} */ (clicked.closest(".wv-row"));
-    const item = row && this.#itemOf(row.wvKey);
+    const item = row && this.#list.items()[this.#list.indexOf(row.wvKey)];
     if (!item || clicked.closest("button")) return;
     this.mark(item.key);
     this.#options.choose?.(item);
@@ -235,8 +177,9 @@ class RowList {
   #press(event) {
     const { key } = event;
     if (event.target !== this.focused || event.ctrlKey || event.metaKey || event.altKey) return;
-    const at = this.#places.get(this.#marked.value ?? "") ?? -1;
-    const item = this.#items[at];
+    const items = this.#list.items();
+    const at = this.#list.indexOf(this.#marked.value);
+    const item = items[at];
     const page = Math.max(1, Math.floor(this.element.clientHeight / this.#height) - 1);
     /** @type {Record<string, number>} */
     const steps = {
@@ -245,13 +188,13 @@ class RowList {
       PageDown: at + page,
       PageUp: at - page,
       Home: 0,
-      End: this.#items.length - 1,
+      End: items.length - 1,
     };
     const next = steps[key];
     if (item && this.#options.onKey?.(event, item)) {
       // done
-    } else if (next !== undefined && this.#items.length) {
-      this.mark(this.#items[Math.max(0, Math.min(next, this.#items.length - 1))].key);
+    } else if (next !== undefined && items.length) {
+      this.mark(items[Math.max(0, Math.min(next, items.length - 1))].key);
     } else if ((key === "Enter" || key === " ") && item) this.#options.choose?.(item);
     else return;
     event.preventDefault();

@@ -3,12 +3,11 @@
 import { act } from "../../act.js";
 import { declaredForm, form } from "../../controls/form.js";
 import { el } from "../../dom.js";
-import { root } from "../../signals.js";
 import { store } from "../../stores.js";
 import { statuses } from "./statuses.js";
 
 /** @import {DeclaredProperty, StatusLine, WorstStatus} from "../../contents.js" */
-/** @import {End, Outcome, SendProperty, Vec3} from "../../types.js" */
+/** @import {Outcome, SendProperty, Vec3} from "../../types.js" */
 
 const LEVELS = ["ok", "warn", "error"];
 const QUIET = /** @type {const} */ ({ quiet: true, errors: "caller" });
@@ -68,23 +67,6 @@ export function globalOptions() {
     ),
   ];
 }
-
-/**
- * Fills an element with the statuses and properties of a display, "" for the whole viewer; returns
- * what ends it.
- *
- * @param {HTMLElement} element
- * @param {string} id
- * @returns {End}
- */
-export const properties = (element, id) =>
-  root((end) => {
-    element.append(...(id ? propertiesOf(id) : globalOptions()));
-    return () => {
-      end();
-      element.replaceChildren();
-    };
-  });
 
 /**
  * @param {DeclaredProperty} property

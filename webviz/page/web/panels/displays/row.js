@@ -1,189 +1,223 @@
 // One row of the tree: a display, a group, or the options that hold for everything.
 
 import { why } from "../../access.js";
-import { el, set, setText } from "../../dom.js";
+import { el, set } from "../../dom.js";
 import { icon } from "../../icons.js";
 import { sanitized } from "../../sanitize.js";
-import { effect, signal } from "../../signals.js";
-import { watch } from "../../stores.js";
+import { computed, effect, untracked } from "../../signals.js";
+import { store } from "../../stores.js";
 import { hertz } from "../../words.js";
 import { explaining, isSevere, isShared } from "../findings.js";
-import { properties } from "./properties.js";
+import { globalOptions, propertiesOf } from "./properties.js";
 import { fillHelp } from "./statuses.js";
 
 /** @import {Item} from "./types.js" */
-/** @import {RemedyButton} from "../../contents.js" */
-/** @import {Signal} from "../../signals.js" */
+/** @import {Readable} from "../../signals.js" */
 
 /**
+ * The state of a row: its item, and how it looks here.
+ *
  * @typedef {{
  *   isOpen: boolean, isSelected: boolean, isTabStop: boolean, enabled: boolean, hasRate: boolean,
  *   position: number, count: number,
  * }} Look
+ * @typedef {Look & {item: Item, name: string}} State
  */
 
 /** @type {Record<Item["level"], string>} */
 const LEVELS = { idle: "Idle", ok: "OK", warn: "Warning", error: "Error" };
 const MAX_TOOLTIP = 1000;
+const GLOBAL = "Global"; // the type of the options that hold for everything
 
 /**
- * The row of an item. `look(item)` says how it looks: `{isOpen, isSelected, isTabStop, enabled,
- * hasRate, position, count}`.
+ * The row of an item; `item()` and `look(item)`, how it looks, are read in effects.
  *
- * @param {Item} first
+ * @param {string} id
+ * @param {() => Item} item
  * @param {(item: Item) => Look} look
  */
-export function makeRow(first, look) {
-  const { id, type } = first;
-  const isGlobal = type === "Global";
-  const fold = el(
-    "button",
-    { type: "button", class: "wv-tree-fold", tabindex: -1, "data-part": "fold" },
-    icon("chevron", 12),
-  );
-  const box = el("input", { type: "checkbox", tabindex: -1, "data-part": "box" });
-  const name = el("span", { class: "wv-tree-name" });
-  const note = el("span", { class: "wv-tree-note" });
-  const more = el(
-    "button",
+export function makeRow(id, item, look) {
+  const state = computed(() => {
+    const { name } = item();
+    return { ...look(item()), item: item(), name: sanitized(name) || " " };
+  });
+  const isGlobal = item().type === GLOBAL;
+  const name = el("span", { class: "wv-tree-name" }, () => state.value.name);
+  const row = el(
+    "div",
     {
-      type: "button",
-      class: "wv-icon wv-tree-more",
-      tabindex: -1,
-      "data-part": "more",
-      "aria-haspopup": "menu",
+      class: "wv-tree-row",
+      role: "treeitem",
+      style: () => `--depth: ${state.value.item.depth}`,
+      "aria-level": () => state.value.item.depth + 1,
+      "aria-selected": () => String(state.value.isSelected),
+      "aria-expanded": () => String(state.value.isOpen),
+      "aria-posinset": () => state.value.position,
+      "aria-setsize": () => state.value.count,
+      "aria-label": () => state.value.name,
+      "aria-checked": () => (isGlobal ? null : String(state.value.enabled)),
+      tabindex: () => (state.value.isTabStop ? 0 : -1),
+      "data-off": () => !state.value.item.isActive,
+      "data-level": () => levelOf(state.value.item),
     },
-    icon("dots"),
+    head(id, state, name, isGlobal),
   );
-  const kind = el("span", { class: "wv-tree-type" });
-  const dot = el("span", { class: "wv-tree-dot" });
-  const line = el("div", { class: "wv-tree-status", id: `wv-status-${id}` });
-  const head = el(
+  const status = statusOf(isGlobal ? "" : id, state, row);
+  row.append(status.line, status.remedy);
+  const inside = computed(() => state.value.isOpen && !state.value.item.isGroup);
+  const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row, () =>
+    inside.value ? untracked(() => properties(id, item, isGlobal)) : null,
+  );
+  return { element, row, name };
+}
+
+/** @param {Item} item */
+const levelOf = ({ isActive, level }) => (isActive ? level : null);
+
+/**
+ * @param {string} id
+ * @param {() => Item} item
+ * @param {boolean} isGlobal
+ */
+const properties = (id, item, isGlobal) =>
+  el(
+    "div",
+    {
+      class: "wv-tree-inside",
+      role: "group",
+      "aria-label": () => `Properties of ${sanitized(item().name)}`,
+    },
+    isGlobal ? globalOptions() : propertiesOf(id),
+  );
+
+/**
+ * @param {string} id
+ * @param {Readable<State>} state
+ * @param {HTMLElement} name
+ * @param {boolean} isGlobal
+ */
+function head(id, state, name, isGlobal) {
+  const button = { type: "button", tabindex: -1 };
+  const kind = computed(() => state.value.item.icon);
+  const level = () => levelOf(state.value.item);
+  return el(
     "div",
     { class: "wv-tree-head" },
-    fold,
-    isGlobal
-      ? el("span", { class: "wv-tree-box" })
-      : el("label", { class: "wv-tree-box", "data-part": "box" }, box),
-    kind,
+    el(
+      "button",
+      {
+        ...button,
+        class: "wv-tree-fold",
+        "data-part": "fold",
+        "aria-label": () => `${state.value.isOpen ? "Fold" : "Unfold"} ${state.value.name}`,
+      },
+      icon("chevron", 12),
+    ),
+    isGlobal ? el("span", { class: "wv-tree-box" }) : checkbox(state),
+    el(
+      "span",
+      {
+        class: "wv-tree-type",
+        "data-icon": () => kind.value,
+        "data-tip": () => (isGlobal ? null : sanitized(state.value.item.type) || null),
+      },
+      () => icon(kind.value),
+    ),
     name,
-    note,
-    isGlobal ? null : more,
-    dot,
+    el("span", { class: "wv-tree-note" }, () => noteOf(id, state.value, isGlobal)),
+    isGlobal
+      ? null
+      : el(
+          "button",
+          {
+            ...button,
+            class: "wv-icon wv-tree-more",
+            "data-part": "more",
+            "aria-haspopup": "menu",
+            "aria-label": () => `Actions for ${state.value.name}`,
+          },
+          icon("dots"),
+        ),
+    el("span", {
+      class: "wv-tree-dot",
+      "data-tip": () => LEVELS[level() ?? "idle"],
+      hidden: () => !level(),
+    }),
+  );
+}
+
+/** @param {Readable<State>} state */
+function checkbox(state) {
+  const box = el("input", {
+    type: "checkbox",
+    tabindex: -1,
+    "data-part": "box",
+    "aria-label": () => `Show ${state.value.name}`,
+    disabled: () => !state.value.item.can_edit || why("SetProperty", { path: "enabled" }) !== "",
+  });
+  effect(() => {
+    if (box.checked !== state.value.enabled) box.checked = state.value.enabled;
+  });
+  return el("label", { class: "wv-tree-box", "data-part": "box" }, box);
+}
+
+/**
+ * The note behind a name: the rate of a display that is looked at.
+ *
+ * @param {string} id
+ * @param {State} state
+ * @param {boolean} isGlobal
+ */
+function noteOf(id, { item, hasRate }, isGlobal) {
+  if (isGlobal) return sanitized(item.note ?? "");
+  if (!hasRate || !item.topics.length) return "";
+  const rate = store(`rate:${id}`);
+  const hz = rate.get("hz");
+  return hz === undefined ? "" : hertz(hz, rate.get("is_latched"));
+}
+
+/**
+ * The line below the name and what helps with it. Without a line the viewer says it on top, or the
+ * displays of a group do.
+ *
+ * @param {string} display "" for the viewer
+ * @param {Readable<State>} state
+ * @param {HTMLElement} row
+ */
+function statusOf(display, state, row) {
+  const said = computed(() => {
+    const { item, isOpen } = state.value;
+    // What a group says is said again by what is in it.
+    return item.isActive && !(item.isGroup && isOpen) ? sanitized(item.line, MAX_TOOLTIP) : "";
+  });
+  const finding = computed(() => {
+    const { item } = state.value;
+    // A group repeats a status of a display in it.
+    return said.value ? explaining(display, item.isGroup ? undefined : item.status) : undefined;
+  });
+  // One that is behind several displays stands above all of them, once.
+  const isAbove = () => finding.value !== undefined && isShared(finding.value);
+  const cause = () => (finding.value && isSevere(finding.value) ? finding.value.cause : "");
+  const isShown = () => said.value !== "" && !isAbove();
+  const line = el(
+    "div",
+    {
+      class: "wv-tree-status",
+      id: `wv-status-${state.value.item.id}`,
+      "data-tip": () => (cause() ? null : said.value || null),
+      "data-cause": () => cause() !== "",
+      hidden: () => !isShown(),
+    },
+    () => cause() || said.value,
   );
   const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
-  const row = el("div", { class: "wv-tree-row", role: "treeitem" }, head, line, remedy);
-  const element = el("div", { class: "wv-tree-node", "data-id": id, role: "none" }, row);
-  /** @type {{place: HTMLElement, end: () => void} | null} */
-  let inside = null;
-  /** @type {(() => void) | null} */
-  let unwatch = null;
-  /** @type {Signal<{said: string, status?: string, remedy: RemedyButton | null}>} */
-  const shown = signal({ said: "", remedy: null });
-
-  /**
-   * @param {boolean} isShown
-   * @param {Item} item
-   */
-  function showInside(isShown, item) {
-    if (isShown === Boolean(inside)) return;
-    if (inside) {
-      inside.end();
-      inside.place.remove();
-      inside = null;
-    } else {
-      const label = `Properties of ${sanitized(item.name)}`;
-      const place = el("div", { class: "wv-tree-inside", role: "group", "aria-label": label });
-      element.append(place);
-      inside = { place, end: properties(place, isGlobal ? "" : id) };
-    }
-  }
-
-  /** @param {boolean} isShown */
-  function showRate(isShown) {
-    if (isShown === Boolean(unwatch)) return;
-    unwatch?.();
-    unwatch = isShown
-      ? watch(`rate:${id}`, (values) => {
-          const hz = values.get("hz");
-          setText(note, hz === undefined ? "" : hertz(hz, values.get("is_latched")));
-        })
-      : null;
-    if (!isShown) setText(note, "");
-  }
-
-  /** @param {Item} item */
-  function update(item) {
-    const { isOpen, isSelected, isTabStop, enabled, hasRate, position, count } = look(item);
-    const text = sanitized(item.name) || " ";
-    // What a group says is said again by what is in it.
-    const said =
-      item.isActive && !(item.isGroup && isOpen) ? sanitized(item.line, MAX_TOOLTIP) : "";
-    const level = item.isActive ? item.level : null;
-    set(row, {
-      "aria-level": item.depth + 1,
-      "aria-selected": String(isSelected),
-      "aria-expanded": String(isOpen),
-      "aria-posinset": position,
-      "aria-setsize": count,
-      "aria-label": text,
-      "aria-checked": isGlobal ? null : String(enabled),
-      tabindex: isTabStop ? 0 : -1,
-      "data-off": !item.isActive,
-      "data-level": level,
-    });
-    row.style.setProperty("--depth", String(item.depth));
-    set(fold, { "aria-label": `${isOpen ? "Fold" : "Unfold"} ${text}` });
-    set(box, {
-      "aria-label": `Show ${text}`,
-      disabled: (!isGlobal && !item.can_edit) || why("SetProperty", { path: "enabled" }) !== "",
-    });
-    if (box.checked !== enabled) box.checked = enabled;
-    if (kind.dataset.icon !== item.icon) {
-      set(kind, { "data-icon": item.icon });
-      kind.replaceChildren(icon(item.icon));
-    }
-    set(kind, { "data-tip": isGlobal ? null : sanitized(item.type) || null });
-    setText(name, text);
-    set(more, { "aria-label": `Actions for ${text}` });
-    set(dot, { "data-tip": level && LEVELS[level], hidden: !level });
-    // A group repeats a status of a display in it.
-    shown.value = {
-      said,
-      status: item.isGroup ? undefined : item.status,
-      remedy: item.remedy ?? null,
-    };
-    if (isGlobal) setText(note, sanitized(item.note ?? ""));
-    else showRate(hasRate && item.topics.length > 0);
-    showInside(isOpen && !item.isGroup, item);
-  }
-
-  function close() {
-    showInside(false, first);
-    showRate(false);
-    forget();
-  }
-
-  update(first);
-  // Without a line the viewer says it on top, or the group's displays do.
-  const forget = effect(() => {
-    const { said, status, remedy: own } = shown.value;
-    const finding = said ? explaining(isGlobal ? "" : id, status) : undefined;
-    const cause = finding && isSevere(finding) ? finding.cause : "";
-    // One that is behind several displays stands above all of them, once.
-    const isAbove = finding !== undefined && isShared(finding);
-    setText(line, cause || said);
-    set(line, { "data-tip": cause ? null : said || null, hidden: !said || isAbove });
-    line.toggleAttribute("data-cause", cause !== "");
-    set(row, {
-      "aria-describedby": said && !isAbove ? line.id : null,
-      "aria-description": isAbove ? cause : null,
-    });
-    fillHelp(
-      remedy,
-      said && !isAbove ? (finding?.button ?? own) : null,
-      isAbove ? undefined : finding,
-    );
+  set(row, {
+    "aria-describedby": () => (isShown() ? line.id : null),
+    "aria-description": () => (isAbove() ? cause() : null),
   });
-  return { element, row, name, update, close };
+  effect(() => {
+    const own = finding.value?.button ?? state.value.item.remedy ?? null;
+    fillHelp(remedy, isShown() ? own : null, isAbove() ? undefined : finding.value);
+  });
+  return { line, remedy };
 }

@@ -2,6 +2,7 @@
 
 import { el, showText } from "../../dom.js";
 import { touchable } from "../../controls/rows.js";
+import { VirtualList } from "../../controls/virtual.js";
 import { watch } from "../../stores.js";
 import { recall, remember } from "../../remember.js";
 import * as actions from "./actions.js";
@@ -13,7 +14,6 @@ import { HOVER_MS, listenToPointer } from "./pointer.js";
 import { rename } from "./rename.js";
 import { makeRow } from "./row.js";
 import * as selection from "./selection.js";
-import { virtualList } from "./virtual.js";
 import { wordsOf } from "../../words.js";
 
 /** @import {Item, Model, Tree} from "./types.js" */
@@ -21,6 +21,7 @@ import { wordsOf } from "../../words.js";
 const SCROLL_KEY = "displays.scroll";
 const EMPTY = "No displays yet. Add one for a topic, the robot or a grid.";
 const NOT_FOUND = "No matching displays.";
+const BEYOND_PX = 300; // above and below what is seen
 const GUESS = { status: 18, inside: 240 };
 
 /**
@@ -48,12 +49,15 @@ export function buildTree({ after, changed }) {
   });
   const none = el("p", { class: "wv-tree-none", hidden: true });
   const element = el("div", { class: "wv-tree" }, canvas, none, after);
-  const list = virtualList({
+  /** @type {Tree["list"]} */
+  const list = new VirtualList({
     scroller: element,
     canvas,
+    keyOf: ({ id }) => id,
     guess,
-    make: (/** @type {Item} */ item) => makeRow(item, look),
-    isHeld: (/** @type {string} */ id) => id === selection.active(),
+    make: (item, _, id) => makeRow(id, item, look),
+    held: selection.active,
+    beyond: () => BEYOND_PX,
   });
 
   const all = () => [global, ...model.items];

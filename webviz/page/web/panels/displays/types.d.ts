@@ -2,7 +2,7 @@
 
 import type { DisplayRow } from "../../contents.js";
 import type { makeRow } from "./row.js";
-import type { virtualList } from "./virtual.js";
+import type { VirtualList } from "../../controls/virtual.js";
 
 /** A display, a group, or the options that hold for everything. */
 export interface Item extends DisplayRow {
@@ -31,7 +31,7 @@ export type Way = "up" | "down" | "out" | "into";
 export interface Tree {
   element: HTMLElement;
   canvas: HTMLElement;
-  list: ReturnType<typeof virtualList<Item, Row>>;
+  list: VirtualList<Item, Row>;
   model(): Model;
   rows(): Item[];
   refresh(): void;
