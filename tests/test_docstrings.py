@@ -1,6 +1,8 @@
 """Mood of docstrings: modules, classes and values get a noun phrase, functions the imperative."""
 
+import ast
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,10 @@ DOCSTRING = re.compile(rf'^[ \t]*r?"""\s*{WORDS}', re.MULTILINE)
 COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*{WORDS}", re.MULTILINE)
 """A comment of JSDoc, of a module or at its top level."""
 PAGE = "webviz/page/web"
+ROOMS = ("webviz", "displays", "urdf", "sim")
+ARGUMENTS = re.compile(r"^Args:\n((?: +.*\n?|\n)+)", re.MULTILINE)
+ARGUMENT = re.compile(r"^    (\*{0,2}\w+(?:, \*{0,2}\w+)*):", re.MULTILINE)
+Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 @pytest.mark.parametrize(
@@ -32,3 +38,52 @@ def test_no_docstring_or_comment_begins_as_a_question(
         for match in pattern.finditer(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+def documented(doc: str) -> list[str]:
+    """Return the names below "Args:" of a docstring."""
+    section = ARGUMENTS.search(doc)
+    names = ARGUMENT.findall(section[1]) if section else []
+    return [name.strip(" *") for each in names for name in each.split(",")]
+
+
+def accepted(node: Function | ast.ClassDef) -> set[str] | None:
+    """Return the arguments of a function, or the fields of a class; None if they are unknown."""
+    if isinstance(node, ast.ClassDef):
+        makers = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+        found = {
+            each.target.id
+            for each in node.body
+            if isinstance(each, ast.AnnAssign) and isinstance(each.target, ast.Name)
+        }
+        for maker in makers:
+            if maker.name in ("__init__", "__new__"):
+                own = accepted(maker)
+                if own is None:
+                    return None
+                found |= own
+        return found or None  # those of a class before it
+    arguments = node.args
+    extra = arguments.kwarg and arguments.kwarg.annotation
+    if extra is not None and "Unpack" in ast.unparse(extra):
+        return None
+    every = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
+    every += [each for each in (arguments.vararg, arguments.kwarg) if each is not None]
+    return {each.arg for each in every}
+
+
+def strange_arguments(path: Path) -> Iterator[str]:
+    """Return the documented arguments that do not exist."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, Function | ast.ClassDef):
+            continue
+        names = documented(ast.get_docstring(node) or "")
+        known = accepted(node) if names else None
+        if known is not None:
+            yield from (f"{path.name}, {node.name}: {name}" for name in names if name not in known)
+
+
+@pytest.mark.parametrize("folder", ROOMS)
+def test_every_documented_argument_exists(folder: str) -> None:
+    files = sorted((ROOT / folder).rglob("*.py"))
+    assert [each for path in files for each in strange_arguments(path)] == []

@@ -23,7 +23,7 @@ class PageQueue:
 
     Args:
         key: which the page names to open the channel.
-        pace: of its link.
+        congestion: of its link.
     """
 
     def __init__(self, key: str, congestion: CongestionControl) -> None:

@@ -49,7 +49,7 @@ class SentMarker(msgspec.Struct, frozen=True, eq=False):
         sent: when it was sent.
         in_flight: bytes on their way then, with these.
         delivered: bytes that had arrived by then.
-        heard: when the last pong before came.
+        acknowledged: when the last pong before came.
         is_limited: whether somebody had to wait since the ping before.
     """
 
@@ -216,7 +216,7 @@ class InFlightWindow:
     """In-flight window: bytes one connection of a browser has sent since its last ping.
 
     Args:
-        pace: of the browser.
+        congestion: of the link to the browser.
     """
 
     def __init__(self, congestion: CongestionControl) -> None:

@@ -83,7 +83,7 @@ class Outbox:
 
     Args:
         last: type of messages that must not overtake earlier ones.
-        pace: of the link.
+        congestion: of the link.
     """
 
     def __init__(self, last: type, congestion: CongestionControl) -> None:

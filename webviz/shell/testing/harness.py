@@ -36,7 +36,7 @@ class Harness(Shown):
     Args:
         config: to show.
         scene: to draw in.
-        snapshots: of the scene.
+        snapshot: takes pictures of the scene.
     """
 
     def __init__(self, config: Config, scene: RecordingScene, snapshot: SnapshotFixture) -> None:

@@ -58,7 +58,7 @@ class LiveViewer(Shown):
     Args:
         config: to show.
         scene: to draw in.
-        snapshots: of the scene.
+        snapshot: takes pictures of the scene.
         domain: ROS domain.
         simulator: parameters of a simulated robot; None for no robot.
     """

@@ -29,7 +29,7 @@ class Shown(Seen, ABC):
     Args:
         viewer: draws in `scene`.
         scene: of the viewer.
-        snapshots: of the scene.
+        snapshot: takes pictures of the scene.
     """
 
     def __init__(
