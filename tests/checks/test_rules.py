@@ -201,8 +201,9 @@ def test_a_violated_rule_is_a_finding(webviz_harness: Callable[..., Harness]) ->
 
 
 def test_a_rule_of_a_running_viewer_reads_topics_that_no_display_shows(
-    webviz_harness: Callable[..., Harness],
+    webviz_harness: Callable[..., Harness], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.chdir(tmp_path)  # the rule saves what led to it
     stage = webviz_harness(LaserScan(), fixed_frame="map")
     stage.viewer.settings.watch = (WatchRule(rule="/charge.data > 0.2"),)
     found: list[str] = []

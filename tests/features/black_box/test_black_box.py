@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import threading
 import time
 from collections.abc import Callable, Iterator
 from datetime import datetime, timedelta
@@ -18,6 +19,7 @@ from webviz.api.status import Level
 from webviz.commands import Refresh
 from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
+from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.state import State
 from webviz.engine.watch import REARM_S, RuleWatcher, TopicObserver, WatchedMoment
 from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S
@@ -223,6 +225,30 @@ def test_a_rule_saves_what_was_and_what_comes(make: Benches) -> None:
     recording = open_recording(path)
     assert recording.span_ns
     assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 3
+    recording.close()
+
+
+def test_a_rule_that_fires_as_the_viewer_ends_saves_what_was(
+    make: Benches, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    goes_on, make_folder = threading.Event(), black_box.new_folder
+
+    def slow(path: Path) -> RecordingFolder:
+        assert goes_on.wait(20)
+        return make_folder(path)
+
+    monkeypatch.setattr(black_box, "new_folder", slow)
+    bench = make(WatchRule(display="Plan", status="error"))
+    publish(bench, 1.0)
+    publish(bench, 2.0)
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    goes_on.set()
+    bench.viewer.close()
+    (path,) = Path("webviz_black_box").iterdir()
+    recording = open_recording(path)
+    assert recording.span_ns
+    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 2
     recording.close()
 
 

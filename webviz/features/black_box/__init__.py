@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from webviz.api.roles import Role
 from webviz.api.rule import DOCTOR
 from webviz.api.status import Level, Status
 from webviz.data.disk import in_thread
+from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
 from webviz.engine.feature import Feature, store
@@ -53,6 +55,8 @@ starts, transforms and other topics are still missing."""
 MOMENT = "%Y-%m-%d_%H-%M-%S"
 GIGABYTE = 10**9
 LIMIT = "which is the limit. Delete recordings, or raise watch_limits.gigabytes."
+LAST_S = 0.5
+"""Time for the disk to make a folder when the viewer ends."""
 RESERVE = GIGABYTE // 2
 """Bytes of the disk that recordings leave free: robots with a full disk fail in other ways, too."""
 
@@ -180,9 +184,18 @@ class BlackBoxFeature(Feature):
         return {}
 
     def close(self) -> None:
-        """Complete what is being saved."""
-        if self._saving is not None and self._saving.recorder is not None:
-            self._saving.recorder.close()
+        """Complete what is being saved, also if a rule fired in the last moment."""
+        saving, memory = self._saving, self._memory
+        if saving is None or memory is None:
+            return
+        if saving.recorder is None:
+            wait([saving.folder], LAST_S)
+            if not saving.folder.done():
+                saving.folder.add_done_callback(_abandon)
+            elif saving.folder.exception() is None:
+                self._recorder(saving, saving.folder.result(), memory)
+        if saving.recorder is not None:
+            saving.recorder.close()
 
     def _subscriber_types(self) -> dict[str, str]:
         return {topic: subscription.type for topic, subscription in self.subscriptions().items()}
@@ -314,6 +327,13 @@ class BlackBoxFeature(Feature):
     def _list(self) -> None:
         self._listing = in_thread(listed)
         self._listing.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
+
+
+def _abandon(made: Future[RecordingFolder]) -> None:
+    """Close a folder that was made too late."""
+    if made.exception() is None:
+        with suppress(RecordingError):
+            made.result().close()
 
 
 def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:
