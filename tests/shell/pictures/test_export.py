@@ -517,7 +517,7 @@ MARKED_PIXELS = """() => {
 
 def pane_of(viewer: BagViewer) -> Pane:
     """The only pane that a viewer draws."""
-    shots = [shot for runner in viewer.loop.runners() for *_, shot in runner.shots()]
+    shots = [shot for runner in viewer.loop.runners() for *_, shot in runner.drawn.shots()]
     groups = [group for shot in shots for group in shot.groups.values()]
     (pane,) = [node for each in groups for node in each.nodes.values() if isinstance(node, Pane)]
     return pane

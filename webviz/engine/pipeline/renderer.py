@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
@@ -13,18 +13,15 @@ import msgspec
 from webviz.api.context import ColorScale, Context, Placement
 from webviz.api.display import Display, overrides
 from webviz.api.frames import Frames
-from webviz.api.nodes import Node
 from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
-from webviz.engine.commands import Picks
 from webviz.engine.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.history import Held, Histories, SampleHistory, held_samples
-from webviz.engine.pipeline.picking import Found, Shot
 from webviz.engine.pipeline.point_budget import PointBudget
-from webviz.engine.pipeline.scene_diff import SceneDiff, SceneWriter, groups_of
+from webviz.engine.pipeline.scene_diff import SceneDiff, groups_of
 
 _NO_STATE = object()
 
@@ -54,19 +51,19 @@ class Renderer:
 
     Args:
         id: unique name in the scene.
-        scene: where to draw.
+        drawn: of the display, where it draws.
         workers: for slow work.
         points: how many points each display may show.
     """
 
-    def __init__(self, id: str, scene: SceneWriter, workers: Workers, points: PointBudget) -> None:
+    def __init__(self, id: str, drawn: SceneDiff, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
         """True if everything must be redrawn, such as after a property changed."""
         self._id = id
         self._workers = workers
         self._points = points
-        self._diff = SceneDiff(scene, id)
+        self._diff = drawn
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
         self._statuses: dict[str, dict[str, Status]] = {}
@@ -147,18 +144,6 @@ class Renderer:
                 self._diff.remove(scope)
         self.is_stale = True
 
-    def remember(self, is_wanted: bool) -> None:
-        """Keep what is replaced for some seconds, for `find`."""
-        self._diff.remember(is_wanted)
-
-    def find(self, picks: Picks) -> dict[int, Found]:
-        """Return the items browsers picked; see `SceneDiff.find`."""
-        return self._diff.find(picks)
-
-    def shots(self) -> Iterator[tuple[str, str, Shot]]:
-        """All groups that are drawn; see `SceneDiff.shots`."""
-        return self._diff.shots()
-
     def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
         if self._state is _NO_STATE:
@@ -178,22 +163,6 @@ class Renderer:
     def busy_with(self) -> int:
         """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
         return self._draw_job.held.size if self._draw_job else 0
-
-    def tint(self, tint: Callable[[Node], Node] | None) -> None:
-        """Give everything that is drawn from now on another look; None for its own."""
-        self._diff.tint = tint
-
-    def followed(self) -> set[str]:
-        """Return the frames whose poses `draw` needs."""
-        return self._diff.followed()
-
-    def lost(self, frames: Frames) -> list[str]:
-        """Return the frames without a pose that hidden groups follow."""
-        return self._diff.lost(frames)
-
-    def is_empty(self) -> bool:
-        """Return whether nothing of the display is visible."""
-        return self._diff.is_empty()
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the last call of each hook; the worst per key."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from webviz.api.capabilities import Comparable, capability
@@ -20,9 +20,10 @@ from webviz.engine.commands import Picks
 from webviz.engine.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
-from webviz.engine.pipeline.picking import Found, Shot
+from webviz.engine.pipeline.picking import Found
 from webviz.engine.pipeline.renderer import Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
+from webviz.engine.pipeline.scene_diff import SceneDiff
 from webviz.engine.pipeline.services import Services
 from webviz.engine.pipeline.tinting import Tint
 from webviz.sources import Advertisement, Offer, Raw, Subscription, merged
@@ -51,7 +52,9 @@ class Runner:
         self.external_statuses: dict[str, Status] = {}
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
-        self._renderer = Renderer(id, services.scene, services.workers, services.points)
+        self.drawn = SceneDiff(services.scene, id)
+        """Nodes that are drawn."""
+        self._renderer = Renderer(id, self.drawn, services.workers, services.points)
         self._dragging = Dragging(id, display, services)
         self._comparable = capability(display, Comparable)
         self._guard = self._new_guard()
@@ -175,19 +178,19 @@ class Runner:
         """Return the frames whose poses `draw` needs."""
         if not self.display.enabled:
             return set()
-        return self._renderer.followed() | self._dragging.followed()
+        return self.drawn.followed() | self._dragging.followed()
 
     def color_scale(self) -> ColorScale | None:
         """Return the range of values that colours stand for, None if none is visible."""
-        return None if self._renderer.is_empty() else self._renderer.color_scale()
+        return None if self.drawn.is_empty() else self._renderer.color_scale()
 
     def attribution(self) -> str:
         """Return whom to credit for what is visible, "" if nobody."""
-        return "" if self._renderer.is_empty() else self._renderer.attribution()
+        return "" if self.drawn.is_empty() else self._renderer.attribution()
 
     def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
-        if self._comparable is None or self._renderer.is_empty():
+        if self._comparable is None or self.drawn.is_empty():
             return None
         context = self._renderer.context(self.display, self._guard, self._own(frames))
         if context is None:
@@ -214,21 +217,13 @@ class Runner:
 
     # Selection
 
-    def remember(self, is_wanted: bool) -> None:
-        """Keep what is replaced for some seconds, so that `find` knows what browsers still show."""
-        self._renderer.remember(is_wanted)
-
     def offered(self) -> Mapping[str, Mapping[str, int]]:
         """See `Context.offered`."""
         return self._renderer.offered()
 
     def find(self, picks: Picks) -> dict[int, Found]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
-        return self._guard.attempt("selection", {}, self._renderer.find, picks)
-
-    def shots(self) -> Iterator[tuple[str, str, Shot]]:
-        """All groups that are drawn; see `SceneDiff.shots`."""
-        return self._renderer.shots()
+        return self._guard.attempt("selection", {}, self.drawn.find, picks)
 
     def inspect(self, found: Found, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
@@ -254,7 +249,7 @@ class Runner:
         for text in self._guard.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.external_statuses
-        is_missing = self._renderer.is_empty() and not type(self.display).reports_only
+        is_missing = self.drawn.is_empty() and not type(self.display).reports_only
         if worst(result.values()) is Level.OK and is_missing:
             if not is_watched:
                 result["Display"] = NO_BROWSER
@@ -277,7 +272,7 @@ class Runner:
         if known_by != self._known_by:
             self._known_by = known_by
             self._robot = robot_of([*self._sample_buffer.inputs.topics(), *known_by[-1]], robots)
-            self._renderer.tint(self._tint())
+            self.drawn.tint = self._tint()
         return RobotFrames(frames, self._robot) if self._robot else frames
 
     def _tint(self) -> Tint | None:
@@ -306,13 +301,13 @@ class Runner:
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
         result = self._sample_buffer.statuses(offers, frames, dropped)
-        if lost := self._renderer.lost(frames):
+        if lost := self.drawn.lost(frames):
             reason = frames.explain(lost[0])
             remedy = OtherFixedFrame.of(reason)
             result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
         size = self._sample_buffer.busy_with or self._renderer.busy_with
         if size:
-            level = Level.IDLE if self._renderer.is_empty() else Level.OK
+            level = Level.IDLE if self.drawn.is_empty() else Level.OK
             result[LOADING] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received

@@ -88,7 +88,7 @@ class SelectableValues:
 
 
 def _nodes(runner: Runner) -> Iterator[_Drawn]:
-    for name, group, shot in runner.shots():
+    for name, group, shot in runner.drawn.shots():
         frame = shot.groups[group].placement.frame
         own = shot.samples[-1].frame if shot.samples else ""
         for key, node in shot.groups[group].nodes.items():

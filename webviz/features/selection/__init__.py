@@ -155,7 +155,7 @@ class SelectionFeature(Feature):
         """Forget what belongs to removed displays, and renew what is looked at."""
         runners = self._displays.list.runners()
         for runner in runners:
-            runner.remember(self._is_picking)
+            runner.drawn.remember(self._is_picking)
         known, now = set(runners), self.core.clock()
         for browser, selection in self._selections.items():
             if not known.issuperset(each.runner for each in selection.things.values()):
