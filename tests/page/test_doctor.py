@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import msgspec
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
@@ -56,7 +55,7 @@ def panel(tab: Tab) -> Iterator[Tab]:
     tab.page.keyboard.press("Enter")
     tab.turn()
     yield tab
-    tab.loop.state = msgspec.structs.replace(tab.loop.state, findings=(), examined_ns=0)
+    tab.loop.change(findings=(), examined_ns=0)
     tab.turn()
     tab.show_tab("Displays")
 

@@ -164,7 +164,7 @@ def test_dialogs_fit(phone: Tab) -> None:
 def test_everything_is_inside_the_toolbar(phone: Tab, width: int) -> None:
     phone.page.set_viewport_size({"width": width, "height": HEIGHT})
     phone.wait_for(lambda: phone.page.evaluate("innerWidth") == width)
-    phone.loop.show(tools=(GOAL, POINT), frames=("base_link", "map"), fixed_frame="map")
+    phone.loop.show(tools=(GOAL, POINT), frames=("base_link", "map"))
     bar = toolbar(phone)
     more = bar.get_by_role("button", name="More")
     phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())

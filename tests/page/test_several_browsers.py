@@ -61,7 +61,7 @@ def test_a_browser_that_comes_late_sees_how_things_are_and_asks_for_itself(
     open_panel(mine.tab.loop, mine.tab, Frames)
     steps = UndoHistory((HistoryStep(3001, "Move Path", 10**6),))
     row = make_row("a", count=8, filled=False)
-    mine.tab.loop.show(row, fixed_frame="odom", history=steps, frames=("late_frame",))
+    mine.tab.loop.show(row, history=steps, frames=("late_frame",))
     mine.wait_for_value("count", "8")
     tab: Tab = request.getfixturevalue("other_tab")
     late = Pane(tab).mount()

@@ -40,7 +40,6 @@ def wide(tab: Tab) -> Tab:
     wide.loop.change(
         tools=(GOAL, POINT),
         frames=("base_link", "map", "odom"),
-        fixed_frame="map",
         settings=SETTINGS,
         views={browser: FPS(target_frame="base_link")},
     )

@@ -45,7 +45,7 @@ def test_rows_stand_in_order_below_the_global_options(
     loop: Loop, tree: Tree, make_row: MakeRow
 ) -> None:
     a, b, c = make_row("a"), make_row("b"), make_row("c", enabled=False)
-    loop.show(a, b, fixed_frame="odom")
+    loop.show(a, b)
     tree.wait_for_names("a", "b")
     loop.show(c, b, a)
     tree.wait_for_names("c", "b", "a")

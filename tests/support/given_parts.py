@@ -79,11 +79,12 @@ class GivenParts:
         self._give(ViewsPart, _cameras=SimpleNamespace(views=lambda: state.views))
         self._give(
             DoctorFeature,
-            findings=state.findings,
-            examined_ns=state.examined_ns,
-            events=state.found,
+            findings=state.more.get("findings", ()),
+            examined_ns=state.more.get("examined_ns", 0),
+            events=state.more.get("found", ()),
         )
-        self._give(PlaybackFeature, _display_events=SimpleNamespace(events=state.warned))
+        warned = state.more.get("warned", ())
+        self._give(PlaybackFeature, _display_events=SimpleNamespace(events=warned))
         file = state.file
         history = state.more.get("history", UndoHistory())
         self._give(

@@ -9,7 +9,6 @@ import msgspec
 
 from webviz.api.context import ColorScale
 from webviz.api.display import Display
-from webviz.api.finding import Finding
 from webviz.api.panel import Panel
 from webviz.api.status import Level, Status, worst
 from webviz.api.views import View
@@ -164,7 +163,6 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
 
     Args:
         rows: the displays in order.
-        fixed_frame: id of the frame that everything is drawn in.
         frames: all known frame ids, sorted.
         topics: message types by topic name.
         statuses: of the viewer as a whole, such as "Fixed Frame".
@@ -179,15 +177,10 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
         playback: the recording that is played, None for live topics.
         recorded: counts of its messages in equal parts of its span, by topic.
         logged: warnings and errors that its nodes logged, by time.
-        warned: when displays began to warn, as far as it was shown, by time.
-        findings: of the doctor, the one to repair first at the beginning.
-        examined_ns: ROS time of that examination; 0 before the first, or while it is unknown.
-        found: when findings began, as far as a recording was shown, by time.
         more: what features have, by name; it can be read as if it were fields, too.
     """
 
     rows: tuple[Row, ...] = ()
-    fixed_frame: str = Settings().fixed_frame
     frames: tuple[str, ...] = ()
     topics: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     statuses: Mapping[str, Status] = msgspec.field(default_factory=dict)
@@ -202,11 +195,12 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
     playback: PlaybackState | None = None
     recorded: Mapping[str, Sequence[int]] = msgspec.field(default_factory=dict)
     logged: Sequence[Event] = ()
-    warned: Sequence[Event] = ()
-    findings: Sequence[Finding] = ()
-    examined_ns: int = 0
-    found: Sequence[Event] = ()
     more: Mapping[str, Any] = msgspec.field(default_factory=dict)
+
+    @property
+    def fixed_frame(self) -> str:
+        """Id of the frame that everything is drawn in."""
+        return self.settings.fixed_frame
 
     def __getattr__(self, name: str) -> Any:
         if name in (more := self.more):
@@ -217,4 +211,5 @@ class State(msgspec.Struct, frozen=True, kw_only=True):
 def snapshot(values: Mapping[str, Any]) -> State:
     """Return a state of these values by name; those that are missing have their defaults."""
     own = {name: values[name] for name in State.__struct_fields__ if name in values}
-    return State(**own, more={name: each for name, each in values.items() if name not in own})
+    more = {name: each for name, each in values.items() if not hasattr(State, name)}
+    return State(**own, more=more)

@@ -38,7 +38,7 @@ from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import LoopCalls, Requests
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
-from webviz.sources import Advertisement, Gate, Rights, Source
+from webviz.sources import Advertisement, AllowList, Gate, Rights, Source
 from webviz.sources.player import Player
 from webviz.sources.recording.memory import MemoryHistory
 
@@ -115,12 +115,7 @@ class FrameLoop:
         self._owed: list[Callable[[], None]] = []
         own = own_names(config, self._guard)
         rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
-        gate = Gate(
-            player,
-            rights,
-            lambda: self._settings.settings.publish,
-            lambda: "" if player.is_live else REWOUND,
-        )
+        gate = Gate(player, rights, self._allow_list, self._pause)
         self.controllers = VelocityControllers(gate, live_ns)
         """Of the vehicles that tools drive; they do not wait for the loop."""
         core = Core(player, gate, self.controllers, scene, self._guard, clock, waiting, host)
@@ -128,7 +123,7 @@ class FrameLoop:
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, lambda: self._parts.reset(), autoplay)
+        self._time = TimePart(core, autoplay)
         self._displays = DisplaysPart(core, services)
         self._settings = SettingsPart(core)
         views = ViewsPart(core, self._settings, self._displays)
@@ -323,7 +318,7 @@ class FrameLoop:
                 self._subscribe()
             is_late = any(runner.is_late() for runner in self._displays.list.active())
             self._guard("Playback", self._time.advance, is_late)
-            batches = self._arrivals.take(self._parts)
+            batches = self._arrivals.take()
             self._move_on()
             self._parts.take(batches)
             if is_late or not self._source.is_seeking or time.monotonic() > until:
@@ -373,6 +368,12 @@ class FrameLoop:
         """Look up frames at the time that is shown now."""
         core = self._core
         core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
+
+    def _allow_list(self) -> AllowList | None:
+        return self.settings.publish
+
+    def _pause(self) -> str:
+        return "" if self._source.is_live else REWOUND
 
     def _points_held(self) -> int:
         return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)

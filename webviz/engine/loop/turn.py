@@ -8,7 +8,7 @@ from webviz.api.declared import Color
 from webviz.api.frames import Frames
 from webviz.api.status import Level, Status
 from webviz.engine.guard import CRASHED, Guard
-from webviz.engine.parts import Batches, Core, Parts
+from webviz.engine.parts import Batches, Core
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
@@ -30,7 +30,7 @@ class Arrivals:
         self._time = time
         self._transforms = transforms
 
-    def take(self, parts: Parts) -> Batches:
+    def take(self) -> Batches:
         """Take what arrived since the last turn; while paused, messages wait in the inbox."""
         core, attempt = self._core, self._core.guard.attempt
         batches: Batches = {}
@@ -43,10 +43,10 @@ class Arrivals:
         if attempt("Time", False, self._time.ros.step, core.now_ns):
             # Messages of this turn may be older or newer. Latched ones are requested again.
             batches = {}
-            parts.reset()
+            core.reset()
         if attempt("Transforms", False, self._transforms.insert, batches):
             self._time.ros.note("The transforms started over in the past: everything was reset.")
-            parts.reset()
+            core.reset()
         return batches
 
 

@@ -171,6 +171,11 @@ class Core:
         own: Mapping[str, Any] = {}
         return self.guard.attempt(part.name, own, part.state)
 
+    def reset(self) -> None:
+        """Have all parts discard received data."""
+        for part in self.parts:
+            self.guard(part.name, part.reset)
+
     def is_watched(self) -> bool:
         """Return whether any browser is connected."""
         return self.guard.attempt("Scene", True, self.scene.has_watchers)

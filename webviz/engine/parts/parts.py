@@ -16,7 +16,7 @@ from webviz.engine.requests import Job
 from webviz.sources import Advertisement, Subscription, merged
 
 _HOOKS = (
-    *("subscriptions", "advertisements", "after", "take", "reset", "keep_up", "update"),
+    *("subscriptions", "advertisements", "after", "take", "keep_up", "update"),
     *("review", "statuses", "close"),
 )
 
@@ -90,11 +90,6 @@ class Parts:
         """Pass on the messages since the last turn."""
         for part in self._overriding["take"]:
             self._guard(part.name, part.take, batches)
-
-    def reset(self) -> None:
-        """Discard received data."""
-        for part in self._overriding["reset"]:
-            self._guard(part.name, part.reset)
 
     def keep_up(self, commanded: bool) -> None:
         """Do periodic work."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from webviz.api.errors import Error
@@ -52,16 +52,14 @@ class TimePart(Part):
 
     Args:
         core: shared by all parts; its player is paused instead of the inbox unless topics are live.
-        reset: discards the received data of all parts.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
     """
 
     name = "Time"
 
-    def __init__(self, core: Core, reset: Callable[[], None], autoplay: bool = False) -> None:
+    def __init__(self, core: Core, autoplay: bool = False) -> None:
         super().__init__(core)
         core.player.is_ready = autoplay and not core.player.is_live
-        self._reset_all = reset
         self._paused_ns: int | None = None
         self._time_rate = ClockRateMeter()
         self._clock_rate = Rate()
@@ -179,7 +177,7 @@ class TimePart(Part):
         """Discard all received data, since another position is played from now on."""
         self._paused_ns = None
         self.core.buffer.forget()  # also static transforms that come later in the recording
-        self._reset_all()
+        self.core.reset()
         self.ros.restart(self.core.player.now_ns())
 
     def known_player(self) -> Player:
@@ -231,7 +229,7 @@ class TimePart(Part):
     @command(Role.OPERATOR, name="Reset")
     def reset_viewer(self) -> None:
         """Discard transforms and messages, as RViz's Reset does."""
-        self._reset_all()
+        self.core.reset()
 
     @command(Role.OPERATOR)
     def pause(self, paused: bool = True) -> None:
