@@ -6,21 +6,15 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from nav_msgs.msg import OccupancyGrid, Odometry, Path
-from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState, LaserScan
-from std_msgs.msg import String
 
-from webviz.data.messages import FrameTransform
+from webviz.data.messages import FrameTransform, encode
 from webviz.data.rotations import from_rpy, multiply
-from webviz.ros.types import message_class
 from webviz_sim import messages
 from webviz_sim.description import demo_description, read_joints, read_robot
 from webviz_sim.lidar import LidarSettings, scan
 from webviz_sim.localization import Amcl, Perfect, Slam
 from webviz_sim.pose import Pose2D
+from webviz_sim.publishers import SimPublishers
 from webviz_sim.simulation import Simulation
 
 LOCALISATION_RATE = 10.0  # Hz, of map -> odom: AMCL sends it with every scan
@@ -29,18 +23,21 @@ FAR = 2.0  # m; a path that long has room for a box on it
 BOX = 0.25  # m, its radius
 PATH_RATE = 2.0  # Hz, of /path, so that late subscribers receive it too
 
+TEXT = "std_msgs/msg/String"
 _SECOND = 1_000_000_000
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_LATCHED = 1, "transient_local"
 
 
 class Broadcaster:
     """Publishes the state of a simulation after each step."""
 
-    def __init__(self, node: Node, simulation: Simulation, values: dict[str, Any], now: int):
+    def __init__(
+        self, outputs: SimPublishers, simulation: Simulation, values: dict[str, Any], now: int
+    ):
         """Create the publishers and publish the latched messages.
 
         Args:
-            node: The node to publish from.
+            outputs: Creates the publishers.
             simulation: The simulation to publish.
             values: The node's parameters by name; read at every step.
             now: The stamp of the latched messages in nanoseconds.
@@ -66,20 +63,20 @@ class Broadcaster:
             if transform.child == messages.SCANNER
         ]
 
-        tf_message = message_class("tf2_msgs/msg/TFMessage")
-        self._tf = node.create_publisher(tf_message, "tf", 100)
-        self._tf_static = node.create_publisher(tf_message, "tf_static", _LATCHED)
-        self._description = node.create_publisher(String, "robot_description", _LATCHED)
-        self._map = node.create_publisher(OccupancyGrid, "map", _LATCHED)
-        self.localization = self._localization_of(node)
+        make = outputs.publisher
+        self._tf = make("tf2_msgs/msg/TFMessage", "tf", 100)
+        self._tf_static = make("tf2_msgs/msg/TFMessage", "tf_static", *_LATCHED)
+        self._description = make(TEXT, "robot_description", *_LATCHED)
+        self._map = make("nav_msgs/msg/OccupancyGrid", "map", *_LATCHED)
+        self.localization = self._localization_of(outputs)
         self._map_due = _Schedule()
-        self._odometry = node.create_publisher(Odometry, "odom", 10)
-        self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
-        self._joints = node.create_publisher(JointState, "joint_states", 10)
-        self._path = node.create_publisher(Path, "path", 10)
+        self._odometry = make("nav_msgs/msg/Odometry", "odom")
+        self._scan = make("sensor_msgs/msg/LaserScan", "scan", 0)
+        self._joints = make("sensor_msgs/msg/JointState", "joint_states")
+        self._path = make("nav_msgs/msg/Path", "path")
         self._clock = None
         if values["publish_clock"]:
-            self._clock = node.create_publisher(Clock, "/clock", 10)
+            self._clock = make("rosgraph_msgs/msg/Clock", "/clock")
 
         turn = from_rpy(0.0, 0.0, values["fault_laser_yaw"])
         fixed = [
@@ -94,7 +91,7 @@ class Broadcaster:
             wrong = Pose2D(0.0, values["fault_misplaced"], 0.0) @ simulation.robot.pose
             fixed.append(messages.planar("map", "odom", now, wrong))
         self._tf_static.publish(self._tf_message(fixed))
-        self._description.publish(String(data=urdf))
+        self._description.publish(encode(TEXT, {"data": urdf}))
         if not isinstance(self.localization, Slam):
             self._map.publish(messages.occupancy_grid(simulation.world, now))
 
@@ -158,10 +155,10 @@ class Broadcaster:
         message = messages.laser_scan(measured, settings, now, period, sweep, self._prefix)
         self._scan.publish(message)
 
-    def _localization_of(self, node: Node) -> Perfect:
+    def _localization_of(self, outputs: SimPublishers) -> Perfect:
         kind, truth = self._values["localization"], self._simulation.robot.pose
         if kind == "amcl":
-            return Amcl(node, truth, self._values["seed"])
+            return Amcl(outputs, truth, self._values["seed"])
         return Slam(self._simulation.world, self._map) if kind == "slam" else Perfect()
 
     def _tf_message(self, transforms: Iterable[FrameTransform]) -> bytes:

@@ -4,19 +4,15 @@ They publish what those publish, with errors of their kind, from the truth of th
 """
 
 import math
-from typing import Any
 
 import numpy as np
-from geometry_msgs.msg import PoseWithCovarianceStamped
 from numpy.typing import NDArray
-from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 
 from webviz.data.map_file import UNKNOWN
-from webviz.ros.types import message_class
 from webviz_sim import messages
 from webviz_sim.lidar import Scan
 from webviz_sim.pose import Pose2D, wrap
+from webviz_sim.publishers import SimPublisher, SimPublishers
 from webviz_sim.world import World
 
 PARTICLES = 300
@@ -24,8 +20,6 @@ STEADY = 0.04  # m, the standard deviation of a filter that has converged
 CAPTURE = 1.0, 0.7  # m and rad; from farther away the filter does not find the robot
 CONVERGENCE = 2.0  # s; of an error within that, a third remains after this time
 TURN = 0.5  # rad of standard deviation for each metre of it
-
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Perfect:
@@ -50,19 +44,19 @@ class Amcl(Perfect):
     """Publishes amcl_pose and particle_cloud as nav2_amcl, and starts anew at an initial pose.
 
     Args:
-        node: Publishes.
+        outputs: Creates the publishers.
         truth: Where the robot starts.
         seed: Of its errors.
     """
 
-    def __init__(self, node: Node, truth: Pose2D, seed: int):
+    def __init__(self, outputs: SimPublishers, truth: Pose2D, seed: int):
         self.pose = self._truth = truth
         self._random = np.random.default_rng([seed, 3])
         self._error = Pose2D()
         self._spread = 0.25
-        self._pose = node.create_publisher(PoseWithCovarianceStamped, "amcl_pose", _LATCHED)
-        cloud = message_class("nav2_msgs/msg/ParticleCloud")
-        self._cloud = node.create_publisher(cloud, "particle_cloud", qos_profile_sensor_data)
+        type = "geometry_msgs/msg/PoseWithCovarianceStamped"
+        self._pose = outputs.publisher(type, "amcl_pose", 1, "transient_local")
+        self._cloud = outputs.publisher("nav2_msgs/msg/ParticleCloud", "particle_cloud", 0)
 
     def update(self, truth: Pose2D, seconds: float) -> None:
         """See `Perfect.update`."""
@@ -104,7 +98,7 @@ class Slam(Perfect):
         publisher: Of the map.
     """
 
-    def __init__(self, world: World, publisher: Any):
+    def __init__(self, world: World, publisher: SimPublisher):
         self._world = world
         self._publisher = publisher
         self._cells = np.full_like(world.cells, UNKNOWN)

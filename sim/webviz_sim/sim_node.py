@@ -20,6 +20,7 @@ from webviz_sim import messages, options
 from webviz_sim.broadcaster import Broadcaster
 from webviz_sim.navigation import Navigation
 from webviz_sim.pose import Pose2D
+from webviz_sim.publishers import RosPublishers
 from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import WorldError, load_world
 
@@ -69,7 +70,7 @@ class SimNode(Node):
         self._is_simulated = values["publish_clock"]
         latched_at = 0 if self._is_simulated else start
         values["publish_clock"] &= not fleet  # one clock for all
-        self._broadcaster = Broadcaster(self, self._simulation, values, latched_at)
+        self._broadcaster = Broadcaster(RosPublishers(self), self._simulation, values, latched_at)
         self._navigation = Navigation(self, self._simulation)
         self._publish(start)
 

@@ -22,6 +22,7 @@ from webviz_displays.map import Map
 from webviz_displays.path import Path
 from webviz_sim.broadcaster import Broadcaster
 from webviz_sim.options import BUILDING, FAULT, OPTIONS
+from webviz_sim.publishers import RosPublishers
 from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import load_world
 
@@ -62,7 +63,7 @@ class Demo:
         self._simulation = Simulation(load_world(BUILDING), SimulationSettings())
         values = {name: option.default for name, option in OPTIONS.items()}
         values |= {FAULT + name: value for name, value in faults.items()}
-        self._sim = Broadcaster(node, self._simulation, values, bench.source.now)
+        self._sim = Broadcaster(RosPublishers(node), self._simulation, values, bench.source.now)
         self._received = 0
         while self._received < 2:  # the latched ones: all are connected
             self._executor.spin_once(timeout_sec=1.0)

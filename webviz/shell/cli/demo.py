@@ -62,30 +62,70 @@ def simulator(ros: Sequence[str], stop: Stop) -> Iterator[str]:
     # Keep the demo on this machine unless the environment says otherwise.
     is_local = os.environ.setdefault(RANGE, "LOCALHOST") == "LOCALHOST"
     command = [sys.executable, "-m", "webviz_sim", "--until-stdin-closes", *ros]
-    simulator = subprocess.Popen(command, stdin=subprocess.PIPE, process_group=0)
-    stop.then(simulator.terminate)
+    with _running(command, stop, "simulator"):
+        yield ONLY_LOCAL if is_local else ""
+
+
+@contextlib.contextmanager
+def zenoh_simulator(arguments: Sequence[str], stop: Stop) -> Iterator[str]:
+    """Run a Zenoh router and a simulator on it during the block; neither needs ROS.
+
+    Args:
+        arguments: of the simulator.
+        stop: asks the program to stop.
+
+    Yields:
+        The endpoint of the router.
+
+    Raises:
+        Error: Zenoh is not installed, or one of them failed.
+    """
+    from webviz.sources.zenoh.engine import engine
+
+    engine()
+    module = "webviz_sim.zenoh_router"
+    with _running([sys.executable, "-m", module], stop, "Zenoh router", subprocess.PIPE) as router:
+        assert router.stdout is not None
+        endpoint = router.stdout.readline().decode().strip()
+        command = [sys.executable, "-m", "webviz_sim.zenoh_node", "--connect", endpoint]
+        with _running([*command, *arguments], stop, "simulator"):
+            yield endpoint
+
+
+@contextlib.contextmanager
+def _running(
+    command: Sequence[str], stop: Stop, name: str, stdout: int | None = None
+) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a program during the block, and stop this one if it fails."""
+    program = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=stdout, process_group=0)
+    stop.then(program.terminate)
 
     failed: list[int] = []
+    is_over = threading.Event()
 
     def watch() -> None:
-        status = simulator.wait()
-        if status and not stop.is_asked:
+        status = program.wait()
+        if status and not stop.is_asked and not is_over.is_set():
             failed.append(status)
             stop.ask()
 
     watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
     try:
-        yield ONLY_LOCAL if is_local else ""
+        yield program
         if failed:
-            raise Error(f"The simulator failed with exit status {failed[0]}.")
+            raise Error(f"The {name} failed with exit status {failed[0]}.")
     finally:
-        simulator.terminate()
+        is_over.set()
+        program.terminate()
         try:
-            simulator.wait(max(0.0, stop.left_s - SPARE_S))
+            program.wait(max(0.0, stop.left_s - SPARE_S))
         except subprocess.TimeoutExpired:
             import psutil  # here, as it is seldom needed
 
             with contextlib.suppress(psutil.NoSuchProcess):  # it has ended meanwhile
-                kill([psutil.Process(simulator.pid)])  # such as one that is still starting
+                kill([psutil.Process(program.pid)])  # such as one that is still starting
         watcher.join()
+        for pipe in (program.stdin, program.stdout):
+            if pipe is not None:
+                pipe.close()

@@ -71,6 +71,7 @@ def demo(
         Repeatable[Annotated[str, Parameter(validator=_check_fault)]],
         Parameter(metavar="NAME=VALUE"),
     ] = (),
+    zenoh: Annotated[bool, Parameter(negative=())] = False,
     options: ViewingOptions = ViewingOptions(),
     ros: RosArgs,
 ) -> int:
@@ -79,17 +80,26 @@ def demo(
     Args:
         robots: How many; several have the namespaces robot1, robot2 ...
         fault: A fault to find, such as laser_yaw=0.3 (repeatable): see `webviz-sim --help`.
+        zenoh: Over Zenoh without ROS: router, simulator and viewer in three processes.
         options: Of the viewer.
         ros: Arguments for ROS.
     """
 
     def work(stop: Stop) -> int:
-        from webviz.shell.cli.demo import simulator, standard_config
+        from webviz.shell.cli.demo import simulator, standard_config, zenoh_simulator
         from webviz.shell.cli.serving import serve
         from webviz.shell.domains import demo_domain
 
         extra = ["--robots", str(robots)] if robots > 1 else []
         extra += [word for each in fault for word in ("--fault", each)]
+        if zenoh:
+            with (
+                standard_config(robots) as standard,
+                zenoh_simulator(extra, stop) as endpoint,
+            ):
+                note = f"webviz: over Zenoh, --connect {endpoint} shows the demo elsewhere, too"
+                link = ConnectOptions(connect=endpoint)
+                return serve(options, ros, stop, standard, note, connect=link)
         with (
             standard_config(robots) as standard,
             demo_domain() as other,
