@@ -31,6 +31,7 @@ TASKS = {
         "Time": "time/README.md",
         "Finding faults": "doctor/README.md",
         "ROS": "ros/README.md",
+        "Which way to my robot?": "ros/which_way.md",
         "Several robots": "ros/robots.md",
         "Your ROS": "ros/distributions.md",
         "Far away": "ros/far_away.md",

@@ -1,0 +1,164 @@
+"""The configs of routers in the documentation, as they are there."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+import zenoh
+from certificates import authority, certificate
+from waiting import until
+from zenoh_robot import ZenohRobot, ZenohRouter, config, free_port
+
+from webviz.api.declared import Topic
+from webviz.data.messages import encode
+from webviz.sources import Advertisement, Subscription
+from webviz.sources.zenoh.address import zenoh_address
+from webviz.sources.zenoh.source import ZenohSource
+
+PAGE = Path(__file__).parents[3] / "displays/docs/ros/which_way.md"
+STRING = "std_msgs/msg/String"
+TWIST = "geometry_msgs/msg/Twist"
+
+
+def block(name: str, **replaced: str) -> str:
+    """Return a config of the page, with other places for what has to be another here."""
+    text = PAGE.read_text(encoding="utf-8")
+    found = re.search(rf'```json5 title="{name}"\n(.*?)```', text, re.DOTALL)
+    assert found, name
+    result = found[1]
+    for old, new in replaced.items():
+        assert PLACES[old] in result, old
+        result = result.replace(PLACES[old], new)
+    return result
+
+
+PLACES = {
+    "listen": "0.0.0.0:7447",
+    "local": "localhost:7448",
+    "cloud": "cloud.example:7447",
+    "desk": "localhost:7447",
+}
+
+
+def opened(stack: ExitStack, text: str) -> zenoh.Session:
+    """Open a session with a config, without scouting."""
+    made = zenoh.Config.from_json5(text)
+    made.insert_json5("scouting/multicast/enabled", "false")
+    session = zenoh.open(made)
+    stack.callback(session.close)
+    return session
+
+
+@pytest.fixture
+def stack() -> Iterator[ExitStack]:
+    with ExitStack() as stack:
+        yield stack
+
+
+def source_at(stack: ExitStack, address: str) -> ZenohSource:
+    source = ZenohSource(zenoh_address(address, {}))
+    stack.callback(source.close)
+    until(lambda: source.bridges[0].is_up)
+    return source
+
+
+def robot_at(stack: ExitStack, endpoint: str) -> ZenohRobot:
+    robot = ZenohRobot(endpoint)
+    stack.callback(robot.close)
+    return robot
+
+
+def test_a_slow_link_has_fewer_scans_and_no_images(stack: ExitStack) -> None:
+    place = f"127.0.0.1:{free_port()}"
+    opened(stack, block("slow.json5", listen=place))
+    robot, source = robot_at(stack, f"tcp/{place}"), source_at(stack, f"tcp/{place}")
+    topics = ("/scan", "/odom", "/camera/image")
+    publish = {topic: robot.publisher(topic, STRING) for topic in topics}
+    until(lambda: set(topics) <= set(source.offers()))
+    source.want({topic: Subscription(STRING, Topic(topic)) for topic in topics})
+    until(lambda: all(source.offers()[topic].subscribers for topic in topics))
+    time.sleep(0.3)
+    began_s = time.monotonic()
+    for _ in range(40):
+        for topic in topics:
+            publish[topic]({"data": "x"})
+        time.sleep(0.05)
+    seconds = time.monotonic() - began_s
+    until(lambda: source.inbox.received().get("/odom", (0, 0))[0] == 40)
+    counts = {topic: count for topic, (count, _) in source.inbox.received().items()}
+    assert 0 < counts["/scan"] <= 2 * seconds + 2
+    assert "/camera/image" not in counts
+
+
+def test_watchers_cannot_drive(stack: ExitStack) -> None:
+    place = f"127.0.0.1:{free_port()}"
+    opened(stack, block("watch.json5", listen=place))
+    robot, source = robot_at(stack, f"tcp/{place}"), source_at(stack, f"tcp/{place}")
+    driven, told = robot.subscription("/cmd_vel", TWIST), robot.subscription("/words", STRING)
+    until(lambda: {"/cmd_vel", "/words"} <= set(source.snapshot.readers))
+    cdr = encode(TWIST, {"linear": {"x": 1.0}})
+    for _ in range(3):
+        source.graph.publish(Advertisement("/cmd_vel", TWIST), cdr).result(5)
+        source.graph.publish(Advertisement("/words", STRING), encode(STRING, {})).result(5)
+    until(lambda: len(told) == 3)
+    assert not driven
+
+
+def test_tls_on_both_sides(
+    stack: ExitStack, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    authority().cert_pem.write_to_path("ca.pem")
+    certificate(tmp_path, "cloud")
+    certificate(tmp_path, "desk")
+    port = free_port()
+    router = opened(stack, block("cloud.json5", listen=f"127.0.0.1:{port}"))
+    router.liveliness().declare_token(f"@ros2_lv/0/{router.zid()}/0/0/NN/%/%/in_the_cloud")
+    Path("desk.json5").write_text(block("desk.json5", desk=f"localhost:{port}"))
+    source = source_at(stack, "desk.json5")
+    assert source.bridges[0].name == f"tls/localhost:{port}"
+    # Without a certificate of the authority, the router lets nobody in.
+    stranger = ZenohSource(zenoh_address(f"tls/localhost:{port}", {}))
+    stack.callback(stranger.close)
+    until(lambda: "no session over TLS was opened" in stranger.bridges[0].problem)
+    assert "root_ca_certificate" in stranger.bridges[0].remedy
+
+
+def test_a_robot_behind_nat_connects_out(stack: ExitStack) -> None:
+    cloud = ZenohRouter()
+    stack.callback(cloud.close)
+    inner = f"localhost:{free_port()}"
+    text = block("robot.json5", local=inner, cloud=f"127.0.0.1:{cloud.port}")
+    opened(stack, text)
+    robot = robot_at(stack, f"tcp/{inner}")
+    publish = robot.publisher("/map", STRING, is_latched=True)
+    publish({"data": "map"})
+    source = source_at(stack, cloud.endpoint)
+    until(lambda: "/map" in source.offers())
+    source.want({"/map": Subscription(STRING, Topic("/map"))})
+    until(lambda: source.inbox.drain().get("/map"))
+
+
+def test_a_router_that_asks_for_a_user(
+    stack: ExitStack, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "users").write_text("ann:secret\n")
+    port = free_port()
+    endpoint = f"tcp/127.0.0.1:{port}"
+    made = config("router", listen=endpoint)
+    made.insert_json5("transport/auth/usrpwd/dictionary_file", f'"{tmp_path}/users"')
+    router = zenoh.open(made)
+    stack.callback(router.close)
+    who = {"WEBVIZ_ZENOH_USER": "ann", "WEBVIZ_ZENOH_PASSWORD": "secret"}
+    source = ZenohSource(zenoh_address(endpoint, who))
+    stack.callback(source.close)
+    until(lambda: source.bridges[0].is_up)
+    wrong = ZenohSource(zenoh_address(endpoint, who | {"WEBVIZ_ZENOH_PASSWORD": "guess"}))
+    stack.callback(wrong.close)
+    until(lambda: "refuses webviz" in wrong.bridges[0].problem)
+    assert "WEBVIZ_ZENOH_USER" in wrong.bridges[0].remedy
