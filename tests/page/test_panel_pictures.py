@@ -31,9 +31,11 @@ WIDE = f"document.documentElement.style.setProperty('--wv-width', '{WIDTH}px')"
 
 @pytest.fixture
 def taken(
-    open_tab: Callable[..., Tab], request: pytest.FixtureRequest
+    open_tab: Callable[..., Tab], request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[str, Any], None]:
     """Compare a panel with its picture: `taken(name, panel, fill, **state)`."""
+    # A picture that takes longer would end the curves.
+    monkeypatch.setattr("webviz.panels.plot.panel.CLOSED_S", 60.0)
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
     references = ReferenceImages(
