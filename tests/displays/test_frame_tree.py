@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from webviz_displays.tf.display import LISTED, outline
+from webviz_displays.tf import LISTED, outline
 
 
 @pytest.mark.parametrize(

@@ -214,7 +214,7 @@ def test_too_many_points_are_dropped_or_thinned_with_a_word(
 ) -> None:
     at = shown(MAPPED, style="Boxes")
     total = len(points(at))
-    monkeypatch.setattr("webviz_displays.map_cloud.display.DOTS_LIMIT", total // 3)
+    monkeypatch.setattr("webviz_displays.map_cloud.DOTS_LIMIT", total // 3)
     at.set("style", "Points")
     assert at.statuses()["Points"] == ("OK", f"{total // 4} points of 2 nodes, one of 4.")
     monkeypatch.setattr(known, "MAX_POINTS", total - 1)

@@ -13,7 +13,7 @@ from webviz.data.rotations import normalized
 _AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
-def details(sample: Sample) -> Details:
+def odometry_details(sample: Sample) -> Details:
     """Pose, twist and covariances of a message."""
     message: messages.Odometry = sample.message
     p, q = message.pose.pose.position, message.pose.pose.orientation

@@ -106,7 +106,7 @@ class PoseSet(msgspec.Struct, frozen=True):
         )
 
 
-def pose_set(
+def drawable_poses(
     positions: F64, orientations: F64, sample: Sample, ctx: Context, noun: str
 ) -> PoseSet | None:
     """Return the poses of a message that can be drawn, None if there are none; says so.
