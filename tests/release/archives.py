@@ -11,6 +11,8 @@ import sys
 import tarfile
 from pathlib import Path
 
+from tests.release import packing
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -19,8 +21,8 @@ def build(commit: str, folder: Path) -> list[Path]:
 
     Args:
         commit: a name that git knows.
-        folder: an existing folder, which then holds `source/`, the files of the commit, and
-            `made/`, the archives.
+        folder: an existing folder, which then holds `source/`, the files of the commit with the
+            page's modules packed, and `made/`, the archives.
 
     Returns:
         The wheel and the source distribution.
@@ -32,6 +34,7 @@ def build(commit: str, folder: Path) -> list[Path]:
     )
     with tarfile.open(fileobj=io.BytesIO(listed.stdout)) as archive:
         archive.extractall(source, filter="data")
+    packing.pack(source / packing.NAME)
     epoch = subprocess.run(
         ["git", "show", "-s", "--format=%ct", commit],
         cwd=ROOT,

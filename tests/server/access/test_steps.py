@@ -90,7 +90,7 @@ def test_who_has_to_stay_away_is_refused_pages_and_channels() -> None:
 
 
 def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None:
-    step = page(b"<style>")
+    step = page(b"<style>", b"")
     plain, packed = step(visit()), step(visit("/index.html?a", Accept_Encoding="gzip"))
     assert plain is not None
     assert packed is not None

@@ -1,7 +1,7 @@
 """Page for browsers: viser's, with our JavaScript modules and style sheets added.
 
 They are in the one file of the page: to load more than a hundred small files takes longer than all
-the rest of the page, above all over a slow network.
+the rest of the page, above all over a slow network. A release has them packed, see `packed.py`.
 """
 
 from __future__ import annotations
@@ -15,11 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from webviz.engine.feature import features, texts_of
+from webviz.server.channel.packed import pack_of
 
 CHANNEL = "/webviz/channel"
 """Where the websocket of the channel is, below the page."""
 
 _FOLDER = Path(str(resources.files("webviz.page"))) / "web"
+PACK = _FOLDER.parent / "packed.json"
+"""The pack of a release; a checkout has none."""
 _MODULES = "$MODULES"
 """Stands in `head.html` for all modules, as JSON."""
 
@@ -29,10 +32,11 @@ class Modules:
 
     Args:
         constants: what Python and the modules share; `constants.js` for the latter.
+        pack: file with the modules packed, if there is one.
     """
 
-    def __init__(self, constants: Mapping[str, Any]) -> None:
-        self._version, self.head = _built(json.dumps(constants))
+    def __init__(self, constants: Mapping[str, Any], pack: Path | None = None) -> None:
+        self._version, self.head, self.source_map = _built(json.dumps(constants), pack or PACK)
 
     def connect(self, browser: int, key: str) -> str:
         """Return a script that makes a page open the channel.
@@ -54,8 +58,24 @@ class Modules:
 
 
 @functools.cache
-def _built(constants: str) -> tuple[str, bytes]:
-    """Return the version and the head of a page with these constants, as JSON."""
+def _built(constants: str, file: Path) -> tuple[str, bytes, bytes]:
+    """Return version and head of a page with these constants, as JSON, and its source map."""
+    files = page_files()
+    content = repr((constants, sorted(files.items()))).encode()
+    version = hashlib.sha256(content).hexdigest()[:16]
+    shared = json.dumps({**json.loads(constants), "VERSION": version})
+    sources = {name: text for name, text in files.items() if name.endswith(".js")}
+    pack = pack_of(sources, file)
+    modules = pack.modules(sources) if pack else sources
+    modules["constants.js"] = f"export default {shared};\n"
+    head = files["head.html"] + "".join(_style(files[name]) for name in styles(files))
+    # Nothing in a module may end the element that it is in.
+    head = head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c"))
+    return version, head.encode(), pack.source_map(sources) if pack else b""
+
+
+def page_files() -> dict[str, str]:
+    """Return the modules, style sheets and head of the page and of features, by their names."""
     files = {
         file.relative_to(_FOLDER).as_posix(): file.read_text("utf-8")
         for file in _FOLDER.rglob("*")
@@ -63,14 +83,7 @@ def _built(constants: str) -> tuple[str, bytes]:
     }
     for name, feature in features().items():
         files |= {f"features/{name}/{file}": text for file, text in texts_of(feature).items()}
-    content = repr((constants, sorted(files.items()))).encode()
-    version = hashlib.sha256(content).hexdigest()[:16]
-    shared = json.dumps({**json.loads(constants), "VERSION": version})
-    modules = {name: text for name, text in files.items() if name.endswith(".js")}
-    modules["constants.js"] = f"export default {shared};\n"
-    head = files["head.html"] + "".join(_style(files[name]) for name in styles(files))
-    # Nothing in a module may end the element that it is in.
-    return version, head.replace(_MODULES, json.dumps(modules).replace("<", r"\u003c")).encode()
+    return files
 
 
 def styles(names: Iterable[str]) -> list[str]:

@@ -15,11 +15,13 @@ from webviz.server.access import login
 from webviz.server.access.access import EVERYBODY, Access, Grant
 from webviz.server.access.proxies import Proxies
 from webviz.server.channel.modules import CHANNEL
+from webviz.server.channel.packed import MAP
 from webviz.server.http.hosts import HostList, origin_refusal
 from webviz.server.http.requests import NOT_FOUND, PAGES, is_upgrade
 from webviz.server.http.viser_page import with_head
 
 HTML = "text/html; charset=utf-8"
+JSON = "application/json"
 
 
 class Visit(msgspec.Struct):
@@ -164,11 +166,12 @@ def within(limits: Room) -> Step:
     return step
 
 
-def page(head: bytes) -> Step:
+def page(head: bytes, source_map: bytes) -> Step:
     """Serve the one file of the page, packed for browsers that take it so.
 
     Args:
         head: of the page, besides viser's; see `Modules.head`.
+        source_map: of its modules, which developer tools read; empty if they are as they are.
     """
 
     @functools.lru_cache(maxsize=2)
@@ -180,6 +183,8 @@ def page(head: bytes) -> Step:
         request = visit.request
         if is_upgrade(request):
             return None
+        if source_map and visit.path == MAP:
+            return Reply(http.HTTPStatus.OK, source_map, {"Content-Type": JSON})
         if visit.path not in PAGES:
             return _sentence(*NOT_FOUND)
         encodings = ", ".join(request.headers.get_all("Accept-Encoding"))
