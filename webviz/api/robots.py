@@ -32,8 +32,15 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Prop(help="Frames that it shares with the others, which have no prefix."),
     ] = ("map",)
     connection: Annotated[
-        Annotated[str, msgspec.Meta(max_length=1000, pattern="^wss?://")] | None,
-        Prop(help="Bridge of the robot, such as ws://robot1:8765; null is the live topics."),
+        Annotated[str, msgspec.Meta(max_length=1000, pattern="^(wss?://|(tcp|tls|quic)/)")] | None,
+        Prop(
+            help="Bridge of the robot, such as ws://robot1:8765, or Zenoh router, such as "
+            "tcp/robot1:7447; null is the live topics."
+        ),
+    ] = None
+    domain: Annotated[
+        Annotated[int, msgspec.Meta(ge=0, le=232)] | None,
+        Prop(help="ROS domain of the robot over Zenoh; null is ROS_DOMAIN_ID."),
     ] = None
     tint: Annotated[
         Color | None, Prop(help="Colour that is mixed into everything of it; null for none.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import msgspec
 
@@ -15,8 +15,15 @@ from webviz.data.messages.stamps import shifted
 from webviz.sources.bridge.address import Address
 from webviz.sources.inbox import Inbox, Raw
 from webviz.sources.source import Subscription
+from webviz.sources.zenoh.address import ZenohAddress
+
+if TYPE_CHECKING:
+    from webviz.sources.bridge.source import BridgeSource
+    from webviz.sources.zenoh.source import ZenohSource
 
 E = TypeVar("E", Publisher, Endpoint)
+RobotAddress = Address | ZenohAddress
+"""Of a bridge, or of a Zenoh router."""
 
 
 class MemberInbox(Inbox):
@@ -73,31 +80,28 @@ class MemberInbox(Inbox):
 
 
 class FleetMember:
-    """A robot behind its bridge.
+    """A robot behind its bridge, or over Zenoh.
 
     Topics, nodes and services of the bridge appear in the namespace of the robot. Those that are in
     it already, since the robot itself has a namespace, keep their names.
 
     Args:
         robot: with its namespace.
-        address: of its bridge.
+        address: of its bridge or router.
         inbox: of the fleet.
         now_ns: ROS time of the fleet.
     """
 
     def __init__(
-        self, robot: NamespacedRobot, address: Address, inbox: Inbox, now_ns: Callable[[], int]
+        self, robot: NamespacedRobot, address: RobotAddress, inbox: Inbox, now_ns: Callable[[], int]
     ) -> None:
-        # Here, as viewers without such robots, which are most, do without its thirty modules.
-        from webviz.sources.bridge.source import BridgeSource
-
         self.robot = robot
         self._now_ns = now_ns
         self._types: dict[str, str] = {}
         self._offers: tuple[Mapping[str, Offer], Mapping[str, Offer]] = {}, {}
         self._bridge: tuple[Bridge | None, int, Bridge | None] = None, 0, None
         self._inbox = MemberInbox(inbox, self.outer, self._moved)
-        self.source = BridgeSource(address, inbox=self._inbox)
+        self.source = _source(address, self._inbox)
 
     @property
     def bridge(self) -> Bridge:
@@ -180,3 +184,14 @@ class FleetMember:
 
     def _named(self, endpoint: E) -> E:
         return replace(endpoint, node=self.outer(endpoint.node)) if endpoint.node else endpoint
+
+
+def _source(address: RobotAddress, inbox: Inbox) -> BridgeSource | ZenohSource:
+    """Return the source of a robot; viewers without such robots load neither kind."""
+    if isinstance(address, ZenohAddress):
+        from webviz.sources.zenoh.source import ZenohSource
+
+        return ZenohSource(address, inbox=inbox)
+    from webviz.sources.bridge.source import BridgeSource
+
+    return BridgeSource(address, inbox=inbox)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, InvalidStateError
@@ -13,12 +14,13 @@ from webviz.api.bridge import Bridge
 from webviz.api.errors import Error
 from webviz.api.offer import Offer
 from webviz.api.robots import NamespacedRobot, robot_of
-from webviz.sources.bridge.address import Address, address, headers_of
-from webviz.sources.fleet.member import FleetMember
+from webviz.sources.bridge.address import address, headers_of
+from webviz.sources.fleet.member import FleetMember, RobotAddress
 from webviz.sources.graph import Advertisement, Goal, Graph, ReadOnly
 from webviz.sources.inbox import Inbox
 from webviz.sources.names import resolved
 from webviz.sources.source import Source, Subscription
+from webviz.sources.zenoh.address import DOMAIN, PASSWORD, USER, is_zenoh, zenoh_address
 
 
 class FleetGraph:
@@ -73,7 +75,7 @@ class FleetGraph:
     def send_goal(
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
-        """Send a goal; bridges refuse it."""
+        """Send a goal to the robot that offers the action; bridges refuse it."""
         member = self._member(action)
         if member is None:
             return self._base.send_goal(action, type, goal, feedback)
@@ -87,8 +89,12 @@ class FleetGraph:
         return tuple(sorted(found))
 
     def services(self) -> Mapping[str, str]:
-        """Types of the services of the base; bridges are only asked for what is called."""
-        return self._base.services()
+        """Types of the services by name; bridges are only asked for what is called."""
+        found = dict(self._base.services())
+        for member in self._members:
+            for name, type in member.source.graph.services().items():
+                found[member.outer(name)] = type
+        return found
 
     @property
     def _base(self) -> Graph:
@@ -164,11 +170,11 @@ class FleetSource:
 
     def follow(self, robots: Sequence[NamespacedRobot]) -> None:
         """Make the connections exactly those of these robots; existing ones stay open."""
-        known = {(m.robot.root, m.robot.connection): m for m in self._members}
+        known = {_link(m.robot): m for m in self._members}
         members: list[FleetMember] = []
         refused: list[Bridge] = []
         for robot in _connected(robots):
-            member = known.pop((robot.root, robot.connection), None)
+            member = known.pop(_link(robot), None)
             try:
                 member = member or self._member(robot)
             except Error as error:
@@ -246,9 +252,13 @@ class FleetSource:
     def _member(self, robot: NamespacedRobot) -> FleetMember:
         return FleetMember(robot, self._address(robot), self.inbox, self.now_ns)
 
-    def _address(self, robot: NamespacedRobot) -> Address:
-        """Return the address of a robot's bridge; raises Error."""
+    def _address(self, robot: NamespacedRobot) -> RobotAddress:
+        """Return the address of a robot's bridge or router; raises Error."""
         is_known = (robot.name, robot.connection) in self._first
+        if is_zenoh(robot.connection or ""):
+            domain = os.environ.get(DOMAIN, "") if robot.domain is None else str(robot.domain)
+            secrets = {name: os.environ.get(name, "") for name in (USER, PASSWORD) if is_known}
+            return zenoh_address(robot.connection or "", {DOMAIN: domain, **secrets})
         environment = headers_of(robot.name) if is_known else {}
         return address(robot.connection or "", environment=environment)
 
@@ -265,3 +275,8 @@ class FleetSource:
 
 def _connected(robots: Sequence[NamespacedRobot]) -> Sequence[NamespacedRobot]:
     return [robot for robot in robots if robot.connection]
+
+
+def _link(robot: NamespacedRobot) -> tuple[str, str | None, int | None]:
+    """Return what a robot's connection is made of."""
+    return robot.root, robot.connection, robot.domain

@@ -1,0 +1,83 @@
+"""Many robots over Zenoh: a domain each, or namespaces over one session."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+from waiting import until
+from zenoh_robot import ZenohRobot, ZenohRouter
+
+from webviz.api.declared import Topic
+from webviz.api.robots import NamespacedRobot
+from webviz.data.messages import decode, encode
+from webviz.sources import Advertisement, Subscription
+from webviz.sources.fleet.source import FleetSource
+from webviz.sources.zenoh.source import ZenohSource
+
+STRING = "std_msgs/msg/String"
+TWIST = "geometry_msgs/msg/Twist"
+SET_BOOL = "std_srvs/srv/SetBool"
+
+
+def test_a_domain_each(router: ZenohRouter) -> None:
+    robots = [ZenohRobot(router.endpoint, "/base", domain=number) for number in (1, 2)]
+    publish = [robot.publisher("/words", STRING) for robot in robots]
+    driven = [robot.subscription("/cmd_vel", TWIST) for robot in robots]
+    robots[1].service("/light", SET_BOOL, lambda request: {"success": True})
+    named = [NamespacedRobot(f"robot{n}", connection=router.endpoint, domain=n) for n in (1, 2)]
+    fleet = FleetSource(named, None)
+    topics = ("/robot1/words", "/robot2/words")
+    try:
+        until(lambda: set(topics) <= set(fleet.offers()))
+        assert {"/robot1/base", "/robot2/base"} <= set(fleet.graph.nodes())
+        assert fleet.offers()["/robot2/words"].publishers[0].node == "/robot2/base"
+        until(lambda: fleet.graph.services().get("/robot2/light") == SET_BOOL)
+        fleet.want({topic: Subscription(STRING, Topic(topic)) for topic in topics})
+        until(lambda: all(fleet.offers()[topic].subscribers for topic in topics))
+        time.sleep(0.1)
+        for number, each in enumerate(publish, start=1):
+            each({"data": f"of robot {number}"})
+        found: dict[str, str] = {}
+
+        def take() -> bool:
+            for topic, raws in fleet.inbox.drain().items():
+                found[topic] = decode(STRING, raws[-1].cdr).data
+            return len(found) == 2
+
+        until(take)
+        assert found == {"/robot1/words": "of robot 1", "/robot2/words": "of robot 2"}
+        cdr = encode(TWIST, {"linear": {"x": 1.0}})
+        sent = fleet.graph.publish(Advertisement("/robot2/cmd_vel", TWIST), cdr)
+        assert sent.result(5) == 1
+        until(lambda: driven[1])
+        assert not driven[0]
+        assert [bridge.robot for bridge in fleet.bridges] == ["robot1", "robot2"]
+    finally:
+        fleet.close()
+        for robot in robots:
+            robot.close()
+
+
+@pytest.mark.parametrize("count", [10, 50])
+def test_many_robots_over_one_session(source: ZenohSource, router: ZenohRouter, count: int) -> None:
+    robots = [ZenohRobot(router.endpoint, f"/robot{n}/base") for n in range(count)]
+    topics = [f"/robot{n}/words" for n in range(count)]
+    try:
+        publish = [
+            robot.publisher(topic, STRING) for robot, topic in zip(robots, topics, strict=True)
+        ]
+        until(lambda: set(topics) <= set(source.offers()))
+        assert len([node for node in source.graph.nodes() if node.endswith("/base")]) == count
+        source.want({topic: Subscription(STRING, Topic(topic)) for topic in topics})
+        until(lambda: all(source.offers()[topic].subscribers for topic in topics))
+        time.sleep(0.3)
+        for _ in range(5):
+            for each in publish:
+                each({"data": "x" * 1000})
+        until(lambda: sum(n for n, _ in source.inbox.received().values()) == 5 * count)
+        assert not source.bridges[0].remarks
+    finally:
+        for robot in robots:
+            robot.close()
+    until(lambda: not set(topics) & set(source.offers()))
