@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import zenoh
 from certificates import authority, certificate
+from slow_link import SlowLink
 from waiting import until
 from zenoh_robot import ZenohRobot, ZenohRouter, config, free_port
 
@@ -37,6 +38,7 @@ def block(name: str, **replaced: str) -> str:
     return result
 
 
+NO_SHARED_MEMORY = "{ shared_memory: { enabled: false } }"
 PLACES = {
     "listen": "0.0.0.0:7447",
     "local": "localhost:7448",
@@ -93,6 +95,29 @@ def test_a_slow_link_has_fewer_scans_and_no_images(stack: ExitStack) -> None:
     counts = {topic: count for topic, (count, _) in source.inbox.received().items()}
     assert 0 < counts["/scan"] <= 2 * seconds + 2
     assert "/camera/image" not in counts
+
+
+def test_poses_overtake_clouds_on_a_slow_link(stack: ExitStack) -> None:
+    port = free_port()
+    # On one machine, large messages would go through shared memory.
+    text = block("priorities.json5", listen=f"127.0.0.1:{port}")
+    opened(stack, text.replace("qos:", f"transport: {NO_SHARED_MEMORY}, qos:"))
+    link = SlowLink(port, rate=125e3, delay_s=0.01)
+    stack.callback(link.close)
+    robot = robot_at(stack, f"tcp/127.0.0.1:{port}")
+    source = source_at(stack, f"tcp/127.0.0.1:{link.get_port()}")
+    topics = ("/odom", "/points")
+    publish = {topic: robot.publisher(topic, STRING) for topic in topics}
+    until(lambda: set(topics) <= set(source.offers()))
+    source.want({topic: Subscription(STRING, Topic(topic)) for topic in topics})
+    until(lambda: all(source.offers()[topic].subscribers for topic in topics))
+    cloud = encode(STRING, {"data": "x" * 400_000})
+    for number in range(60):
+        publish["/odom"]({"data": str(number)})
+        publish["/points"](cloud)
+        time.sleep(0.05)
+    # The clouds would need three minutes; without priorities, nine of ten poses are dropped.
+    until(lambda: source.inbox.received().get("/odom", (0, 0))[0] == 60)
 
 
 def test_watchers_cannot_drive(stack: ExitStack) -> None:
