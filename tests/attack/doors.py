@@ -114,7 +114,7 @@ DOORS: Mapping[str, Door] = {
     "the simulator's topics": Door(("simulator",), ("sim/webviz_sim/*",)),
     "other machines": Door(
         (),
-        ("webviz/shell/doctor/*", "webviz/engine/machine/*"),
+        ("webviz/shell/doctor/*", "webviz/engine/machine/*", "webviz/features/doctor/*"),
         "The kernel, and a machine that the user logs in to (tests/checks/test_peer.py).",
     ),
     "the user's own files": Door(
