@@ -12,7 +12,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from tests.attack.attack import Case
-from webviz.data.tiles.opening import open_tiles
+from webviz.data.tiles import open_tiles
 from webviz.data.tiles.server import VARIABLE
 
 ALLOWED = "/maps/"

@@ -15,8 +15,7 @@ from built_in_checks import BuiltInChecks
 from inspecting import Benches
 from waiting import until
 
-from webviz.data.geo import TilePlane, to_enu
-from webviz.data.geo.wgs84 import Geodetic
+from webviz.data.geo import Geodetic, TilePlane, to_enu
 from webviz.files import opening
 from webviz.shell.testing import check_details
 from webviz_displays.outdoors import AerialMap, GeoPath, NavSatFix

@@ -27,7 +27,7 @@ from webviz.data.messages import (
 from webviz.engine.state import PanelTab, PanelTimes, State
 from webviz.page.recorded_ui import ChartWidget, RecordedUi
 from webviz.panels.plot import Plot
-from webviz.panels.plot.history import MAX_POINTS, CurveHistory
+from webviz.panels.plot.series import MAX_POINTS, CurveHistory
 from webviz.sources import Offer, Publisher
 from webviz.sources.past_state import PlaybackState
 
@@ -202,7 +202,7 @@ def test_another_window_keeps_the_values_and_a_pause_of_the_panel_is_a_gap(
     bench.send(1.0, 98.0)
     bench.panel.window = 60.0
     assert bench.points() == [(98.0, 1.0)]
-    monkeypatch.setattr("webviz.panels.plot.panel.CLOSED_S", -1.0)
+    monkeypatch.setattr("webviz.panels.plot.CLOSED_S", -1.0)
     bench.show()
     bench.send(2.0, 99.0)
     assert [value for _, value in bench.points()][:3] == [1.0, None, 2.0]

@@ -24,7 +24,7 @@ from webviz.panels.planning_tasks import MotionPlanningTasks
 from webviz.panels.selector import Selector
 from webviz.panels.slam_toolbox import INITIAL_POSE, SlamToolbox
 from webviz.panels.visual_tools import RvizVisualToolsGui
-from webviz.shell.testing.opened_panel import OpenedPanel
+from webviz.shell.testing.harness import OpenedPanel
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz_displays import moveit as displays
 

@@ -16,7 +16,7 @@ from pages import COARSE
 from waiting import until
 
 from webviz.scene import ViserScene
-from webviz.server.http.rate_limited_log import rate_limited_log
+from webviz.server.http.guard import rate_limited_log
 
 Ask = Callable[[bytes], tuple[int, bytes, bytes]]
 HOST = b"Host: localhost\r\n"

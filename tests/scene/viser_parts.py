@@ -90,12 +90,6 @@ SERVER: tuple[Reach, ...] = (
         "a serializer that also has poses that were queued apart",
     ),
     Reach(
-        f"{ADAPTER}/packing.py",
-        ("viser.infra._messages.Message",),
-        "frames that are packed once for all browsers",
-        "the same in viser",
-    ),
-    Reach(
         f"{ADAPTER}/poses.py",
         ("viser._messages", "viser.infra._async_message_buffer.AsyncMessageBuffer"),
         "hundreds of poses per turn under one lock",
@@ -108,7 +102,7 @@ SERVER: tuple[Reach, ...] = (
             "viser.infra._messages.Message",
             "_window_loop",
         ),
-        "small messages first, large ones by the pace of each link, quick joins",
+        "small messages first, large ones by the pace of each link, packed once, quick joins",
         "a sender that can be exchanged",
     ),
     Reach(

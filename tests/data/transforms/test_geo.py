@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from webviz.data.geo import Geodetic, TilePlane, is_valid, to_ecef, to_enu, to_utm
-from webviz.data.geo.mercator import MAX_LATITUDE
+from webviz.data.geo import MAX_LATITUDE, Geodetic, TilePlane, is_valid, to_ecef, to_enu, to_utm
 
 LATITUDES = st.floats(-90, 90)
 LONGITUDES = st.floats(-180, 180)

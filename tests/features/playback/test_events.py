@@ -15,7 +15,7 @@ from webviz.api.status import LOADING, Level, Status
 from webviz.commands import RemoveDisplay, Seek
 from webviz.data.messages import encode
 from webviz.engine.state import Row
-from webviz.features.playback.display_events import DisplayEvents
+from webviz.features.playback import DisplayEvents
 from webviz.sources.bag.log import MAX_EVENTS, MAX_NAME, MAX_TEXT, read_log
 from webviz.sources.past_state import Event
 
@@ -145,7 +145,7 @@ def test_a_rising_level_is_noted_once_per_sentence_and_second() -> None:
 
 
 def test_notes_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("webviz.features.playback.display_events.MAX_EVENTS", 3)
+    monkeypatch.setattr("webviz.features.playback.MAX_EVENTS", 3)
     found = DisplayEvents()
     for second in range(10):
         found.note(ns(second), [row(Level.OK)])

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import http
+import logging
 import ssl
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any
@@ -22,11 +23,54 @@ from websockets.http11 import Request, Response
 from webviz.server.channel.channel import Channel, objection
 from webviz.server.http.connections import Connection, ConnectionLimits
 from webviz.server.http.listener import Listener
-from webviz.server.http.rate_limited_log import rate_limited_log
 from webviz.server.http.requests import add_policy
 from webviz.server.http.steps import Reply, Step, Visit, answer_of
 from webviz.server.http.tunnels import BackListener, hand_over
 from webviz.server.http.viser_messages import MAX_BYTES
+
+INTERVAL = 60.0
+"""Seconds in which further lines of the same kind are only counted."""
+
+
+def rate_limited_log(name: str) -> logging.Logger:
+    """Return a child of webviz's logger that is not shared by name."""
+    log = logging.Logger(name)
+    log.parent = logging.getLogger("webviz")
+    log.addFilter(_RateLimitFilter())
+    return log
+
+
+class _RateLimitFilter(logging.Filter):
+    """Passes one line of each kind per interval; tracebacks are shortened to one line."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._kinds: dict[str, tuple[float, int]] = {}
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        if record.levelno < logging.WARNING:
+            return False
+        kind = str(record.msg)
+        since, left_out = self._kinds.get(kind, (-INTERVAL, 0))
+        if record.created - since < INTERVAL:
+            self._kinds[kind] = since, left_out + 1
+            return False
+        self._kinds[kind] = record.created, 0
+        text = record.getMessage()
+        if record.exc_info and record.exc_info[1] is not None:
+            text += f": {_one_line(record.exc_info[1])}"
+        if left_out:
+            text += f" ({left_out} similar lines omitted)"
+        record.msg, record.args = text, ()
+        record.exc_info = record.exc_text = None
+        return True
+
+
+def _one_line(error: BaseException) -> str:
+    while error.__cause__ is not None:
+        error = error.__cause__
+    return " ".join(f"{type(error).__name__}: {error}".split())[:200]
+
 
 MAX_WAITING_FRAMES = 4
 """Frames per connection that are received but not handled; further ones wait in the browser."""

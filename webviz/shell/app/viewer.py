@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Iterator, Mapping
+from concurrent.futures import Future, InvalidStateError
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,7 @@ import msgspec
 from webviz import commands
 from webviz.api.declared import Color
 from webviz.api.errors import Error
-from webviz.api.status import Status
+from webviz.api.status import Level, Status
 from webviz.api.views import View
 from webviz.commands import (
     AddDisplay,
@@ -34,7 +36,45 @@ from webviz.shell.app.handles import DisplayHandle, NoSuchDisplay
 from webviz.shell.app.picture_controls import checked_view
 from webviz.shell.app.running import Running
 from webviz.shell.app.time_controls import TimeControls
-from webviz.shell.app.tool_handle import ToolHandle
+
+PATIENCE_S = 5.0
+"""For a tool to report the result of a gesture."""
+
+
+class ToolHandle:
+    """A tool, by its name in the toolbar."""
+
+    def __init__(self, viewer: Running, name: str) -> None:
+        self._viewer = viewer
+        self.name = name
+
+    def send(self, x: float, y: float, yaw: float = 0.0, z: float = 0.0) -> str:
+        """Use the tool as with a gesture on the page.
+
+        Args:
+            x, y, z: position in metres in the fixed frame.
+            yaw: heading in radians.
+
+        Returns:
+            The result, as a sentence.
+
+        Raises:
+            Error: the tool is unknown, or it could not publish.
+        """
+        first: Future[Status] = Future()
+
+        def report(status: Status) -> None:
+            with contextlib.suppress(InvalidStateError):  # a tool may report more than once
+                first.set_result(status)
+
+        self._viewer.do(commands.UseTool(self.name, ((x, y, z),), yaw, report=report))
+        try:
+            status = first.result(PATIENCE_S)
+        except TimeoutError:
+            raise Error(f"{self.name} reported nothing within {PATIENCE_S:g} s.") from None
+        if status.level is Level.ERROR:
+            raise Error(status.text)
+        return status.text
 
 
 class Viewer(Running, TimeControls):
