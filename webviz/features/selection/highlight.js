@@ -7,7 +7,8 @@ import * as viser from "../../viser_page.js";
 import { makeLayer } from "../../tools/layer.js";
 import * as selection from "../../tools/selection.js";
 
-/** @import {Outline, Three, Vec2} from "../../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {Outline, Vec2} from "../../types.js" */
 
 const POINT_PX = 5; // half of the square around a point
 const OLD_MS = 10_000; // how long something is marked that is not drawn any more
@@ -111,7 +112,7 @@ function trace(pen, { points, edges }) {
 }
 
 /**
- * @param {Three} point
+ * @param {Vector3} point
  * @returns {Vec2 | null}
  */
 function placeOf(point) {

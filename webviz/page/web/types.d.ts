@@ -1,5 +1,6 @@
 // Types that modules share; those of the server are in messages.d.ts and contents.d.ts.
 
+import type { Object3D } from "three";
 import type { LiveTopic, Stores } from "./contents.js";
 import type { Tools } from "./messages.js";
 import type { Readable } from "./signals.js";
@@ -105,16 +106,24 @@ export interface Control {
   handle?(label: HTMLElement): void;
 }
 
-/** An object of three.js or of viser's page, which have no types here. */
-export type Three = any;
-/** The part of three.js' objects that is read with types: walks through what is below one. */
-export interface ThreeTree {
-  traverse(visit: (object: Three) => unknown): void;
-  children: Three[];
-  position: Three;
-  quaternion: Three;
-  [more: string]: any;
+/** An object of the scene, of three.js or of what viser draws with; its flags say of which class. */
+export interface SceneObject extends Object3D {
+  children: SceneObject[];
+  parent: SceneObject | null;
+  isMesh?: boolean;
+  isInstancedMesh?: boolean;
+  isInstancedMesh2?: boolean;
+  isLineSegments2?: boolean;
+  isPoints?: boolean;
+  isLight?: boolean;
+  /** Of three.js, with attributes of its own. */
+  geometry?: any;
+  /** Of three.js or one of viser's own, with uniforms of its own. */
+  material?: any;
+  traverse(visit: (object: SceneObject) => unknown): void;
 }
+/** Parts of viser's page and of its materials, which have no types. */
+export type Three = any;
 /** A message of viser's, of which modules read some fields. */
 export type ViserMessage = { type: string; [field: string]: any };
 

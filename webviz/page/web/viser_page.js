@@ -11,7 +11,9 @@ const page = () => window.__viserMutable;
 
 // Required parts of viser's page, and their uses. A path of a function ends with ().
 
-/** @import {Three, ThreeTree, ViserMessage} from "./types.js" */
+/** @import {Material, PerspectiveCamera, Raycaster as Caster, Scene} from "three" */
+/** @import {WebGLRenderer, WebGLRenderTarget} from "three" */
+/** @import {SceneObject, Three, Vec3, ViserMessage} from "./types.js" */
 const NEEDS = {
   "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
   "scene.onAfterRender()": "measuring how many points the page holds",
@@ -133,26 +135,29 @@ export function until(condition) {
 export const hasScene = () => Boolean(page()?.scene?.__r3f?.root && page().canvas);
 export const hasCamera = () => Boolean(page()?.cameraControl && page().camera);
 
-/** @type {() => ThreeTree} */
+/** @type {() => SceneObject & Scene & {__r3f: any}} */
 export const scene = () => page().scene;
 /** @type {() => HTMLCanvasElement & {parentElement: HTMLElement}} */
 export const canvas = () => page().canvas;
+/** @type {() => PerspectiveCamera} */
 export const camera = () => page().camera;
 export const controls = () => page().cameraControl;
 export const actions = () => page().cameraControl.constructor.ACTION;
+/** @type {() => WebGLRenderer} */
 export const gl = () => three().gl;
+/** @type {() => typeof Caster} */
 export const Raycaster = () => three().raycaster.constructor;
 export const backgroundMaterial = () => page().backgroundMaterial;
 
 /**
  * All nodes of the scene by their names; some may be undefined.
  *
- * @type {() => Record<string, ThreeTree>}
+ * @type {() => Record<string, SceneObject>}
  */
 export const nodes = () => page().nodeRefFromName;
 /**
  * @param {string} name
- * @returns {ThreeTree | undefined}
+ * @returns {SceneObject | undefined}
  */
 export const node = (name) => page().nodeRefFromName[name];
 
@@ -160,7 +165,7 @@ export const node = (name) => page().nodeRefFromName[name];
  * Where a node is relative to its parent, also of one that is no object, such as a text.
  *
  * @param {string} name
- * @returns {Three}
+ * @returns {Vec3 | undefined}
  */
 export const positionOf = (name) => page().nodePoseData[name]?.position;
 
@@ -209,21 +214,21 @@ export function filterMessages(pass) {
 /**
  * Calls `act(gl, scene, camera, target)` each time before the scene is drawn, with any camera.
  *
- * @param {(gl: Three, scene: ThreeTree, camera: Three, target: Three) => unknown} act
+ * @param {(gl: WebGLRenderer, scene: SceneObject, camera: PerspectiveCamera, target: WebGLRenderTarget | null) => unknown} act
  */
 export function beforeEveryRender(act) {
   const before = scene().onBeforeRender;
-  /** @param {[Three, ThreeTree, Three, Three]} args */
+  /** @type {(this: SceneObject, ...args: any) => void} */
   scene().onBeforeRender = function (...args) {
-    before.apply(this, args);
-    act(...args);
+    Reflect.apply(before, this, args);
+    act(.../** @type {Parameters<typeof act>} */ (args));
   };
 }
 
 /**
  * The same, only with the camera of the page.
  *
- * @param {(gl: Three, scene: ThreeTree, camera: Three, target: Three) => unknown} act
+ * @param {(gl: WebGLRenderer, scene: SceneObject, camera: PerspectiveCamera, target: WebGLRenderTarget | null) => unknown} act
  */
 export function beforeRender(act) {
   beforeEveryRender((...args) => args[2] === camera() && act(...args));
@@ -236,9 +241,9 @@ export function beforeRender(act) {
  */
 export function afterRender(act) {
   const before = scene().onAfterRender;
-  /** @param {...Three} args */
+  /** @type {(this: SceneObject, ...args: any) => void} */
   scene().onAfterRender = function (...args) {
-    before.apply(this, args);
+    Reflect.apply(before, this, args);
     if (args[2] === camera()) act();
   };
 }
@@ -257,12 +262,11 @@ export function eachFrame(priority, act) {
 /**
  * Calls `act(material)` before anything is drawn with it.
  *
- * @param {(material: Three) => unknown} act
+ * @param {(material: Material) => unknown} act
  */
 export function beforeDraw(act) {
   const renderer = gl();
   const draw = renderer.renderBufferDirect;
-  /** @type {(camera: Three, fog: Three, geometry: Three, material: Three, ...rest: Three[]) => void} */
   renderer.renderBufferDirect = function (camera, fog, geometry, material, ...rest) {
     act(material);
     draw.call(this, camera, fog, geometry, material, ...rest);

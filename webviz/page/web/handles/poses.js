@@ -10,7 +10,7 @@ import { about, compose, inverse, rotate, scaled, turnedBy } from "../vectors.js
 /** @import {Moved} from "./drags.js" */
 /** @import {Pose} from "../vectors.js" */
 /** @import {SceneHandle} from "../contents.js" */
-/** @import {Three, Vec3, Wxyz} from "../types.js" */
+/** @import {SceneObject, Three, Vec3, Wxyz} from "../types.js" */
 
 /**
  * `frames` are those that are left after the drag, null while it goes on.
@@ -172,7 +172,7 @@ function isFacing(path) {
 }
 
 /**
- * @param {Three} object
+ * @param {SceneObject} object
  * @returns {Pose}
  */
 const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
@@ -180,7 +180,7 @@ const localOf = ({ position, quaternion: { w, x, y, z } }) => ({
   wxyz: [w, x, y, z],
 });
 /**
- * @param {Three} object
+ * @param {SceneObject} object
  * @param {Wxyz} wxyz
  */
 const turn = (object, [w, x, y, z]) => object.quaternion.set(x, y, z, w);

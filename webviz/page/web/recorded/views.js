@@ -7,8 +7,9 @@ import * as viser from "../viser_page.js";
 import { about as turn, turnedBy } from "../vectors.js";
 import { cameraOf, focus, like, mimic, optionsOf, viewOf, zeroView } from "./view_math.js";
 
+/** @import {Vector3} from "three" */
 /** @import {PlaceCamera} from "../messages.js" */
-/** @import {Three, Vec3} from "../types.js" */
+/** @import {Vec3} from "../types.js" */
 /** @import {About, View, ViewRig} from "./types.js" */
 
 const FIXED = "<Fixed Frame>";
@@ -50,7 +51,7 @@ export function views(about, place, changed) {
     const controls = viser.controls();
     const inverse = toThree().clone().invert();
     const at = viser.camera().position;
-    /** @param {Three} point */
+    /** @param {Vector3} point */
     const xyz = (point) => /** @type {Vec3} */ (point.applyMatrix4(inverse).toArray());
     const position = xyz(controls.getPosition(at.clone()));
     const lookAt = xyz(controls.getTarget(at.clone()));

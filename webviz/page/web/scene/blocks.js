@@ -5,7 +5,8 @@ import constants from "../constants.js";
 import * as capacity from "./capacity.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {Matrix4, PerspectiveCamera} from "three" */
+/** @import {SceneObject, Three} from "../types.js" */
 
 const MARK = `/${constants.BLOCK_PREFIX}`;
 const LEAST_SHARE = 0.5; // of the points held, although other clouds have more
@@ -37,18 +38,19 @@ function blocks() {
 }
 
 /**
- * @param {Three} object
+ * @param {SceneObject} object
  * @returns {boolean}
  */
 function isShown(object) {
-  for (let each = object; each; each = each.parent) if (!each.visible) return false;
+  for (let each = /** @type {SceneObject | null} */ (object); each; each = each.parent)
+    if (!each.visible) return false;
   return true;
 }
 
 // All points up to some distance, and fewer by its square beyond.
 /**
- * @param {Three[]} objects
- * @param {Three} camera
+ * @param {SceneObject[]} objects
+ * @param {PerspectiveCamera} camera
  * @param {number} budget
  */
 function thin(objects, camera, budget) {
@@ -76,8 +78,8 @@ function thin(objects, camera, budget) {
 // The weight of a sphere, the more the nearer; 0 out of sight.
 /**
  * @param {{middle: Three, radius: number}} sphere
- * @param {Three} matrixWorld
- * @param {Three} camera
+ * @param {Matrix4} matrixWorld
+ * @param {PerspectiveCamera} camera
  * @returns {number}
  */
 function weightOf({ middle, radius }, matrixWorld, camera) {

@@ -29,8 +29,9 @@ export const isSoftware = () =>
  * @param {(isDrawn: boolean) => void} done
  */
 export function whenDrawn(done) {
-  const context = viser.gl().getContext();
+  const context = /** @type {WebGL2RenderingContext} */ (viser.gl().getContext());
   const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!drawn) return done(false);
   context.flush();
   (function look() {
     if (context.isContextLost()) return done(false);

@@ -5,6 +5,7 @@ import { hit } from "./mouse.js";
 import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Vector3} from "three" */
 /** @import {Three, Vec2, Vec3} from "../types.js" */
 
 const FARTHEST = 1e6; // metres
@@ -82,7 +83,7 @@ const rayAt = (xy) => casterAt(xy).ray.applyMatrix4(toThree().clone().invert());
 /**
  * A point of three.js in the coordinates of the fixed frame.
  *
- * @param {Three} point
+ * @param {Vector3} point
  * @returns {Vec3}
  */
 export const toFixedFrame = (point) =>

@@ -140,7 +140,7 @@ function blend(material) {
 export function install() {
   viser.beforeEveryRender((gl, scene) => {
     scene.traverse(({ isLineSegments2, geometry, material }) => {
-      if (!isLineSegments2) return;
+      if (!isLineSegments2 || !geometry) return;
       if (material.worldUnits && !geometry.attributes.webvizStart) markEnds(geometry);
       blend(material);
       if (material.webviz) return;

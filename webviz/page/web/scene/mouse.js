@@ -11,7 +11,8 @@ import { casterAt } from "./rays.js";
 import * as views from "./view.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Hit, Three, Vec2} from "../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {Hit, Vec2} from "../types.js" */
 
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres
@@ -152,7 +153,7 @@ export function focusOn(xy) {
 /**
  * Looks at a point, as RViz does: turns the camera, and moves a view that cannot turn.
  *
- * @param {Three} point
+ * @param {Vector3} point
  */
 export function focus(point) {
   if (isLocked()) return;

@@ -7,7 +7,7 @@
 import { markOf } from "./marks.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three, ViserMessage} from "../types.js" */
+/** @import {SceneObject, Three, ViserMessage} from "../types.js" */
 
 /** @typedef {{opacity: number, plane: number[]}} Look */
 
@@ -71,7 +71,7 @@ function show(material, { opacity, plane }) {
 /**
  * The plane from which points of a cloud grow, as four numbers.
  *
- * @param {Three} points
+ * @param {SceneObject} points
  * @returns {number[]}
  */
 export const planeOf = ({ material }) => material.uniforms.webvizPlane?.value ?? SAME_SIZE;

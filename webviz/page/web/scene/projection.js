@@ -4,8 +4,9 @@ import constants from "../constants.js";
 import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
+/** @import {Vector3} from "three" */
 /** @import {Ray} from "../vectors.js" */
-/** @import {Three, Vec2, Vec3} from "../types.js" */
+/** @import {SceneObject, Three, Vec2, Vec3} from "../types.js" */
 
 /** @typedef {ReturnType<typeof projectionOf>} Projection */
 
@@ -36,7 +37,7 @@ export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
  * `project(point)` to one, or null behind the camera; `right`, `up` and `forward`; `perPixel(point)`
  * and `unit(point)`, how many metres a pixel is there, and a hundred.
  *
- * @param {Three} object
+ * @param {SceneObject} object
  */
 export function projectionOf(object) {
   object.updateWorldMatrix(true, false);
@@ -54,7 +55,9 @@ export function projectionOf(object) {
    * @returns {Vec3}
    */
   const direction = (column, sign) =>
-    vector(whole.slice(4 * column, 4 * column + 3))
+    camera.position
+      .clone()
+      .fromArray(whole, 4 * column)
       .multiplyScalar(sign)
       .transformDirection(back)
       .toArray();
@@ -99,7 +102,7 @@ export function projectionOf(object) {
     up: direction(1, 1),
     forward: direction(2, -1),
     /**
-     * @param {Three} point
+     * @param {Vector3} point
      * @returns {Vec3}
      */
     toFrame: (point) => point.clone().applyMatrix4(back).toArray(),

@@ -2,18 +2,21 @@
 
 import * as viser from "../viser_page.js";
 
-/** @import {Three, Vec2} from "../types.js" */
+/** @import {Raycaster} from "three" */
+/** @import {Vec2} from "../types.js" */
 
 /**
  * The raycaster through a point of the window, in three.js' coordinates.
  *
  * @param {Vec2} xy
- * @returns {Three}
+ * @returns {Raycaster}
  */
 export function casterAt([x, y]) {
   const box = viser.canvas().getBoundingClientRect();
   const [across, down] = [(x - box.left) / box.width, (y - box.top) / box.height];
   const caster = new (viser.Raycaster())();
-  caster.setFromCamera({ x: across * 2 - 1, y: 1 - down * 2 }, viser.camera());
+  /** @type {any} */
+  const place = { x: across * 2 - 1, y: 1 - down * 2 }; // all that it reads of a vector
+  caster.setFromCamera(place, viser.camera());
   return caster;
 }

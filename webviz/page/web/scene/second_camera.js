@@ -7,7 +7,8 @@ import { toThree } from "./fixed_frame.js";
 import { scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three, Vec3, Wxyz} from "../types.js" */
+/** @import {WebGLRenderer} from "three" */
+/** @import {SceneObject, Three, Vec3, Wxyz} from "../types.js" */
 
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz
@@ -92,7 +93,7 @@ export function drawSecond(context, width, height, sight) {
 
 /** @returns {Three} */
 function makeEye() {
-  const made = new (viser.camera().constructor)();
+  const made = new /** @type {any} */ (viser.camera().constructor)();
   made.near = NEAR;
   made.edges = [-1, 1, 1, -1];
   made.matrixAutoUpdate = false;
@@ -131,7 +132,7 @@ function hide(hidden) {
   const world = viser.node(ROOT);
   const labels = viser.scene().children.find((child) => child.children.some(lettersOf));
   for (const child of viser.scene().children) {
-    if (!child.isLight && child !== labels && !contains(child, world)) found.push(child);
+    if (!child.isLight && child !== labels && !contains(child, world ?? null)) found.push(child);
   }
   const shown = found.filter((node) => node.visible);
   const undo = names.length && labels ? hideLabels(labels, names) : () => {};
@@ -142,7 +143,7 @@ function hide(hidden) {
   };
 }
 
-/** @param {Three} mesh */
+/** @param {SceneObject} mesh */
 const lettersOf = (mesh) => mesh.material?.uniforms?.uLabelData;
 
 // viser draws all labels at once, by a table of where each is and whether it can be seen; their nodes
@@ -180,8 +181,8 @@ function hideLabels(labels, names) {
 }
 
 /**
- * @param {Three} object
- * @param {Three} inner
+ * @param {SceneObject} object
+ * @param {SceneObject | null} inner
  * @returns {boolean}
  */
 function contains(object, inner) {
@@ -205,7 +206,7 @@ function scalePoints(pixels) {
   return () => scales.forEach((scale, i) => (scale.value = before[i]));
 }
 
-/** @param {Three} gl */
+/** @param {WebGLRenderer} gl */
 function background(gl) {
   const { enabled } = viser.backgroundMaterial().uniforms;
   const [was, alpha] = [enabled.value, gl.getClearAlpha()];

@@ -11,7 +11,7 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {SceneObject, Three} from "../types.js" */
 
 const { DARKEST } = constants;
 const BOX_STEPS = 5;
@@ -88,7 +88,7 @@ const shades = { MeshStandardMaterial: lit, MeshToonMaterial: asData };
 
 // Before the first of a kind is drawn, for viser's batches keep what a material had when it was.
 // A physical material is a standard one with more to it.
-/** @param {Three} mesh */
+/** @param {SceneObject} mesh */
 function teach({ material }) {
   if (!material) return;
   const isPhysical = material.isMeshPhysicalMaterial;
@@ -108,6 +108,6 @@ export function install() {
 
   // As in RViz, a transparent object does not hide anything behind it, its own back included.
   viser.beforeDraw((material) => {
-    if (material.transparent && material.isMeshStandardMaterial) material.depthWrite = false;
+    if (material.transparent && "isMeshStandardMaterial" in material) material.depthWrite = false;
   });
 }

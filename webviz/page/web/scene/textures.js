@@ -4,7 +4,7 @@
 
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {SceneObject, Three} from "../types.js" */
 
 const SEED = 0x811c9dc5;
 const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a has them by bytes
@@ -62,7 +62,7 @@ async function hash(image) {
 }
 
 // Textures of one picture have one source, which three.js uploads once.
-/** @param {Three} mesh */
+/** @param {SceneObject} mesh */
 function share({ material }) {
   if (!material || shared.has(material)) return;
   shared.add(material);

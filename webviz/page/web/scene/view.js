@@ -13,6 +13,7 @@ import { toThree } from "./fixed_frame.js";
 import { surviveReload } from "../remember.js";
 import * as viser from "../viser_page.js";
 
+/** @import {PerspectiveCamera} from "three" */
 /** @import {PlaceCamera, StartView} from "../messages.js" */
 
 /** @import {Three, Vec3} from "../types.js" */
@@ -126,7 +127,7 @@ function follow() {
 }
 
 // A parallel projection as large as the camera's own is where it looks at.
-/** @param {Three} camera */
+/** @param {PerspectiveCamera} camera */
 function flatten(camera) {
   const distance = viser.controls().distance;
   const top = distance * Math.tan((camera.fov * Math.PI) / 360);
@@ -144,7 +145,7 @@ function flatten(camera) {
   camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
 }
 
-/** @param {Three} camera */
+/** @param {PerspectiveCamera & {webviz?: boolean}} camera */
 function adopt(camera) {
   if (camera.webviz) return;
   camera.webviz = true;
@@ -162,7 +163,7 @@ function adopt(camera) {
 }
 
 // Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
-/** @param {Three} camera */
+/** @param {PerspectiveCamera} camera */
 function adjust(camera) {
   if (cross) cross.visible = rig === null;
   for (const child of viser.scene().children) {

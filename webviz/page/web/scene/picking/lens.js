@@ -4,14 +4,15 @@
 
 import * as viser from "../../viser_page.js";
 
-/** @import {Three, Vec2, Vec3} from "../../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {SceneObject, Vec2, Vec3} from "../../types.js" */
 
 /**
  * `{m, v, wide, tall, dpr, grow}` of an object: `m` takes its coordinates to the clip space, `v` to the
  * camera's; the canvas is `wide` and `tall` CSS pixels, each `dpr` pixels of the screen; a metre is
  * `grow` / w pixels.
  *
- * @param {Three} object
+ * @param {Pick<SceneObject, "matrixWorld">} object
  */
 export function lensOf(object) {
   const camera = viser.camera();
@@ -44,7 +45,7 @@ export function onCanvasAt([x, y]) {
 /**
  * The depth of a point in three.js' coordinates: metres in front of the camera.
  *
- * @param {Three} point
+ * @param {Vector3} point
  * @returns {number}
  */
 export const depthOf = (point) => -point.clone().applyMatrix4(viser.camera().matrixWorldInverse).z;

@@ -2,14 +2,14 @@
 
 import { lensOf } from "./lens.js";
 
-/** @import {Three, Vec2} from "../../types.js" */
+/** @import {SceneObject, Vec2} from "../../types.js" */
 
 const NEAREST = 1e-3; // metres or more in front of the camera
 
 /**
  * The segment under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`.
  *
- * @param {Three} lines
+ * @param {SceneObject} lines
  * @param {Vec2} at
  * @param {number} near
  */
@@ -76,7 +76,7 @@ export function lineAt(lines, [atX, atY], near) {
 /**
  * Where a segment is, `[from, to]`, in the coordinates of the lines.
  *
- * @param {Three} lines
+ * @param {SceneObject} lines
  * @param {number} number
  */
 export function lineOf(lines, number) {
@@ -88,7 +88,7 @@ export function lineOf(lines, number) {
 /**
  * The number of segments.
  *
- * @param {Three} lines
+ * @param {SceneObject} lines
  * @returns {number}
  */
 export const lineCount = (lines) =>

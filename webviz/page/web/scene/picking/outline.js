@@ -5,7 +5,7 @@ import { anchorOf } from "./pick.js";
 import { lineOf } from "./lines.js";
 import { cornersOf } from "./texts.js";
 
-/** @import {Outline, Picked, Shape, Three, ThreeTree, Vec3} from "../../types.js" */
+/** @import {Outline, Picked, Shape, Three, SceneObject, Vec3} from "../../types.js" */
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -122,7 +122,7 @@ function cell(pick, object) {
   const { width, height } = object.geometry.parameters;
   const { width: columns, height: rows } = object.material.map.image;
   const steps = [width / columns, height / rows];
-  const whole = /** @type {ThreeTree} */ (viser.node(pick.path));
+  const whole = /** @type {SceneObject} */ (viser.node(pick.path));
   const hit = vector(pick.at).applyMatrix4(whole.matrixWorld);
   const { x, y } = hit.applyMatrix4(object.matrixWorld.clone().invert());
   const start = [x, y].map(

@@ -3,12 +3,12 @@
 import { lensOf } from "./lens.js";
 import { planeOf } from "../points.js";
 
-/** @import {Box, Three, Vec2, Vec3} from "../../types.js" */
+/** @import {Box, SceneObject, Vec2, Vec3} from "../../types.js" */
 
 const ROUND = 1000; // above this, the norm of its outline makes a point a square
 
 // The coordinates of the points that are drawn, which may be the first ones only.
-/** @param {Three} points */
+/** @param {SceneObject} points */
 const drawn = ({ geometry: { attributes, drawRange } }) =>
   attributes.position?.array.subarray(
     0,
@@ -18,7 +18,7 @@ const drawn = ({ geometry: { attributes, drawRange } }) =>
 /**
  * The point under a place of the canvas, or the nearest within `near` pixels: `{number, depth, off}`.
  *
- * @param {Three} points
+ * @param {SceneObject} points
  * @param {Vec2} at
  * @param {number} near
  */
@@ -59,7 +59,7 @@ export function pointAt(points, [atX, atY], near) {
 /**
  * Calls `take(number)` for each point whose middle is in a box of the canvas.
  *
- * @param {Three} points
+ * @param {SceneObject} points
  * @param {Box} box
  * @param {(number: number) => unknown} take
  */
@@ -81,7 +81,7 @@ export function pointsIn(points, { left, top, right, bottom }, take) {
 /**
  * Where a point is in the coordinates of the cloud.
  *
- * @param {Three} points
+ * @param {SceneObject} points
  * @param {number} number
  */
 export const pointOf = (points, number) =>
@@ -90,7 +90,7 @@ export const pointOf = (points, number) =>
 /**
  * The colour of a point, null if all have the same.
  *
- * @param {Three} points
+ * @param {SceneObject} points
  * @param {number} number
  * @returns {Vec3 | null}
  */
