@@ -11,9 +11,9 @@ from webviz.data.words import joined
 
 
 class BrokenLink(Check):
-    """Bridge that is not connected.
+    """Bridge or Zenoh router that is not connected.
 
-    The bridge that webviz was started with by `--connect` cannot be reached, refuses the
+    The bridge or router that webviz was started with by `--connect` cannot be reached, refuses the
     connection, or has ended.
 
     Why:
@@ -28,6 +28,10 @@ class BrokenLink(Check):
         or, for rosbridge:
 
             ros2 launch rosbridge_server rosbridge_websocket_launch.xml
+
+        or the router of rmw_zenoh:
+
+            ros2 run rmw_zenoh_cpp rmw_zenohd
     """
 
     id = "NET007"
@@ -57,7 +61,9 @@ class BrokenLink(Check):
 
 
 def _command(protocol: str) -> str:
-    """Return what starts a bridge that speaks a protocol."""
+    """Return what starts a bridge or router that speaks a protocol."""
+    if protocol == "Zenoh":
+        return "ros2 run rmw_zenoh_cpp rmw_zenohd"
     if protocol == "rosbridge":
         return "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
     return "ros2 launch foxglove_bridge foxglove_bridge_launch.xml"

@@ -28,7 +28,7 @@ class StrainedLink(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each link with a remark."""
         for bridge in seen.bridges:
-            if bridge.is_up and bridge.remarks:
+            if bridge.is_up and bridge.remarks and bridge.protocol != "Zenoh":
                 keys = ("Connection", f"Connection to {bridge.title}")
                 yield self.found(
                     bridge.remarks[0],
