@@ -67,10 +67,8 @@ DOORS: Mapping[str, Door] = {
         ),
     ),
     "bug reports": Door(("reports",), ("webviz/files/report/*", "webviz/shell/report/*")),
-    "bridges": Door(
-        ("bridges",),
-        ("webviz/sources/bridge/*", "webviz/sources/fleet/*", "webviz/sources/zenoh/*"),
-    ),
+    "bridges": Door(("bridges",), ("webviz/sources/bridge/*", "webviz/sources/fleet/*")),
+    "networks of Zenoh": Door(("zenoh",), ("webviz/sources/zenoh/*",)),
     "robot descriptions and meshes": Door(("files",), ("urdf/webviz_urdf/*",)),
     "configs": Door(
         ("files", "uploads", "saving"),

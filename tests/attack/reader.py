@@ -19,6 +19,7 @@ from tests.attack.bridges import read_bridge
 from tests.attack.media import read_media
 from tests.attack.tile_addresses import read_address
 from tests.attack.tiles import read_tiles
+from tests.attack.zenoh_networks import read_network
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.commands import Seek
@@ -86,6 +87,8 @@ def read(path: Path) -> None:
             read_address(path)
         case ".foxglove" | ".rosbridge":
             read_bridge(path)
+        case ".zenoh":
+            read_network(path)
         case ".png":
             open_image(path).load()
         case ".urdf":

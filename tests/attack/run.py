@@ -24,6 +24,7 @@ from tests.attack import (
     tile_addresses,
     tiles,
     yaml_texts,
+    zenoh_networks,
 )
 from tests.attack.agents import Agents
 from tests.attack.attack import Attack, Case, Violation, random_of
@@ -59,6 +60,7 @@ FILES: Mapping[str, Callable[[Random], Case]] = {
     "tile addresses": tile_addresses.draw,
     "reports": reports.draw,
     "bridges": bridges.draw,
+    "zenoh": zenoh_networks.draw,
     "exported": exported.draw,
     "definitions": definitions.draw,
     "yaml texts": yaml_texts.draw,
