@@ -47,7 +47,7 @@ FOLDERS = {
         "guard",
         "requests",
         "driving",
-        "watch",
+        "path_numbers",
         "pipeline",
         "parts",
         "examiner",

@@ -21,9 +21,15 @@ from webviz.data.messages import decode, encode
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.state import State
-from webviz.engine.watch import REARM_S, RuleWatcher, TopicObserver, WatchedMoment
-from webviz.engine.watch.observation import DIAGNOSTICS, LOG, SPAN_S
 from webviz.features import black_box
+from webviz.features.black_box.observation import (
+    DIAGNOSTICS,
+    LOG,
+    SPAN_S,
+    TopicObserver,
+    WatchedMoment,
+)
+from webviz.features.black_box.rules import REARM_S, RuleWatcher
 from webviz.files.config import ConfigError, WatchLimits, WatchRule, dump
 from webviz.files.opening import parse
 from webviz.sources import Offer, Publisher, Raw

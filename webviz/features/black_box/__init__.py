@@ -29,8 +29,8 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import Row
-from webviz.engine.watch import RuleWatcher, TopicObserver, WatchedMoment
-from webviz.engine.watch.observation import LEVEL_TYPES
+from webviz.features.black_box.observation import LEVEL_TYPES, TopicObserver, WatchedMoment
+from webviz.features.black_box.rules import RuleWatcher
 from webviz.features.black_box.saved import (
     FOLDER,
     BlackBoxState,

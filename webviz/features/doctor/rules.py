@@ -11,7 +11,7 @@ from webviz.api.observation import DisplaySeen, InputSeen, Observation
 from webviz.api.rule import DOCTOR, Rule, Verdict
 from webviz.api.status import worst
 from webviz.engine.parts.part import Batches, Core
-from webviz.engine.watch.path_numbers import PathNumbers
+from webviz.engine.path_numbers import PathNumbers
 from webviz.sources import Subscriber, Subscription
 
 MAX_KEPT = 1000

@@ -10,7 +10,7 @@ import msgspec
 
 from webviz.api.status import Level
 from webviz.data.messages import MessageError, decode
-from webviz.engine.watch.path_numbers import PathNumbers
+from webviz.engine.path_numbers import PathNumbers
 from webviz.sources import Raw
 
 SPAN_S = 3.0

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import msgspec
 
 from webviz.api.status import Level
-from webviz.engine.watch.observation import TopicObserver, WatchedMoment
+from webviz.features.black_box.observation import WatchedMoment
 from webviz.files.config import WatchRule
 
 REARM_S = 30.0
@@ -73,6 +73,3 @@ class _State(msgspec.Struct):
             self.clear_s = now_s if self.clear_s is None else self.clear_s
             self.is_armed = self.is_armed or now_s - self.clear_s >= REARM_S
         return False
-
-
-__all__ = ["RuleWatcher", "TopicObserver", "WatchedMoment"]
