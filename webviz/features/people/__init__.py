@@ -20,6 +20,7 @@ from webviz.engine.store import PageStore
 from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.server.access import token_file
+from webviz.server.access.journal import JournalEntry
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, TokenError, make
 from webviz.server.channel.messages import Dismissed
@@ -86,20 +87,10 @@ class LinksStore(PageStore, frozen=True):
     links: Mapping[str, ValidLink]
 
 
-class JournalLine(msgspec.Struct, frozen=True):
-    """Something that was done, see `webviz.server.access.journal.JournalEntry`."""
-
-    time_s: float
-    name: str
-    role: str
-    address: str
-    text: str
-
-
 class JournalStore(PageStore, frozen=True):
     """People's actions, newest first."""
 
-    entries: Sequence[JournalLine]
+    entries: Sequence[JournalEntry]
 
 
 class People(PageFeature):
@@ -150,12 +141,7 @@ class People(PageFeature):
     @store(Role.OWNER)
     def journal(self, argument: str) -> JournalStore:
         """Return people's actions."""
-        return JournalStore(
-            [
-                JournalLine(each.time_s, each.name, each.role, each.address, each.text)
-                for each in self._journal.entries
-            ]
-        )
+        return JournalStore(self._journal.entries)
 
     # Called on the event loop
 

@@ -128,7 +128,7 @@ export interface HistoryStep {
   restored: string;
 }
 
-export interface JournalLine {
+export interface JournalEntry {
   time_s: number;
   name: string;
   role: string;
@@ -358,7 +358,7 @@ export interface Stores {
   graph: { own: { is_empty: boolean; has_simulator: boolean }; items: never };
   handles: { own: {  }; items: SceneHandle };
   history: { own: { undo: Array<HistoryStep>; redo: Array<HistoryStep> }; items: never };
-  journal: { own: { entries: Array<JournalLine> }; items: never };
+  journal: { own: { entries: Array<JournalEntry> }; items: never };
   latency: { own: { all: Array<Latency> }; items: never };
   layout: { own: { saved: Array<SavedLayout>; templates: Array<string>; beside: Array<DockedOnPage>; below: Array<DockedOnPage>; over: Array<FloatingOnPage>; width: number; height: number }; items: never };
   legend: { own: {  }; items: Scale };

@@ -52,12 +52,6 @@ class _Answer(msgspec.Struct):
     error: str = ""
 
 
-class _Node(msgspec.Struct):
-    pid: int
-    command: str
-    variables: dict[str, str]
-
-
 class _Interface(msgspec.Struct):
     name: str
     addresses: list[tuple[str, str]]
@@ -73,7 +67,7 @@ class _Looked(msgspec.Struct):
     python: str
     distributions: list[str]
     variables: dict[str, str]
-    nodes: list[_Node]
+    nodes: list[NodeProcess]
     interfaces: list[_Interface]
     receive_buffer: int
 
@@ -261,7 +255,7 @@ def _end(looked: Any, host: str) -> End:
         python=found.python,
         distributions=found.distributions,
         variables=found.variables,
-        nodes=[NodeProcess(each.pid, each.command, each.variables) for each in found.nodes],
+        nodes=found.nodes,
         interfaces=[
             NetworkInterface(
                 each.name,

@@ -11,7 +11,7 @@ import { store } from "../stores.js";
 import { ask, openDialog } from "../controls/dialog.js";
 import { invitation } from "./invitation.js";
 
-/** @import {JournalLine, Person, ValidLink} from "../contents.js" */
+/** @import {JournalEntry, Person, ValidLink} from "../contents.js" */
 /** @import {Child} from "../types.js" */
 
 /** A word on the role of this page, for those who are not the owner. */
@@ -181,7 +181,7 @@ function linkRow([name, { role, expires_s }]) {
   );
 }
 
-/** @param {JournalLine} entry */
+/** @param {JournalEntry} entry */
 const entryRow = ({ time_s, name, role, address, text }) =>
   line(clock(time_s), [name, role, address].filter(Boolean).join(", "), text);
 
