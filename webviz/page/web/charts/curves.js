@@ -58,33 +58,65 @@ function pieceOf(part, known) {
 }
 
 /**
+ * The first index of sorted times that are not before a time, or with `isAfter` that are after it.
+ *
+ * @param {Float64Array} times
+ * @param {number} time
+ * @param {boolean} [isAfter]
+ */
+function indexOf(times, time, isAfter = false) {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] < time || (isAfter && times[middle] === time)) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/**
+ * The parts of a curve's pieces in a range of time with the value at each side, from `first` to before
+ * `end`.
+ *
+ * @param {Pick<Curve, "pieces">} curve
+ * @param {Range} range
+ * @returns {Generator<Piece & {first: number, end: number}>}
+ */
+export function* spans({ pieces }, [from, to]) {
+  /** @type {Piece | null} */
+  let before = null;
+  for (const piece of pieces) {
+    const { times } = piece;
+    const count = times.length;
+    if (!count) continue;
+    if (times[count - 1] < from) {
+      before = piece;
+      continue;
+    }
+    const first = indexOf(times, from);
+    if (before && first === 0) yield lastOf(before);
+    before = null;
+    const end = Math.min(indexOf(times, to, true) + 1, count);
+    yield { ...piece, first: Math.max(first - 1, 0), end };
+    if (times[end - 1] > to) return;
+  }
+  if (before) yield lastOf(before);
+}
+
+/** @param {Piece} piece */
+const lastOf = (piece) => ({ ...piece, first: piece.times.length - 1, end: piece.times.length });
+
+/**
  * Calls `take(time, value)` for the values of a curve in a range of time, and the one at each side.
  *
- * @param {Curve} curve
+ * @param {Pick<Curve, "pieces">} curve
  * @param {Range} range
  * @param {(time: number, value: number) => void} take
  */
-export function visit({ pieces }, [from, to], take) {
-  /** @type {Vec2 | null} */
-  let before = null;
-  for (const { times, values } of pieces) {
-    if (!times.length) continue;
-    if (times[times.length - 1] < from) {
-      before = [times[times.length - 1], values[values.length - 1]];
-      continue;
-    }
-    for (let i = 0; i < times.length; i++) {
-      if (times[i] < from) {
-        before = [times[i], values[i]];
-        continue;
-      }
-      if (before) take(...before);
-      before = null;
-      take(times[i], values[i]);
-      if (times[i] > to) return;
-    }
+export function visit(curve, range, take) {
+  for (const { times, values, first, end } of spans(curve, range)) {
+    for (let i = first; i < end; i++) take(times[i], values[i]);
   }
-  if (before) take(...before);
 }
 
 /**
@@ -127,7 +159,7 @@ export function extent(curves, range) {
       if (low <= high) [low, high].forEach((value) => widen(all, value));
     }
     const pieces = curve.pieces.filter((piece) => !isInside(piece));
-    visit({ ...curve, pieces }, range, (_, value) => widen(all, value));
+    visit({ pieces }, range, (_, value) => widen(all, value));
   }
   return all;
 }

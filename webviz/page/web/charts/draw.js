@@ -2,7 +2,7 @@
 
 import { fitted } from "./canvas.js";
 import { timeOfDay } from "../time_text.js";
-import { pairs, visit } from "./curves.js";
+import { pairs, spans } from "./curves.js";
 import { numberText, share, ticks } from "./scale.js";
 
 /** @import {Area, Curve, Range, Vec2} from "../types.js" */
@@ -16,6 +16,7 @@ export const BOTTOM = 18;
 const TOP = 6;
 const RIGHT = 6;
 const PER_TICK = [70, 36];
+const COLUMNS = 32; // of a curve in one stroke: a path that covers itself takes long, with its square
 
 /**
  * The part of a canvas of this size that curves are drawn in.
@@ -192,45 +193,54 @@ function stroke(context, x1, y1, x2, y2) {
   context.stroke();
 }
 
-// Of the values in one column of the screen the first, lowest, highest and last are drawn.
 /**
+ * Draws a curve: of the values in one column of the screen the first, lowest, highest and last.
+ *
  * @param {CanvasRenderingContext2D} context
  * @param {Curve} curve
  * @param {{times: Range, x: (time: number) => number, y: (value: number) => number, color: string, ratio: number}} axes
  */
-function line(context, curve, { times, x, y, color, ratio }) {
-  let [column, low, high, last, isDown] = [NaN, 0, 0, 0, false];
+function line(context, curve, { times: range, x, y, color, ratio }) {
+  // Plots have millions of values: each costs a multiplication and three comparisons.
+  const [from, to] = range;
+  const start = x(from) * ratio;
+  const pace = (x(to) * ratio - start) / (to - from);
+  let [column, low, high, last, isDown, drawn] = [NaN, 0, 0, 0, false, 0];
   const finish = () => {
-    if (low !== high) {
-      context.lineTo(column / ratio, low);
-      context.lineTo(column / ratio, high);
-      context.lineTo(column / ratio, last);
-    }
+    if (!isDown || low === high) return;
+    for (const value of [low, high, last]) context.lineTo(column / ratio, y(value));
   };
   context.strokeStyle = color;
   context.lineWidth = 1.5;
   context.lineJoin = "round";
   context.beginPath();
-  visit(curve, times, (time, value) => {
-    if (Number.isNaN(value)) {
-      if (isDown) finish();
-      isDown = false;
-      column = NaN;
-      return;
+  for (const { times, values, first, end } of spans(curve, range)) {
+    for (let i = first; i < end; i++) {
+      const value = values[i];
+      const place = Math.round(start + (times[i] - from) * pace);
+      if (place === column) {
+        if (value < low) low = value;
+        else if (value > high) high = value;
+      }
+      if (place === column && value === value) last = value;
+      else {
+        finish();
+        if (isDown && (drawn += 1) % COLUMNS === 0) {
+          context.stroke();
+          context.beginPath();
+          context.moveTo(column / ratio, y(last));
+        }
+        const isValue = value === value; // NaN ends the line
+        if (isValue && isDown) context.lineTo(place / ratio, y(value));
+        else if (isValue) {
+          context.moveTo(place / ratio, y(value));
+          context.lineTo(place / ratio + 0.5, y(value)); // so that a single value can be seen
+        }
+        [column, isDown] = [isValue ? place : NaN, isValue];
+        low = high = last = value;
+      }
     }
-    const [place, level] = [Math.round(x(time) * ratio), y(value)];
-    if (place === column) {
-      [low, high, last] = [Math.min(low, level), Math.max(high, level), level];
-      return;
-    }
-    if (isDown) finish();
-    if (isDown) context.lineTo(place / ratio, level);
-    else {
-      context.moveTo(place / ratio, level);
-      context.lineTo(place / ratio + 0.5, level); // so that a single value can be seen
-    }
-    [column, low, high, last, isDown] = [place, level, level, level, true];
-  });
-  if (isDown) finish();
+  }
+  finish();
   context.stroke();
 }
