@@ -1,6 +1,7 @@
 """Ways to a robot side by side: DDS, Zenoh and Foxglove's protocol, on the same messages.
 
     PYTHONPATH=tests/benchmarks:sim python tests/benchmarks/ways.py [SECONDS [ROUNDS]]
+    PYTHONPATH=tests/benchmarks:sim python tests/benchmarks/ways.py robots 50
 
 A process publishes a scan at 10 Hz, transforms at 50 Hz and a cloud of 100 000 points (1.6 MB) at
 5 Hz, stamped with the time of publication. Another has the source of a viewer and nothing else:
@@ -8,6 +9,10 @@ latency is from publication to the inbox, processor time that of each process, i
 core. Over Zenoh a router of a third process lies in between; Foxglove's server is in the publishing
 process itself, so it has no bridge that reads DDS first. Ways take turns; figures are medians of
 the rounds.
+
+The second has so many robots in namespaces, each with the scan and the transforms in a session of
+its own, over one router and one session of the viewer. Memory is private memory: on one host the
+engine passes large messages in shared memory, 16 MB for each robot.
 """
 
 from __future__ import annotations
@@ -110,6 +115,74 @@ def publish(way: str, endpoint: str) -> None:
         ended = sys.stdin.buffer.read(1) == b""
     print(json.dumps({PROCESSOR: time.process_time()}), flush=True)
     os._exit(0)
+
+
+def publish_fleet(endpoint: str, robots: int) -> None:
+    """Publish scans and transforms of many robots until the process is killed."""
+    from webviz_sim.zenoh_wire import ZenohNode, open_session
+
+    topics = ("/scan", "/tf")
+    sent = {topic: bytes(data) for topic, data in messages().items()}
+    made = []
+    for number in range(robots):
+        space = f"/robot{number}"
+        node = ZenohNode(open_session("client", endpoint), 0, space, "base")
+        made.append((node, {t: node.publisher(TYPES[t], t[1:]) for t in topics}))
+    print("ready", flush=True)
+    tick = 0
+    due = time.monotonic()
+    while True:
+        for _, publishers in made:
+            publishers["/tf"].publish(sent["/tf"])
+            if tick % 5 == 0:
+                publishers["/scan"].publish(sent["/scan"])
+        tick, due = tick + 1, due + 1 / HZ["/tf"]
+        time.sleep(max(0.0, due - time.monotonic()))
+
+
+def watch_fleet(address: str, robots: int, seconds: float) -> None:
+    """Have one source for all robots; print what arrived, processor time and memory."""
+    import psutil
+
+    from webviz.shell.live_source import bridge_source
+
+    source = bridge_source(address)
+    base = psutil.Process().memory_full_info().uss
+    topics = ("/scan", "/tf")
+    names = [(f"/robot{n}{topic}", TYPES[topic]) for n in range(robots) for topic in topics]
+    source.want({name: Subscription(type, Topic(name)) for name, type in names})
+    while len(source.inbox.received()) < len(names):
+        time.sleep(0.05)
+        source.inbox.drain()
+    before = sum(count for count, _ in source.inbox.received().values())
+    began, used = time.monotonic(), time.process_time()
+    while time.monotonic() < began + seconds:
+        time.sleep(1 / 60)
+        source.inbox.drain()
+    took = time.monotonic() - began
+    count = sum(count for count, _ in source.inbox.received().values()) - before
+    memory = (psutil.Process().memory_full_info().uss - base) >> 20
+    share = 100 * (time.process_time() - used) / took
+    expected = robots * (HZ["/scan"] + HZ["/tf"])
+    print(
+        f"{robots} robots: {count / took:.0f} of {expected} messages/s, viewer {share:.0f} %, "
+        f"{memory} MB more than without robots",
+        flush=True,
+    )
+    os._exit(0)
+
+
+def measure_fleet(robots: int) -> None:
+    """Print the figures of a fleet."""
+    router = started(module="webviz_sim.zenoh_router")
+    address = _line(router)
+    fleet = started("publish_fleet", address, str(robots))
+    _line(fleet)
+    watcher = started("watch_fleet", address, str(robots), "8")
+    print(_line(watcher))
+    for process in (watcher, fleet, router):
+        process.kill()
+        process.wait()
 
 
 def watch(address: str, seconds: float) -> None:
@@ -215,6 +288,12 @@ if __name__ == "__main__":
             publish(way, "".join(rest))
         case ["watch", address, seconds]:
             watch(address, float(seconds))
+        case ["publish_fleet", endpoint, robots]:
+            publish_fleet(endpoint, int(robots))
+        case ["watch_fleet", address, robots, seconds]:
+            watch_fleet(address, int(robots), float(seconds))
+        case ["robots", robots]:
+            measure_fleet(int(robots))
         case arguments:
             seconds, rounds = [*map(int, arguments), *(10, 3)[len(arguments) :]]
             main(seconds, rounds)

@@ -13,6 +13,7 @@ from webviz.api.robots import NamespacedRobot
 from webviz.data.messages import decode, encode
 from webviz.sources import Advertisement, Subscription
 from webviz.sources.fleet.source import FleetSource
+from webviz.sources.zenoh.address import zenoh_address
 from webviz.sources.zenoh.source import ZenohSource
 
 STRING = "std_msgs/msg/String"
@@ -81,3 +82,20 @@ def test_many_robots_over_one_session(source: ZenohSource, router: ZenohRouter, 
         for robot in robots:
             robot.close()
     until(lambda: not set(topics) & set(source.offers()))
+
+
+def test_three_viewers_of_one_robot(router: ZenohRouter, robot: ZenohRobot) -> None:
+    publish = robot.publisher("/words", STRING)
+    sources = [ZenohSource(zenoh_address(router.endpoint, {})) for _ in range(3)]
+    try:
+        for each in sources:
+            each.want({"/words": Subscription(STRING, Topic("/words"))})
+        until(lambda: all(s.offers().get("/words") for s in sources))
+        until(lambda: all(s.offers()["/words"].subscribers == 3 for s in sources))
+        time.sleep(0.2)
+        for _ in range(20):
+            publish({"data": "x"})
+        until(lambda: all(s.inbox.received().get("/words", (0, 0))[0] == 20 for s in sources))
+    finally:
+        for each in sources:
+            each.close()
