@@ -17,6 +17,7 @@ from zenoh_robot import ZenohRobot, ZenohRouter, robot_attachment
 from webviz.api.declared import Topic
 from webviz.data.messages import decode, encode
 from webviz.sources import Advertisement, NotConnected, Subscription
+from webviz.sources.zenoh import address as zenoh_address_module
 from webviz.sources.zenoh import calls, discovered, link
 from webviz.sources.zenoh import source as zenoh_source
 from webviz.sources.zenoh.address import zenoh_address
@@ -85,6 +86,29 @@ def test_payloads_above_the_bound_are_refused(
     publish({"data": "small"})
     (raw,) = until(lambda: source.inbox.drain().get("/words"))
     assert decode(STRING, raw.cdr).data == "small"
+
+
+def test_the_engine_drops_what_is_above_the_bound_before_it_is_whole(
+    router: ZenohRouter, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A gigabyte would take that much memory before anybody could look at its size."""
+    monkeypatch.setattr(zenoh_address_module, "MAX_TOTAL", 1 << 20)
+    robot = ZenohRobot(router.endpoint, transport__shared_memory__enabled=False)
+    publish = robot.publisher("/words", STRING)
+    source = ZenohSource(zenoh_address(router.endpoint, {}))
+    try:
+        source.want({"/words": Subscription(STRING, Topic("/words"))})
+        until(lambda: source.offers().get("/words") and source.offers()["/words"].subscribers)
+        time.sleep(0.2)
+        publish({"data": "a" * (8 << 20)})
+        time.sleep(0.5)
+        publish({"data": "small"})
+        (raw,) = until(lambda: source.inbox.drain().get("/words"))
+        assert decode(STRING, raw.cdr).data == "small"
+        assert source.bridges[0].is_up
+    finally:
+        source.close()
+        robot.close()
 
 
 def test_bytes_that_are_no_messages(source: ZenohSource, robot: ZenohRobot) -> None:
