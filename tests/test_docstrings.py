@@ -14,6 +14,10 @@ DOCSTRING = re.compile(rf'^[ \t]*r?"""\s*{WORDS}', re.MULTILINE)
 COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*{WORDS}", re.MULTILINE)
 """A comment of JSDoc, of a module or at its top level."""
 PAGE = "webviz/page/web"
+PREPOSITIONS = frozenset(
+    "Above After As At Before Below Between Beyond By For From In Of On Over Per Since Through To "
+    "Under Until When Within Without That Those".split()
+)
 ROOMS = ("webviz", "displays", "urdf", "sim")
 ARGUMENTS = re.compile(r"^Args:\n((?: +.*\n?|\n)+)", re.MULTILINE)
 ARGUMENT = re.compile(r"^    (\*{0,2}\w+(?:, \*{0,2}\w+)*):", re.MULTILINE)
@@ -87,3 +91,25 @@ def strange_arguments(path: Path) -> Iterator[str]:
 def test_every_documented_argument_exists(folder: str) -> None:
     files = sorted((ROOT / folder).rglob("*.py"))
     assert [each for path in files for each in strange_arguments(path)] == []
+
+
+def values(path: Path) -> Iterator[str]:
+    """Return the docstrings of fields and constants."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        body = getattr(node, "body", None)
+        pairs = zip(body, body[1:], strict=False) if isinstance(body, list) else ()
+        for value, text in pairs:
+            if isinstance(value, ast.Assign | ast.AnnAssign) and isinstance(text, ast.Expr):
+                if isinstance(text.value, ast.Constant) and isinstance(text.value.value, str):
+                    yield text.value.value
+
+
+@pytest.mark.parametrize("folder", [*ROOMS, "tests"])
+def test_docstrings_of_values_begin_with_their_noun(folder: str) -> None:
+    found = [
+        f"{path.name}: {text[:60]}"
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for text in values(path)
+        if text.split()[0].strip(",;:") in PREPOSITIONS
+    ]
+    assert found == []

@@ -74,7 +74,7 @@ EDGES = {
 YAML_READER = "webviz.data.plain_yaml"
 """The only module that reads YAML, and so bounds it."""
 YAML_NODES = ("ruamel.yaml.nodes", "ruamel.yaml.representer")
-"""Of the library, others may know the parts of documents, and how values are written."""
+"""Parts of the library that others may know: those of documents, and how values are written."""
 MESSAGES = "webviz.data.messages"
 SHARED_WITH_THE_SIMULATOR = (
     MESSAGES,

@@ -23,7 +23,7 @@ SIZED = re.compile(
 """Properties whose lengths and durations have names: spacing, lines, shapes, text and motion."""
 SIZE = re.compile(r"(?<![\w.-])-?(?:\d*\.)?\d*[1-9]\d*(?:\.\d+)?(?:px|rem|pt|m?s)\b")
 CONTRAST = {"#fff", "#000"}
-"""On a colour that comes from a message, which no token knows."""
+"""Colours on one that comes from a message, which no token knows."""
 COMMENT = re.compile(r"^ *(/\*\*|\*|//).*$", re.MULTILINE)
 FROM_MODULES = re.compile(r"""["'`](--[\w-]+)["'`]""")
 

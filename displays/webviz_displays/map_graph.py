@@ -36,7 +36,7 @@ KINDS = (
     "global_loop_closure",
     "landmark",
 )
-"""By the type of a link in RTAB-Map's Link.h, the property with its colour; others are as 1."""
+"""Properties with the colour of a link, by its type in RTAB-Map's Link.h; others are as 1."""
 
 
 class MapGraph(Display):

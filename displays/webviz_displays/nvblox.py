@@ -33,7 +33,7 @@ Key = tuple[int, int, int]
 """Index of a block along x, y and z; its corner is at the index times the size of blocks."""
 
 GREY = 160
-"""Of what the message gives no colour."""
+"""Brightness of what the message gives no colour."""
 
 MAX_POINTS = 3_000_000
 """Corners or voxels that are held; 48 MB."""

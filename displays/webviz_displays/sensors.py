@@ -50,7 +50,7 @@ class ScalarDisplay(PointStyle):
     quantity: ClassVar[str]
     """Measured quantity, which names the field of the message."""
     unit: ClassVar[str]
-    """Of the quantity, as the message has it; "" for a ratio."""
+    """Unit of the quantity, as the message has it; "" for a ratio."""
 
     use_rainbow: Annotated[
         bool,

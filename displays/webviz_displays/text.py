@@ -25,7 +25,7 @@ class _State(msgspec.Struct):
     settings: tuple[Any, ...] = ()
     paths: list[FieldPath] = msgspec.field(default_factory=list)
     problems: list[str] = msgspec.field(default_factory=list)
-    """Of the paths themselves, whatever the message is."""
+    """Problems of the paths themselves, whatever the message is."""
 
 
 class Text(Display):

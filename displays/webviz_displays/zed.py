@@ -74,7 +74,7 @@ BODIES = (
     ),
     _body(70, *_TRUNK, *((16, j) for j in range(30, 50)), *((17, j) for j in range(50, 70))),
 )
-"""By the `body_format` of a message."""
+"""Bones by the `body_format` of a message."""
 
 
 F64 = NDArray[np.float64]
@@ -90,7 +90,7 @@ OF_SKELETONS = 0.4
 
 TRACKED = 1
 TRACKING = ("off", "tracked", "searching", "terminated")
-"""By `tracking_state`."""
+"""Names by `tracking_state`."""
 TRACKING_COLORS = ((0, 0, 0), (0, 255, 0), (128, 89, 0), (255, 255, 255))
 """Colours of corners, by `tracking_state`."""
 

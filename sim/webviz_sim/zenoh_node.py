@@ -22,7 +22,7 @@ from webviz_sim.zenoh_wire import ZenohNode, open_session
 MAX_COMMANDS = 100
 """Messages that wait for the next step; of more, the oldest are dropped."""
 MAX_BYTES = 10_000
-"""Of a command."""
+"""Limit in bytes of a command."""
 
 
 class ZenohSim:

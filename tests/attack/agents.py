@@ -18,7 +18,7 @@ from tests.attack.target import ANSWER_S, INTERNAL, homes
 from webviz.server.access import rules
 
 START_S = 180.0
-"""For the start of a viewer on a busy machine."""
+"""Time in seconds for the start of a viewer on a busy machine."""
 HELLO = {
     "protocolVersion": "2025-06-18",
     "capabilities": {},

@@ -25,9 +25,10 @@ from webviz.sources.bridge.source import BridgeSource
 FOXGLOVE = "foxglove.sdk.v1"
 STRING = "std_msgs/msg/String"
 WATCHED_S = 0.5
-"""For which a bridge is read."""
+"""Time in seconds for which a bridge is read."""
 HONEST_S = 15.0
-"""Within which a message of an honest topic must arrive from a bridge that also lies."""
+"""Time in seconds within which a message of an honest topic must arrive from a bridge that also
+lies."""
 NAMES = ("/words", "/tf", "words", "", "/", "/a//b", "/\u202e", "/\x1b[2J", "/x" * 300, "/<b>")
 TYPES = (STRING, "tf2_msgs/msg/TFMessage", "evil_msgs/msg/Nothing", "", "a/b/c/d", "x" * 5000)
 SCHEMAS = ("", "string data", "uint8[2000000000] a", "int32 A=" + "9" * 5000, "(" * 3000, "\x00")

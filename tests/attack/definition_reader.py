@@ -45,7 +45,7 @@ STRING = "std_msgs/msg/String"
 SDK = "foxglove.sdk.v1"
 HELLO = b"\0\1\0\0\6\0\0\0hello\0"
 ARRIVES_S = 40.0
-"""Until a message of a good topic beside a hostile one is there."""
+"""Time in seconds until a message of a good topic beside a hostile one is there."""
 
 
 def read(path: Path) -> None:

@@ -32,7 +32,7 @@ MARKUP = (
     "x" * 20_000,
 )
 SHARE = 0.1
-"""Of the texts that are replaced."""
+"""Share of the texts that are replaced."""
 PART = re.compile(rb'(<script type="webviz/(about|chunk)"[^>]*>)([^<]*)')
 CONFIG = """\
 version: 1
@@ -44,9 +44,9 @@ displays:
 panels: [{type: Log}]
 """
 ANSWER_MS = 20_000.0
-"""In which the page must still answer."""
+"""Time in ms in which the page must still answer."""
 SETTLED_MS = 300.0
-"""For which markup has time to run."""
+"""Time in ms that markup has to run."""
 MARKER = {
     "header": {"frame_id": "laser", "stamp": {"sec": START_NS // 10**9}},
     "ns": "walls",

@@ -22,7 +22,7 @@ from trimesh.exchange.dae import export_collada
 from tests.attack.attack import Attack, Case, Outcome, Violation, mutated, piped
 
 READ_S = 60.0
-"""For one small file, on a busy machine."""
+"""Time in seconds for one small file, on a busy machine."""
 URDF = """\
 <robot name="r"><material name="m"><color rgba="1 0 0 .5"/></material>
 <link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>

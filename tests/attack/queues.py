@@ -13,7 +13,7 @@ from tests.attack.visitor import Visitor
 from webviz.api.roles import Role
 
 COMMANDS = ("Export", "WriteDisplays", "Identify", "FocusFrame", "ResetView")
-"""That a watcher may send: two wait for a thread, the others for the frame loop."""
+"""Commands that a watcher may send: two wait for a thread, the others for the frame loop."""
 ARGUMENTS = {
     "WriteDisplays": {"displays": ["display1", "display2"]},
     "Identify": {"picks": {"group": "g", "key": "k", "items": []}},

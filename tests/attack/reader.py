@@ -59,7 +59,7 @@ MESH = (
 MAX_MEMORY = 3 << 30
 """Bytes of address space, half a gigabyte of which is taken by imports."""
 MAX_STEPS = 1000
-"""Of a bag that claims to be long."""
+"""Largest number of steps of a bag that claims to be long."""
 MAX_SENTENCE = 2000
 """Characters of an error."""
 SMALL = (".yaml", ".rviz", ".qos", ".metadata", ".map", ".params", ".examined", ".reported", ".zip")

@@ -14,7 +14,7 @@ class Breach:
 
     kind: str
     number: int | str
-    """Of the case, or its name in the corpus."""
+    """Number of the case, or its name in the corpus."""
     promise: str
     case: Case | None = None
 

@@ -84,7 +84,7 @@ KINDS = (
     *(class_.kind for class_ in (Graphs, Crowds, Queues, Weights)),
     *map(kind_of, ROLES),
 )
-"""Of attacks."""
+"""Kinds of attacks."""
 
 
 def run(

@@ -50,7 +50,7 @@ REQUIRED = {class_.__name__: role for class_, role in rules.commands().items()}
 SILENT = ("DragHandle", "UseTool")
 """Commands of which only refusals and what tools say are answered."""
 DRAWN = sorted(REQUIRED.keys() - {"Dismiss"})
-"""Of these; an owner would end the other attackers."""
+"""Messages of these that are drawn; an owner would end the other attackers."""
 
 
 def kind_of(role: Role | None) -> str:

@@ -23,9 +23,11 @@ from webviz.files.opening import load
 from webviz.server.access.roles import LINKS
 
 ANSWER_S = 20.0
-"""In which the viewer must answer whatever else it is sent; a busy machine takes seconds."""
+"""Time in seconds in which the viewer must answer whatever else it is sent; a busy machine takes
+seconds."""
 MEMORY_MB = 1750.0
-"""Of the viewer, its simulator and what reads meshes for it; 450 MB when nothing happens."""
+"""Limit in MB of the viewer, its simulator and what reads meshes for it; 450 MB when nothing
+happens."""
 INTERNAL = re.compile(r"^.*(?:Traceback|[Ii]nternal (?:server )?error|handler failed).*$", re.M)
 """Lines of the log that an internal error leaves."""
 WARNINGS = {"PYTHONWARNINGS": "error::RuntimeWarning"}

@@ -26,7 +26,7 @@ BODIES = (
 )  # fmt: skip
 PARALLEL = 6
 ENDLESS_S = 1.0
-"""For which a message goes on that never ends."""
+"""Time in seconds for which a message goes on that never ends."""
 
 
 class Uploads(Attack):

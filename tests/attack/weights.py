@@ -17,11 +17,11 @@ from webviz.data.messages import encode
 from webviz.shell.testing.messages import header
 
 ENCODINGS = {"rgb8": 3, "mono16": 2, "32FC1": 4, "bayer_rggb16": 2, "yuv422": 2}
-"""Of images, and the bytes of a pixel."""
+"""Encodings of images, and the bytes of a pixel."""
 EDGES = (100, 500, 1000, 2000)
-"""Of images in pixels."""
+"""Edges of images in pixels."""
 LEVELS = 7
-"""Of octrees, in which each node has eight children: two million nodes."""
+"""Number of levels of octrees, in which each node has eight children: two million nodes."""
 MESH = {
     "asset": {"version": "2.0"},
     "scenes": [{"nodes": [0]}],

@@ -22,7 +22,7 @@ from webviz.sources.zenoh.source import ZenohSource
 
 STRING = "std_msgs/msg/String"
 HONEST_S = 15.0
-"""Within which a message of an honest topic must arrive."""
+"""Time in seconds within which a message of an honest topic must arrive."""
 DDS = ("std_msgs::msg::dds_::String_", "a::msg::dds_::B_", "String", "x" * 3000, "<b>", "a::b::c")
 NAMES = ("%words", "%tf", "%clock", "%", "%a%%b", "words", "%" + "x" * 300, "<img>", "%\u202e", "§")
 KINDS = ("NN", "MP", "MS", "SS", "SC", "AS", "XX", "")

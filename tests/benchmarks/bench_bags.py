@@ -30,7 +30,7 @@ from webviz.data.recordings import open_recording
 from webviz.shell.testing import BagViewer
 
 NEAR_S = 3.0
-"""Of a drag: distance of consecutive positions."""
+"""Distance in seconds of consecutive positions of a drag."""
 PLAYED_S = 60.0
 
 

@@ -23,7 +23,7 @@ BOMB = "\n".join(
         *(f"x{i}: &l{i} [{', '.join([f'*l{i - 1}'] * 10)}]" for i in range(1, 7)),
     ]
 )
-"""Of a million values; more would take the memory of the machine where a test fails."""
+"""Document of a million values; more would take the memory of the machine where a test fails."""
 SECONDS = 5.0
 
 

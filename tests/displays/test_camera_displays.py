@@ -17,7 +17,7 @@ from webviz_displays.depth_cloud import DepthCloud
 
 COLORS, DEPTHS = photos.room(16, 12)
 FACING_X = (-0.5, 0.5, -0.5, 0.5)
-"""Of an optical frame that looks along x of its parent."""
+"""Rotation of an optical frame that looks along x of its parent."""
 DEPTH, INFO, COLOR = "/depth/image/compressedDepth", "/depth/camera_info", "/color"
 
 

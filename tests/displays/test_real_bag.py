@@ -24,9 +24,9 @@ DATA = Path(__file__).parents[3] / "shared/data"
 BAG = DATA / "bags/macfirst_floor_take_2"
 MAP = DATA / "maps/mac_1st_floor_final.pgm"
 RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
-"""As its .yaml says, in metres."""
+"""Resolution and origin as its .yaml says, in metres."""
 BLACK = 90
-"""At most so bright are the cells above its occupied_thresh of 0.65."""
+"""Largest brightness of the cells above its occupied_thresh of 0.65."""
 START = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
 """Where the robot's odometry began in the map, found by fitting the first scan to the walls."""
 

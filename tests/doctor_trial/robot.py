@@ -26,11 +26,11 @@ CLOCK = "rosgraph_msgs/msg/Clock"
 STRING = "std_msgs/msg/String"
 
 TURN, SPEED = 0.5, 0.3
-"""Of the circle that the robot drives, in rad/s and m/s."""
+"""Speeds of the circle that the robot drives, in rad/s and m/s."""
 START = Pose2D(-3.5, 1.5)
-"""From which the circle keeps 0.6 m from all walls."""
+"""Pose from which the circle keeps 0.6 m from all walls."""
 LASER_M = 0.1
-"""Of the laser before the robot's middle."""
+"""Distance in metres of the laser before the robot's middle."""
 URDF = """<robot name="cart">
 <link name="base_link"><visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual></link>
 <link name="laser"/><link name="wheel"/>
@@ -102,11 +102,11 @@ class Robot:
     streams: dict[str, Stream] = field(default_factory=lambda: dict(_streams()))
     readers: list[Reader] = field(default_factory=list)
     actions: list[tuple[float, Callable[[], object]]] = field(default_factory=list)
-    """At seconds since webviz subscribed."""
+    """Times of actions in seconds since webviz subscribed."""
     time_ns: Callable[[float], int] | None = None
     """Time of the stamps, from seconds since the start; None is that of this computer."""
     parameters: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Of nodes."""
+    """Parameters of nodes."""
     namespace: str = ""
     lifecycle: set[str] = field(default_factory=set)
     """Nodes that are lifecycle nodes, and inactive."""

@@ -19,7 +19,7 @@ from webviz.shell.cli.commands import with_openers
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 180.0
-"""For what takes two seconds on a machine that does nothing else."""
+"""Time in seconds for what takes two seconds on a machine that does nothing else."""
 
 
 def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:

@@ -47,7 +47,7 @@ PROFILE = """\
   </participant>
 </profiles>
 """
-"""Of Fast DDS: others take a participant for dead after 8 s instead of 20 s."""
+"""Profile of Fast DDS: others take a participant for dead after 8 s instead of 20 s."""
 SPEED, SECONDS = 0.4, 2.5
 
 

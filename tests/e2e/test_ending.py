@@ -24,7 +24,7 @@ pytest.importorskip("rclpy", reason="needs rclpy")
 
 LINES = {"", "webviz: interrupted.\n", "\nwebviz: stopped.\n"}
 PATIENCE_S = 60.0
-"""For what takes three seconds on a machine that does nothing else."""
+"""Time in seconds for what takes three seconds on a machine that does nothing else."""
 
 
 def has_handlers(program: Program) -> bool:

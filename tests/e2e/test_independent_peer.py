@@ -48,7 +48,7 @@ SENT = {
     "initialpose": ("p", r"PoseWithCovarianceStamped\(header=Header\(.*frame_id='map'\).*0\.25, "),
     "clicked_point": ("u", r"PointStamped\(header=Header\(.*frame_id='map'\).*z=0\.0"),
 }
-"""By topic, the key of a tool and what the peer hears of it."""
+"""Keys of a tool, and what the peer hears of it, by topic."""
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from webviz.engine.pipeline.picking import Shot, found_in
 
 Point = tuple[float, float, float]
 NUMBER = 5
-"""Of a pick."""
+"""Number of a pick."""
 
 
 def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None:

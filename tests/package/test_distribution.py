@@ -26,7 +26,7 @@ EXTRAS = "pictures", "outdoors", "foxglove", "rosbridge", "mcp"
 """Whose modules are imported where they are used."""
 REQUIREMENT = {"google": "protobuf", "PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
 REQUIREMENT["ruamel"] = "ruamel.yaml"
-"""Of modules with another name."""
+"""Names of modules that are named otherwise."""
 IMPORT = re.compile(r"^ *(?:import (\w+)|from (\w+)[\w.]* import )", re.MULTILINE)
 OF_ROS = re.compile(r"(\w+_(msgs|srvs|interfaces|runtime_py)|rcl_\w+|rpyutils)$")
 

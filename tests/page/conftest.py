@@ -43,7 +43,7 @@ from webviz.scene.server import Server
 from webviz.server.access.access import Access
 
 WIDTH, HEIGHT = 900, 800
-"""Of a tab in pixels."""
+"""Width of a tab in pixels."""
 
 TIDY = """() => {
   document.querySelectorAll("#bench").forEach((one) => one.remove());
@@ -101,13 +101,13 @@ class Loop:
         self.senders: list[Sender] = []
         self.state = State()
         self.answer: str | Exception = ""
-        """To all commands."""
+        """Answer to all commands."""
         self.made = ""
         """The id that commands answer with which make a display."""
         self.steered: list[tuple[str, int, Velocity | None]] = []
         """The set-points of vehicles."""
         self.controller = DrivingAnswer()
-        """To all of them."""
+        """Answer to all commands."""
         self._queue: queue.SimpleQueue[tuple[Command, Sender, Future[str]]] = queue.SimpleQueue()
         self.of_features: dict[str, Any] = {}
         """Public fields of features."""

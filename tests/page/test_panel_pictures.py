@@ -23,7 +23,7 @@ from webviz.shell.testing.pictures import ReferenceImages
 from webviz.sources import Offer, Publisher
 
 SIZE = WIDTH, _ = 620, 460
-"""Of a picture."""
+"""Size of a picture."""
 SECOND = 10**9
 NUMBER = "std_msgs/msg/Float64"
 WIDE = f"document.documentElement.style.setProperty('--wv-width', '{WIDTH}px')"

@@ -20,7 +20,7 @@ from webviz.sources.past_state import Event, PlaybackState
 
 SHORT = MemoryState(60.0, 0)
 BEGAN_S = 100
-"""Before now."""
+"""Time in seconds before now."""
 
 
 def show(loop: Loop, ago_s: float | None, memory: MemoryState = SHORT) -> None:

@@ -24,7 +24,7 @@ FIVE_TICKS = """async () => {
   });
   end();
 }"""
-"""As many as the bar has, which is told the time as often."""
+"""Wait for as many ticks as the bar has, which is told the time as often."""
 
 
 def bar(tab: Tab) -> str:

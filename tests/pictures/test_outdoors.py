@@ -19,7 +19,7 @@ from webviz_displays.outdoors import AerialMap, GeoPath, NavSatFix
 HERE = Geodetic(48.1, 11.5, 500.0)
 ZOOM = 19
 EDGE = 64
-"""Of a tile in pixels."""
+"""Edge of a tile in pixels."""
 FIELDS = np.array([(86, 125, 70), (122, 140, 80), (150, 137, 96), (70, 108, 62)], np.uint8)
 ROAD = (190, 188, 182)
 

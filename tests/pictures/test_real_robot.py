@@ -25,7 +25,7 @@ DATA = Path(__file__).parents[3] / "shared/data"
 BAG = DATA / "bags/macfirst_floor_take_2"
 MAP = DATA / "maps/mac_1st_floor_final.pgm"
 RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
-"""As its .yaml says, in metres."""
+"""Resolution and origin as its .yaml says, in metres."""
 OCCUPIED, FREE = 90, 190
 """Grey at most and at least, by occupied_thresh 0.65 and free_thresh 0.25 of its .yaml."""
 ODOM = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)

@@ -14,7 +14,7 @@ from webviz.server.channel.packed import Pack, digest
 
 SCRIPTS = Path(sys.prefix) / "javascript/node_modules"
 NAME = PACK.relative_to(Path(__file__).parents[2])
-"""Of the pack in a checkout."""
+"""Path of the pack in a checkout."""
 
 
 def has_esbuild() -> bool:

@@ -25,7 +25,7 @@ from webviz.shell.pictures.browser_scripts import CANVAS
 Point = tuple[float, float, float]
 
 SIZE = (320, 240)
-"""Of a tab in pixels."""
+"""Size of a tab in pixels."""
 
 
 @pytest.fixture

@@ -33,7 +33,7 @@ from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
 WIDTH, HEIGHT = 480, 320
-"""Of a page so narrow that the panels are folded away."""
+"""Size of a page so narrow that the panels are folded away."""
 MIDDLE = X, Y = WIDTH / 2, HEIGHT / 2
 HANDLE = (150, 190)
 """The pixel at which drags begin."""

@@ -17,7 +17,7 @@ from webviz_sim.simulation import Simulation, SimulationSettings
 from webviz_sim.world import load_world
 
 NAME = "run.md"
-"""Of its page on the site."""
+"""Name of its page on the site."""
 DURATION_S = 12.0
 STEP_S = 0.05
 SCAN_STEPS = 4

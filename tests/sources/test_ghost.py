@@ -40,7 +40,7 @@ TF = "tf2_msgs/msg/TFMessage"
 TWIST = "geometry_msgs/msg/Twist"
 CAR = f"geometry_msgs/Twist motion\n{'=' * 80}\nMSG: geometry_msgs/Twist\n{definition(TWIST)}"
 AHEAD_M = 1.0
-"""Of the second run, which drives as fast and begins later."""
+"""Distance in metres to the second run, which drives as fast and begins later."""
 LATER_S = 2.0
 
 

@@ -25,7 +25,7 @@ from webviz.shell.testing.messages import stamped_transform
 
 TF = "tf2_msgs/msg/TFMessage"
 START_NS = 1_700_000_000 * SECOND
-"""When every bag of a test begins."""
+"""Time in ns when every bag of a test begins."""
 
 
 @dataclass

@@ -24,7 +24,7 @@ FRAMES, INTERVAL_S, SHOWN_MS = 60, 0.5, 120
 QUALITY = 60
 
 NO_RATES = ".wv-rates { visibility: hidden }"
-"""Those of a browser without a graphics card say nothing."""
+"""Style that hides rates, as those of a browser without a graphics card say nothing."""
 TROUBLED = "[role=treeitem]:is([data-level=warn], [data-level=error])"
 GOAL = (700, 590), (760, 560)
 """Where the mouse presses and releases, in the big room in front."""

@@ -10,7 +10,7 @@ from pathlib import Path
 from webviz.shell.cli import ending, program
 
 PATIENCE_S = 180.0
-"""For what takes seconds on a machine that does nothing else."""
+"""Time in seconds for what takes seconds on a machine that does nothing else."""
 
 
 def run(work: list[str] | str, folder: Path, log: Path) -> None:

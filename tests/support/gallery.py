@@ -34,10 +34,10 @@ PLUGINS = tuple(
         *("quiet_topics", "battery_dial", "speeding"),
     )
 )
-"""Those that show something on the page."""
+"""Plugins that show something on the page."""
 SIZE, SHOWN, QUALITY = (1100, 680), (468, 362), 70
 SCENE: playwright.FloatRect = {"x": 320, "y": 0, "width": 780, "height": 604}
-"""Without panels and timeline."""
+"""Area without panels and timeline."""
 PANEL: playwright.FloatRect = {"x": 0, "y": 0, "width": 468, "height": 362}
 DRIVE_S, STEP_S = 90.0, 0.05
 GROUND = 700, 460

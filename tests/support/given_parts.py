@@ -48,7 +48,7 @@ class GivenParts:
         self._undo: Any = stand_in(UndoFeature, core=self._core)
         others = PluginPanels(self._core), ViewsFeature(self._core)
         self.features = (People(self._core), *others, self._undo)
-        """Those that show what the parts have, too."""
+        """Features that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
         self._give(DoctorFeature, _displays=displays)

@@ -12,7 +12,7 @@ from rosbags.typesys import Stores, get_typestore
 from webviz.data.messages.definitions import FILES
 
 OURS = [name for name in FILES if "/msg/" in name]
-"""Those whose definitions are files of webviz."""
+"""Types whose definitions are files of webviz."""
 _OF_ROS = get_typestore(Stores.ROS2_JAZZY).fielddefs
 
 
@@ -23,7 +23,7 @@ def _by_package(names: set[str]) -> dict[str, list[str]]:
 
 TYPES = _by_package({*_OF_ROS, *OURS})
 ROS_TYPES = _by_package({*_OF_ROS} - {*OURS})
-"""Those of ROS's own packages."""
+"""Types of ROS's own packages."""
 
 
 def ros_classes(package: str) -> dict[str, Any]:

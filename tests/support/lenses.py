@@ -25,7 +25,7 @@ R = [
 RAYS = np.array(
     [(0, 0, 1), (0.2, -0.1, 1), (-0.4, 0.3, 1), (0.5, 0.4, 1), (-0.53, -0.41, 1)], np.float64
 )
-"""In the rectified camera."""
+"""Rays in the rectified camera."""
 
 SEEN: dict[str, tuple[str, list[float], list[tuple[float, float]]]] = {
     "plumb_bob": (
@@ -73,7 +73,7 @@ SEEN: dict[str, tuple[str, list[float], list[tuple[float, float]]]] = {
         ],
     ),
 }
-"""By name: model, D, and the pixels (column, row) of `RAYS`."""
+"""Model, D, and the pixels (column, row) of `RAYS`, by name."""
 
 
 def info(name: str, **changes: Any) -> dict[str, Any]:

@@ -29,9 +29,10 @@ from webviz.ros.types import message_class
 Feedback = InteractiveMarkerFeedback
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 QUEUE = 100
-"""Of feedback; that of the package is 1, of which a busy machine would lose some."""
+"""Depth of the queue of feedback; that of the package is 1, of which a busy machine would lose
+some."""
 OTHERS_S = 1.0
-"""For which the server listens to the last client of a marker alone."""
+"""Time in seconds for which the server listens to the last client of a marker alone."""
 
 
 class MarkerServer:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 PATIENCE_S = 180.0
-"""To start, which takes three seconds on a machine that does nothing else."""
+"""Time in seconds to start, which takes three seconds on a machine that does nothing else."""
 
 
 class Program:

@@ -26,7 +26,7 @@ MODULES = {
     "kilted": {"rclpy.subscription_content_filter_options"},
 }
 ELSEWHERE = {"rclpy.destroyable", "rclpy.qos_event", "rclpy.topic_endpoint_info"}
-"""Of Jazzy alone, deprecated since Iron, and `rclpy.endpoint_info` in Lyrical."""
+"""Modules of Jazzy alone, deprecated since Iron, and `rclpy.endpoint_info` in Lyrical."""
 
 ATTRIBUTES = {
     "iron": {
@@ -69,7 +69,7 @@ KEYWORDS = {
     "jazzy": {"autostart"},
     "kilted": {"content_filter_options", "rosout_qos_profile"},
 }
-"""Of the node and its methods."""
+"""Keywords of the node and its methods."""
 
 
 def newer_than(distribution: str, names: dict[str, set[str]]) -> set[str]:

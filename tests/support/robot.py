@@ -58,7 +58,7 @@ class Robot:
     links: dict[tuple[str, str], float] = field(default_factory=dict)
     """Seconds that the stamps of each (parent, child) are from now."""
     scans: dict[str, Scan] = field(default_factory=dict)
-    """By topic."""
+    """Scans by topic."""
 
     def __post_init__(self) -> None:
         self._context = Context()

@@ -16,7 +16,7 @@ Values = dict[str, Any]
 
 MAP_DATA = "rtabmap_msgs/msg/MapData"
 OPTICAL = {"rotation": {"x": -0.5, "y": 0.5, "z": -0.5, "w": 0.5}}
-"""Of a camera that looks along x of the robot."""
+"""Transform of a camera that looks along x of the robot."""
 
 
 def zipped(matrix: NDArray[np.float32]) -> NDArray[np.uint8]:

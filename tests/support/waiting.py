@@ -10,7 +10,7 @@ T = TypeVar("T")
 
 PATIENCE_S = 60.0
 LOOK_S = 0.005
-"""Between two looks at what costs nothing to look at."""
+"""Pause in seconds between two looks at what costs nothing to look at."""
 
 
 def until(

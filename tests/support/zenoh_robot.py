@@ -21,7 +21,7 @@ import zenoh.ext
 from webviz.data.messages import decode, encode, interfaces, type_hash
 
 DEFINITIONS = {"std_srvs/srv/SetBool": "bool data\n---\nbool success\nstring message"}
-"""Of services that webviz does not know by itself."""
+"""Definitions of services that webviz does not know by itself."""
 
 
 def robot_token(

@@ -153,7 +153,7 @@ def _joined(parts: Sequence[MeshPart]) -> tuple[np.ndarray, np.ndarray]:
 
 
 MAX_BYTES = 100 << 20
-"""Of all shapes of a robot; every browser receives them."""
+"""Limit in bytes of all shapes of a robot; every browser receives them."""
 
 MAX_SHAPES = 10_000
 

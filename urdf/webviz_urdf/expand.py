@@ -15,7 +15,7 @@ ALLOWED_BY = "WEBVIZ_XACRO"
 """The environment variable that is 1 if whoever started webviz trusts xacro files."""
 TIME_S = 20
 MAX_BYTES = 16 << 20
-"""Of the expanded text."""
+"""Limit in bytes of the expanded text."""
 MAX_MEMORY = 1 << 30
 MISSING = 3
 """Exit status without the package `xacro`."""

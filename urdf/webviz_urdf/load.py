@@ -20,7 +20,7 @@ from webviz_urdf.robot import Progress, Robot, RobotDescriptionError
 from webviz_urdf.textures import TextureError, encode, open_image, parse_image
 
 MAX_BYTES = 16 << 20
-"""Of a file with a description."""
+"""Limit in bytes of a file with a description."""
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
     codecs.BOM_UTF16_LE: "utf-16",

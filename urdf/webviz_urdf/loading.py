@@ -21,10 +21,10 @@ from webviz_urdf.resolve import Resolver
 from webviz_urdf.robot import Robot, RobotDescriptionError
 
 DEADLINE_S = 30.0
-"""Per shape. The slowest of public robots takes 1 s on a desktop."""
+"""Time in seconds for a shape. The slowest of public robots takes 1 s on a desktop."""
 
 START_S = 60.0
-"""For a process to start and to read the description."""
+"""Time in seconds for a process to start and to read the description."""
 
 IDLE_S = 60.0
 """Idle time before a process for robots ends; its imports take as long as a robot does."""

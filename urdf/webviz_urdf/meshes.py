@@ -25,7 +25,7 @@ from webviz_urdf.textures import TextureFolder, encode
 HEADER, TRIANGLE = 84, 50
 """Bytes of the header with its count, and of each triangle."""
 TEXT_BYTES = 1000
-"""In which an ASCII file has its first facet, and no zeros."""
+"""Bytes in which an ASCII file has its first facet, and no zeros."""
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 """Marks of an encoding that has NULs itself."""
 
@@ -87,10 +87,11 @@ def without_broken_materials(data: bytes) -> tuple[bytes, list[str]]:
 Scale = tuple[float, float, float]
 
 MAX_BYTES = 128 << 20
-"""Of a mesh file; a larger one is refused rather than stalling the viewer."""
+"""Limit in bytes of a mesh file; a larger one is refused rather than stalling the viewer."""
 
 MAX_TRIANGLES = 2_000_000
-"""Of a mesh file, five times as many as the most detailed public robots have in total."""
+"""Largest number of triangles of a mesh file, five times as many as the most detailed public robots
+have in total."""
 
 FORMATS = ("dae", "stl", "obj", "ply", "off", "glb", "gltf")
 """No archives, which can expand to any size."""

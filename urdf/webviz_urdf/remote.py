@@ -18,11 +18,11 @@ from webviz.data.assets import Fetch, fetches
 from webviz_urdf.resolve import ResolveError, Resolver
 
 MAX_FILES = 500
-"""Of one robot."""
+"""Largest number of files of one robot."""
 MAX_BYTES = 500_000_000
-"""Of all files that are fetched while the program runs."""
+"""Limit in bytes of all files that are fetched while the program runs."""
 TIMEOUT_S = 60.0
-"""For the files of one robot."""
+"""Time in seconds for the files of one robot."""
 _URI = re.compile(r"package://([A-Za-z]\w*)/([^\s\"'<>?#|*:\\]{1,300})", re.ASCII)
 _INSIDE = {
     ".dae": re.compile(rb"<init_from>\s*([^<>\s]{1,200})\s*</init_from>"),

@@ -17,10 +17,10 @@ MAX_EDGE = 4096
 """Pixels; larger pictures are scaled down, because browsers limit the size of textures."""
 
 MAX_PIXELS = 8192**2
-"""Of a picture; a larger one is refused before it is decoded."""
+"""Largest number of pixels of a picture; a larger one is refused before it is decoded."""
 
 MAX_BYTES = 64 << 20
-"""Of a picture's file."""
+"""Limit in bytes of a picture's file."""
 
 _FORMATS = ("PNG", "JPEG", "TGA", "TIFF", "BMP", "GIF", "WEBP", "DDS", "PPM")
 

@@ -262,13 +262,14 @@ class Context(Group):
         with all that it draws, until the garbage collector looks for cycles."""
         self.statuses: dict[str, Status] = {}
         self.color_scale: ColorScale | None = None
-        """For the legend in the scene; set it to say which values colours stand for."""
+        """Color scale for the legend in the scene; set it to say which values colours stand for."""
         self.attribution = ""
         """Whom to credit for what is drawn, such as the makers of a map; shown over the scene."""
         self.is_unfinished = False
         """Set it if the rest is drawn in later turns of the frame loop; the next comes soon."""
         self.offered: dict[str, Mapping[str, int]] = {}
-        """For switches by name: by their property, the names, and how many things have each."""
+        """Names that switches offer, by the name of their property, and how many things have
+        each."""
 
     def follow(
         self,

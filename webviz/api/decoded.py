@@ -8,7 +8,7 @@ from webviz.api.pictures import Encoded, Pixels
 from webviz.data.images import ImageError, decoding, open_compressed, render
 
 PIXEL_BYTES = 8
-"""Of a compressed image while it is decoded: Pillow has four, and copies them."""
+"""Bytes of a pixel of a compressed image while it is decoded: Pillow has four, and copies them."""
 
 
 def opened(picture: Pixels | Encoded) -> Image.Image:

@@ -100,10 +100,8 @@ class Display(Declared, kw_only=True):
     `draw` skips messages for newer ones.
     """
     slow_bytes: ClassVar[int] = 8_000_000
-    """From which size on a message is large: it takes longer than the way to a thread and back.
-
-    Large messages that are folded are decoded in a thread even if `is_threaded` is False.
-    """
+    """Size in bytes from which a message is large: it takes longer than the way to a thread and
+    back. Large messages that are folded are decoded in a thread even if `is_threaded` is False."""
     has_pane: ClassVar[bool] = False
     """True if it draws a `webviz.Pane`, for which pages keep a place beside the scene."""
     reports_only: ClassVar[bool] = False

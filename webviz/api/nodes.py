@@ -22,7 +22,7 @@ Ids = NDArray[Any]
 """Ids of the items of a node when selected: the `Hit.id` of `Display.inspect`."""
 Rgb = tuple[int, int, int]
 Solid = Literal["box", "sphere", "cylinder", "cone", "square"]
-"""Of size 1 around the origin; the square has no height."""
+"""Shapes of size 1 around the origin; the square has no height."""
 Plane = tuple[float, float, float, float]
 """a, b, c, d of the plane ax + by + cz + d = 0, with (a, b, c) of length 1: the sum is the distance
 of a point from it."""
@@ -31,7 +31,7 @@ POINTS_HELD = 400_000
 """Number of points a browser draws fast enough, until it has measured it."""
 
 POINTS_PER_BLOCK = 1 << 15
-"""Of `Points` that browsers may thin."""
+"""Number of points in a block of `Points` that browsers may thin."""
 
 _COMPARED = 1 << 16
 """Bytes of arrays per comparison."""

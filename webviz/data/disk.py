@@ -10,7 +10,8 @@ from concurrent.futures import Future
 from typing import TypeVar
 
 MAX_THREADS = 16
-"""Of `in_thread` at once; a thread that waits for a dead mount cannot be ended."""
+"""Largest number of threads of `in_thread` at once; a thread that waits for a dead mount cannot be
+ended."""
 
 KEPT_S = 10.0
 """Seconds for which a thread waits for more work."""

@@ -79,7 +79,7 @@ LIMIT = (-80.0, 84.0)
 SCALE = 0.9996
 FALSE_EASTING, FALSE_NORTHING = 500_000.0, 10_000_000.0
 BANDS = "CDEFGHJKLMNPQRSTUVWXX"
-"""Of 8 degrees each, the last of 12."""
+"""Bands of 8 degrees each, the last of 12."""
 
 # Krüger's series in the third flattening, to the fourth order: below a micrometre in a zone
 # (Karney, Transverse Mercator with an accuracy of a few nanometers, J. Geodesy 85, 2011, eqs. 12

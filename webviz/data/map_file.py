@@ -16,7 +16,7 @@ from webviz.data.words import shortened
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1
 LIMITS = YamlLimits(values=1000, characters=1 << 16, depth=16)
-"""Of the yaml file of a map."""
+"""Limits of the yaml file of a map."""
 MAX_SHOWN, MAX_PATH = 60, 200
 """Characters of a value, and of the path of an image, in an error."""
 

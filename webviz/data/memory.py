@@ -110,5 +110,5 @@ def _mb(size: int) -> str:
 
 
 DECODING = MemoryBudget(1_000_000_000, 450_000_000)
-"""Of images, meshes, pictures and octrees. Besides, a viewer takes 450 MB with a simulated robot. A
-browser's largest JPEG, of 8192 x 8192 pixels, takes 540 MB."""
+"""Memory for images, meshes, pictures and octrees. Besides, a viewer takes 450 MB with a simulated
+robot. A browser's largest JPEG, of 8192 x 8192 pixels, takes 540 MB."""

@@ -10,7 +10,8 @@ from pathlib import Path
 MAX_NAME = 200
 """Characters of a name."""
 MAX_FILE_BYTES = 251
-"""Of a file name, as Linux allows 255 and the previous version ends with `.bak`."""
+"""Largest number of bytes of a file name, as Linux allows 255 and the previous version ends with
+`.bak`."""
 
 _UNREADABLE = re.compile(
     "[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"

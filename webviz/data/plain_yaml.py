@@ -24,7 +24,8 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from ruamel.yaml.representer import SafeRepresenter
 
 MAX_DIGITS = 1000
-"""Of an integer. Python writes none of more than 4300 decimal digits, but reads them as 0xfff…"""
+"""Largest number of digits of an integer. Python writes none of more than 4300 decimal digits, but
+reads them as 0xfff…"""
 HALF = "a text contains half of a surrogate pair, such as \\ud800. Remove it."
 ALIASES = "Aliases (*name) are not supported. Write the value out."
 TOO_LONG = f"a number has more than {MAX_DIGITS} digits."
@@ -43,7 +44,7 @@ class YamlLimits(NamedTuple):
     values: int = 50_000
     """Keys, values, lists and mappings."""
     characters: int = 4 << 20
-    """Of the document, and of all its values."""
+    """Largest number of characters of the document, and of all its values."""
     depth: int = 64
     """Levels; real files have fewer than 20."""
     has_aliases: bool = True

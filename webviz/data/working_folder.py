@@ -17,7 +17,8 @@ from webviz.data.locks import lock
 LOCK = ".webviz_lock"
 """File of each of these folders; its program holds the lock until it ends, however it ends."""
 ATTEMPTS = 10
-"""To make a folder, of which each may fail as another program takes it for abandoned."""
+"""Number of attempts to make a folder, of which each may fail as another program takes it for
+abandoned."""
 
 
 @contextlib.contextmanager

@@ -34,15 +34,15 @@ class Examiner(Part, abc.ABC):
         self.environment: Environment | None = None
         """This machine, None until it was looked at."""
         self.rules: Sequence[Rule] = ()
-        """To judge besides those of the config; nothing is saved when one does not hold."""
+        """Rules to judge besides those of the config; nothing is saved when one does not hold."""
         self.verdicts: Sequence[Verdict] = ()
-        """Of all rules, in the last round."""
+        """Verdicts of all rules, in the last round."""
         self.rounds = 0
         """Number of completed rounds."""
         self.findings: Sequence[Finding] = ()
-        """Of the last round, the one to repair first at the beginning."""
+        """Findings of the last round, the one to repair first at the beginning."""
         self.events: Sequence[Event] = ()
-        """When findings began, as far as the recording was shown; each is noted once."""
+        """Times when findings began, as far as the recording was shown; each is noted once."""
 
     @property
     @abc.abstractmethod

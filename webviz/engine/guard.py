@@ -19,7 +19,7 @@ T = TypeVar("T")
 CRASHED = object()
 """The result of a call that raised an exception."""
 MAX_CHARACTERS = 500
-"""Of the text of an exception."""
+"""Largest number of characters of the text of an exception."""
 
 
 class Guard:

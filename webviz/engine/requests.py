@@ -18,7 +18,8 @@ from webviz.engine.commands import MAX_PRIORITY, Command, FileCommand, Sender
 from webviz.engine.guard import Guard
 
 MAX_REQUESTS = 1000
-"""That wait for the frame loop; those of a lower priority fill a part of it."""
+"""Largest number of requests that wait for the frame loop; those of a lower priority fill a part of
+it."""
 MAX_FILES = 20
 """File commands of programs that wait for the disk; of each browser it is one."""
 ENDING_S = 1.0

@@ -21,13 +21,13 @@ from webviz.files.config import Config, ConfigError, dump, read_text
 from webviz.files.config.atomic import write_private
 
 MAX_VIEWERS = 8
-"""At once that show one config and have a session file each."""
+"""Largest number of viewers that show one config at once, and have a session file each."""
 MAX_NAME = 40
 """Characters of a config's name in the name of its session file."""
 SET_ASIDE = ".old.yaml"
 """Suffix of a session that was not restored; a later one replaces it."""
 PATIENCE_S = 2.0
-"""For the disk, when a viewer starts."""
+"""Time in seconds for the disk, when a viewer starts."""
 _START = "# Unsaved changes, see `webviz --help`: "
 
 log = logging.getLogger("webviz")

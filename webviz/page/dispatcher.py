@@ -75,7 +75,7 @@ class Dispatcher:
         self._most: dict[str, Callable[[Any], int]] = {}
         self._clock = clock
         self._recent: dict[tuple[int, str], deque[float]] = {}
-        """When each browser sent its last commands that are limited."""
+        """Times when each browser sent its last commands that are limited."""
         channel.on(Do, self._do)
 
     def take(

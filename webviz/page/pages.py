@@ -52,7 +52,7 @@ class Pages:
 
         dispatcher = Dispatcher(channel, request, parts, access or Access(), self.journal)
         self._makers = {name: part for part in parts for name in stores_of(type(part))}
-        """Those with stores, by the name of each store."""
+        """Parts with stores, by the name of each store."""
         self._with_stores = [part for part in parts if stores_of(type(part))]
         self._watched: dict[Part, set[str]] = {}
         """The stores of each part that are watched."""

@@ -23,7 +23,7 @@ from webviz.page.widgets import (
 
 MAX_CURVES = 32
 MAX_TIME_S = 1e11
-"""Of ROS time: beyond what 64 bits of nanoseconds hold."""
+"""Largest ROS time in seconds: beyond it are more nanoseconds than 64 bits hold."""
 
 
 class ChartWidget(Widget):
@@ -109,7 +109,7 @@ class RecordedUi:
 
     def __init__(self) -> None:
         self.widgets: dict[str, Widget] = {}
-        """In the order of the tab, by id."""
+        """Widgets in the order of the tab, by id."""
         self.commands: dict[str, Shortcut] = {}
 
     def find(self, id_: str) -> Widget | None:

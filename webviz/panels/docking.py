@@ -25,7 +25,7 @@ STAGING_S, UNDOCKING_S = 1000.0, 30.0
 DEFAULT = "Default"
 """The type of dock that the server finds out itself."""
 STRING_ARRAY = 9
-"""Of rcl_interfaces/msg/ParameterType."""
+"""Constant of rcl_interfaces/msg/ParameterType."""
 STATES = {
     0: "none",
     1: "driving to the staging pose",
@@ -34,7 +34,7 @@ STATES = {
     4: "waiting for the charge",
     5: "retrying",
 }
-"""Of the feedback of nav2_msgs/action/DockRobot."""
+"""States of the feedback of nav2_msgs/action/DockRobot."""
 ERRORS = {
     901: "the dock is not in the database",
     902: "the dock is not valid",
@@ -45,7 +45,7 @@ ERRORS = {
     907: "it took too long",
     999: "unknown error",
 }
-"""Of the results of both actions."""
+"""Errors of the results of both actions."""
 REMEDY = "Start Nav2's docking_server, or set the namespace of this panel."
 
 

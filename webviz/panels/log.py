@@ -23,7 +23,7 @@ PER_CHUNK = 200
 """Lines that pages receive at once."""
 MAX_CHUNK_CHARACTERS = 50_000
 MAX_CHARACTERS = 20_000_000
-"""Of all lines; the oldest are discarded."""
+"""Largest number of characters of all lines; the oldest are discarded."""
 MAX_TEXT, MAX_NAME = 4000, 200
 """Characters of a text, and of a node, file or function."""
 AFTER_SEEK = 2000

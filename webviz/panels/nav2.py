@@ -25,7 +25,7 @@ BUTTONS = (
     ("Shutdown", SHUTDOWN, "Shut down all nodes."),
 )
 STATES = {1: "accepted", 2: "active", 3: "cancelling", 4: "succeeded", 5: "cancelled", 6: "aborted"}
-"""Of action_msgs/msg/GoalStatus."""
+"""States of action_msgs/msg/GoalStatus."""
 UNDER_WAY = (1, 2, 3)
 STATUS = "action_msgs/msg/GoalStatusArray"
 CANCEL = "action_msgs/srv/CancelGoal"

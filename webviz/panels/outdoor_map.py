@@ -27,7 +27,7 @@ Tile = tuple[int, int, int]
 MAX_TILES = 200
 """Tiles that are kept; of more, those that were not asked for longest go."""
 MAX_BYTES = 300_000
-"""Of a tile as a page receives it."""
+"""Limit in bytes of a tile as a page receives it."""
 
 _disk = DiskThreads(4)
 

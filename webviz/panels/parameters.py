@@ -26,7 +26,7 @@ MAX_PARAMETERS = 1000
 MAX_TEXT = 300
 """Characters of a value or description; longer values cannot be edited."""
 MAX_CHARACTERS = 200_000
-"""Of all that is shown."""
+"""Largest number of characters of all that is shown."""
 MAX_STEPS = 100
 """Changes that can be undone."""
 TIMEOUT_S = 5.0

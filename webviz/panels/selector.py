@@ -19,7 +19,7 @@ DEFAULT = "Default"
 """The choice of Nav2 itself, before somebody chooses."""
 STRING = "std_msgs/msg/String"
 STRING_ARRAY = 9
-"""Of rcl_interfaces/msg/ParameterType."""
+"""Constant of rcl_interfaces/msg/ParameterType."""
 KINDS = (
     ("Controller", "controller_selector", "controller_server", "controller_plugins"),
     ("Planner", "planner_selector", "planner_server", "planner_plugins"),
@@ -37,7 +37,7 @@ PARAMETERS: Mapping[str, Sequence[str]] = {
     node: [parameter for _, _, other, parameter in KINDS if other == node]
     for _, _, node, _ in KINDS
 }
-"""By node."""
+"""Parameters by node."""
 
 
 class Selector(Panel):

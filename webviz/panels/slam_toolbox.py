@@ -19,9 +19,9 @@ NO_NUMBER = "Enter the pose, or use 2D Pose Estimate."
 ASK_S = 2.0
 """Interval between requests for the state."""
 SAVE_S = 60.0
-"""For files to be written or read."""
+"""Time in seconds for files to be written or read."""
 PARAMETERS = ("paused_new_measurements", "interactive_mode")
-"""Of slam_toolbox, which say its state."""
+"""Parameters of slam_toolbox, which say its state."""
 INITIAL_POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 STARTS = {"At the first node": 1, "At the pose": 2, "Localize at the pose": 3}
 """Starts of a loaded pose graph, by `match_type` of DeserializePoseGraph."""

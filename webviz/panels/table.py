@@ -23,7 +23,7 @@ MAX_ROWS, MAX_COLUMNS = 1000, 30
 MAX_TEXT = 200
 """Characters of a cell."""
 MAX_CHARACTERS = 200_000
-"""Of all cells; of more, the first rows are shown."""
+"""Largest number of characters of all cells; of more, the first rows are shown."""
 MAX_DEPTH = 4
 COMPONENTS = "xyzw"
 

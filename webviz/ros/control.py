@@ -46,7 +46,7 @@ NO_DIAGNOSTICS = (
 )
 NO_CONTROL = "This viewer was started with --no-control. Restart it without this option."
 MAX_REQUESTS = 4
-"""Per service at a time; rclpy itself queues ten."""
+"""Largest number of requests of a service at a time; rclpy itself queues ten."""
 
 
 class Controlled(Protocol):

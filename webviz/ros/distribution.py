@@ -32,9 +32,9 @@ _COMPOSABLE = "jazzy", "kilted"
 
 NO_EVENTS_OF_PUBLISHERS = PublisherEventCallbacks(use_default_callbacks=False)
 NO_EVENTS_OF_SUBSCRIPTIONS = SubscriptionEventCallbacks(use_default_callbacks=False)
-"""For whatever is destroyed while the executor runs: an event that waits then, such as that of an
-incompatible publisher, ends `spin_once` with an InvalidHandle. The statuses of displays report what
-the default events would log."""
+"""Callbacks of whatever is destroyed while the executor runs: an event that waits then, such as
+that of an incompatible publisher, ends `spin_once` with an InvalidHandle. The statuses of displays
+report what the default events would log."""
 
 
 def name() -> str:

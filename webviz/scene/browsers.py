@@ -73,7 +73,7 @@ class ViserBrowsers:
         self._points = points
         self._lock = threading.Lock()
         self._vitals: dict[int, tuple[float, Vitals]] = {}
-        """With the time of reception."""
+        """Vitals of browsers with the time of reception."""
         self._came: dict[int, float] = {}
         self._numbers = itertools.count(1)
         self._open: deque[int] = deque(maxlen=MAX_PROBES)

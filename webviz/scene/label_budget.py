@@ -7,7 +7,7 @@ from collections.abc import Callable
 MAX_LABELS = 4096
 """Texts that viser's page shows."""
 MAX_CHARACTERS = 500_000
-"""Of all texts; each is two triangles."""
+"""Largest number of characters of all texts; each is two triangles."""
 AT_ONCE = 200
 """Texts that are added in one flush, as each takes 0.1 ms."""
 

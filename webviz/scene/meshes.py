@@ -13,7 +13,7 @@ from webviz.scene.glb import matte
 COLORFUL = "toon5"
 """viser's material of meshes with a colour for each vertex, of which only the name is left."""
 FLAT = "toon3"
-"""That of flat meshes, likewise."""
+"""Material of flat meshes, likewise."""
 
 
 class MeshDrawn(SingleNode[Mesh]):

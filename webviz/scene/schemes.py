@@ -19,10 +19,11 @@ SCHEMES = {
     "dark": Scheme(background=(48, 48, 48), text=(255, 255, 255), grid=(160, 160, 164)),
     "light": Scheme(background=(214, 219, 225), text=(20, 22, 26), grid=(84, 88, 96)),
 }
-"""By theme. Dark is RViz's; light is dark enough for data in RViz's white, yellow and green."""
+"""Colours by theme. Dark is RViz's; light is dark enough for data in RViz's white, yellow and
+green."""
 
 BACKGROUND: Rgb = SCHEMES["dark"]["background"]
-"""Of pictures, unless the config has another."""
+"""Background of pictures, unless the config has another."""
 
 TEXT_CODE = (31, 30, 31)
-"""Of the 32 steps per channel in which texts have their colours: that of the theme."""
+"""Steps of 32 per channel in which texts have their colours: that of the theme."""

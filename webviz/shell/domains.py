@@ -13,7 +13,7 @@ VARIABLE = "ROS_DOMAIN_ID"
 DOMAINS = range(1, 100)
 """The ports of domains above 101 are in Linux's ephemeral range."""
 FIRST_PORT, PORTS = 7400, 250
-"""In DDS, domain d has the UDP ports from 7400 + 250 d."""
+"""UDP ports of DDS: domain d has those from 7400 + 250 d."""
 PARTICIPANTS = range(10, 30, 2)
 """Offsets of the ports of the first participants on a machine; the first may have left."""
 DEMO = 9

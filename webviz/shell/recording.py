@@ -19,7 +19,7 @@ from webviz.sources.recording import Channels, Recorder
 
 REST_S = 0.1
 DEPTH = 100
-"""Of the queues of subscriptions: messages that arrive while others are received."""
+"""Depth of the queues of subscriptions: messages that arrive while others are received."""
 
 
 class TopicRecorder:

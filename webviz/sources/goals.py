@@ -21,7 +21,7 @@ WAIT_S = 2.0
 """Time to wait for a service or action to appear, and for an answer that is still on its way
 when the node has ended."""
 GOAL_ID = slice(4, 20)
-"""Of a serialised feedback message, after the encapsulation header."""
+"""Bytes of the goal's id in a serialised feedback message, after the encapsulation header."""
 Call = Callable[[str, str, bytes, float], Future[bytes]]
 """Calls a service from any thread: its name, type, request and time limit; the response."""
 

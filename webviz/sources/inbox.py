@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from webviz.data.messages import KNOWN, MessageTypes
 
 MAX_BYTES = 64 << 20
-"""Of the messages of one topic between two calls of `drain`."""
+"""Limit in bytes of the messages of one topic between two calls of `drain`."""
 MAX_TOTAL = 256 << 20
-"""Of the messages of all topics."""
+"""Limit in bytes of the messages of all topics."""
 PAST_LIMIT = 20_000
 """Messages of the past on a topic: all latched ones arrive at once."""
 

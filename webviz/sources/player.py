@@ -14,7 +14,7 @@ from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
 from webviz.sources.source import Offer, Subscription
 
 NEARLY_NS = 150_000_000
-"""Before now, where playing becomes live: what arrived until then is in memory for sure."""
+"""Time in ns before now at which playing becomes live: what arrived until then is in memory."""
 NEAR_NS = 1_000_000_000
 """A position this far ahead is played to; one that is further on or back is looked up."""
 END_NS = 2**63
@@ -22,8 +22,8 @@ END_NS = 2**63
 MAX_STEP_S = 0.25
 """Wall time that one step makes up for: playing slows down where drawing is slow."""
 RETURNING_S = 3.0
-"""After which topics are live although displays have not caught up: they may never, if more comes
-than they can take. Of what was missed, queues drop what they would of live topics."""
+"""Time in seconds after which topics are live although displays have not caught up: they may never,
+if more comes than they can take. Of what was missed, queues drop what they would of live topics."""
 READ_ONLY = ReadOnly("A bag is read-only. Connect to a live ROS graph to publish.")
 
 
@@ -43,7 +43,7 @@ class Player:
     def __init__(self, history: History, read_only: Graph = READ_ONLY) -> None:
         self._read_only = read_only
         self.memory = history if isinstance(history, MemoryHistory) else None
-        """That of live topics."""
+        """History of live topics."""
         self.live = live = self.memory.live if self.memory else None
         self.inbox = live.inbox if live else Inbox()
         """The messages to show."""
@@ -66,7 +66,7 @@ class Player:
         """True while topics become live again, and when they are at the latest."""
         self._stepped_s, self._offset_ns = 0.0, 0
         self.subscriptions: dict[str, Subscription] = {}
-        """By topic; another object only after a change."""
+        """Subscriptions by topic; another object only after a change."""
         self._playhead = None if live else self._new_playhead()
         """None while topics are live."""
 

@@ -35,9 +35,9 @@ ALWAYS = (CLOCK_TOPIC, ROSOUT, DISTANCE, DIFFERENCE)
 """Topics of each slice; a panel that is closed subscribes to nothing."""
 
 BEFORE_NS, AFTER_NS = 30_000_000_000, 5_000_000_000
-"""Of a bag around the moment that is shown, unless a span is selected."""
+"""Time in ns of a bag before and after the moment that is shown, unless a span is selected."""
 MIN_S, MAX_S = 0.1, 86_400.0
-"""Of a span."""
+"""Limits in seconds of a span."""
 
 Margins = tuple[float, float]
 """Seconds before and after the moment that is shown."""

@@ -14,7 +14,7 @@ F64 = NDArray[np.float64]
 BOX, CYLINDER, POLYGON = range(3)
 """`type` of an autoware_perception_msgs/msg/Shape."""
 SIDES = 20
-"""Of circles."""
+"""Number of sides of circles."""
 STEP = math.radians(10.0)
 """Largest angle between points of an arc."""
 ARROWHEAD = 0.5

@@ -71,7 +71,7 @@ PATH_COLORS: tuple[Rgb, ...] = (
     *((255, 166, 0), (255, 255, 0), (176, 255, 46), (150, 255, 150)),
     *((128, 255, 0), (0, 255, 255), (135, 207, 250), (255, 105, 181)),
 )
-"""Of paths, by the id of their object."""
+"""Colours of paths, by the id of their object."""
 
 
 class ObjectsDisplay(Display):

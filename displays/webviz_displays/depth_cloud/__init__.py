@@ -37,7 +37,7 @@ __all__ = ["DepthCloud"]
 U8 = NDArray[np.uint8]
 
 IMAGE_PLANE = (0.0, 0.0, 1.0, 0.0)
-"""Through the origin of the optical frame: points are as far from it as their depths."""
+"""Plane through the origin of the optical frame: points are as far from it as their depths."""
 
 
 class _Drawn(msgspec.Struct, frozen=True):

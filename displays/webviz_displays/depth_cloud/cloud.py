@@ -19,7 +19,8 @@ from webviz_displays.image.transports import Decompression
 
 NEAREST_M, FARTHEST_M = 1e-6, 1e6
 _POINT_BYTES = 50
-"""That a point takes on its way, at most: 48 were measured, with colours and hidden points."""
+"""Bytes that a point takes on its way, at most: 48 were measured, with colours and hidden
+points."""
 
 U8 = NDArray[np.uint8]
 Behind = Callable[[NDArray[np.float32], NDArray[np.bool_], U8 | None], HiddenPoints]

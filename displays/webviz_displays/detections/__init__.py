@@ -19,7 +19,7 @@ COLORS = {
 }
 OTHER = (190, 190, 190)
 UNKNOWN = (255, 22, 80)
-"""Of a detection without a class."""
+"""Colour of a detection without a class."""
 MAX_TEXT = 80
 """Characters of a class above a box."""
 

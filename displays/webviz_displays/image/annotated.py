@@ -205,7 +205,7 @@ INPUT = "annotations_topic"
 KEPT = 10
 """Messages with annotations: those of an image may come before it or after it."""
 TOLERANCE_S = 1.0
-"""By how much the stamps of an image and of its annotations may differ."""
+"""Largest difference in seconds between the stamps of an image and of its annotations."""
 
 
 class Annotations(msgspec.Struct, frozen=True):

@@ -19,7 +19,7 @@ FFMPEG = "ffmpeg_image_transport_msgs/msg/FFMPEGPacket"
 TYPES = (FOXGLOVE, FFMPEG)
 
 MAX_PACKETS = 1800
-"""Between two key frames: a minute at 30 Hz."""
+"""Largest number of packets between two key frames: a minute at 30 Hz."""
 MAX_BYTES = 32 << 20
 
 _CODECS = {
@@ -34,9 +34,10 @@ _CODECS = {
 }
 _START = b"\x00\x00\x01"
 _HEAD_BYTES = 4096
-"""Of a packet in which the kind of its picture is found, after parameter sets."""
+"""Bytes of a packet in which the kind of its picture is found, after parameter sets."""
 _numbers = itertools.count()
-"""Of packets; they go on when a display is reset, so that a page is never sent a wrong rest."""
+"""Numbers of packets; they go on when a display is reset, so that a page is never sent a wrong
+rest."""
 _KEY_FLAG = 1
 """AV_PKT_FLAG_KEY of FFmpeg."""
 

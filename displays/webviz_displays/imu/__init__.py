@@ -16,7 +16,7 @@ from webviz_displays.shared.rods import add_solid_arrows
 __all__ = ["Imu", "Mag"]
 
 SHAFT_LENGTH, SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 2.0, 0.05, 0.2, 0.05
-"""In scales; rviz_imu_plugin gives the diameters."""
+"""Shape of the arrow in scales; rviz_imu_plugin gives the diameters."""
 
 
 class Mag(Display):

@@ -29,10 +29,10 @@ from webviz_displays.shared.pose_marks import report_orientations
 from webviz_displays.shared.rods import add_solid_arrows
 
 AXES_RADIUS = 0.05
-"""Of axes of length 1, as in RViz."""
+"""Radius of axes of length 1, as in RViz."""
 
 SHAFT_RADIUS, HEAD_LENGTH, HEAD_RADIUS = 0.25, 1.0, 0.5
-"""Of the acceleration in scales; rviz_imu_plugin gives the diameters."""
+"""Shape of the arrow of the acceleration in scales; rviz_imu_plugin gives the diameters."""
 
 F64 = NDArray[np.float64]
 

@@ -31,9 +31,9 @@ DEPTH = 100
 SLOW_BYTES = 50_000
 """Larger messages are read in a worker, as they take more than 10 ms."""
 ANSWER_S = 5.0
-"""For the server to answer."""
+"""Time in seconds for the server to answer."""
 PAUSE_S = 0.5
-"""Between two requests."""
+"""Pause in seconds between two requests."""
 MAX_WAITING = 1000
 """Updates that wait, such as while the server is asked."""
 MAX_WAITING_BYTES = 64_000_000

@@ -25,7 +25,7 @@ from webviz_displays.markers.faults import is_valid
 
 MODES: tuple[Mode, ...] = get_args(Mode)
 FACINGS: tuple[Facing, ...] = get_args(Facing)
-"""By the constants of visualization_msgs/InteractiveMarkerControl."""
+"""Names of facings in the order of the constants of visualization_msgs/InteractiveMarkerControl."""
 MAX_CONTROLS = 200
 MAX_SHAPES = 2000
 """Markers of a control."""

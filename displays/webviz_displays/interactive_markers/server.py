@@ -19,11 +19,11 @@ from webviz_displays.markers.assets import Assets
 from webviz_urdf import LoadRequest
 
 DRAWING_S = 0.05
-"""In which new or changed markers are drawn at once; the others follow."""
+"""Time in seconds in which new or changed markers are drawn at once; the others follow."""
 MAX_IGNORED = 1000
 """Names of ignored messages that are kept."""
 MAX_BYTES = 256_000_000
-"""Of the lists, texts and files of all markers."""
+"""Limit in bytes of the lists, texts and files of all markers."""
 
 
 class InteractiveMarkerServer:
@@ -38,7 +38,7 @@ class InteractiveMarkerServer:
         self.client = Client(namespace)
         self.client_id = client_id
         self.markers: dict[str, Tracked] = {}
-        """By name."""
+        """Markers by name."""
         self.shown: dict[str, ShownMarker] = {}
         """Drawn markers, by name."""
         self.assets = Assets()

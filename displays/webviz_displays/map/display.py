@@ -46,7 +46,7 @@ MEANINGS: dict[Scheme, dict[int, str]] = {
     "costmap": {-1: "unknown", 0: "free", 99: "inscribed", 100: "lethal"},
     "raw": {},
 }
-"""Of values with a meaning, by scheme."""
+"""Meanings of values with a meaning, by scheme."""
 
 
 def tile_key(corner: Corner) -> str:

@@ -18,7 +18,8 @@ from webviz_displays.shared.geometry import FARTHEST
 TILE = 512
 """Cells along the edges of a tile, unless there would be more than `MAX_TILES`."""
 MAX_TILES = 128
-"""Per map. Each tile is a picture, which takes the frame loop up to a millisecond."""
+"""Largest number of tiles of a map. Each tile is a picture, which takes the frame loop up to a
+millisecond."""
 LONGEST_TILE = 8192
 """Cells along the edge of a texture that every browser accepts."""
 MAX_CELLS = MAX_TILES * LONGEST_TILE

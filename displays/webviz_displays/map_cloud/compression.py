@@ -17,7 +17,7 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
 RVL = b"DEPTHRVL"
-"""In front of depths that are compressed by RVL."""
+"""Bytes in front of depths that are compressed by RVL."""
 TRAILER = 12
 """Bytes behind a compressed matrix: its rows, columns and OpenCV's type as int32."""
 FLOATS = 5

@@ -22,11 +22,11 @@ F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]
 
 CHANNELS = {1: 2, 2: 3, 3: 5, 4: 6, 5: 3, 6: 4, 7: 4, 8: 6, 9: 7, 10: 7, 11: 5, 12: 6}
-"""By the format of a scan in RTAB-Map's LaserScan.h, how many channels it has."""
+"""Number of channels of a scan, by its format in RTAB-Map's LaserScan.h."""
 HEIGHTS = {5: 2, 6: 2, 7: 2, 8: 2, 9: 2, 10: 2, 11: 2, 12: 2}
-"""By the format of a scan, its channel with z; other scans are flat."""
+"""Channel with z, by the format of a scan; other scans are flat."""
 INTENSITIES = {2: 2, 4: 2, 6: 3, 9: 3, 11: 3, 12: 3}
-"""By the format of a scan, its channel with intensities."""
+"""Channel with intensities, by the format of a scan."""
 BY_CHANNELS = {2: 1, 3: 5}
 """The formats of scans that name none."""
 

@@ -27,9 +27,10 @@ EMBEDDED = "embedded://"
 MAX_FILES = 500
 """Different files per display."""
 RETRY_S = 30.0
-"""Until a file that could not be loaded is tried again; twice as long after each failure."""
+"""Time in seconds until a file that could not be loaded is tried again; twice as long after each
+failure."""
 LONGEST_S = 600.0
-"""Between two tries."""
+"""Longest time in seconds between two tries."""
 
 
 class Assets:
@@ -39,7 +40,7 @@ class Assets:
         self._known: dict[LoadRequest, LoadedMesh | PictureFile | str] = {}
         self._loading: dict[LoadRequest, Loading] = {}
         self._failed: dict[LoadRequest, tuple[float, float]] = {}
-        """When files that could not be loaded are tried again, and how long that is after."""
+        """Times when files that could not be loaded are tried again, and how long that is after."""
         self._arrived: set[LoadRequest] = set()
         self._version = 0
 

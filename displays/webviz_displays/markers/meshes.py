@@ -111,7 +111,7 @@ class ColoredPiece:
 
 
 Meshes = Mapping[int, LoadedMesh]
-"""By the row of the marker in its batch."""
+"""Meshes by the row of the marker in its batch."""
 
 
 def mesh_solids(batch: MarkerBatch, meshes: Meshes) -> Iterator[Solids]:

@@ -16,9 +16,9 @@ from webviz_displays.markers.table import Place, Table, by_place
 MAX_GROUPS = 1000
 """Groups of versions with one frame and stamp, each of which is looked up on every turn."""
 MAX_VERSIONS = 100_000
-"""Of all markers of a display; the oldest go first."""
+"""Largest number of versions of all markers of a display; the oldest go first."""
 MAX_BYTES = 64_000_000
-"""Of their lists, texts and meshes."""
+"""Limit in bytes of their lists, texts and meshes."""
 
 
 class Versions(msgspec.Struct, frozen=True):
@@ -89,7 +89,7 @@ class OlderVersions:
 
     def __init__(self) -> None:
         self._groups: dict[tuple[Place, bytes], Versions] = {}
-        """By frame and stamp, and rows; oldest first."""
+        """Rows by frame and stamp; oldest first."""
         self._count = self._bytes = 0
 
     def __bool__(self) -> bool:

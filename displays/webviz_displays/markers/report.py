@@ -18,7 +18,7 @@ from webviz_displays.markers.table import Place
 NAMED = 10
 """Markers and namespaces that get a status of their own; the rest is counted."""
 MAX_TEXTS = 4096
-"""That a page of viser shows, those of other displays included."""
+"""Largest number of texts that a page of viser shows, those of other displays included."""
 SECOND = 1_000_000_000
 PATIENCE_NS = SECOND
 """A marker that waits longer for its transform is reported; TF is often late."""

@@ -17,7 +17,7 @@ from webviz_displays.markers.items import items_of
 from webviz_displays.shared.rods import from_z
 
 HEAD_SHARE = 0.23
-"""Of the length of an arrow that does not give that of its head, as in RViz."""
+"""Share of the head in the length of an arrow that does not give it, as in RViz."""
 STRIP_HEAD_SHARE = 0.25
 """The same of the arrows of an ARROW_STRIP, of which RViz's proposal has shaft : head = 3 : 1."""
 SEPARATE_OPACITIES = 8

@@ -20,9 +20,9 @@ from webviz_displays.markers.remarks import REMEMBERED, Gone, Remarks
 from webviz_displays.markers.table import FOREVER, LOOK, LOOK_NAMES, Place, Table, by_place
 
 MAX_MARKERS = 100_000
-"""Of a display; further ones are refused."""
+"""Largest number of markers of a display; further ones are refused."""
 MAX_BYTES = 256_000_000
-"""Of the lists, texts and meshes of a display; markers beyond it are refused."""
+"""Limit in bytes of the lists, texts and meshes of a display; markers beyond it are refused."""
 MAX_TEXT = 10_000
 """Characters of one marker; browsers draw each of them as two triangles."""
 AT_ONCE = 3000
@@ -54,7 +54,7 @@ class Store:
         """True if some of them may be free."""
         self._older = OlderVersions()
         self._number = 0
-        """Of the last versions."""
+        """Number of the last versions."""
         self.remarks = Remarks()
         self._steps: Iterator[None] = iter(())
         self.is_unfinished = False

@@ -15,7 +15,7 @@ from webviz_displays.markers.actions import Key
 from webviz_displays.markers.batch import MarkerBatch
 
 FOREVER = np.iinfo(np.int64).max
-"""When markers without a lifetime expire."""
+"""Time when markers without a lifetime expire."""
 
 _LOOK = [
     ("type", np.int32),

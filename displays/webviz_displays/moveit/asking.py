@@ -14,9 +14,9 @@ from webviz_displays.moveit.scene import KnownScene, updated
 
 SERVICE = "moveit_msgs/srv/GetPlanningScene"
 ANSWER_S = 5.0
-"""For move_group to answer."""
+"""Time in seconds for move_group to answer."""
 PAUSE_S = 5.0
-"""Between two requests."""
+"""Pause in seconds between two requests."""
 MAX_TRIES = 12
 """Then only messages are shown; many robots publish scenes without that service."""
 

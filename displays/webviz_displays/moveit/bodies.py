@@ -32,7 +32,7 @@ PLANE_THICKNESS = 0.002
 MAX_FAULTS = 10
 """Sentences that are kept of an object."""
 SLOW_BYTES = 100_000
-"""From which size on messages with objects are read in a thread: 600 objects in 40 ms."""
+"""Size in bytes from which on messages with objects are read in a thread: 600 objects in 40 ms."""
 LONGEST_NAME = 80
 """Characters of a name in a sentence."""
 NO_VERTICES = np.zeros((0, 3), np.float32)

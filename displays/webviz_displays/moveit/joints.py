@@ -127,7 +127,8 @@ class Poser:
         lower, upper = np.array(limits, float).reshape(-1, 2).T
         middle = lower / 2 + upper / 2
         self.defaults = np.where((lower <= 0.0) & (upper >= 0.0), 0.0, middle)
-        """Of `Kinematics.joints`: 0, or the middle if that is outside the limits, as in MoveIt."""
+        """Defaults of `Kinematics.joints`: 0, or the middle if that is outside the limits, as in
+        MoveIt."""
 
     def values(self, positions: Mapping[str, float]) -> F64:
         """Positions of `Kinematics.joints`, float64 (J,)."""

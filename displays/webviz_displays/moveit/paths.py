@@ -18,7 +18,7 @@ from webviz_displays.shared.geometry import FARTHEST
 
 F64 = NDArray[np.float64]
 MAX_POINTS = 100_000
-"""Of a path; further ones are left out."""
+"""Largest number of points of a path; further ones are left out."""
 
 
 class JointPath(msgspec.Struct, frozen=True, eq=False):

@@ -15,7 +15,8 @@ from webviz_displays.moveit.joints import JointValues, joints_of, pose_of
 ADD, REMOVE, APPEND, MOVE = range(4)
 """Operations of moveit_msgs/CollisionObject."""
 MAX_BYTES = 256 << 20
-"""That the objects of a scene may take; a message that would exceed it is not applied to them."""
+"""Limit in bytes of the objects of a scene; a message that would exceed it is not applied to
+them."""
 MAX_NAMES = 20_000
 """Objects, colours and transforms of each kind."""
 MAX_HELD = 500
@@ -85,7 +86,7 @@ class KnownScene(msgspec.Struct, frozen=True, eq=False):
 
 
 SINCE_WHOLE = Lookback(starts_over=lambda message, _: not message.is_diff)
-"""Of scenes: all changes since the last whole one."""
+"""Lookback of scenes: all changes since the last whole one."""
 
 
 def updated(scene: KnownScene, message: Any) -> KnownScene:

@@ -22,7 +22,7 @@ from webviz_displays.moveit.scene import KnownScene, updated
 
 SERVICE = "moveit_task_constructor_msgs/srv/GetSolution"
 ANSWER_S = 5.0
-"""For the program that plans to answer."""
+"""Time in seconds for the program that plans to answer."""
 MAX_PARTS = 1000
 """Trajectories of a solution; further ones are left out."""
 

@@ -9,11 +9,11 @@ import msgspec
 from msgspec.structs import replace
 
 MAX_TASKS = 20
-"""Of programs that plan; the oldest are forgotten."""
+"""Largest number of tasks of programs that plan; the oldest are forgotten."""
 MAX_STAGES = 1000
-"""Of a task; further ones are left out."""
+"""Largest number of stages of a task; further ones are left out."""
 MAX_DEPTH = 20
-"""Of stages in stages; deeper ones are listed at this depth."""
+"""Largest depth of stages in stages; deeper ones are listed at this depth."""
 LONGEST_NAME = 80
 
 

@@ -26,20 +26,20 @@ U8 = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
 
 LEVELS = 16
-"""Below the root; the smallest voxels are at this depth."""
+"""Number of levels below the root; the smallest voxels are at this depth."""
 MAX_NODES = 3_000_000
-"""Per tree; they take 600 MB while they are read and drawn."""
+"""Largest number of nodes of a tree; they take 600 MB while they are read and drawn."""
 _NODE_BYTES = 210
-"""For each node meanwhile: 204 were measured."""
+"""Bytes of each node meanwhile: 204 were measured."""
 _KEPT_BYTES = 40
-"""For each node afterwards, and what is drawn."""
+"""Bytes of each node afterwards, and what is drawn."""
 
 SLOW_BYTES = 20_000
 """A byte is up to four voxels: to read this many, and find what can be seen, takes 20 ms."""
 
 _LOG_ODDS = np.array((np.nan, -2.0, 3.5, -np.inf), np.float32)
-"""By the bits of a child in a binary tree: OctoMap's clamping thresholds, 0.1192 and 0.971. A child
-with a record has the largest value below it; without any it counts as free."""
+"""Log odds by the bits of a child in a binary tree: OctoMap's clamping thresholds, 0.1192 and
+0.971. A child with a record has the largest value below it; without any it counts as free."""
 
 _FULL = np.dtype([("log_odds", "<f4"), ("children", "u1")])
 _COLORED = np.dtype([("log_odds", "<f4"), ("color", "u1", 3), ("children", "u1")])

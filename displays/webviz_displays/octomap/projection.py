@@ -27,7 +27,7 @@ from webviz_displays.octomap.voxels import voxels_of
 I64 = NDArray[np.int64]
 
 MAX_CELLS = 16_000_000
-"""Per map; they take about 250 MB while it is made."""
+"""Largest number of cells of a map; they take about 250 MB while it is made."""
 
 UPDATE = "map_msgs/msg/OccupancyGridUpdate"
 _UNKNOWN, _FREE, _OCCUPIED = -1, 0, 100

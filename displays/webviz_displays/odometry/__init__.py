@@ -41,7 +41,8 @@ MAX_READ = 3000
 there after a seek."""
 FIRST_READ = 250
 MAX_CANDIDATES = 60
-"""Of a robot at rest, every message may be the first of a trail: it is skipped."""
+"""Largest number of candidates. Of a robot at rest, every message may be the first of a trail: it
+is skipped."""
 
 
 class TrailRule(msgspec.Struct, frozen=True):
@@ -112,7 +113,7 @@ def _met(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> int | No
     is_older_possible = True
     """True while the last place that was kept may be one before the first."""
     candidates: list[tuple[int, TrailPlace]] = []
-    """Those that may be the last one that was kept."""
+    """Candidates that may be the last one that was kept."""
     for number, place in _oldest_first(newest_first):
         if first is None:
             first = place

@@ -35,7 +35,7 @@ MAX_COVARIANCES = 100
 """RViz's default Keep. Each covariance is several transparent solids, which browsers sort."""
 
 THICKNESS = 1e-3
-"""Of ellipses and discs, metres, as in RViz."""
+"""Thickness of ellipses and discs, metres, as in RViz."""
 
 _RGB = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 

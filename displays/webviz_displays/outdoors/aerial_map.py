@@ -21,7 +21,7 @@ from webviz_displays.shared.opaque import opaque
 AT_ONCE = 2
 """Tiles that are loaded at once: half of the threads that all displays share."""
 MARGIN_S = 5.0
-"""For the disk, besides the time that a server has."""
+"""Margin in seconds for the disk, besides the time that a server has."""
 MAX_FAILURES = 3
 """Tiles that fail one after the other until the rest is not tried: a server may be down."""
 

@@ -15,7 +15,7 @@ from webviz_displays.shared.geometry import FARTHEST, origin_near
 Position = tuple[float, float, float]
 
 _DTYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
-"""By `PointField.datatype`."""
+"""Types of numpy by `PointField.datatype`."""
 
 _XYZ = np.dtype("V12")
 """Three floats as one item: numpy copies strided items five times as fast as strided rows."""

@@ -24,7 +24,8 @@ from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay
 
 _BITS = 16
-"""Of the number of a cell: numpy sorts numbers of 16 bits by radix, ten times as fast."""
+"""Number of bits of the number of a cell: numpy sorts numbers of 16 bits by radix, ten times as
+fast."""
 
 _SAMPLE = 10_000
 """Points from which the extent is estimated."""

@@ -27,7 +27,7 @@ RAINBOW: tuple[Rgb, ...] = (
     (0, 0, 255),
     (255, 0, 255),
 )
-"""From red to magenta: hue 0 to 300 degrees at full saturation and value."""
+"""Colours from red to magenta: hue 0 to 300 degrees at full saturation and value."""
 
 Alpha = Annotated[float, msgspec.Meta(ge=0, le=1)]
 """An opacity, for a `Prop` that says of what."""

@@ -17,9 +17,9 @@ U8 = NDArray[np.uint8]
 F32 = NDArray[np.float32]
 
 BY_INTENSITY = ("color_transformer", ("Intensity", "Auto"))
-"""When options of this transformer apply; Auto may choose it too."""
+"""Condition for options of this transformer; Auto may choose it too."""
 BY_AXIS = ("color_transformer", ("AxisColor", "Auto"))
-"""When options of this transformer apply."""
+"""Condition for options of this transformer."""
 
 DOTS_LIMIT = 50_000
 """The browser draws the style Points as lines, and slows down with more of them."""

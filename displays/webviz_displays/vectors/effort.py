@@ -48,7 +48,7 @@ HEAD = 2.0
 
 _ANGLES = np.arange(30) * (2 * np.pi / 32)
 _CIRCLE = np.stack((np.sin(_ANGLES), np.cos(_ANGLES), np.zeros_like(_ANGLES)), axis=1)
-"""From the head at y against the direction of the torque, open before the head."""
+"""Points from the head at y against the direction of the torque, open before the head."""
 
 
 class Rings(NamedTuple):

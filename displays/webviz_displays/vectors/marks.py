@@ -18,10 +18,10 @@ HEAD = 0.3
 """Length of a head in lengths of its shaft, so that an arrow is 1.3 times as long as its value."""
 
 SHAFT_RADIUS, HEAD_RADIUS = 0.05, 0.1
-"""In widths."""
+"""Radii in widths."""
 
 CIRCLE_RADIUS, CIRCLE_HEIGHT = 0.25, 0.5
-"""In lengths of the shaft."""
+"""Radius and height in lengths of the shaft."""
 
 CIRCLE_LINE, CIRCLE_HEAD = 0.05, 0.1
 """Width of the circle's line, length and radius of its head; in widths of the arrow."""

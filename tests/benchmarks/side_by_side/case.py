@@ -22,7 +22,7 @@ from side_by_side.watchers import Watcher
 from webviz.shell.testing.domain import isolated_domain
 
 SETTLE_S = 1.5
-"""From the last change of the load to the first second that counts."""
+"""Time in seconds from the last change of the load to the first second that counts."""
 GIVE_UP_S = 40.0
 SAMPLES_PER_S = 2.0
 QUIET = 0.2
@@ -60,13 +60,13 @@ class Result:
     rss_slope: float
     """MB per minute."""
     join_s: float | None = None
-    """From the connection of the first client to the first publication it sees."""
+    """Time in seconds from the connection of the first client to the first publication it sees."""
     bytes: float = 0.0
-    """To one client, per second."""
+    """Bytes to one client, per second."""
     published: dict[int, float] = field(default_factory=dict)
     shown: dict[int, float] = field(default_factory=dict)
     latency: list[float] = field(default_factory=list)
-    """Of every publication of the scene's first lane that was shown."""
+    """Latency of every publication of the scene's first lane that was shown."""
     others: float = 0.0
     """Cores that other programs of the machine used meanwhile."""
 
@@ -76,7 +76,7 @@ class CaseResult:
     """Figures of one system on one scene."""
 
     start_s: float | None
-    """From the start of the process to the first publication at a client."""
+    """Time in seconds from the start of the process to the first publication at a client."""
     start_cpu: float
     """CPU seconds of that."""
     loads: dict[str, Result]

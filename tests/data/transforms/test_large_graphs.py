@@ -36,7 +36,7 @@ SHAPES = {
     ],
 }
 IN_TIME_S = 5.0
-"""For what takes 0.1 s on a quiet machine, and took 19 s or more."""
+"""Time in seconds for what takes 0.1 s on a quiet machine, and took 19 s or more."""
 IDENTITY = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 

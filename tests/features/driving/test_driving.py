@@ -63,7 +63,7 @@ class Lone:
         self.fault: Exception | None = None
         """Raised where a command is made."""
         self.outcome: Exception | None = None
-        """Of publishing a command."""
+        """Outcome of publishing a command."""
         publish = self.graph.publish
 
         def publish_or_fail(advertisement: Advertisement, cdr: bytes) -> Future[int]:

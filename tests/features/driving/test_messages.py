@@ -14,7 +14,7 @@ from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import Drive, DrivingReport
 
 HEARTBEAT_S = 0.05
-"""Between two of a page."""
+"""Pause in seconds between two heartbeats of a page."""
 
 
 class Pages(Channel):

@@ -27,7 +27,7 @@ from webviz.sources.recording.wall_clock import WallClock
 TURNS = 10_000
 LOOK_S = 0.005
 AGO_S = 9.0
-"""When a drive began."""
+"""Time in seconds since a drive began."""
 
 
 class Theater(BagViewer):
@@ -68,7 +68,7 @@ class SteadySource(HandFedSource):
     """A source whose time is that of the machine, as far as a drive is concerned."""
 
     began_s = 0.0
-    """When the drive began, in monotonic seconds."""
+    """Monotonic time in seconds when the drive began."""
 
     def now_ns(self) -> int:
         return START_NS + ns(time.monotonic() - self.began_s)

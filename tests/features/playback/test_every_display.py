@@ -24,7 +24,8 @@ CHECKS = built_in_checks()
 MAX_STEP_S = 0.5
 """Longest time between two ticks of a scene."""
 NOT_COMPARED = {"Grid", "Axes", "MotionPlanningTasks"}
-"""Without messages; and an animation that goes on with the solution before until that has ended."""
+"""Displays without messages, and an animation that goes on with the solution before until that has
+ended."""
 LATCHED = ("robot_description", "camera_info")
 SHORT: dict[str, Mapping[str, Any]] = {
     # The range of depths is a median over the images that were shown.

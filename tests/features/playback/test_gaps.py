@@ -30,7 +30,7 @@ from webviz.sources.steps import EVEN_STEPS, steps_of
 REPORTS = Path(__file__).parents[4] / "shared/data/reports/T6"
 STEP_NS = 100_000_000
 YEARS_S = START_NS / 1e9
-"""From 1970 to when the clock was set."""
+"""Time in seconds from 1970 to when the clock was set."""
 COMMAND_S = 60.0
 CONFIG = "fixed_frame: map\ndisplays: [{type: Marker, topic: /marker, name: M}]"
 

@@ -30,7 +30,7 @@ from webviz.shell.testing.source import SECOND, HandFedSource
 PATH = "nav_msgs/msg/Path"
 AT_S = 2.0
 PATIENCE_S = 120.0
-"""For another process, which imports everything anew."""
+"""Time in seconds for another process, which imports everything anew."""
 
 
 @pytest.fixture

@@ -167,7 +167,7 @@ FIELDS: dict[str, dict[str, object]] = {
     "SetBackground": {"color": [1, 2, 3]},
     "UseTool": {"tool": "t", "points": [[0, 0, 0]]},
 }
-"""Of commands with fields that are no plain values."""
+"""Fields of commands with fields that are no plain values."""
 
 
 def some_fields(command: type[Command]) -> dict[str, object]:

@@ -364,7 +364,7 @@ def headers(*cookies: str, **more: str) -> Headers:
 
 
 TYPED = Headers([("Sec-Fetch-Site", "none")])
-"""Of an address that somebody has entered."""
+"""Headers of an address that somebody has entered."""
 
 
 def test_a_cookie_is_that_of_the_port() -> None:

@@ -33,7 +33,7 @@ STILL = f"""
   .wv-toasts {{ visibility: hidden }}
 """
 SIZE = 460, 320
-"""Of a picture, in the middle of the scene."""
+"""Size of a picture, in the middle of the scene."""
 TOLERANCE = 0.001
 """Share of pixels that may differ: an arrow moved by a pixel is more."""
 

@@ -29,14 +29,14 @@ panels:
 layout: {below: [{panel: SceneView}], height: 260}
 """
 SIZE = 800, 640
-"""Of the window in pixels."""
+"""Size of the window in pixels."""
 CANVAS = ".wv-scene-view canvas"
 HALF_VIEW = math.tan(math.pi / 8)
 POSITION = """async () => {
   const viser = await import("/webviz/viser_page.js");
   return viser.camera().position.toArray();
 }"""
-"""Of the camera of the main scene."""
+"""Position of the camera of the main scene."""
 TF = "tf2_msgs/msg/TFMessage"
 
 

@@ -47,7 +47,7 @@ MARKED = """() => {
   return data.some((byte) => byte > 0);
 }"""
 SIZE = 1100, 700
-"""Of the window in pixels."""
+"""Size of the window in pixels."""
 TITLE = ".wv-selection [data-thing] .wv-field-name"
 
 
@@ -113,7 +113,7 @@ def pixels(page: Page) -> NDArray[np.uint8]:
 
 
 MIDDLE = np.s_[120:600, 400:900]
-"""Of the page, away from its panels."""
+"""Area of the page away from its panels."""
 
 
 def pixels_at_rest(page: Page) -> NDArray[np.uint8]:

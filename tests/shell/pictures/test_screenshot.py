@@ -31,7 +31,7 @@ SMALL = ["--size", "320x240"]
 MANY = ["--every", "0.02", *SMALL]
 """Pictures for a minute, so that something can happen meanwhile."""
 PATIENCE_S = 180.0
-"""For what takes five seconds on a machine that does nothing else."""
+"""Time in seconds for what takes five seconds on a machine that does nothing else."""
 
 
 @pytest.fixture

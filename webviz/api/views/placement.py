@@ -14,10 +14,9 @@ from webviz.api.views.types import FPS, FrameAligned, Orbit, TopDownOrtho, V, Vi
 FIELD_OF_VIEW = math.pi / 4
 """Vertical, as in RViz (Ogre's default)."""
 FLAT_FIELD_OF_VIEW = math.radians(1.0)
-"""Of a distant camera that stands in for an orthographic one with the ground at the same scale.
-
-Code that uses field of view and distance of the camera then sizes and moves things correctly.
-"""
+"""Flat field of view of a distant camera that stands in for an orthographic one with the ground at
+the same scale. Code that uses field of view and distance of the camera then sizes and moves things
+correctly."""
 RAISED = 0.2
 """Offset of XYOrbit along the camera's up vector, as a share of the distance; RViz's."""
 STEEPEST = 1.5698

@@ -90,7 +90,7 @@ VIEW_TYPES: dict[str, type[View]] = {
     cls.__name__: cls
     for cls in (Orbit, XYOrbit, ThirdPersonFollower, FPS, FrameAligned, TopDownOrtho)
 }
-"""By their names in RViz and config files."""
+"""Types of views by their names in RViz and config files."""
 OPTIONS = "target_frame", "invert_z_axis", "point_towards", "lock_camera"
 """Fields that moving the camera leaves."""
 

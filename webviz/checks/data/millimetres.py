@@ -14,7 +14,7 @@ from webviz.api.observation import Observation
 
 SCAN = "sensor_msgs/msg/LaserScan"
 FARTHEST_M = 200.0
-"""Beyond the reach of any planar laser."""
+"""Distance in metres beyond the reach of any planar laser."""
 
 
 class Millimetres(Check):

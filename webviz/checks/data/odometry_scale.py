@@ -11,7 +11,7 @@ from webviz.api.observation import Observation
 from webviz.checks.data.motion import Motions
 
 ROUNDS = 4
-"""Of steady motion in which the speeds have the same ratio."""
+"""Number of rounds of steady motion in which the speeds have the same ratio."""
 ALIKE = 0.2
 """Relative difference between ratios that are the same."""
 APART = 2.5
@@ -46,7 +46,8 @@ class OdometryScale(Check):
     def __init__(self) -> None:
         self._motions = Motions()
         self._ratios: dict[tuple[str, str], list[float]] = {}
-        """Of the twist to the pose in the last rounds of steady motion, by topic and axis."""
+        """Ratios of the twist to the pose in the last rounds of steady motion, by topic and
+        axis."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic and axis whose speeds have one ratio for some rounds."""

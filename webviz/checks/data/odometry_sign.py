@@ -10,7 +10,7 @@ from webviz.api.observation import Observation
 from webviz.checks.data.motion import LEAST_M, MIN_RAD, Motions, Streaks
 
 ROUNDS = 3
-"""In a row in which the directions differ."""
+"""Number of rounds in a row in which the directions differ."""
 
 
 class OdometrySign(Check):

@@ -53,7 +53,7 @@ class SeesItself(Check):
 
     def __init__(self) -> None:
         self._first: dict[str, _Seen] = {}
-        """By topic: the scan with which the near beams were seen first."""
+        """Scan with which the near beams were seen first, by topic."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with near beams that stay near."""

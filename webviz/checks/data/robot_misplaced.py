@@ -17,7 +17,7 @@ from webviz.data.transforms import TransformException
 TURNED_RAD = math.radians(30.0)
 """Turn of the robot after which a shift of the laser has turned along, and one of the robot not."""
 STEADY_M = 0.15
-"""By which a shift that stays may vary."""
+"""Distance in metres by which a shift that stays may vary."""
 KEPT = 30
 """Rounds whose shifts are compared, about one a second."""
 FEWEST = 3
@@ -49,7 +49,7 @@ class RobotMisplaced(Check):
 
     def __init__(self) -> None:
         self._shifts: dict[str, list[_Shift | None]] = {}
-        """Those of the last rounds by frame of the laser, None for one in which its scan fits."""
+        """Shifts in the last rounds by frame of the laser, None for one in which its scan fits."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""

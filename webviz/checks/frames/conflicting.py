@@ -17,7 +17,7 @@ class ConflictCheck(Check):
 
     kind: ClassVar[ConflictKind]
     topic: ClassVar[str]
-    """On which one of the publishers is found."""
+    """Topic on which one of the publishers is found."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for the frames with this sign that have the same parents."""

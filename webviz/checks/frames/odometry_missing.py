@@ -12,7 +12,7 @@ from webviz.checks.frames.names import is_named
 from webviz.data.transforms.reasons import Kind
 
 BASE = re.compile(r"(.*[/_])?base\w*")
-"""Of frames of a base, such as base_link; its group is the prefix of the robot."""
+"""Pattern of frames of a base, such as base_link; its group is the prefix of the robot."""
 
 
 class OdometryMissing(Check):

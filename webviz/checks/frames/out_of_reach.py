@@ -14,7 +14,8 @@ from webviz.data.transforms.reasons import Kind
 from webviz.data.transforms.tree import ancestors
 
 FAR_M = 1e5
-"""Beyond any site that a robot maps; below the northing of UTM nearly everywhere on land."""
+"""Distance in metres beyond any site that a robot maps; below the northing of UTM nearly everywhere
+on land."""
 
 
 class OutOfReach(Check):

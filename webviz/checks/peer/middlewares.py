@@ -9,7 +9,7 @@ from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 
 DEFAULT = "rmw_fastrtps_cpp"
-"""Of Humble to Kilted."""
+"""Middleware of Humble to Kilted."""
 
 
 class MiddlewaresDiffer(Check):

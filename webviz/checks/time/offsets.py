@@ -22,7 +22,8 @@ MEASURED = {
 FEWEST = 5
 """Stamps that show whether an offset is steady."""
 STEADY_NS = 100_000_000
-"""From the least of steady delays to their median, and the largest delay of what is on time."""
+"""Largest difference in ns from the least of steady delays to their median, and the largest delay
+of what is on time."""
 OFF_NS = 300_000_000
 """Offset beyond that of any sensor: a sweep at 5 Hz takes 0.2 s."""
 LARGE_NS = 1_500_000_000
@@ -100,7 +101,7 @@ class LateLinks:
 
     def __init__(self) -> None:
         self._delays: dict[str, list[int]] = {}
-        """Those of the last rounds in ns, by child frame."""
+        """Delays in the last rounds in ns, by child frame."""
 
     def update(self, seen: Observation) -> Mapping[str, int]:
         """Return the delay of such frames in ns, if data of sensors is on time."""

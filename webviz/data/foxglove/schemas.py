@@ -22,7 +22,7 @@ MISSING = (
 )
 UNKNOWN_SCHEMA = "{name} has no equal message in ROS, so no display shows it"
 _DATATYPES = {1: 2, 2: 1, 3: 4, 4: 3, 5: 6, 6: 5, 7: 7, 8: 8}
-"""Of sensor_msgs/msg/PointField by PackedElementField."""
+"""Datatypes of sensor_msgs/msg/PointField by those of PackedElementField."""
 _SIZES = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 8: 8}
 FLOAT32 = 7
 MAX_JSON_DEPTH = 50

@@ -21,4 +21,4 @@ COLOR_MAPS: dict[str, tuple[Rgb, ...]] = {
     # As RViz colours clouds
     "Rainbow": _stops("ff0000 ffff00 00ff00 00ffff 0000ff ff00ff"),
 }
-"""From the lowest to the highest value."""
+"""Colours of each map from the lowest to the highest value."""

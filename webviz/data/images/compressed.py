@@ -22,7 +22,7 @@ _VIDEO = ("h264", "h265", "hevc", "av1", "vp9", "vp8")
 _CRITICAL = (b"IHDR", b"IDAT", b"IEND")
 _MAX_CHUNKS = 100_000
 _PNG16_BYTES = 6
-"""Per pixel, measured."""
+"""Bytes per pixel, measured."""
 
 
 class CompressedInfo(msgspec.Struct, frozen=True):

@@ -16,7 +16,7 @@ HEADER = struct.Struct("<iff")
 """ConfigHeader of compressed_depth_image_transport: format, and the parameters A and B."""
 
 _DEPTH_BYTES = 7
-"""Per pixel: the values, their depths, and which of them are missing."""
+"""Bytes per pixel: the values, their depths, and which of them are missing."""
 
 
 def decode_depth(format_: str, data: NDArray[np.uint8]) -> tuple[str, NDArray[Any]]:

@@ -17,17 +17,17 @@ from webviz.data.images.errors import ImageError
 
 MODELS = ("plumb_bob", "rational_polynomial", "equidistant")
 CELLS = (48, 36)
-"""Of a grid, along columns and rows: straight lines in them are off by 0.1 px."""
+"""Cells of a grid, along columns and rows: straight lines in them are off by 0.1 px."""
 NEGLIGIBLE_PX = 0.25
 _SAMPLES = 1024
 _MAX_COEFFICIENTS = {"plumb_bob": 5, "rational_polynomial": 12, "equidistant": 4}
 """Coefficients; those behind, which tilt the sensor, have to be zero."""
 _LENGTHS = (4, 5, 8, 12, 14)
-"""Of D, as OpenCV takes it."""
+"""Lengths of D, as OpenCV takes it."""
 _SEEN = 0.01
 """Share of the rectified image that a lens sees at least."""
 _TURNED = 0.01
-"""By how much the columns of a rotation may differ from perpendicular unit vectors."""
+"""Largest difference of the columns of a rotation from perpendicular unit vectors."""
 
 
 class Lens(msgspec.Struct, frozen=True):

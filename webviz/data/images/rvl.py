@@ -16,11 +16,12 @@ from webviz.data.images.raw import MAX_PIXELS
 _LONGEST = 11
 """Nibbles of a number of 32 bits."""
 _NIBBLES_PER_PIXEL = 6
-"""At most, of a difference of 17 bits; runs of single pixels take less."""
+"""Largest number of nibbles per pixel, of a difference of 17 bits; runs of single pixels take
+less."""
 _PART_BYTES = 1 << 18
 """Decoded at once: each takes about 100 bytes on its way to a number."""
 _PIXEL_BYTES = 30
-"""That a pixel takes on its way, at most: 28 were measured, of runs of single pixels."""
+"""Bytes that a pixel takes on its way, at most: 28 were measured, of runs of single pixels."""
 _BLOCK = 1 << 14
 """Numbers among which runs are followed at once."""
 

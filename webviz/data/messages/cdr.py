@@ -22,7 +22,8 @@ MAX_TEXT = 16 << 20
 LONG_STRING = 4096
 """Bytes of a string that counts."""
 MAX_ELEMENTS = 2_000_000
-"""Of the sequences and arrays of a message that do not become arrays of numbers."""
+"""Largest number of elements of the sequences and arrays of a message that do not become arrays of
+numbers."""
 _BOOL = np.dtype(np.bool_)
 _ORDERS = {0: ">", 1: "<"}
 _NATIVE = "<" if sys.byteorder == "little" else ">"

@@ -15,10 +15,11 @@ from webviz.data.messages.errors import DecodeError
 from webviz.data.messages.typestore import KNOWN, DefinedTypes, MessageTypes
 
 MAX_DEFINITIONS = 256
-"""Of recordings and bridges, whose files or channels may share them."""
+"""Largest number of definitions; the files of recordings and the channels of bridges may share
+them."""
 
 PADDING = 4
-"""To a multiple of it, writers of bags and DDS fill up messages, in bytes."""
+"""Number of bytes to a multiple of which writers of bags and DDS fill up messages."""
 
 T = TypeVar("T")
 Bytes = bytes | bytearray | memoryview

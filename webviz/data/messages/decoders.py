@@ -167,7 +167,7 @@ SEQUENCE_READERS: dict[str, Callable[[Reader], object]] = {
     "trajectory_msgs/msg/JointTrajectoryPoint": read_trajectory_points,
     "visualization_msgs/msg/Marker": read_markers,
 }
-"""By the type of their elements."""
+"""Sequence readers by the type of their elements."""
 
 
 Step = Callable[[Reader, list[Any]], None]

@@ -12,13 +12,14 @@ from webviz.data.messages.errors import DefinitionError
 from webviz.data.messages.msg_text import Description, One
 
 MAX_FIELDS = 20_000
-"""Of a message, those of nested messages included, each counted once in an array."""
+"""Largest number of fields of a message, those of nested messages included, each counted once in an
+array."""
 MAX_DEPTH = 64
 """Messages within messages; those of ROS have 8 levels. Reading takes four calls for each."""
 MAX_FIXED = 100_000
 """Messages and texts in the fixed arrays of a message, all of which its default value has."""
 MAX_FIXED_BYTES = 64 << 20
-"""Of the numbers in the fixed arrays of a message."""
+"""Limit in bytes of the numbers in the fixed arrays of a message."""
 BYTES_EACH = 8
 """Bytes of a message that pay for one of its objects."""
 _SIZES = {"bool": 1, "byte": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2}

@@ -71,7 +71,7 @@ _OPERATORS: Mapping[str, tuple[int, Callable[[int, int], int]]] = {
 """Precedence and function."""
 _UNARY = 7
 _LARGEST = 1 << 64
-"""Above all integers, those within expressions included."""
+"""Number above all integers, those within expressions included."""
 
 
 class _Kind(NamedTuple):

@@ -40,7 +40,7 @@ _FIRST_TRY = 8
 """Markers that follow as expected before their repetition is looked for; twice as many after each
 failure."""
 _LONGEST = 4
-"""Of the runs of markers whose repetition is looked for."""
+"""Longest run of markers whose repetition is looked for."""
 _AT_ONCE = 10_000
 """Repetitions that are compared in one step, which takes 200 bytes for each marker."""
 _UINT = {order: Struct(order + "I").unpack_from for order in "<>"}
@@ -62,7 +62,7 @@ class _Layout:
         self.phase = reader.pos & 7
         counts: list[int] = []
         self.places: list[int] = []
-        """Of the counts in `counts`."""
+        """Places of the counts in `counts`."""
 
         self._skip(8)
         self._list(counts, 1)  # frame_id

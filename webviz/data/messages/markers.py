@@ -118,7 +118,7 @@ class Content(Struct, frozen=True, eq=False):
 
 
 NOTHING = Content()
-"""Of markers that are only a shape; compare with `is`."""
+"""Content of markers that are only a shape; compare with `is`."""
 
 
 @dataclass(frozen=True, eq=False)

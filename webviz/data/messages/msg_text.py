@@ -24,11 +24,11 @@ Types = dict[str, tuple[list[tuple[str, str, Value]], list[tuple[str, Descriptio
 """Constants (name, type, value) and fields (name, description) by type, as rosbags has them."""
 
 MAX_DIGITS = 40
-"""Of a number. Python takes the square of their count to read them."""
+"""Largest number of digits of a number. Python takes the square of their count to read them."""
 MAX_NAME = 255
 """Characters of the name of a type or a field, as ROS allows."""
 MAX_SIZE = (1 << 32) - 1
-"""Of an array, and the bound of a sequence or a string."""
+"""Limit of the size of an array, and of the bound of a sequence or a string."""
 PRIMITIVES = frozenset(
     {"bool", "byte", "char", "string", "wstring", "float32", "float64"}
     | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}

@@ -115,7 +115,7 @@ class FieldPath:
         self.finds_many = any(isinstance(step, _Slice | _Filter) for step in self._steps)
         """True if messages may have several values, or none: slices and filters choose them."""
         self.names = tuple(step for step in self._steps if isinstance(step, str))
-        """Of the fields, from the outermost."""
+        """Names of the fields, from the outermost."""
 
     def __call__(self, message: Any) -> Any:
         """Return the value in a message; the list of them if the path has a slice or a filter.

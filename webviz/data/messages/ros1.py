@@ -130,12 +130,12 @@ class Ros1Type:
         self._defined: Mapping[str, Any] = typestore.parsed(name, text)
         extent(name, self._fields, {})
         self.name = RENAMED.get(name, name)
-        """Of the type in ROS 2."""
+        """Name of the type in ROS 2."""
         self._made: dict[str, _Read] = {}
         self._read = self._message(name)
         text = self.definition()
         self.types: MessageTypes = defined(self.name, text) if text else KNOWN
-        """Of ROS 2."""
+        """Types in ROS 2."""
         self._is_usual: bool | None = None if self.name == TRANSFORMS else False
         """True if `transforms_to_cdr` reads it; None until both ways were compared."""
 

@@ -15,7 +15,7 @@ from webviz.data.messages.geometry import F64, NANOSECONDS, Duration, zeros
 I64 = NDArray[np.int64]
 
 _ARRAYS = 4
-"""Of each point: positions, velocities, accelerations, effort."""
+"""Number of arrays of each point: positions, velocities, accelerations, effort."""
 _COUNT = {order: Layout(order + "I").unpack_from for order in "<>"}
 _DURATION = {order: Layout(order + "iI").unpack_from for order in "<>"}
 _Point = tuple[list[int], list[int], int]

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from webviz.data.messages import TFMessage
 
 MIN_TRANSFORMS = 16
-"""Per message; smaller messages are decoded faster."""
+"""Number of transforms in a message from which on it is decoded as a whole; smaller ones are
+decoded faster one by one."""
 MAX_SIZES = 64
 SAME_SIZE = 4
 """Layouts per message size, such as of robots of a fleet. Other messages are decoded."""
@@ -45,7 +46,7 @@ class TransformLayout:
     def __init__(self, cdr: bytes, message: TFMessage) -> None:
         self._names = [(t.parent, t.child) for t in message.transforms]
         self.children = frozenset(child for _, child in self._names)
-        """Of all transforms."""
+        """Children of all transforms."""
         stamps, numbers, pos = [], [], 8  # after the encapsulation and the count
         for parent, child in self._names:
             stamps.append(pos)

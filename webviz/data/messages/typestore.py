@@ -31,12 +31,12 @@ MAX_TEXT = 1 << 20
 """Characters of a definition with all its nested types; the longest of ROS have a tenth of it.
 Reading them takes up to two seconds."""
 MAX_TYPES = 1000
-"""Of a definition, those that its messages consist of; those of ROS have 80. Making the class of
-each takes 0.2 ms."""
+"""Largest number of types of a definition, those that its messages consist of; those of ROS have
+80. Making the class of each takes 0.2 ms."""
 MAX_CACHED = 10_000
 """Results of a function that follow from definitions; a large robot has a thousand types."""
 MAX_NAMES = 10_000
-"""Of types that are remembered as valid; a large robot has a thousand."""
+"""Largest number of names of types that are remembered as valid; a large robot has a thousand."""
 PLACEHOLDER: tuple[str, Description] = (
     "structure_needs_at_least_one_member",
     (Nodetype.BASE, ("uint8", 0)),
@@ -91,7 +91,7 @@ class KnownTypes:
 
     def __init__(self) -> None:
         self.extents: dict[str, Extent] = {}
-        """Of the types that were asked for."""
+        """Extents of the types that were asked for."""
 
     def get(self, name: str) -> Any:
         """Return the definition of a type by its full name, None if there is none.

@@ -24,7 +24,7 @@ from webviz.data.recordings.recording import (
 )
 
 ENDINGS = (".mcap", ".db3", ".zstd", ".zst")
-"""Of files that are read if metadata.yaml misnames all."""
+"""Endings of files that are read if metadata.yaml misnames all."""
 
 
 class FolderRecording:

@@ -18,7 +18,7 @@ from webviz.data.recordings.metadata import INFORMATION, METADATA
 from webviz.data.recordings.recording import RecordedChannel, RecordingError
 
 VERSION = 9
-"""Of metadata.yaml, that of ROS 2 Jazzy."""
+"""Version of metadata.yaml, that of ROS 2 Jazzy."""
 
 
 @dataclass(frozen=True)

@@ -126,7 +126,7 @@ class McapRecording:
         self._chunks = sorted(in_order, key=lambda chunk: chunk.start_ns)
         self._times = ChunkTimes(self._chunks)
         self._contents: dict[int, ChunkContent] = {}
-        """Of the last chunks by their offset, the newest at the end; see `_content`."""
+        """Contents of the last chunks by their offset, the newest at the end; see `_content`."""
         self._remembered = 0
         """Bytes of them."""
         self.span_ns = None

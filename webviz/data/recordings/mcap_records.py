@@ -18,7 +18,7 @@ PREFIX = struct.Struct("<BQ")
 MESSAGE_FIELDS = struct.Struct("<HIQQ")
 """Channel, sequence number, time of recording and of publication; the data follows."""
 END_SIZE = PREFIX.size + 20 + len(MAGIC)
-"""Of footer and magic."""
+"""Size in bytes of footer and magic."""
 FOREVER_NS = 2**63 - 1
 """The last stamp that is read: int64 is the type of ROS's times."""
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 DEFINITION_ENCODINGS = ("ros2msg", "ros2idl")
-"""Of the definitions that are read."""
+"""Encodings of the definitions that are read."""
 
 
 class RecordingError(Exception):

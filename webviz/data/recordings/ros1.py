@@ -31,7 +31,7 @@ MAX_SMALL = 64 << 10
 """Bytes of a message that is kept."""
 
 _Place = tuple[int, int, int]
-"""Of a message: time, offset of its chunk in the file, and its offset in the chunk."""
+"""Place of a message: time, offset of its chunk in the file, and its offset in the chunk."""
 
 
 class Ros1Recording:
@@ -59,7 +59,7 @@ class Ros1Recording:
         self._converted_bytes = 0
         self._types: dict[RecordedChannel, Ros1Type] = {}
         self._places: dict[RecordedChannel, Places] = {}
-        """By time."""
+        """Places by time."""
         for number, connection in self._index.connections.items():
             self._note(connection, self._index.places(number))
         self.channels = tuple(self._places)

@@ -101,9 +101,9 @@ MIN_DESCRIPTION = 256
 MAX_SEARCHED = 64 << 20
 """Bytes in which the next chunk is searched behind damaged records."""
 PLACES = np.dtype([("stamp_ns", "u8"), ("chunk", "i8"), ("offset", "u4")])
-"""Of messages: time, offset of the chunk in the file, and offset in the unpacked chunk."""
+"""Places of messages: time, offset of the chunk in the file, and offset in the unpacked chunk."""
 _ENTRIES = np.dtype([("sec", "<u4"), ("nanosec", "<u4"), ("offset", "<u4")])
-"""Of the index behind a chunk."""
+"""Entries of the index behind a chunk."""
 _BEGINNING = re.compile(rb"compression=|op=\x05|size=")
 """A field with which a chunk may begin, behind the sizes of the fields and of this one."""
 
@@ -151,9 +151,9 @@ class Ros1Index:
         self._allowance = TextAllowance()
         self._left_to_search = MAX_SEARCHED
         self._chunks: dict[int, Ros1Chunk] = {}
-        """By their offset in the file."""
+        """Chunks by their offset in the file."""
         self._places: dict[int, list[Places]] = {}
-        """By connection, in the order of the file."""
+        """Places by connection, in the order of the file."""
         self._walk(self._begin(path))
         for number, (places, *_) in self._places.items():
             if number not in self.connections:  # they are repeated at the end, which is missing

@@ -33,7 +33,7 @@ from webviz.data.recordings.unpacking import unpack_message
 
 MAX_TOPICS = 65_536
 PATIENCE_S = 0.1
-"""For finding the next message of some topics, or all topics that have messages."""
+"""Time in seconds for finding the next message of some topics, or all topics that have messages."""
 PROGRESS = 10_000
 """Instructions of SQLite between two looks at the clock."""
 BATCHES = (1, 16, 256, 4096, -1)
@@ -48,7 +48,7 @@ SELECT count(*) FROM sqlite_master
 WHERE type = 'table' AND rootpage > 0 AND name IN ('messages', 'topics')"""
 _COLUMNS = "id, topic_id, timestamp, data FROM messages"
 _STAMPS = "id, topic_id, timestamp, x'' FROM messages"
-"""Without the data."""
+"""Columns and table without the data."""
 
 
 class _Row(NamedTuple):

@@ -22,15 +22,17 @@ from webviz.data.recordings.unpacking import MAX_BYTES
 MAX_REASON = 200
 """Characters of what SQLite says about a file."""
 PARTS = 500
-"""Of the span of the file: the next message of a topic is searched within one of them."""
+"""Number of parts of the span of the file: the next message of a topic is searched within one of
+them."""
 SLICES = 100
-"""Of the table, in the order of writing: what is found in each is known at once."""
+"""Number of slices of the table, in the order of writing: what is found in each is known at
+once."""
 
 _Span = tuple[int, int]
 """First and last time in ns, both included."""
 
 _readers = DiskThreads(16)
-"""For whole tables, which take longer than other files."""
+"""Threads for whole tables, which take longer than other files."""
 
 
 class TopicTimes:

@@ -22,7 +22,7 @@ COMPRESSIONS = ("", "zstd", "lz4")
 MARKS = {b"\x28\xb5\x2f\xfd": "zstd", b"\x04\x22\x4d\x18": "lz4"}
 """First bytes of compressed data."""
 FAULTS = (zstandard.ZstdError, RuntimeError, EOFError, OSError, ValueError)
-"""Of damaged data: lz4 raises RuntimeError."""
+"""Errors that damaged data raises: lz4 raises RuntimeError."""
 _BLOCK = 1 << 17
 """Bytes at a time. Of damaged data, those before the damaged block are kept."""
 

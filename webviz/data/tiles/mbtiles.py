@@ -14,9 +14,10 @@ from webviz.data.recordings.sqlite_times import connected
 from webviz.data.tiles.source import MAX_BYTES, MAX_REASON, TileError, plain
 
 PATIENCE_S = 3.0
-"""For one query: a database may define its table by anything that SQL can compute."""
+"""Time in seconds for one query: a database may define its table by anything that SQL can
+compute."""
 STEPS = 10_000
-"""Of SQLite's virtual machine between two looks at the clock."""
+"""Number of steps of SQLite's virtual machine between two looks at the clock."""
 
 
 class MBTiles:

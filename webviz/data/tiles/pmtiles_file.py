@@ -16,7 +16,7 @@ HEADER = 127
 MAX_DIRECTORY = 1 << 20
 """Bytes of a directory or of the metadata once unpacked: about 100 000 entries."""
 MAX_DEPTH = 4
-"""Of directories (the format's own limit)."""
+"""Largest depth of directories (the format's own limit)."""
 RASTER = (pm.TileType.PNG, pm.TileType.JPEG, pm.TileType.WEBP)
 PLAIN = (pm.Compression.UNKNOWN, pm.Compression.NONE)
 _GZIP = 31

@@ -23,9 +23,9 @@ from webviz.data.words import plain
 VARIABLE = "WEBVIZ_TILE_SERVERS"
 """Environment variable: the beginnings of addresses that may be asked, separated by spaces."""
 CACHE_BYTES = 500_000_000
-"""Of the tiles of all servers on the disk."""
+"""Bytes that the tiles of all servers take on the disk at most."""
 FRESH_S = 30 * 86_400.0
-"""After this, a tile is fetched anew."""
+"""Age in seconds after which a tile is fetched anew."""
 BETWEEN_PRUNING = 200
 """Tiles that are stored between two looks at the size of the cache."""
 AGENT = "webviz (+ros-webviz)"

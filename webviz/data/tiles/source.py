@@ -14,9 +14,9 @@ from webviz.data.images.errors import ImageError
 from webviz.data.names import readable
 
 MAX_BYTES = 4 << 20
-"""Of a tile as it is stored."""
+"""Limit in bytes of a tile as it is stored."""
 MAX_EDGE = 1024
-"""Of a tile in pixels; 256 and 512 are usual."""
+"""Largest edge of a tile in pixels; 256 and 512 are usual."""
 MAX_REASON = 100
 """Characters that are quoted of an error."""
 MAX_TEXT = 300

@@ -23,7 +23,7 @@ from webviz.data.transforms.geometry import PACKED, PoseTuple, interpolate
 MAX_SAMPLES = 65_536
 
 NEVER_NS = -(1 << 63)
-"""Before every stamp."""
+"""Time before every stamp."""
 
 ParentedPose = tuple[PoseTuple, str]
 """A pose and the parent frame it is given in."""

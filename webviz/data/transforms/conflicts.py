@@ -71,7 +71,7 @@ class Conflicts:
         self._publishers = publishers
         self._cache_time_ns = cache_time_ns
         self._known: dict[str, tuple[object, Sequence[Conflict]]] = {}
-        """By frame: the state they were found in, and the conflicts."""
+        """State in which frames were found, and the conflicts, by frame."""
 
     def of(self, frame: str) -> Sequence[Conflict]:
         """Return the signs of two publishers of a child frame."""

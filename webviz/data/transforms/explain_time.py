@@ -12,8 +12,8 @@ from webviz.data.transforms.reasons import HOUR_NS, WALL_NS, YEAR_NS, Explanatio
 from webviz.data.transforms.tree import ancestors
 
 STALE_NS = NS_PER_S
-"""After this silence, and `STALE_PERIODS` of its periods, a link has stopped; the slowest usual
-publisher, AMCL at rest, takes 1 s."""
+"""Silence in ns after which, and after `STALE_PERIODS` of its periods, a link has stopped; the
+slowest usual publisher, AMCL at rest, takes 1 s."""
 
 
 def explain_time(

@@ -18,7 +18,7 @@ from webviz.data.words import joined
 P = TypeVar("P")
 
 MAX_BYTES = 64 << 20
-"""Of the messages that wait; the newest waits, however large."""
+"""Limit in bytes of the messages that wait; the newest waits, however large."""
 
 
 @dataclass(slots=True)

@@ -27,7 +27,7 @@ class _List(msgspec.Struct):
     names: Names
     batches: Batches
     caches: dict[int, TimeCache] = msgspec.field(default_factory=dict)
-    """By place in the list, those that have left as well."""
+    """Caches by place in the list, those that have left as well."""
     looked_up: tuple[int, int] = -1, -1
     """Versions of the structure and of the followers for which the caches were looked up."""
 
@@ -53,7 +53,7 @@ class ManyInserts:
         self._publishers = publishers
         self._cache_time_ns = cache_time_ns
         self._lists: dict[tuple[int, str], _List] = {}
-        """By the identity of the names, which are kept for it, and the authority."""
+        """Lists by the identity of the names, which are kept for it, and the authority."""
 
     def insert(
         self,

@@ -18,7 +18,7 @@ EDGE = 24
 HEAD = 76
 BOX_HEIGHT, ROW = 56, 68
 GAP = 72
-"""Between columns."""
+"""Space between columns."""
 LINE = 18
 CHARACTER = 7.6
 """Width of a usual bold character at 13 pixels; those of East Asia are twice as wide."""

@@ -46,7 +46,7 @@ class NewestTransform:
 
 
 RECENT_NS = 5_000_000_000
-"""For which a refused transform that is repeated is reported."""
+"""Time in ns for which a refused transform that is repeated is reported."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,9 +12,9 @@ from webviz.sources.graph import Advertisement
 BEAT_S = 0.2
 """A driver who acknowledges nothing new for so long has lost control."""
 RELEASE_S = 1.0
-"""From letting go until another browser may drive."""
+"""Time in seconds from letting go until another browser may drive."""
 PERIOD_S = 0.05
-"""Between two commands."""
+"""Period in seconds between two commands."""
 TAIL = 5
 """Zeros that end a drive, in case that one of them is lost."""
 

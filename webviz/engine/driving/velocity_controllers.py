@@ -16,7 +16,8 @@ from webviz.sources import Advertisement, Gate
 log = logging.getLogger("webviz")
 
 GAP_S = 0.02
-"""Between two commands if a set-point changes; also between the zeros of the end."""
+"""Pause in seconds between two commands if a set-point changes; also between the zeros of the
+end."""
 ATTENDED_S = 2.0
 """A controller is attended for so long after a browser looked at it."""
 ENDING_S = 0.5
@@ -42,7 +43,8 @@ class VelocityControllers:
         self._lock = threading.Lock()
         self._controllers: dict[str, VelocityController] = {}
         self._leaving: list[VelocityController] = []
-        """Of vehicles that are gone or have another advertisement, until they have stopped."""
+        """Controllers of vehicles that are gone or have another advertisement, until they have
+        stopped."""
         self._looked: dict[str, float] = {}
         self._sent: dict[Advertisement, Future[int]] = {}
         self._problems: dict[Advertisement, str] = {}

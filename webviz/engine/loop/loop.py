@@ -47,9 +47,10 @@ IDLE_S = 1.0
 PANEL_S = 0.2
 """Interval of housekeeping: subscriptions, statuses, the panel."""
 PAUSE_S = 0.002
-"""Before housekeeping, in which what was drawn is sent, and new messages go first."""
+"""Pause in seconds before housekeeping, in which what was drawn is sent, and new messages go
+first."""
 SEEKING_S = 0.1
-"""Of a turn while a recording is read up to a position."""
+"""Longest time in seconds of a turn while a recording is read up to a position."""
 FAILURE_S = 15.0
 """Duration for which the failure of a part is shown."""
 
@@ -117,7 +118,7 @@ class FrameLoop:
         rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
         gate = Gate(player, rights, self._allow_list, self._pause)
         self.controllers = VelocityControllers(gate, live_ns)
-        """Of the vehicles that tools drive; they do not wait for the loop."""
+        """Controllers of the vehicles that tools drive; they do not wait for the loop."""
         core = Core(player, gate, self.controllers, scene, self._guard, clock, waiting, host)
         self._core = core
         services = self._services(strict)

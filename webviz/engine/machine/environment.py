@@ -81,7 +81,7 @@ def _udp_problem(host: str, port: int) -> str:
 
 PROC = Path("/proc")
 LIBRARIES = (b"librmw", b"libfastrtps", b"libfastdds", b"libddsc")
-"""Of programs that are ROS nodes."""
+"""Libraries of programs that are ROS nodes."""
 MOST = 10
 LONGEST = 80
 """Characters of a command line that are shown."""

@@ -15,7 +15,7 @@ GROUP = "239.255.0.1"
 """Multicast group of DDS."""
 IGMP = Path("/proc/net/igmp")
 LEAST_S = 2.0
-"""Between two looks; the use of a shorter time is a burst."""
+"""Least time in seconds between two looks; the use of a shorter time is a burst."""
 LEAST_PACKETS = 100
 """Sent between two looks; of fewer, a share says nothing."""
 BITS_PER_MBIT = 1_000_000

@@ -10,7 +10,7 @@ import psutil
 
 PROC = "/proc"
 DAEMON = "ros2-daemon"
-"""By this name the daemon of the command line calls itself in its arguments."""
+"""Name by which the daemon of the command line calls itself in its arguments."""
 SETTINGS = (
     "ROS_DOMAIN_ID",
     "RMW_IMPLEMENTATION",

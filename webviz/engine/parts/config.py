@@ -22,7 +22,7 @@ from webviz.files import config as config_file
 from webviz.files.config import Config, Template
 
 RESTORE = "Restore "
-"""Before the amount in the label of a step."""
+"""Text before the amount in the label of a step."""
 
 
 class ConfigPart(Part):

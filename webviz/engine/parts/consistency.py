@@ -68,7 +68,7 @@ class ConsistencyCheck:
         self._next = 0.0, 0.0
         self._compared_s = 0.0
         self.fits: dict[str, MapFit] = {}
-        """Of laser scans to the map, by id of their display."""
+        """Fits of laser scans to the map, by id of their display."""
         self.blocked: dict[str, int] = {}
         """Points of scans on paths, by id of the display of the path."""
 

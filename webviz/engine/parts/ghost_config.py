@@ -22,11 +22,11 @@ from webviz.sources.bag.history import BagHistory
 
 TINT = (90, 150, 255)
 OPACITY = 0.4
-"""Of what the displays show of the first run."""
+"""Opacity of what the displays show of the first run."""
 COVERING = {"Map", "Costmap", "OccupancyGrid", "OccupancyMap", "GridMap"}
 """Displays that would lie over those of the first run; their copies are switched off."""
 NAME = "Ghost"
-"""Of the group of displays, and of the panel."""
+"""Name of the group of displays, and of the panel."""
 
 
 def with_ghost(config: Config, bag: BagHistory) -> Config:

@@ -65,7 +65,7 @@ class HostProgram(msgspec.Struct, frozen=True):
 
 
 NO_PROGRAM = HostProgram()
-"""Of a viewer without pages."""
+"""Program of a viewer without pages."""
 
 
 class Core:
@@ -102,7 +102,7 @@ class Core:
         self.waiting = waiting
         self.host = host
         self.tools = PluginList(Tool)
-        """Those of the config."""
+        """Tools of the config."""
         self.buffer = TransformBuffer()
         self.frames = Frames(self.buffer, "", 0)
         """The transforms at the time that is shown."""
@@ -115,11 +115,11 @@ class Core:
         self.parts: Sequence[Part] = ()
         """All parts, once they are there."""
         self._by_kind: dict[type[Part], Any] = {}
-        """Those that were asked for."""
+        """Plug-ins by kind, of the kinds that were asked for."""
         self._by_fact: dict[str, Part] = {}
-        """Those of the facts that were asked for."""
+        """Plug-ins by fact, of the facts that were asked for."""
         self.statuses: Mapping[str, Status] = {}
-        """Those of the viewer as a whole, such as "Fixed Frame", as of the last turn."""
+        """Statuses of the viewer as a whole, such as "Fixed Frame", as of the last turn."""
         self.verdicts: Sequence[Verdict] = ()
         """Last verdicts on the rules of the config."""
 

@@ -14,7 +14,8 @@ from webviz.sources.history import NeededMessages
 from webviz.sources.player import Player
 
 MAX_MESSAGES = 20_000
-"""Of those at 400 Hz, decoding takes a third of a second, which the frame loop waits for."""
+"""Largest number of messages; at 400 Hz, decoding these takes a third of a second, which the frame
+loop waits for."""
 
 
 def past_messages(player: Player, topic: str, type_: str, lookback: Lookback) -> Iterable[Raw]:

@@ -19,7 +19,7 @@ from webviz.engine.store import PageStore
 from webviz.sources import Offer, Publisher, Raw
 
 SPAN_S = 3.0
-"""Over how long a rate is measured."""
+"""Time in seconds over which a rate is measured."""
 MEASURED_S = 0.5
 EVERY_S = 1.0
 """Interval between measurements of a delay."""
@@ -103,7 +103,7 @@ class TopicsPart(Part):
         self._types: Mapping[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
         self.traffic: Mapping[str, Traffic] = {}
-        """Of the topics with a subscription here, over the last seconds."""
+        """Traffic of the topics with a subscription here, over the last seconds."""
         self._delays: dict[str, tuple[float, float | None]] = {}
 
     def take(self, batches: Batches) -> None:

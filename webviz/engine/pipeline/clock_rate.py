@@ -7,11 +7,11 @@ from collections import deque
 from webviz.engine.state import ClockRate
 
 SPAN_S = 3.0
-"""Over how long the rate is measured."""
+"""Time in seconds over which the rate is measured."""
 STILL_S = 0.3
 """Time that has not moved for so long stands still; a /clock of less than 4 Hz comes in steps."""
 TOLERANCE_NS = 150_000_000
-"""By which a page may be wrong before it is corrected; a /clock of 10 Hz has steps of 0.1 s."""
+"""Error in ns of a page from which on it is corrected; a /clock of 10 Hz has steps of 0.1 s."""
 NEARLY = 0.02
 """A rate that differs by less is 1."""
 

@@ -20,7 +20,7 @@ T = TypeVar("T")
 LIMIT = 1000
 """Messages of a topic that wait for the display."""
 MAX_BYTES = 64 << 20
-"""Of these messages; the newest is kept, however large, if it is the only one."""
+"""Limit in bytes of these messages; the newest is kept, however large, if it is the only one."""
 
 
 class _Line(msgspec.Struct):

@@ -20,7 +20,8 @@ from webviz.engine.pipeline.background import Workers, is_slow
 from webviz.sources import Raw
 
 MAX_BYTES = 64 << 20
-"""Of messages that wait while another is merged; the newest waits however large it is."""
+"""Limit in bytes of messages that wait while another is merged; the newest waits however large it
+is."""
 
 
 class Received(msgspec.Struct, frozen=True):

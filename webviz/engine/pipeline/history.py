@@ -16,9 +16,10 @@ from webviz.api.nodes import Pose
 from webviz.api.sample import Sample
 
 MAX_SAMPLES = 10_000
-"""Per display, whatever its properties request."""
+"""Largest number of samples of a display, whatever its properties request."""
 MAX_BYTES = 256_000_000
-"""Of the serialised messages of all displays that hold several; the newest is, however large."""
+"""Limit in bytes of the serialised messages of all displays that hold several; the newest is,
+however large."""
 
 
 class HistoryBudget:
@@ -74,7 +75,7 @@ class SampleHistory:
         self.version = 0
         """Changes whenever the samples do."""
         self.bytes = 0
-        """Of the messages of all samples."""
+        """Bytes of the messages of all samples."""
         self._free: list[int] = []
         self._missed_ns: int | None = None
         """Arrival of the newest sample that was dropped for its size."""

@@ -96,7 +96,8 @@ class InputSubscription:
         self.topic = topic
         self.name = name
         self.type = "" if spec.type == ANY else spec.type
-        """Of the messages: the one of `spec.types` that is published; "" of `ANY` until one is."""
+        """Type of the messages: the one of `spec.types` that is published; "" of `ANY` until one
+        is."""
         self._topic_statistics = TopicStatistics(path, spec, topic, name, problem)
         self._filter: MessageFilter[Arrival] = MessageFilter(topic.filter_size)
         self._fault = ""

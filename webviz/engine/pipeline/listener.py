@@ -25,7 +25,8 @@ Names = Sequence[tuple[str, str]]
 """Parents and children."""
 
 STATIC, MOVING = Lookback(), Lookback(seconds=15.0)
-"""Of a recording; the buffer holds 10 s, and frames that are older turn grey for some seconds."""
+"""Lookbacks at the transforms of a recording; the buffer holds 10 s, and frames that are older turn
+grey for some seconds."""
 BACK_NS = 1_000_000_000
 BACK_S = 2.0
 BACK_MESSAGES = 10
@@ -58,7 +59,7 @@ class TransformListener:
         self._faults: dict[str, Status] = {}
         self._is_recorded = False
         self._began_ns = 0
-        """When the first message of a bag was recorded, as far as they are known."""
+        """Time of the first message of a bag, as far as they are known."""
         self._back_since: float | None = None
         self._back_messages = 0
         self._offers: Mapping[str, Offer] | None = None

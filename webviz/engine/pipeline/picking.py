@@ -22,9 +22,9 @@ from webviz.engine.commands import Pick
 from webviz.engine.pipeline.baking import Position
 
 TOLERANCE = 1e-6
-"""Of coordinates that went to a browser and back, metres or a share of them."""
+"""Tolerance of coordinates that went to a browser and back, metres or a share of them."""
 ARROW_TOLERANCE = 1e-4
-"""Of positions that a browser computed along an arrow."""
+"""Arrow tolerance of positions that a browser computed along an arrow."""
 
 Items = Points | Lines | Arrows | Axes | Labels | Instances | Models
 """Nodes whose items are selected one by one."""

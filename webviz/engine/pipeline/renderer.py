@@ -71,7 +71,7 @@ class Renderer:
         self._attributions: dict[str, str] = {}
         self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
         self._drawn: dict[str, dict[int, Look | None]] = {}
-        """By input and slot; None for what is outdated."""
+        """Nodes by input and slot; None for what is outdated."""
         self._version = 0
         self._draw_job: _DrawJob | None = None
         self._seen: list[tuple[SampleHistory, int]] | None = None

@@ -18,7 +18,7 @@ STILL_S = 2.0
 EVENT_S = 15.0
 """Duration for which a jump back of time is shown."""
 LOG_S = 60.0
-"""Between two lines of the log, since a clock may jump at each message."""
+"""Pause in seconds between two lines of the log, since a clock may jump at each message."""
 
 
 class RosTime:

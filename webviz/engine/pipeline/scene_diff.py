@@ -23,7 +23,7 @@ from webviz.engine.pipeline.picking import Found, Shot, found_in
 KEPT_S = 3.0
 """Longer than a picture is under way to a browser."""
 MAX_BYTES = 64_000_000
-"""Of arrays; the messages that they were made of take about as much again."""
+"""Limit in bytes of arrays; the messages that they were made of take about as much again."""
 MAX_SHOTS = 200
 
 
@@ -146,7 +146,7 @@ class SceneDiff:
         self._prefix = prefix
         self._scopes: dict[str, dict[str, _Drawn]] = {}
         self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
-        """Of each scope: its samples, and the fixed frame."""
+        """Samples and fixed frame of each scope, from which it was drawn."""
         self._past: Past | None = None
         self.tint: Callable[[Node], Node] | None = None
         """Gives nodes another look; None for their own."""

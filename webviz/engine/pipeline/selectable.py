@@ -19,14 +19,15 @@ from webviz.engine.pipeline.picking import Found, every_item
 from webviz.engine.pipeline.runner import Runner
 
 MAX_ITEMS = 2000
-"""Of one node; those of larger nodes are left out."""
+"""Largest number of items of one node; those of larger nodes are left out."""
 MAX_OF_DISPLAY = 4000
 DIGITS = 4
-"""Of numbers that are not integers: more would mostly be noise, which cannot be compressed."""
+"""Number of digits of numbers that are not integers: more would mostly be noise, which cannot be
+compressed."""
 
 Values = Mapping[str, Any]
-"""Of one node: "#frame", "#stamp", and columns with the titles, "#titles", and values of its items,
-after a dot."""
+"""Values of one node: "#frame", "#stamp", and columns with the titles, "#titles", and values of its
+items, after a dot."""
 
 
 class _Drawn(msgspec.Struct, frozen=True):

@@ -10,7 +10,7 @@ import msgspec
 P = TypeVar("P")
 
 MAX_BYTES = 64 << 20
-"""Of the messages of an input that wait; the newest waits, however large."""
+"""Limit in bytes of the messages of an input that wait; the newest waits, however large."""
 
 
 class Gap(msgspec.Struct, frozen=True):

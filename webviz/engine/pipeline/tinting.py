@@ -93,11 +93,11 @@ _FACES = _faces()
 
 
 SHARE = 0.8
-"""Of the tint in each colour: the rest still tells apart what has several."""
+"""Share of the tint in each colour: the rest still tells apart what has several."""
 AXIS_COLORS = np.diag([255, 255, 255]).astype(np.uint8)
 GREY: Rgb = (128, 128, 128)
 GAMMA = 2.2
-"""Of sRGB, about."""
+"""Exponent of sRGB, about."""
 
 
 class Tint(msgspec.Struct, frozen=True):

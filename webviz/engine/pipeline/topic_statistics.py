@@ -17,7 +17,7 @@ from webviz.data.words import counted
 from webviz.sources import Offer, Publisher, Raw
 
 AUTOMATIC = {"reliability": "auto", "durability": "auto"}
-"""Of a topic, whose other values stay."""
+"""Policies of a topic whose other values stay."""
 
 MAX_TIMES = 50
 """Last messages whose times are kept. Of a bag no more are counted, as a seek skips others."""
@@ -40,7 +40,7 @@ class TopicStatistics:
     def __init__(self, path: str, spec: Input, topic: Topic, name: str, problem: str) -> None:
         self.count = 0
         self.size = 0
-        """Of the newest message in bytes."""
+        """Size of the newest message in bytes."""
         self.last: Raw | None = None
         self.silent_s = 0.0
         """Seconds since the last message, or else since listening began, as of the last status."""
@@ -54,9 +54,9 @@ class TopicStatistics:
         self._name = name
         self._problem = problem
         self._times: deque[float] = deque(maxlen=MAX_TIMES)
-        """When the last messages arrived, in seconds; of a bag when they were recorded."""
+        """Times of reception of the last messages in seconds; of a bag, when they were recorded."""
         self._newest_s = 0.0
-        """When the newest message arrived by the clock that `status` is asked with,"""
+        """Time of reception of the newest message by the clock that `status` is asked with,"""
         self.first_s = math.inf
         """and when the first one did, or would have."""
         self._others: tuple[Mapping[str, Offer], str] = {}, ""

@@ -46,7 +46,7 @@ REPORT = ".zip"
 METADATA = "metadata.yaml"
 MAX_LISTED = 200
 MAX_ENTRIES = 10_000
-"""Of a folder that are looked at."""
+"""Largest number of entries of a folder that are looked at."""
 LISTING_S = 2.0
 """Interval between listings while a page shows them."""
 NOT_LISTED = (
@@ -62,7 +62,7 @@ NOTHING_BESIDE = (
 PAGES_ONLY = "Only pages upload files. Programs know the path."
 
 _disk = DiskThreads(4)
-"""For files that pages upload."""
+"""Threads for files that pages upload."""
 
 T = TypeVar("T")
 

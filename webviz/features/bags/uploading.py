@@ -19,9 +19,10 @@ from webviz.data.names import file_problem_of
 
 SUFFIXES = (".mcap", ".db3", ".zip")
 MAX_BYTES = 4_000_000_000
-"""Of a file."""
+"""Limit in bytes of a file."""
 MAX_TOTAL = 8_000_000_000
-"""Of all files; they are kept until the viewer ends, since one of them may be played."""
+"""Limit in bytes of all files; they are kept until the viewer ends, since one of them may be
+played."""
 RESERVE = 1_000_000_000
 """Bytes of the disk that uploads leave free."""
 BLOCK = 512 << 10

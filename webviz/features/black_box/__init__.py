@@ -87,7 +87,7 @@ class BlackBoxFeature(Feature):
         super().__init__(core)
         self._memory = core.player.memory
         self._heard: dict[str, float] = {}
-        """By display, when its first message was noticed, in monotonic seconds."""
+        """Monotonic time in seconds when the first message was noticed, by display."""
         self._observer = TopicObserver()
         self._watcher = RuleWatcher(())
         self._subscriber = Subscriber()

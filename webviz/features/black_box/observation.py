@@ -14,7 +14,7 @@ from webviz.engine.path_numbers import PathNumbers
 from webviz.sources import Raw
 
 SPAN_S = 3.0
-"""Over how long a rate is measured."""
+"""Time in seconds over which a rate is measured."""
 LEVEL_S = 2.0
 """Duration for which the level of a message counts."""
 MAX_UNREAD = 20

@@ -14,11 +14,11 @@ from webviz.engine.forms import sendable
 from webviz.engine.store import PageStore
 
 FOLDER = "webviz_black_box"
-"""In the working folder."""
+"""Name of the folder in the working folder."""
 MAX_LISTED = 50
 """Recordings that pages list."""
 PARTS = "metadata.yaml", "*.mcap"
-"""Of a recording; either may be missing if it was cut off or has no messages."""
+"""Parts of a recording; either may be missing if it was cut off or has no messages."""
 
 
 class SavedMoment(msgspec.Struct, frozen=True):

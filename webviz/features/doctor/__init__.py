@@ -37,7 +37,7 @@ from webviz.sources.past_state import Event
 
 SCHEDULER = Path("/proc/thread-self/schedstat")
 BUSY = 0.5
-"""Above it, the displays are timed, too."""
+"""Share of the time above which the displays are timed, too."""
 
 
 class LoadMeter:
@@ -101,7 +101,8 @@ Key = tuple[str, str]
 """Id and subject, by which a finding is known again."""
 
 _looks = DiskThreads(8)
-"""For looks at the machine, which may wait for its network: files have threads of their own."""
+"""Threads for looks at the machine, which may wait for its network: files have threads of their
+own."""
 
 
 class DoctorFeature(Examiner, Feature):

@@ -17,7 +17,7 @@ from webviz.sources import Gate, Subscriber, Subscription
 CLOCK, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 MAX_TOPICS = 5
-"""Of joint states."""
+"""Largest number of topics of joint states."""
 
 
 class ClockWatch:
@@ -97,7 +97,7 @@ class ClockWatch:
 SERVICE = "rcl_interfaces/srv/GetParameters"
 PARAMETER = "use_sim_time"
 BOOL = 1
-"""Of rcl_interfaces/msg/ParameterType."""
+"""Constant of rcl_interfaces/msg/ParameterType."""
 AGAIN_S = 10.0
 """Time after which an answer is asked for again."""
 PATIENCE_S = 3.0
@@ -115,7 +115,7 @@ class SimTime:
     def __init__(self, gate: Gate) -> None:
         self._gate = gate
         self._asked: dict[str, tuple[float, Future[bytes]]] = {}
-        """By node: monotonic time in seconds, and the answer."""
+        """Answers by node, with the monotonic time in seconds."""
 
     def ask(self, nodes: Iterable[str]) -> Mapping[str, bool]:
         """Ask nodes by their full names; return what those that have answered follow."""

@@ -19,7 +19,7 @@ from webviz.engine.parts.part import Core
 from webviz.engine.parts.time import TimePart
 
 POINTS = 10_000
-"""Of a cloud that are looked at for its extent."""
+"""Number of points of a cloud that are looked at for its extent."""
 
 
 def observe(

@@ -26,12 +26,12 @@ ODOMETRY = "nav_msgs/msg/Odometry"
 FRESH_S = 1.0
 """Validity of a speed."""
 DIGITS = 2
-"""Of speeds, so that nothing is sent while nothing changes."""
+"""Number of digits of speeds, so that nothing is sent while nothing changes."""
 REMEDY = "Choose another topic of odometry in the panel Tools."
 
 
 DEPTH = 1
-"""Of velocity commands: only the newest counts."""
+"""Depth of the queue of velocity commands: only the newest counts."""
 
 
 class Driving(msgspec.Struct, frozen=True):

@@ -16,7 +16,8 @@ from webviz.server.channel.messages import Drive, DrivingReport
 FRESH_S = 0.5
 """A heartbeat counts if it answers a beat no older than this: the slowest link that can drive."""
 BEAT_S = 0.02
-"""Between two beats, less than between the heartbeats of a page, so that each brings a new one."""
+"""Pause in seconds between two beats, less than between the heartbeats of a page, so that each
+brings a new one."""
 
 SLOW = "The connection to webviz is too slow to drive."
 

@@ -17,15 +17,15 @@ from webviz.data.words import joined
 from webviz.sources import Goal, Missing
 
 SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
-"""Of action_msgs/msg/GoalStatus."""
+"""Constants of action_msgs/msg/GoalStatus."""
 REFUSED, UNKNOWN_GOAL = 1, 2
-"""Of action_msgs/srv/CancelGoal."""
+"""Constants of action_msgs/srv/CancelGoal."""
 SILENCE_S = 5.0
-"""Without feedback, after which pages say so; for a server to end a goal that is replaced, and one
-that is cancelled."""
+"""Time in seconds without feedback, after which pages say so; for a server to end a goal that is
+replaced, and one that is cancelled."""
 ANSWER_S = 2.0
-"""For the result of a goal that is cancelled, before the server is asked again, or that the server
-does not know any more."""
+"""Time in seconds for the result of a goal that is cancelled, before the server is asked again, or
+that the server does not know any more."""
 
 
 class GoalProgress(msgspec.Struct, frozen=True):

@@ -30,7 +30,7 @@ from webviz.page.dispatcher import Dispatcher, PageFeature
 MAX_DRAGS = 50
 """Drags other than moves, of a browser within a second; people make one or two."""
 FORGOTTEN_S = 10.0
-"""After which the drag of a silent browser is forgotten."""
+"""Time in seconds after which the drag of a silent browser is forgotten."""
 
 
 class _Hand(msgspec.Struct):
@@ -99,7 +99,8 @@ def _most(command: Any) -> int:
 
 
 SILENCE_S = 3.0
-"""After which a browser that holds a handle is taken to be gone; it reports every half second."""
+"""Time in seconds after which a browser that holds a handle is taken to be gone; it reports every
+half second."""
 
 
 MAX_HELP = 300
@@ -178,7 +179,7 @@ class HandlesFeature(PageFeature):
         self._found_of: object = None
         """Inputs of these."""
         self._shown: tuple[object, HandlesStore] | None = None
-        """Of which of these, and the store."""
+        """Source of the store, and the store."""
 
     def attach(self, dispatcher: Dispatcher) -> None:
         """Take the drags of pages."""

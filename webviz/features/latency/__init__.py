@@ -35,7 +35,7 @@ STAMPED_S = 3600.0
 
 STEPS = ("received", "ready", "decoded", "drawn", "sent")
 Times = tuple[int, int, int, int, int, int]
-"""Of a sample in ns: its stamp, and the end of each step."""
+"""Times of a sample in ns: its stamp, and the end of each step."""
 
 
 class LatencyStore(PageStore, frozen=True):

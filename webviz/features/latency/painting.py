@@ -19,7 +19,7 @@ MAX_OPEN = 32
 """Probes that may still be answered."""
 
 Spans = tuple[float, float, float]
-"""Of a sample in seconds: until it was sent, then acknowledged, then painted."""
+"""Durations of a sample in seconds: until it was sent, then acknowledged, then painted."""
 
 
 class Painting:
@@ -32,7 +32,8 @@ class Painting:
     def __init__(self, browsers: Browsers) -> None:
         self._browsers = browsers
         self._probes: dict[int, tuple[float, Mapping[str, float]]] = {}
-        """By number: when samples were sent, and how long each took until then, by display."""
+        """Times when samples were sent, and how long each took until then, by number and
+        display."""
         self._spans: dict[tuple[str, int], deque[Spans]] = {}
         self._probed_s = -EVERY_S
         self._bytes: Mapping[int, Mapping[str, int]] = {}

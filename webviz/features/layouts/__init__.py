@@ -37,7 +37,7 @@ TEMPLATES: Mapping[str, Layout] = {
         height=220,
     ),
 }
-"""By name. Panels are those of webviz, or types of panels, of which the first is meant."""
+"""Layouts by name. Panels are those of webviz, or types of panels, of which the first is meant."""
 
 
 class SavedLayout(msgspec.Struct, frozen=True):

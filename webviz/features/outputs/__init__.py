@@ -26,11 +26,11 @@ from webviz.page.dispatcher import Dispatcher, PageFeature
 BLOCK = 768 << 10
 """Bytes of a file that are sent at once: 1 MB in base64."""
 MAX_FILES = 1000
-"""Of a folder."""
+"""Largest number of files of a folder."""
 PAGES_ONLY = "Only pages read files in parts. Programs know the path."
 
 _disk = DiskThreads(4)
-"""For files that pages download."""
+"""Threads for files that pages download."""
 
 
 class WrittenFile(msgspec.Struct, frozen=True):

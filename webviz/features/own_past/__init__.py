@@ -20,7 +20,7 @@ from webviz.sources.recording.memory import MEMORY_OFF
 from webviz.sources.recording.moment import MomentHistory
 
 ABSENT_S = 30.0
-"""After which the viewer of a page ends that has gone, or never came."""
+"""Time in seconds after which the viewer of a page ends that has gone, or never came."""
 NOT_HERE = "This viewer shows no page a past of its own. Look back for everybody."
 NO_PAGE = "Only a page can look back on its own."
 FROZEN_ALREADY = "Only live topics are looked back on like that. Return to live first."

@@ -32,7 +32,7 @@ NOT_ASKED = (
 OWN_LINK = "Not done: this is your own link. Make another with `webviz token rotate`."
 
 MAX_THREADS = 4
-"""That change the file of tokens, or wait for it."""
+"""Largest number of threads that change the file of tokens, or wait for it."""
 
 Name = Annotated[str, msgspec.Meta(max_length=100)]
 Address = Annotated[str, msgspec.Meta(max_length=300, pattern="^https?://")]

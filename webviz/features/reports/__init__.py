@@ -35,7 +35,7 @@ from webviz.files.report import PrivateNames, ReportedPick
 from webviz.sources.slices import slice_around
 
 ROUNDS, ROUNDS_S = 3, 6.0
-"""Of the doctor, that a report waits for, and for how long."""
+"""Number of rounds of the doctor that a report waits for, and how long in seconds."""
 REST_S = 0.05
 
 

@@ -40,7 +40,7 @@ from webviz.sources.past_state import Event
 from webviz.sources.slices import Slice, WrittenSlice, write_slice
 
 MAX_BYTES = 500_000_000
-"""Of the slice."""
+"""Limit in bytes of the slice."""
 MAX_MOMENTS = 500
 MAX_PICTURE = 16 << 20
 MAX_PIXELS = 50_000_000

@@ -29,7 +29,7 @@ MAX_REQUESTS = 8
 REQUEST_S = 600.0
 """Time after which a request is dropped that nobody has answered."""
 PAUSE_S = 5.0
-"""Between two requests of one link."""
+"""Pause in seconds between two requests of one link."""
 DECLINED_S = 60.0
 """Time for which a link cannot ask again for what was declined."""
 ACTION = "/_action/"

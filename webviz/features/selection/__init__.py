@@ -25,7 +25,7 @@ from webviz.features.selection.statistics import Statistics, ValueRange
 MAX_SELECTED = 1000
 """Things that one browser selects."""
 MAX_LIVE = 50
-"""Of a selection whose values are kept up to date."""
+"""Largest number of selected things whose values are kept up to date."""
 EVERY_S = 0.5
 """Interval between updates."""
 MAX_PAST = 20

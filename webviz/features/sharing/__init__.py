@@ -34,12 +34,12 @@ from webviz.sources.slices import Slice, margins, slice_around, write_slice
 MAX_SLICE = 2_000_000_000
 """Bytes of the messages on the disk while the file is made."""
 ENDING_S = 5.0
-"""For an export that was stopped, when the viewer ends."""
+"""Time in seconds for an export that was stopped, when the viewer ends."""
 STEP = 100
 """Steps of the progress that is shown."""
 
 _exports = DiskThreads(8)
-"""For files that take minutes to be made."""
+"""Threads for files that take minutes to be made."""
 
 
 class _Running(msgspec.Struct):

@@ -19,7 +19,7 @@ from webviz.engine.parts.part import HostProgram
 PROGRAM = "webviz.shell.export.process"
 """Reads a line that says what to make, and writes lines of `_Progress`."""
 REST_S = 0.2
-"""Between two looks whether the file is still wanted."""
+"""Pause in seconds between two looks whether the file is still wanted."""
 ENDING_S = 5.0
 
 

@@ -29,9 +29,9 @@ from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.sources import Advertisement
 
 MAX_POINTS = 1000
-"""Of a gesture."""
+"""Largest number of points of a gesture."""
 MAX_NAMES = 20
-"""Of a tool, whose rights a page shows."""
+"""Largest number of names of a tool, whose rights a page shows."""
 
 
 class ToolStore(PageStore, frozen=True):

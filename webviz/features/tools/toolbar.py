@@ -15,7 +15,7 @@ from webviz.page.dispatcher import Dispatcher
 from webviz.server.channel.messages import Published, ShownTool, Tools
 
 MAX_GESTURES = 20
-"""Of a browser within a second; people make one or two."""
+"""Largest number of gestures of a browser within a second; people make one or two."""
 
 
 class ToolButton(msgspec.Struct, frozen=True):

@@ -86,7 +86,7 @@ def _note(buffer: TransformBuffer) -> None:
 
 
 ID = "whatif"
-"""Of the display with the handle."""
+"""Id of the display with the handle."""
 NO_SCAN = (
     "Not found: no laser scan of this frame is compared with a map. Add displays of both, and wait "
     "until they are drawn."
@@ -127,7 +127,7 @@ class WhatIfFeature(Feature):
         self._trial: FrameTrial | None = None
         self._browser: int | None = None
         self._shares: Mapping[str, float] = {}
-        """Of points on walls before the trial, by the ids of displays."""
+        """Shares of points on walls before the trial, by the ids of displays."""
 
     @property
     def _displays(self) -> DisplaysPart:

@@ -20,7 +20,7 @@ BACKUP = ".bak"
 LOCK_S = 0.5
 """Time to wait for another program saving in the same folder, which takes a millisecond."""
 PATIENCE_S = 20.0
-"""For the disk; a memory card that is busy takes seconds."""
+"""Time in seconds for the disk; a memory card that is busy takes seconds."""
 POLL_S = 0.01
 
 

@@ -16,7 +16,7 @@ MAX_BYTES = 2 << 20
 """Real files have less than 0.2 MB."""
 PATIENCE_S = 5.0
 SUFFIXES = (".yaml", ".yml", ".rviz")
-"""Of config files, in lower case."""
+"""Suffixes of config files, in lower case."""
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 

@@ -30,7 +30,7 @@ MEMORY_MB = 512
 
 _WORD = "[A-Za-z_*][A-Za-z0-9_*]*"
 Name = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^(~?/)?{_WORD}(/{_WORD})*$")]
-"""Of a topic, service or action; `*` stands for any characters."""
+"""Name of a topic, service or action; `*` stands for any characters."""
 
 
 class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

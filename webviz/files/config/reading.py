@@ -36,7 +36,8 @@ NO_TYPE = "a {} needs a `type`, such as `type: {}`."
 EXAMPLES = {"display": "Grid", "tool": "GoalPose", "panel": "QuietTopics"}
 NO_LIST = "expected a list, each entry with a `type`."
 MAX_DISPLAYS = 500
-"""Per config, including groups. Real ones have fewer than 100; with 1000 the page hangs."""
+"""Largest number of displays of a config, including groups. Real ones have fewer than 100; with
+1000 the page hangs."""
 MAX_PLUGINS = 100
 """Tools, or panels, per config."""
 _LISTS = ("displays", "tools", "panels")

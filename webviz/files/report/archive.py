@@ -32,7 +32,7 @@ MAX_DIRECTORY = 64 << 10
 END, END_64 = b"PK\x05\x06", b"PK\x06\x07"
 """Signatures of the end of a zip file, and of the extension that allows for larger tables."""
 END_BYTES = 22 + (1 << 16)
-"""Of the end with its comment."""
+"""Bytes of the end with its comment."""
 MAX_REASON = 200
 """Longest reason why a file is refused, in characters."""
 BLOCK = 1 << 20

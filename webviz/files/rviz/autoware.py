@@ -24,7 +24,7 @@ GROUPED: Mapping[str, Path] = {
     "Display Predicted Path Confidence": ("Path", "Path Confidence"),
     "Visualization Type": ("Path", "Path Resolution"),
 }
-"""By key of before: where its value is now."""
+"""New places of values, by their former key."""
 CLASSES, COLORS = (
     (
         *("UNKNOWN", "CAR", "TRUCK", "BUS", "TRAILER", "MOTORCYCLE", "CYCLIST", "PEDESTRIAN"),
@@ -35,7 +35,7 @@ CLASSES, COLORS = (
 """Groups of before with a colour and an opacity for each class, and the group of colours now."""
 POLYGONS, FILLING = "Polygon Type", "Object Fill Type"
 SHAPES = {"2d": "Skeleton 2D", "disable": "None"}
-"""By the polygon type of before: the shape now."""
+"""New shapes by the former polygon type."""
 
 
 def grouped(tree: Tree) -> Tree:

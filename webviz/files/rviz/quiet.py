@@ -51,7 +51,7 @@ AT_DEFAULT: dict[str, tuple[Any, ...]] = {
     "Download map": (False,),  # buttons of RTAB-Map's MapCloud
     "Download graph": (False,),
 }
-"""By key: RViz's default values, which need no support."""
+"""Default values of RViz that need no support, by key."""
 
 SCALARS = ("Temperature", "FluidPressure", "Illuminance", "RelativeHumidity")
 HIDDEN_OF_SCALARS = (

@@ -32,7 +32,7 @@ RENAMED: Mapping[str, tuple[str, Callable[[Any], Any]]] = {
     "Y std deviation": ("Covariance y", _variance),
     "Theta std deviation": ("Covariance yaw", _variance),
 }
-"""By ROS 1's key: that of ROS 2, and what its value becomes."""
+"""Keys of ROS 2, and what their values become, by the key of ROS 1."""
 
 
 def modern(tree: Tree, keys: frozenset[str]) -> Tree:

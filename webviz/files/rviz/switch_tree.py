@@ -11,7 +11,7 @@ from webviz.files.rviz.tree import Tree
 from webviz.files.rviz.values import Unfit
 
 OWN = "Value"
-"""Of a group, its own switch."""
+"""Key of a group's own switch."""
 MAX_LEVELS = 64
 
 

@@ -26,7 +26,8 @@ DURABILITY = {"volatile": "Volatile", "transient_local": "Transient Local"}
 RELIABLE, DURABLE = "Reliability Policy", "Durability Policy"
 POLICIES = ("Depth", "Filter size", "History Policy", RELIABLE, DURABLE)
 AUTOMATIC = "Automatic QoS"
-"""Of webviz alone: the policy that suits the type of a topic stands for `auto`. RViz ignores it."""
+"""Key of webviz alone: the policy that suits the type of a topic stands for `auto`. RViz ignores
+it."""
 TOPIC = "Topic"
 OLD_KEYS = ("Image Topic", "Marker Topic", "Octomap Topic")
 """ROS 1's keys for `TOPIC`."""
@@ -36,7 +37,7 @@ OF_DEPTH_CLOUD = {
 }
 """The topics of a DepthCloud, which has one policy for all, and the keys of their transports."""
 HINTS = {**dict.fromkeys(OLD_KEYS, "Transport Hint"), **OF_DEPTH_CLOUD}
-"""By topic, the key beside it for the transport of its images."""
+"""Keys for the transport of images, by the key of the topic beside them."""
 RAW = "raw"
 
 

@@ -28,9 +28,10 @@ UNUSED: Mapping[str, tuple[Any, str]] = {
     "Focal Shape Size": (0.05, "nothing marks the focal point"),
     "Focal Shape Fixed Size": (True, "nothing marks the focal point"),
 }
-"""By keys of views without a field: RViz's default, and why another value is not used."""
+"""RViz's default values of views, by their keys without a field, and why another value is not
+used."""
 AIDS = ("Focal Shape Size", "Focal Shape Fixed Size")
-"""Those of what RViz shows only while the view is turned; the scene is the same without it."""
+"""Keys of what RViz shows only while the view is turned; the scene is the same without it."""
 BOUNDS = {
     "distance": (0.01, 1e6),
     "pitch": (-1.5698, 1.5698),

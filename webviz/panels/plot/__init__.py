@@ -28,7 +28,7 @@ MAX_CURVES = 16
 MAX_AXES = 4
 """Axes at the right that one curve has for itself."""
 CLOSED_S = 1.5
-"""Without messages and calls of `show` for this long, nobody looked."""
+"""Time in seconds without messages and calls of `show` after which nobody has looked."""
 
 
 class Plot(Panel):

@@ -147,7 +147,7 @@ class Series:
         """Why the newest message has no value."""
         self.has_stamp = True
         self._types: MessageTypes = KNOWN if before is None else before._types
-        """Those that define the type of the newest message."""
+        """Types that define the type of the newest message."""
         self._path: MessagePath | None = None
         self._over_time: OverTime | None = None
         self._invalid = ""

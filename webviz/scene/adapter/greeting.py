@@ -19,7 +19,7 @@ from webviz.server.http.connections import Connection
 from webviz.server.sending.congestion import CongestionControl
 
 FAREWELL_S = 1.0
-"""For a page to close its connection when its visit is ended."""
+"""Time in seconds for a page to close its connection when its visit is ended."""
 BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
 

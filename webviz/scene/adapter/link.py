@@ -83,9 +83,9 @@ class Adapter:
         assert isinstance(server, Server), "not opened by open_server"
         self.server = server
         self.channel = server.channel
-        """To the modules of the pages."""
+        """Channel to the modules of the pages."""
         self.pictures = Pictures(server.channel)
-        """In panes beside the scene."""
+        """Pictures in panes beside the scene."""
         self.deferred = DeferredMessages()
         """Messages that are slow to make, and are sent later."""
         # What nobody watched was not drawn; its first browser does not wait for the next turn.

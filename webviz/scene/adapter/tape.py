@@ -12,7 +12,7 @@ from viser.infra._infra import ClientId
 from viser.infra._messages import Message
 
 TAPE = ClientId(-1)
-"""In place of a browser: messages that it has not read are kept."""
+"""Client in place of a browser: messages that it has not read are kept."""
 NOT_RECORDED = (wire.RunJavascriptMessage,)
 """Scripts, which a file does not need and should not contain."""
 

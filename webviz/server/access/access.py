@@ -21,7 +21,7 @@ from webviz.server.access.tokens import Token, TokenIndex, make, role_of
 log = logging.getLogger("webviz")
 
 CHECK_S = 1.0
-"""Between two looks at the tokens: a revoked one counts so much longer at most."""
+"""Pause in seconds between two looks at the tokens: a revoked one counts so much longer at most."""
 MAX_MISSED = 5
 """Looks in a row that the file does not respond to, upon which the log says so."""
 

@@ -16,7 +16,7 @@ from webviz.server.access.starting import is_local
 
 EVERY_INTERFACE = ("", "0.0.0.0", "::")
 MAX_BYTES = 1000
-"""Of a file with an address."""
+"""Limit in bytes of a file with an address."""
 
 log = logging.getLogger("webviz")
 

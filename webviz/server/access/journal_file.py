@@ -15,7 +15,7 @@ from webviz.api.errors import Error
 log = logging.getLogger("webviz")
 
 MAX_BYTES = 1 << 20
-"""Of the file, and of the one before, which is kept with the suffix .1."""
+"""Limit in bytes of the file, and of the one before, which is kept with the suffix .1."""
 MAX_WAITING = 1000
 """Lines that wait for a disk that does not respond; further ones are dropped and counted."""
 ENDING_S = 0.5

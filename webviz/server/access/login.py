@@ -16,7 +16,7 @@ MAX_FIELDS = 20
 """Parameters of an address; viser's page has two."""
 MAX_COOKIES = 50
 MAX_AGE_S = 30 * 24 * 3600
-"""For a browser to remember a token that does not expire earlier."""
+"""Time in seconds for which a browser remembers a token that does not expire earlier."""
 
 NO_LINK = (
     "This viewer requires a link. Ask its owner for one, or run `webviz token make` on the machine "

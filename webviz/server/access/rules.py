@@ -25,7 +25,8 @@ MESSAGES: Mapping[str, Role | None] = {
     "Vitals": Role.OPERATOR,
     "Watch": Role.WATCHER,
 }
-"""Of the messages of `webviz.server.channel.messages`; None if it is that of the command within."""
+"""Roles of the messages of `webviz.server.channel.messages`; None if it is that of the command
+within."""
 
 SCENE: Mapping[str, Role] = {
     "SceneNodeClickMessage": Role.OPERATOR,
@@ -36,8 +37,8 @@ SCENE: Mapping[str, Role] = {
     "TransformControlsUpdateMessage": Role.OPERATOR,
     "ViewerCameraMessage": Role.WATCHER,
 }
-"""Of the messages that viser's page sends of its own accord. Deliberately missing are those of
-viser's widgets, of which pages show none, and ShareUrlRequest, which opens a public tunnel."""
+"""Roles of the messages that viser's page sends of its own accord. Deliberately missing are those
+of viser's widgets, of which pages show none, and ShareUrlRequest, which opens a public tunnel."""
 
 UNKNOWN = "Not done: this page is out of date. Reload the page."
 REMEDY = "Ask the owner of this viewer for another link."

@@ -16,7 +16,7 @@ from webviz.server.access.roles import LINKS
 from webviz.server.access.tokens import Token, TokenError, make, role_of
 
 NAMES = {Role.WATCHER: "watcher", Role.OPERATOR: "operator", Role.OWNER: "owner"}
-"""Of the tokens that are made if there are none."""
+"""Names of the tokens that are made if there are none."""
 
 
 def is_local(host: str) -> bool:

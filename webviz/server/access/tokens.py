@@ -17,7 +17,7 @@ from webviz.api.roles import Role
 SECRET_BYTES = 24
 """192 bits, which make 32 characters of a link."""
 MIN_CHARACTERS, MAX_CHARACTERS = 22, 200
-"""Of a secret that was not made here; 22 of 64 different characters hold 128 bits."""
+"""Length of a secret that was not made here; 22 of 64 different characters hold 128 bits."""
 MAX_TOKENS = 100
 MAX_NAME = 40
 SECRET = re.compile(rf"[A-Za-z0-9_-]{{{MIN_CHARACTERS},{MAX_CHARACTERS}}}")

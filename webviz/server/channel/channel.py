@@ -42,9 +42,9 @@ from webviz.server.sending.congestion import CongestionControl, InFlightWindow
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
 FAREWELL_S = 1.0
-"""For a page to close its connection when its visit is ended."""
+"""Time in seconds for a page to close its connection when its visit is ended."""
 HELLO_S = 10.0
-"""For a page to say who it is."""
+"""Time in seconds for a page to say who it is."""
 
 M = TypeVar("M", bound=FromPage)
 _OWN: Any = Hello | Watch | Unwatch
@@ -60,7 +60,7 @@ class Websocket(Protocol):
     window: InFlightWindow
     """Bytes sent that may not have arrived."""
     latency: float
-    """Of the last ping in seconds, 0 before the first."""
+    """Delay of the last ping in seconds, 0 before the first."""
 
     @property
     def grant(self) -> Grant:

@@ -123,9 +123,9 @@ class ViewReport(FromPage, frozen=True):
 
 
 MAX_PANES = 64
-"""That one page may show."""
+"""Largest number of panes that one page may show."""
 Width = Annotated[int, msgspec.Meta(ge=0, le=1 << 16)]
-"""Of a picture on a screen in pixels."""
+"""Width of a picture on a screen in pixels."""
 DisplayId = Annotated[str, msgspec.Meta(max_length=200)]
 
 
@@ -212,7 +212,7 @@ class Published(ToPage, frozen=True):
 
 
 Share = Annotated[float, msgspec.Meta(ge=-1, le=1)]
-"""Of the highest speed of a vehicle along one axis."""
+"""Share of the highest speed of a vehicle along one axis."""
 
 
 class Drive(FromPage, frozen=True):

@@ -15,7 +15,7 @@ from webviz.server.sending.congestion import CongestionControl
 MAX_WAITING = 256
 """Messages that may wait for one page; a page that takes none of them has to connect again."""
 MAX_WAITING_BYTES = 32 << 20
-"""Of these messages together; the largest are configs to download."""
+"""Limit in bytes of these messages together; the largest are configs to download."""
 
 
 class PageQueue:

@@ -14,7 +14,7 @@ from pathlib import Path
 import msgspec
 
 NAME = "packed.js"
-"""Of the pack among the modules of a page."""
+"""Name of the pack among the modules of a page."""
 MAP = f"/webviz/{NAME}.map"
 """Path of its source map, below the page."""
 

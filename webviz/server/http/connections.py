@@ -44,7 +44,7 @@ costs some 10 µs, in which others wait, such as browsers that drive."""
 WHOLE = (Opcode.BINARY, Opcode.TEXT)
 """Frames that carry a whole message if they are final."""
 ANSWER_S = 0.05
-"""After which to look again whether a request is answered; most are at once."""
+"""Pause in seconds after which to look again whether a request is answered; most are at once."""
 FAREWELL = 1.0
 """Seconds for a browser to close its connection when the server stops."""
 
@@ -86,12 +86,12 @@ class ConnectionLimits:
         self.limit = max(4, min(MAX_BROWSERS, _descriptors() // 4))
         """Opening connections and browsers, each."""
         self._opening: dict[Connection, str] = {}
-        """With the network of each."""
+        """Connections that are being opened, with the network of each."""
         self._open: set[Connection] = set()
         self.spent = SpentRates()
-        """By the network and cookie of lost connections."""
+        """Rates that lost connections have spent, by their network and cookie."""
         self.back_off = BackOff()
-        """Of those whose connections were ended for what they sent, likewise."""
+        """Pauses of browsers whose connections were ended for what they sent, likewise."""
 
     def absence(self, newcomer: Newcomer) -> str:
         """Why a browser has to stay away for a while: a sentence, "" if it may connect."""
@@ -175,7 +175,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         self.wants_head = False
         """True if the request is for the headers only."""
         self.host = ""
-        """By what name the browser addresses this server, if it is allowed."""
+        """Name by which the browser addresses this server, if it is allowed."""
         self.address = ""
         """IP address of the browser, as far as it is known."""
         self.is_secure = False

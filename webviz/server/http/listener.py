@@ -41,7 +41,7 @@ class Handshakes:
 
     def __init__(self) -> None:
         self._sockets: dict[int, tuple[socket.socket, str]] = {}
-        """With the network of each."""
+        """Sockets with the network of each."""
 
     def begin(self, accepted: socket.socket, address: str) -> None:
         """Add a connection; if there are too many, one of the most crowded network ends."""
@@ -78,7 +78,7 @@ class Listener(socket.socket):
     _spare: int | None = None
     log: logging.Logger | None = None
     handshakes: Handshakes | None = None
-    """With TLS, the connections that have not become one of websockets yet."""
+    """Connections with TLS that have not become one of websockets yet."""
 
     def accept(self) -> tuple[socket.socket, tuple[Any, ...]]:
         """Accept a connection; raises BlockingIOError if there is none, or no descriptor left."""

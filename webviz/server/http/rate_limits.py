@@ -19,7 +19,7 @@ class RateLimit:
         self._rate = rate
         self._credit = burst / rate
         self.paid_until = -float("inf")
-        """When what was sent will have been paid for by the rate alone, in seconds."""
+        """Time in seconds when what was sent will have been paid for by the rate alone."""
         self._in_time = -float("inf")
 
     def resume(self, paid_until: float, now: float) -> None:

@@ -35,7 +35,8 @@ UNUSED_FEATURES = (
     "serial",
     "usb",
 )
-"""Of browsers; the page needs gamepads, full screen and the clipboard."""
+"""Features of browsers that the page does without; it needs gamepads, full screen and the
+clipboard."""
 HTTPS_ONLY_S = 30 * 86400
 """Duration of HSTS. It holds for all ports of a host, so it should pass one day."""
 

@@ -16,14 +16,14 @@ from webviz.server.http.connections import Connection
 from webviz.server.http.steps import HTML, Reply, Visit
 
 FOLDER = "/past/"
-"""Below which they are, each in a folder of its own."""
+"""Path below which they are, each in a folder of its own."""
 GONE = (
     b"<!doctype html><meta charset=utf-8><title>webviz</title><p>This look back has ended. "
     b"<a href=../../>Back to live</a></p>\n"
 )
 NOT_YOURS = b"Not allowed: this look back is that of another page.\n"
 BUFFER_BYTES = 1 << 16
-"""On the way through: more would wait here, where newer messages cannot overtake."""
+"""Bytes on the way through: more would wait here, where newer messages cannot overtake."""
 FORWARDED = ("X-Forwarded-For", "X-Forwarded-Host", "X-Forwarded-Proto", "Forwarded")
 
 

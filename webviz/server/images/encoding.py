@@ -16,7 +16,7 @@ from webviz.data.images import decoding, jpeg, open_compressed
 LONGEST_EDGE = 16_384
 """Pixels along an edge that browsers can show."""
 QUALITY = 75
-"""Of pictures that are encoded once more."""
+"""Quality of pictures that are encoded once more."""
 
 
 class File(NamedTuple):

@@ -106,12 +106,12 @@ class Pictures:
         self._shown: dict[str, _Shown] = {}
         self._looks: dict[int, dict[str, _Look]] = {}
         self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
-        """By display and factor, of the newest picture: pages of one size share it."""
+        """Pictures by display and factor, made of the newest: pages of one size share it."""
         self._reading: dict[int, Future[None]] = {}
         self._pages: set[int] = set()
-        """That have panes, whether or not they show them."""
+        """Pages that have panes, whether or not they show them."""
         self._seen: dict[str, float] = {}
-        """When pages were found not to show a display any more."""
+        """Times when pages were found not to show a display any more."""
         self._number = 0
         channel.on(ShowPictures, self._look)
         channel.on(FramesShown, self._advance)

@@ -28,7 +28,7 @@ FIRST_WINDOW = 1 << 16
 MIN_WINDOW = 1 << 13
 MAX_WINDOW = 1 << 26
 MEMORY_S = 2.0
-"""For how long a rate of delivery counts."""
+"""Time in seconds for which a rate of delivery counts."""
 GOOD = 0.75
 """Share of the rates of delivery that the assumed one exceeds: pauses of a busy browser, and pongs
 that come late, do not make a link slow."""
@@ -80,9 +80,9 @@ class CongestionControl:
         self.rate: float | None = limit
         """Bytes a second that the link takes; None while it is fast enough, or not known."""
         self.every = 1
-        """Of how many points of clouds one is sent."""
+        """Number of points of clouds of which one is sent."""
         self.shrink = 1
-        """By how much images are made smaller because of the link."""
+        """Factor by which images are made smaller because of the link."""
         self.in_flight = 0
         """Bytes that were sent and may not have arrived."""
         self._window = float(FIRST_WINDOW if limit is None else limit * QUEUE_S)

@@ -19,13 +19,13 @@ BULK_BYTES = 1 << 15
 
 LEAST_BULK_BYTES = 1 << 11
 BULK_S = 0.02
-"""On slow links those are large, too, that take so long: scans."""
+"""Time in seconds; on slow links, what takes so long is large, too: scans."""
 
 WINDOW_BYTES = 1 << 19
 """Large messages per frame. At 1 MB/s, they delay the next frame by half a second."""
 
 TURNS = 3
-"""In one of so many frames the largest messages come first, in the others scans."""
+"""Number of frames of which one begins with the largest messages, the others with scans."""
 
 SLOTS = {0, 1, 2, 3}
 """Messages of which pieces may be under way at once, so that clouds go on beside a map."""
@@ -99,7 +99,7 @@ class Outbox:
         self._thin: dict[object, int] = {}
         """Clouds of which the browser has only some of the points."""
         self._whole: set[object] = set()
-        """Those that wait to be sent whole."""
+        """Messages that wait to be sent whole."""
         self._rested = 0.0
 
     @property

@@ -15,7 +15,7 @@ PATIENCE_S = 0.3
 MOVING_S = 2.0
 """Clouds that did not change for so long do not count: they are sent whole once there is time."""
 MAX_RATIO = 1 << 12
-"""At least one of so many points is sent."""
+"""Largest number of points of which one is sent."""
 
 
 def is_cloud(updates: dict[str, Any]) -> bool:

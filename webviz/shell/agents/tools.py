@@ -24,9 +24,9 @@ from webviz.shell.app.viewer import Viewer
 from webviz.shell.pictures.browser import Pixels
 
 ATTENTION_S = 60.0
-"""After a call; so long the viewer draws and examines without a browser."""
+"""Time in seconds after a call for which the viewer draws and examines without a browser."""
 SETTLING_S = 3.0
-"""After the start: so long other nodes are still being discovered."""
+"""Time in seconds after the start for which other nodes are still being discovered."""
 LOADING_S = 20.0
 MESSAGE_S = 3.0
 """Time for a message to arrive."""

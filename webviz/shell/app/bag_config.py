@@ -21,13 +21,13 @@ from webviz.sources.bag.ghost import BASES, ROOT
 from webviz.sources.bag.history import BagHistory
 
 PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory", "NavSatFix")
-"""Of several displays that fit a topic."""
+"""Types of displays that are preferred if several fit a topic."""
 ON_REQUEST = {"CameraInfo", "Effort", "Text"}
 """Displays that repeat what others show, or that fit everything."""
 JOINTS = "RobotModel", "joint_states_topic"
 """Only moves the links of a model, which comes from the description."""
 MAX_ENABLED = 4
-"""Of each type; further ones are in the list, switched off."""
+"""Largest number of displays of a type; further ones are in the list, switched off."""
 MAX_DISPLAYS = 100
 FRAMES = ("map", "odom", "world")
 """Fixed frames by preference; without them, the root of the largest tree."""

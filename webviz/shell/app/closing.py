@@ -12,9 +12,10 @@ from collections.abc import Callable
 log = logging.getLogger("webviz")
 
 CLOSING_S, ALL_CLOSING_S = 1.5, 2.0
-"""For a part to close, and for all: a program that is asked to end has three seconds."""
+"""Time in seconds for a part to close, and for all: a program that is asked to end has three
+seconds."""
 LAST_S = 0.1
-"""For each part that remains after that."""
+"""Time in seconds for each part that remains after that."""
 
 
 class Closing:

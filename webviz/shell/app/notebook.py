@@ -18,7 +18,7 @@ OF_NOTEBOOKS = ("http://localhost:*", "http://127.0.0.1:*", "vscode-webview:")
 """Origins of notebooks of this machine."""
 ORIGIN = re.compile(r"[a-z][a-z0-9+.-]*:(//[\w.*:\[\]-]+)?")
 HEIGHT = 600
-"""Of the page in pixels."""
+"""Height of the page in pixels."""
 
 
 def embedders(wanted: Sequence[str] | None) -> Sequence[str]:

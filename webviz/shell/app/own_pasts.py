@@ -31,7 +31,8 @@ log = logging.getLogger("webviz")
 
 MAX_PASTS = 4
 MAX_PAGES = 4
-"""Of each: a page that is loaded again comes before the one before it has gone."""
+"""Largest number of pages of one: a page that is loaded again comes before the one before it has
+gone."""
 TOO_MANY = (
     f"{MAX_PASTS} pages look back on their own already, which is the limit. Look back for "
     "everybody, or wait until one of them returns to live."
@@ -52,7 +53,7 @@ class OwnPasts:
         self._front = front
         self._lock = threading.Lock()
         self._loops: dict[str, FrameLoop | None] = {}
-        """By name; None while it is being opened."""
+        """Loops by name; None while it is being opened."""
         self._threads: list[threading.Thread] = []
         self._is_closed = False
 

@@ -46,10 +46,11 @@ if TYPE_CHECKING:
 log = logging.getLogger("webviz")
 
 ROUNDS = 3
-"""Of checks: two in a row make a finding, and one may be under way."""
+"""Number of rounds of checks: two in a row make a finding, and one may be under way."""
 REST_S = 0.1
 PATIENCE_S = 30.0
-"""For a command in the frame loop; opening a config of hundreds of displays takes seconds."""
+"""Time in seconds for a command in the frame loop; opening a config of hundreds of displays takes
+seconds."""
 BUSY = f"The viewer has been busy for {PATIENCE_S:g} s. Try again later."
 
 T = TypeVar("T")

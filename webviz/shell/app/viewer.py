@@ -38,7 +38,7 @@ from webviz.shell.app.running import Running
 from webviz.shell.app.time_controls import TimeControls
 
 PATIENCE_S = 5.0
-"""For a tool to report the result of a gesture."""
+"""Time in seconds for a tool to report the result of a gesture."""
 
 
 class ToolHandle:

@@ -36,7 +36,7 @@ OPENING = {
     **dict.fromkeys(("doctor", "export", "report", "screenshot", "test"), (CONFIG, BAG)),
     "frames": (BAG,),
 }
-"""Those options that a command has, by its name."""
+"""Options that a command has, by its name."""
 KINDS = {int: "a whole number", float: "a number"}
 
 app = App(

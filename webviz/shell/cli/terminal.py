@@ -17,7 +17,7 @@ from webviz.data.names import escaped, readable
 OUTPUT, ERRORS = 1, 2
 """File descriptors."""
 STREAMS = ("stdin", "stdout", "stderr")
-"""By file descriptor."""
+"""Names of the streams in the order of their file descriptors."""
 
 
 def claim_output() -> None:

@@ -39,7 +39,7 @@ from webviz.sources.steps import steps_of
 DISCOVERY_S = 4.3
 """Time for the graph, which is read every two seconds: the first reading may be half of it."""
 DISCOVERY_SHARE = 0.5
-"""Of the time that is left, if there is less."""
+"""Share of the time that is left, if there is less."""
 REST_S = 0.05
 SLICE_S = 0.1
 """Time for checks in one turn of a live examination, so that it ends in time."""
@@ -53,7 +53,7 @@ ROUNDS = 2
 MAP = "/map"
 """A robot that publishes it is to be seen in its frame, so that a missing localisation is found."""
 FRAME_S = 1.5
-"""After which the fixed frame is chosen by the transforms that have arrived."""
+"""Time in seconds after which the fixed frame is chosen by the transforms that have arrived."""
 FIRST_S = 2.0
 """Time that a display needs for its first messages, so that none is added later than that."""
 STEP_NS = 100_000_000
@@ -61,7 +61,8 @@ STEP_NS = 100_000_000
 LASTING_S = 3.0
 """Findings in a bag that are gone after less, before its end, are left out."""
 OF_SILENCE = {StoppedPublisher.id}
-"""Those of what has not come yet, which the end of a bag does not show, such as that of a slice."""
+"""Findings of what has not come yet, which the end of a bag does not show, such as that of a
+slice."""
 
 OF_MACHINE = {CauseLevel.MACHINE, CauseLevel.NETWORK, CauseLevel.MIDDLEWARE}
 """Levels of causes that can be told without a source of messages."""

@@ -24,7 +24,7 @@ from webviz.shell.doctor import peer_program
 from webviz.shell.doctor.peer_program import MARK, Agent
 
 BOOT = "import sys; i = sys.stdin; exec(i.read(int(i.readline()))); serve()"
-"""Of the other Python: runs the program that follows on its standard input."""
+"""Start of the other Python: runs the program that follows on its standard input."""
 PYTHON = f"exec python3 -u -c {shlex.quote(BOOT)}"
 GROUP = "239.255.0.1"
 """Multicast group of DDS."""
@@ -41,7 +41,8 @@ MAX_ADDRESSES = 8
 MAX_LINE = 4 << 20
 
 LONGEST_S = 60.0
-"""For the whole examination, after which a peer that does not answer is given up."""
+"""Time in seconds for the whole examination, after which a peer that does not answer is given
+up."""
 
 T = TypeVar("T")
 Progress = Callable[[str, float], object]

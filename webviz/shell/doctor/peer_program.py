@@ -24,7 +24,7 @@ MARK = "@webviz "
 PATIENCE_S = 120.0
 PREFIXES = ("ROS", "RMW", "FASTRTPS", "FASTDDS", "CYCLONEDDS", "ZENOH", "AMENT_PREFIX_PATH")
 LIBRARIES = ("librmw", "libfastrtps", "libfastdds", "libddsc", "libzenoh")
-"""Of programs that are ROS nodes."""
+"""Libraries of programs that are ROS nodes."""
 MAX_NODES = 64
 MAX_HEARD = 1000
 MAX_TEXT = 4096
@@ -33,7 +33,8 @@ TIMES = 3
 SIOCGIFCONF, SIOCGIFFLAGS, SIOCGIFNETMASK, SIOCGIFMTU = 0x8912, 0x8913, 0x891B, 0x8921
 IFF_UP, IFF_LOOPBACK, IFF_MULTICAST = 0x1, 0x8, 0x1000
 IP_MTU_DISCOVER, IP_PMTUDISC_PROBE = 10, 3
-"""Of Linux: the packets may not be fragmented, and what is known of the path is ignored."""
+"""Options of Linux's sockets: the packets may not be fragmented, and what is known of the path is
+ignored."""
 
 
 class Agent:

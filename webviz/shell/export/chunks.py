@@ -16,7 +16,8 @@ from webviz.server.sending.outbox import BULK_BYTES
 from webviz.server.sending.thinning import chosen
 
 LEVEL = 9
-"""Of compression: a twentieth smaller than the usual one, for half a second a minute of a run."""
+"""Level of compression: a twentieth smaller than the usual one, for half a second a minute of a
+run."""
 SHARED_BYTES = 1 << 10
 """Columns of values from this size on have the numbers of their items, each of which a chunk has
 once: compression does not see as far back as the trail with one point less."""

@@ -42,7 +42,7 @@ POLICY = "; ".join(
         "form-action 'none'",
     )
 )
-"""As the server's (`webviz.server.http.requests.add_policy`), without any server."""
+"""Policy like the server's (`webviz.server.http.requests.add_policy`), without any server."""
 HEAD = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
 END = b"</body>"
 LINE = 3 << 18

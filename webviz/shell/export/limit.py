@@ -23,9 +23,9 @@ class SizeLimit(msgspec.Struct):
     bytes: int
     duration_s: float
     every: int = 1
-    """Of how many points of clouds one is kept."""
+    """Number of points of clouds of which one is kept."""
     skip: int = 1
-    """Of how many versions of a large cloud, map, mesh or picture one is kept."""
+    """Number of versions of a large cloud, map, mesh or picture of which one is kept."""
     _thinned: list[tuple[float, float, int, int]] = msgspec.field(
         default_factory=list[tuple[float, float, int, int]]
     )

@@ -80,11 +80,11 @@ class PaneTape:
 
 
 SLOW_S = 1.0
-"""Between two records of the stores that change all the time."""
+"""Pause in seconds between two records of the stores that change all the time."""
 REFRESHES = 3
-"""Until stores are there that parts make only once they are watched."""
+"""Number of refreshes until stores are there that parts make only once they are watched."""
 PATIENCE_S = 60.0
-"""For one frame: the first may have to load the meshes of a robot."""
+"""Time in seconds for one frame: the first may have to load the meshes of a robot."""
 
 
 MAX_FOLLOWED = 64

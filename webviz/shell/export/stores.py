@@ -29,9 +29,9 @@ SHARED = (
 )
 """Stores that pages watch all the time."""
 SLOW = ("frame_tree", "topics", "traffic", "transforms")
-"""Those whose values change all the time, although nobody reads them so quickly."""
+"""Stores whose values change all the time, although nobody reads them so quickly."""
 VALUES = "values:"
-"""Before the id of a display: details of what it draws. Viewers send those of a selection."""
+"""Prefix of the id of a display: details of what it draws. Viewers send those of a selection."""
 OF_EACH_DISPLAY = ("properties", "rate", "statuses")
 OF_EACH_PANEL = ("panel", "panel_properties")
 OF_EACH_TOOL = ("tool",)

@@ -73,7 +73,8 @@ class Tape:
         self.index: list[ChunkIndex] = []
         self._messages = self._values = self._pictures = 0
         self._numbers: dict[int, int] = {}
-        """Of the messages that the scene consists of, by the numbers that the server gave them."""
+        """Numbers of the messages that the scene consists of, by the numbers that the server gave
+        them."""
         self._stores: dict[tuple[str, str], int] = {}
         self._known: dict[bytes, int] = {}
         self._panes: dict[str, list[int]] = {}

@@ -17,7 +17,7 @@ Kind = Literal["display", "tool", "panel", "check"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 TEMPLATES = Path(__file__).with_name("templates")
 NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
-"""Of a ROS package: REP 144."""
+"""Name of a ROS package: REP 144."""
 LONGEST = 60
 
 

@@ -67,9 +67,9 @@ HOW_TO_GET_ONE = (
 )
 
 PATIENCE_S = 60.0
-"""For what a page does at once on a machine that does nothing else."""
+"""Time in seconds for what a page does at once on a machine that does nothing else."""
 SHORTEST_PAUSE_S, LONGEST_PAUSE_S = 0.05, 0.25
-"""Between two looks at a page for a state that is waited for."""
+"""Pauses in seconds between two looks at a page for a state that is waited for."""
 SMALLEST, LARGEST = 16, 8192
 """Edges of a picture in pixels; browsers without a GPU cannot draw larger ones."""
 

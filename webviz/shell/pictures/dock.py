@@ -14,7 +14,7 @@ from webviz.shell.pictures import browser
 from webviz.shell.pictures.readouts import written
 
 SHARE = 0.3
-"""Of the width of a picture."""
+"""Share of the width of a picture."""
 GAP = 2
 """Pixels between panes."""
 BACKGROUND = (28, 31, 36)

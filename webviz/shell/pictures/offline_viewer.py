@@ -27,8 +27,8 @@ from webviz.sources.player import Player
 
 LOOK_S = 0.05
 LOADING_S = 60.0
-"""For displays that load when the time is over: files and threads end by themselves, and what a
-busy machine takes for meshes says nothing about the data."""
+"""Time in seconds for displays that load when the time is over: files and threads end by
+themselves, and what a busy machine takes for meshes says nothing about the data."""
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,9 @@ from webviz.sources.player import Player
 
 REST_S = 0.05
 COMPARED_S = 1.5
-"""In which displays are compared with each other, also while time stands still."""
+"""Time in seconds in which displays are compared with each other, also while time stands still."""
 SETTLED_S = 30.0
-"""For displays that load, such as the meshes of a robot."""
+"""Time in seconds for displays that load, such as the meshes of a robot."""
 
 Progress = Callable[[str, float], object]
 """Called with what is done and the share of it that is."""

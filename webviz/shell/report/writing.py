@@ -18,7 +18,7 @@ from webviz.shell.pictures import files as picture_files
 Check = Literal["finding", "status", "picture"]
 SEVERE = ("warn", "error", "warning")
 SIZE = (640, 480)
-"""Of the picture, in pixels."""
+"""Size of the picture, in pixels."""
 MAX_TESTS = 20
 HEAD = '''\
 """Fails as long as the fault of a bug report exists; written by `webviz test`.

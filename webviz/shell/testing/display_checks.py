@@ -217,10 +217,10 @@ def _plain(hint: Any) -> Any:
 
 
 MAX_CASES = 128
-"""Of one message; of twice as many every other one is tried."""
+"""Largest number of cases of one message; of twice as many every other one is tried."""
 LOADING_S = 60.0
 PATIENCE_S = "webviz.engine.pipeline.input_subscription.PATIENCE_S"
-"""After which a status names a missing transform; with extreme values at once."""
+"""Time in seconds after which a status names a missing transform; with extreme values at once."""
 
 Benches = Callable[[Display], DisplayBench]
 

@@ -85,9 +85,10 @@ class OpenedPanel:
 __tracebackhide__ = True  # failures are shown where the test calls
 
 LOADING_S = 60.0
-"""For the meshes of large robots."""
+"""Time in seconds for the meshes of large robots."""
 ROUNDS = 4
-"""Of the doctor: two in a row make a finding, one may be under way, and messages may wait."""
+"""Number of rounds of the doctor: two in a row make a finding, one may be under way, and messages
+may wait."""
 
 
 class Harness(Shown):

@@ -28,7 +28,7 @@ T = TypeVar("T")
 PATIENCE_S = 30.0
 """Far more than DDS and the frame loop need on an idle machine."""
 LOADING_S = 60.0
-"""For the meshes of large robots."""
+"""Time in seconds for the meshes of large robots."""
 
 
 class _WatchedInbox(Inbox):

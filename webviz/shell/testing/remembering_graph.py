@@ -37,7 +37,7 @@ class RememberingGraph:
     published: list[tuple[Advertisement, Any]] = field(default_factory=list)
     advertised: Collection[Advertisement] = ()
     responses: dict[str, bytes] = field(default_factory=dict)
-    """By service, encoded."""
+    """Responses by service, encoded."""
     requests: list[tuple[str, str, bytes]] = field(default_factory=list)
     """Service, type and encoded request."""
     goals: list[SentGoal] = field(default_factory=list)

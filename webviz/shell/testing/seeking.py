@@ -28,7 +28,7 @@ from webviz.sources.player import Player
 MAX_TURNS = 100_000
 _DURATION = re.compile(r"\b\d+(\.\d+)? (ms|s|min|h)\b")
 LOOK_S = 0.02
-"""For slow work of displays, per turn."""
+"""Time in seconds for slow work of displays, per turn."""
 
 
 class BagViewer:

@@ -24,9 +24,9 @@ class HandFedSource:
     now: int = 100 * SECOND
     """ROS time in ns."""
     bridges: Sequence[Bridge] = ()
-    """To bridges."""
+    """Connections to bridges."""
     clock_count: int | None = None
-    """Of messages on /clock; None is wall time."""
+    """Number of messages on /clock; None is wall time."""
     _told: dict[str, Offer] = field(default_factory=dict)
 
     def put(self, topic: str, type_name: str, cdr: bytes) -> None:

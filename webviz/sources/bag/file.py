@@ -123,7 +123,8 @@ class BagFile:
         self.skipped: dict[str, str] = {}
         """Why the messages of a topic cannot be read, by topic."""
         self._misfits: dict[str, str] = {}
-        """By topic, why the last of its messages that could not be converted was left out."""
+        """Reason why the last message of a topic that could not be converted was left out, by
+        topic."""
         self._look()
 
     @property

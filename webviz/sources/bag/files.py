@@ -22,7 +22,7 @@ class MergedFile(Protocol):
     """One of several files that are played together; see `BagFile`."""
 
     name: str
-    """For people, "" for messages that are in no file."""
+    """Name for people, "" for messages that are in no file."""
     start_ns: int
     end_ns: int
     channels: tuple[BagChannel, ...]

@@ -36,10 +36,10 @@ FLOAT = "std_msgs/msg/Float64"
 BASES = ("base_link", "base_footprint", "base")
 """Frames of a robot that tell where it is, by preference."""
 SAMPLE_S = 0.1
-"""Between two poses of a path."""
+"""Time in seconds between two poses of a path."""
 MAX_SAMPLES = 200_000
 STEP_S = 0.5
-"""Of the offsets that are tried."""
+"""Step in seconds of the offsets that are tried."""
 MAX_STEPS = 20_000
 OVERLAP = 0.3
 """Share of the shorter path that must lie beside the other for an offset to count."""

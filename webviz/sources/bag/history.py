@@ -27,18 +27,19 @@ from webviz.sources.past_state import Event
 from webviz.sources.source import Subscription
 
 MAX_MESSAGES = 1_000_000
-"""Of which the frames are looked at: nine hours at 30 a second."""
+"""Largest number of messages whose frames are looked at: nine hours at 30 a second."""
 WAIT_S = 1.0
-"""For the first seek; a bag of ten minutes takes some tenths."""
+"""Time in seconds for the first seek; a bag of ten minutes takes some tenths."""
 MAX_STATIC = 10_000
 """Messages of static transforms."""
 AT_ONCE = 50_000
 """Messages that are read without a pause."""
 YIELD_AFTER, YIELD_S = 500, 0.02
-"""Of a longer bag: messages between two pauses, so that the frame loop has the interpreter."""
+"""Number of messages of a longer bag between two pauses, and their length, so that the frame loop
+has the interpreter."""
 
 _readers = DiskThreads(16)
-"""For whole bags, which take longer than other files."""
+"""Threads for whole bags, which take longer than other files."""
 
 
 class TransformRuns:
@@ -93,8 +94,8 @@ class TransformRuns:
 MAX_READ = 1000
 """Messages of each kind."""
 READ_NS = 60_000_000_000
-"""Of the beginning of a bag. To learn that a db3 file has no more messages of a rare topic would
-take reading all of it."""
+"""Time in ns at the beginning of a bag that is read. To learn that a db3 file has no more messages
+of a rare topic would take reading all of it."""
 
 
 def links_of(file: BagFiles) -> Sequence[tuple[str, str]]:
@@ -134,7 +135,7 @@ def _first(file: BagFiles, channels: Collection[BagChannel]) -> Iterator[Recorde
 
 
 NONE = "the bag has none"
-"""When the first message of a topic comes."""
+"""Answer when a topic has no message to come."""
 NOT_COUNTED: Mapping[str, Sequence[int]] = {}
 CLOCK_CHANNEL = HistoryChannel("/clock", CLOCK)
 

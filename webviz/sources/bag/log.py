@@ -34,7 +34,7 @@ MAX_NAME, MAX_TEXT = 100, 200
 MAX_BYTES = 256 << 20
 """Bytes of messages on /rosout that are read."""
 PATIENCE_S = 10.0
-"""For reading them."""
+"""Time in seconds for reading them."""
 
 
 class BagLog(msgspec.Struct, frozen=True):

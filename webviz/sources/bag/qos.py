@@ -13,10 +13,10 @@ from webviz.api.offer import Durability, Publisher, Reliability
 from webviz.data.plain_yaml import YamlLimits, read_plain, write
 
 LIMITS = YamlLimits(values=5000, characters=1 << 16, depth=8)
-"""Of the text of one topic."""
+"""Limits of the text of one topic."""
 MAX_PROFILES = 100
 MAX_DEPTH = 1 << 31
-"""Of a queue, which is a number of 32 bits in DDS."""
+"""Largest depth of a queue, which is a number of 32 bits in DDS."""
 
 
 class BagProfile(NamedTuple):

@@ -10,7 +10,7 @@ FEWEST = 5
 BEHIND_S = 0.5
 """Delay beyond the least one, from which on a link is behind."""
 WINDOW_S = 60.0
-"""After which the least delay is forgotten, since clocks drift."""
+"""Time in seconds after which the least delay is forgotten, since clocks drift."""
 
 
 class LinkDelay:
@@ -53,7 +53,7 @@ class TopicBacklog:
         self.dropped = 0
         """Messages that were dropped, estimated."""
         self.delay_s = 0.0
-        """Of the newest message."""
+        """Delay in seconds of the newest message."""
 
     def note(self, stamp_s: float, delay_s: float) -> None:
         """Note a message and its delay."""

@@ -19,15 +19,15 @@ from webviz.sources.bridge.talking import first_of, read, write
 from webviz.sources.source import Subscription
 
 TICK_S = 0.05
-"""Between two decisions."""
+"""Pause in seconds between two decisions."""
 BURST_S = 0.1
-"""Of bytes that may be read at once after a rest."""
+"""Time in seconds whose bytes may be read at once after a rest."""
 QUEUE_S = 0.05
-"""By which what is on its way may delay small messages."""
+"""Delay in seconds by which what is on its way may delay small messages."""
 MIN_BUFFER, MAX_BUFFER = 4 << 10, 4 << 20
 SEGMENTS = 4
-"""Of TCP that the receive buffer holds at least: with less, TCP sends a part at each of its
-timeouts, five a second. Those of loopback have 65 kB."""
+"""Number of TCP segments that the receive buffer holds at least: with less, TCP sends a part at
+each of its timeouts, five a second. Those of loopback have 65 kB."""
 RETRY_S = 2.0
 
 
@@ -38,7 +38,7 @@ class BulkConnection(BridgeConnection):
     """
 
     pacer = Pacer()
-    """That decides on the rate."""
+    """Pacer that decides on the rate."""
     _allowed = 0.0
     _allowed_s = 0.0
     _buffer = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from webviz.sources.bridge.backlog import LinkDelay
 
 TOLERANCE_NS = 50_000_000
-"""Below it, differences may come from the link, which is not equally fast both ways."""
+"""Difference in ns below which it may come from the link, which is not equally fast both ways."""
 
 
 class BridgeClock:

@@ -11,7 +11,8 @@ from websockets.protocol import Event
 from webviz.sources.graph import NotConnected
 
 STALLED_S = 1.0
-"""Without any byte from the bridge, after which nothing is sent: it would arrive late."""
+"""Time in seconds without any byte from the bridge, after which nothing is sent: it would arrive
+late."""
 MAX_UNSENT = 64 << 10
 """Bytes that may wait to be sent, beyond which nothing is."""
 MAX_PARTS = 10_000

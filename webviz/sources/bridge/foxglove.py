@@ -72,7 +72,7 @@ class FoxgloveSession:
         self._wishes: Mapping[str, Subscription] = {}
         self._lines = ChannelSubscriptions()
         self._foreign: dict[str, wire.ServerChannel] = {}
-        """By topic: subscribed channels of Foxglove's own schemas."""
+        """Subscribed channels of Foxglove's own schemas, by topic."""
         self._to_advertise: frozenset[Advertisement] = frozenset()
         self._advertised: dict[Advertisement, int] = {}
         self._pending: dict[int, Future[bytes]] = {}

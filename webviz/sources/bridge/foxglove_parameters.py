@@ -52,9 +52,9 @@ class ParameterServices:
         self._changed = changed
         self._is_told = False
         self._locked: dict[str, str] = {}
-        """By full name: why a parameter cannot be set, "" if it can."""
+        """Reason why a parameter cannot be set, "" if it can, by full name."""
         self._pending: dict[str, tuple[Future[bytes], str, Take]] = {}
-        """By id of a request: its answer, with the type and a function that makes it."""
+        """Answers by the id of their request, with the type and a function that makes each."""
         self._telling: asyncio.TimerHandle | None = None
         self._next_id = 1
         self.known = BridgeParameters()

@@ -21,7 +21,8 @@ class LinkHealth:
         self._delay = LinkDelay()
         self._backlogs: dict[str, TopicBacklog] = {}
         self._drops: dict[str, tuple[int, int, float]] = {}
-        """By topic: dropped before those to report, dropped in all, and when that grew."""
+        """Numbers of messages dropped before those to report, dropped in all, and when that grew,
+        by topic."""
 
     def note_malformed(self, problem: str) -> None:
         """Note a frame that is not of the protocol."""

@@ -39,19 +39,19 @@ STREAMED_TYPES = frozenset(("nav_msgs/msg/OccupancyGrid", "map_msgs/msg/Occupanc
 FIRST_RATE, MIN_RATE, MAX_RATE = 250e3, 4e3, 100e6
 """Bytes a second of large topics: at first, at least, and from which on nothing limits them."""
 STEP_S = 0.2
-"""Between two changes of the rate."""
+"""Step in seconds between two changes of the rate."""
 HIGH_S, LOW_S = 0.07, 0.04
 """Delay of small messages from which the rate falls, and below which it grows."""
 DOWN, UP = 0.7, 1.1
 SAMPLES_S = 0.5
-"""For how long the delay of a message counts. The least of these is that of the queue, as in CoDel
-(RFC 8289): lost packets and busy computers delay some messages, a queue all."""
+"""Time in seconds for which the delay of a message counts. The least of these is that of the queue,
+as in CoDel (RFC 8289): lost packets and busy computers delay some messages, a queue all."""
 SPAN_S = 0.3
-"""Of delays, before they count: after a stall, many come at one moment."""
+"""Time in seconds that delays span before they count: after a stall, many come at one moment."""
 STUCK_S = 1.0
-"""With late messages but few large ones, after which a topic moves to these."""
+"""Time in seconds with late messages but few large ones, after which a topic moves to these."""
 FIRST_STAY_S, MAX_STAY_S = 10.0, 300.0
-"""For how long it stays there at least; twice as long the next time."""
+"""Time in seconds for which it stays there at least; twice as long the next time."""
 BEHIND_S = 1.0
 """Delay of large messages from which their topics take turns."""
 SPARE = 0.6
@@ -60,18 +60,18 @@ FIRST_WINDOW_S = 0.1
 CHUNK = 8 << 10
 """Bytes that may come at once, at a low rate after a long time."""
 WIDER, NARROWER = 1.5, 0.8
-"""Of a window that brought nothing, and of one that brought several messages."""
+"""Factors of a window that brought nothing, and of one that brought several messages."""
 RARE_S = 1.0
-"""Between two messages of a topic that stays subscribed to."""
+"""Time in seconds between two messages of a topic that stays subscribed to."""
 UNKNOWN_SIZE, EMPTY_TURN = 256 << 10, 64 << 10
 """Bytes that count for a message before the first one, and for a turn without any."""
 LEAST_TRANSFER_S = 0.002
 ANSWER_S = 0.5
 """Besides a round trip, after which a subscription has brought nothing."""
 SHOWN_S = 2.0
-"""For which topics take turns before that is reported."""
+"""Time in seconds for which topics take turns before that is reported."""
 RECENT_S = 5.0
-"""For which rates are measured."""
+"""Time in seconds for which rates are measured."""
 
 
 def is_thinnable(wish: Subscription) -> bool:
@@ -140,7 +140,7 @@ class Pacer:
         self._heard_s = 0.0
         """The last byte of a large topic."""
         self._burst: tuple[float, int, float] = 0.0, 0, 0.0
-        """Since the last large message: moment of the first byte, bytes, and the rate then."""
+        """Moment of the first byte, bytes, and the rate then, since the last large message."""
         self.trip_s = 0.0
         """The shortest round trip."""
         self._thin: dict[str, bool] = {}

@@ -20,7 +20,7 @@ from webviz.sources.inbox import MAX_TOTAL
 
 REMEDY = "Start the bridge on the robot, or check host and port."
 OPEN_TIMEOUT_S = 10.0
-"""For the connection, TLS and the handshake."""
+"""Time in seconds for the connection, TLS and the handshake."""
 
 
 def explain(error: BaseException, address: Address) -> Problem:

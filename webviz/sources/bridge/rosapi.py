@@ -12,11 +12,11 @@ from webviz.sources.bridge import rosbridge_wire as wire
 from webviz.sources.names import MAX_NAME, is_full_name
 
 POLL_S = 2.0
-"""Between two readings of the topics, of which rosbridge tells no changes."""
+"""Pause in seconds between two readings of the topics, of which rosbridge tells no changes."""
 NODES_EACH = 5
 """Readings of the topics for one of the nodes."""
 LATE_S = 6.0
-"""Without an answer of rosapi, after which that is said."""
+"""Time in seconds without an answer of rosapi, after which that is said."""
 MAX_TOPICS = 10_000
 MAX_TEXTS = 256 << 20
 """Characters of all definitions."""
@@ -26,7 +26,7 @@ START = (
     "starts rosapi, too."
 )
 NO_DEFINITION = "# failed to get full definition text"
-"""In place of a definition that rosapi does not have."""
+"""Text in place of a definition that rosapi does not have."""
 
 Take = Callable[[wire.RosbridgeResponse], object]
 
@@ -47,7 +47,7 @@ class Rosapi:
         self._call = call
         self._changed = changed
         self.types: Mapping[str, str] = {}
-        """By topic."""
+        """Types by topic."""
         self.texts: dict[str, str] = {}
         """Definitions by type, "" if rosapi has none."""
         self.nodes: tuple[str, ...] = ()

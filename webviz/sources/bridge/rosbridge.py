@@ -67,14 +67,14 @@ class RosbridgeSession:
         self._wishes: Mapping[str, Subscription] = {}
         self._resting: Collection[str] = ()
         self._lines: dict[str, tuple[str, int]] = {}
-        """By subscribed topic: its type, and `asked` of the wish."""
+        """Types, and `asked` of the wish, by subscribed topic."""
         self._throttles: dict[str, int] = {}
-        """By subscribed topic: the least time between two messages, in ms."""
+        """Least time between two messages in ms, by subscribed topic."""
         self._advertised: set[Advertisement] = set()
         self._asked: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
-        """By id of a call of rosapi."""
+        """Calls of rosapi by their id."""
         self._pending: dict[str, tuple[Future[bytes], str, str]] = {}
-        """By id of a call: its answer, the service, and the type of the response."""
+        """Answers by the id of their call, the service, and the type of the response."""
         self._fragments = wire.Fragments()
         self._statuses: dict[str, None] = {}
         self._next_id = 1

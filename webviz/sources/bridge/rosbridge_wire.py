@@ -17,7 +17,7 @@ from webviz.sources.bridge.session import WireError
 
 MISSING = "rosbridge needs the package cbor2. Install it with `pip install 'ros-webviz[rosbridge]'`"
 MAX_DEPTH = 8
-"""Of the containers of a CBOR frame; those of rosbridge have two."""
+"""Largest depth of the containers of a CBOR frame; those of rosbridge have two."""
 MAX_FRAGMENTED = 4
 """Texts that may arrive in fragments at the same time."""
 PART_SIZE = 100

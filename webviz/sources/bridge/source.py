@@ -37,11 +37,12 @@ log = logging.getLogger("webviz")
 
 PING_S = 0.4
 BROKEN_S = 10.0
-"""Without any byte, after which the connection is opened anew."""
+"""Time in seconds without any byte, after which the connection is opened anew."""
 FIRST_RETRY_S = 0.5
 LAST_RETRY_S = 10.0
 LOOK_S = 0.1
-"""Between two readings of what a bridge offers, which may change for each of many topics."""
+"""Pause in seconds between two readings of what a bridge offers, which may change for each of many
+topics."""
 REMARK_S = 1.0
 INBOX_LIMIT = 1000
 TF_LIMIT = 20_000

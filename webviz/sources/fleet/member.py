@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 E = TypeVar("E", Publisher, Endpoint)
 RobotAddress = Address | ZenohAddress
-"""Of a bridge, or of a Zenoh router."""
+"""Address of a bridge, or of a Zenoh router."""
 
 
 class MemberInbox(Inbox):
@@ -46,7 +46,7 @@ class MemberInbox(Inbox):
         self._outer = outer
         self._moved = moved
         self._open: dict[str, int] = {}
-        """By topic of the inbox of all: its limit."""
+        """Limits by topic of the inbox of all."""
         self._is_left = False
         self.arrived = shared.arrived
 

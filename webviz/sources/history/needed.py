@@ -19,7 +19,8 @@ RECENT_NS = 15_000_000_000
 BEFORE_NS, AFTER_NS = 10_000_000_000, 3_000_000_000
 """An older message is placed with the transforms of this time around it."""
 AROUND_NS = 1_000_000_000
-"""Before and after the last transform of a frame, others are read, which place it."""
+"""Time in ns before and after the last transform of a frame in which others are read, which place
+it."""
 NEAR_ENDS_NS = 50_000_000
 """Ends of transforms that are closer to each other count as one."""
 MAX_OLD = 100
@@ -55,11 +56,12 @@ class NeededMessages:
             self._channels.setdefault(channel.topic, []).append(channel)
         self._starts: dict[str, int] = {}
         self._whole_from: dict[str, int] = {}
-        """By topic, from when on all messages are needed; of those before, the following."""
+        """Time from which on all messages of a topic are needed, by topic; of those before, the
+        following."""
         self._chosen: dict[str, set[int]] = {}
         """Stamps by topic."""
         self._ends: dict[str, Sequence[int]] = {}
-        """By frame, when those above it had their last transforms."""
+        """Times when the frames above had their last transforms, by frame."""
 
     def messages(self) -> Iterator[Recorded]:
         """Return the messages by time of recording, those at the time included."""

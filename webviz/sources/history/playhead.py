@@ -38,9 +38,9 @@ class Playhead:
         self._time = history.time()
         self._subscriptions: Mapping[str, Subscription] = {}
         self._types: dict[str, str] = {}
-        """By topic, of the subscriptions."""
+        """Types of the subscriptions, by topic."""
         self._types_of_seek: dict[str, str] = {}
-        """By topic, of subscriptions whose past the last seek delivers."""
+        """Types of subscriptions whose past the last seek delivers, by topic."""
         self._earlier = EarlierMessages(history)
         self._next: Recorded | None = None
         self._upcoming: Iterator[Recorded] = iter(())

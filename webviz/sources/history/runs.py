@@ -9,7 +9,7 @@ from webviz.data.messages import MessageError, TFMessage, decode
 from webviz.data.recordings.latched import TF
 
 GAP_NS = 1_000_000_000
-"""Without a transform, after which those of a frame count as ended."""
+"""Time in ns without a transform after which those of a frame count as ended."""
 MAX_ENDS = 200
 """Newest ends that a seek reads."""
 

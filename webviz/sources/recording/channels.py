@@ -29,11 +29,11 @@ class Channels:
         self._offers = offers
         self._known: dict[str, RecordedChannel] = {}
         self._types: dict[str, MessageTypes] = {}
-        """Those that define them."""
+        """Types that define them."""
         self._seen: Mapping[str, Offer] = {}
         self._latched: dict[str, int] = {}
         self._last: dict[str, Offer] = {}
-        """Of topics that had publishers."""
+        """Last graph of topics that had publishers."""
 
     def __len__(self) -> int:
         return len(self._known)

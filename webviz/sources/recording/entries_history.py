@@ -39,7 +39,7 @@ class EntriesHistory:
         self.recorded_channels = recorded_channels
         self.clock = clock
         self._entries: list[Entry] = []
-        """In the order of arrival."""
+        """Entries in the order of arrival."""
         self._by_topic: dict[str, list[Numbered]] = {}
         self._runs = Runs()
         self._offers: tuple[object, object, Mapping[str, Offer]] = None, None, {}

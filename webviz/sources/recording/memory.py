@@ -47,7 +47,7 @@ class MemoryHistory(EntriesHistory):
         self._held: list[Entry] = []
         self._subscriptions: Mapping[str, Subscription] = {}
         self._passed_on: Mapping[str, Subscription] = {}
-        """Those of the live source."""
+        """Subscriptions of the live source."""
 
     def hold(self) -> bool:
         """Keep what is in memory now until `release`; whether that is anything."""

@@ -19,7 +19,7 @@ from webviz.sources.inbox import Raw
 OVERHEAD = 200
 """Bytes of a message besides its own."""
 MAX_PINNED_BYTES = 128_000_000
-"""Of all messages that are kept beyond the bounds; the newest is, however large."""
+"""Limit in bytes of all messages that are kept beyond the bounds; the newest is, however large."""
 
 LARGE_BYTES = 64 << 10
 """Size of a message from which it belongs to the large ones: clouds, images and maps."""

@@ -15,7 +15,7 @@ from webviz.sources.recording.channels import Channels
 from webviz.sources.recording.recent import OVERHEAD, Entry
 
 MAX_BYTES = 256 << 20
-"""Of messages that wait for the disk."""
+"""Limit in bytes of messages that wait for the disk."""
 FLUSH_S = 1.0
 """Time between two writes: what is lost at most if the program is killed."""
 UNKNOWN_S = 5.0

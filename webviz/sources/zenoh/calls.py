@@ -17,7 +17,7 @@ from webviz.sources.zenoh.engine import directly
 
 MAX_CALLS = 100
 FOREVER_S = 10 * 365 * 86400.0
-"""For results of goals."""
+"""Time in seconds for results of goals."""
 
 
 @dataclass(eq=False)

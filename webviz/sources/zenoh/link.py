@@ -22,9 +22,11 @@ FIRST_RETRY_S = 0.5
 LAST_RETRY_S = 10.0
 PROBE_S = 0.5
 STALLED_S = 2.0
-"""Without an answer of the router, after which nothing is sent: it would arrive late."""
+"""Time in seconds without an answer of the router, after which nothing is sent: it would arrive
+late."""
 BROKEN_S = 15.0
-"""Without one, after which the session is opened anew; the engine gives a link up after ten."""
+"""Time in seconds without one, after which the session is opened anew; the engine gives a link up
+after ten."""
 CLOSE_S = 3.0
 TURN_S = 0.1
 NEVER = Problem("The Zenoh router is not connected yet.", "Wait a moment.")

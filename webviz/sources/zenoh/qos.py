@@ -16,7 +16,7 @@ from webviz.api.offer import Durability, Reliability
 
 DEFAULT_DEPTH = 42
 MAX_DIGITS = 20
-"""Of a number of a token: an unsigned one of 64 bits."""
+"""Largest number of a token: an unsigned one of 64 bits."""
 MAX_DEADLINE_S = 1e9
 """Longer ones are those that ROS writes for none."""
 _RELIABILITY: dict[str, Reliability] = {

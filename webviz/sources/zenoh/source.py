@@ -46,7 +46,7 @@ CLOCK, CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 MAX_FEEDBACK = 100
 """Actions whose feedback is received."""
 LOOK_S = 0.1
-"""Between two readings of the graph, which may change for each of many tokens."""
+"""Pause in seconds between two readings of the graph, which may change for each of many tokens."""
 
 
 class ZenohSource:

@@ -89,7 +89,7 @@ def graph_pattern(domain: int) -> str:
 
 
 BRIDGED_PATTERN = f"@/*/{ADMIN}/**"
-"""Of all tokens of zenoh-bridge-ros2dds."""
+"""Pattern of all tokens of zenoh-bridge-ros2dds."""
 
 
 def read_token(token: str) -> GraphEntity | None:

@@ -11,7 +11,8 @@ from side_by_side.scenes import Scene
 from side_by_side.watchers import FileWatcher, FoxgloveWatcher, ViserWatcher, Watcher
 
 Watch = Callable[[int, Path, Scene | None, bool], Watcher]
-"""From the port, the folder of the run, what shall be recognised, and whether it stops reading."""
+"""Function of the port, the folder of the run, what shall be recognised, and whether it stops
+reading."""
 
 
 @dataclass(frozen=True)

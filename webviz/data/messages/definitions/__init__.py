@@ -14,7 +14,7 @@ FILES = {
     "/".join((*path.parts[-3:-1], path.stem)): path
     for path in sorted(Path(__file__).parent.glob("*/*/*.*"))
 }
-"""Of messages, services and actions, by the full name of their type."""
+"""Files of messages, services and actions, by the full name of their type."""
 
 
 def text(type_name: str) -> str:
