@@ -1,6 +1,7 @@
 """Mood of docstrings: modules, classes and values get a noun phrase, functions the imperative."""
 
 import ast
+import itertools
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,9 +15,9 @@ DOCSTRING = re.compile(rf'^[ \t]*r?"""\s*{WORDS}', re.MULTILINE)
 COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*{WORDS}", re.MULTILINE)
 """A comment of JSDoc, of a module or at its top level."""
 PAGE = "webviz/page/web"
-PREPOSITIONS = frozenset(
-    "Above After As At Before Below Between Beyond By For From In Of On Over Per Since Through To "
-    "Under Until When Within Without That Those".split()
+PREPOSITION = re.compile(
+    r"\s*(Above|After|As|At|Before|Below|Between|Beyond|By|For|From|In|Of|On|Over|Per|Since|Through"
+    r"|To|Under|Until|When|Within|Without|That|Those)\b"
 )
 ROOMS = ("webviz", "displays", "urdf", "sim")
 ARGUMENTS = re.compile(r"^Args:\n((?: +.*\n?|\n)+)", re.MULTILINE)
@@ -97,11 +98,13 @@ def values(path: Path) -> Iterator[str]:
     """Return the docstrings of fields and constants."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         body = getattr(node, "body", None)
-        pairs = zip(body, body[1:], strict=False) if isinstance(body, list) else ()
+        pairs = itertools.pairwise(body) if isinstance(body, list) else ()
         for value, text in pairs:
-            if isinstance(value, ast.Assign | ast.AnnAssign) and isinstance(text, ast.Expr):
-                if isinstance(text.value, ast.Constant) and isinstance(text.value.value, str):
-                    yield text.value.value
+            match value, text:
+                case ast.Assign() | ast.AnnAssign(), ast.Expr(ast.Constant(str(words))):
+                    yield words
+                case _:
+                    pass
 
 
 @pytest.mark.parametrize("folder", [*ROOMS, "tests"])
@@ -110,6 +113,6 @@ def test_docstrings_of_values_begin_with_their_noun(folder: str) -> None:
         f"{path.name}: {text[:60]}"
         for path in sorted((ROOT / folder).rglob("*.py"))
         for text in values(path)
-        if text.split()[0].strip(",;:") in PREPOSITIONS
+        if PREPOSITION.match(text)
     ]
     assert found == []
