@@ -22,10 +22,10 @@ LICENCES = (ROOT / "THIRD_PARTY.md").read_text(encoding="utf-8")
 CLIENT = Path(viser.__file__).parent / "client"
 OPTIONAL = {"rclpy", "xacro", "pytest", "_pytest"}
 """Modules of ROS and of those who write tests; imported where they are used."""
-EXTRAS = "pictures", "outdoors", "foxglove", "rosbridge", "mcp"
-"""Whose modules are imported where they are used."""
+EXTRAS = "pictures", "outdoors", "foxglove", "rosbridge", "zenoh", "mcp"
+"""Extras whose modules are imported where they are used."""
 REQUIREMENT = {"google": "protobuf", "PIL": "pillow", "collada": "pycollada", "re2": "google_re2"}
-REQUIREMENT["ruamel"] = "ruamel.yaml"
+REQUIREMENT |= {"ruamel": "ruamel.yaml", "zenoh": "eclipse_zenoh"}
 """Names of modules that are named otherwise."""
 IMPORT = re.compile(r"^ *(?:import (\w+)|from (\w+)[\w.]* import )", re.MULTILINE)
 OF_ROS = re.compile(r"(\w+_(msgs|srvs|interfaces|runtime_py)|rcl_\w+|rpyutils)$")

@@ -23,7 +23,7 @@ GOAL = "geometry_msgs/msg/PoseStamped"
 @pytest.fixture(scope="module")
 def source() -> Iterator[ZenohSource]:
     with zenoh_simulator([], Stop()) as endpoint:
-        source = ZenohSource(zenoh_address(endpoint, {}))
+        source = ZenohSource(zenoh_address(endpoint))
         until(lambda: "/scan" in source.offers())
         yield source
         source.close()

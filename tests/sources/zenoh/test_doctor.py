@@ -25,8 +25,11 @@ def test_the_doctor_finds_that_there_is_no_router(capsys: pytest.CaptureFixture[
 
 
 def test_the_doctor_finds_the_domain_of_the_robot(
-    router: ZenohRouter, capsys: pytest.CaptureFixture[str]
+    router: ZenohRouter,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "0")
     robot = ZenohRobot(router.endpoint, domain=7)
     causes: dict[str, tuple[str, str]] = {}
 

@@ -9,7 +9,7 @@ from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
 
-class ZenohGraph(Check):
+class ZenohNetwork(Check):
     """Zenoh network that does not fit the viewer.
 
     The router is connected, but the ROS domain has no nodes while another has some, publishers have
