@@ -9,10 +9,10 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from webviz.features.what_if.pinned import pin, unpin
 
 from webviz.data.transforms import TransformBuffer, TransformException
 from webviz.data.transforms.cache import TimeCache
+from webviz.features.what_if import pin, unpin
 
 S = 1_000_000_000
 CACHE_NS = 10 * S
