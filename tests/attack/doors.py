@@ -112,7 +112,12 @@ DOORS: Mapping[str, Door] = {
     "the simulator's topics": Door(("simulator",), ("sim/webviz_sim/*",)),
     "other machines": Door(
         (),
-        ("webviz/shell/doctor/*", "webviz/engine/machine/*", "webviz/features/doctor/*"),
+        (
+            "webviz/data/machine_memory.py",
+            "webviz/shell/doctor/*",
+            "webviz/engine/machine/*",
+            "webviz/features/doctor/*",
+        ),
         "The kernel, and a machine that the user logs in to (tests/checks/test_peer.py).",
     ),
     "the user's own files": Door(

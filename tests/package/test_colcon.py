@@ -53,7 +53,7 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
     assert "usage: webviz-sim" in shown
 
     test = [*build[:-1], "test", "--return-code-on-test-failure"]
-    one = ["--pytest-args", "tests/test_rotations.py"]
+    one = ["--pytest-args", "tests/data/test_rotations.py"]
     outcome = run([*test, "--paths", str(ROOT), *folders, *one])
     assert "Finished <<< webviz" in outcome, outcome
     assert 'failures="0"' in (tmp_path / "build/webviz/pytest.xml").read_text()
