@@ -23,7 +23,7 @@ from webviz.shell.cli.options import ConfigOptions
 from webviz_sim.world import load_world
 
 NEEDS = {
-    "With an apt ROS 2": r"\bros2 ",
+    "With an apt ROS 2": r"\bros2 |/opt/ros/",
     "With the network": r"\b(pip|pipx|uvx) ",
     "With another machine": r"\bssh|ROS_(AUTOMATIC|STATIC|DISCOVERY)|fastdds discovery",
     "With Podman": r"\bpodman ",
