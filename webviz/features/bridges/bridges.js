@@ -37,7 +37,7 @@ function card([name, problem, remark]) {
   setText(element, state ? `${sanitized(name)} · ${state}` : sanitized(name));
   set(element, {
     "data-state": problem ? "down" : remark ? "strained" : "up",
-    "data-tip": problem ? sanitized(problem) : "Connected over a bridge",
+    "data-tip": problem ? sanitized(problem) : "Live topics come from here",
   });
   return element;
 }
