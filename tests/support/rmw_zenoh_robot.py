@@ -33,7 +33,7 @@ def main() -> None:
 
     def end() -> None:
         sys.stdin.read()
-        rclpy.try_shutdown()
+        rclpy.shutdown()
 
     threading.Thread(target=end, daemon=True).start()
     with contextlib.suppress(ExternalShutdownException):

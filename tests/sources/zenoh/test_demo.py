@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from webviz.sources import Advertisement, Subscription
 from webviz.sources.zenoh.address import zenoh_address
 from webviz.sources.zenoh.source import ZenohSource
 
+BASE = "base_link"
 GOAL = "geometry_msgs/msg/PoseStamped"
 
 
@@ -72,3 +74,46 @@ def test_it_goes_where_it_is_sent(source: ZenohSource) -> None:
         return any(abs(end.x + 5.0) < 0.3 and abs(end.y - 1.0) < 0.3 for end in ends)
 
     until(leads_there)
+
+
+def test_it_drives_as_it_is_steered(source: ZenohSource) -> None:
+    odometry, twist = "nav_msgs/msg/Odometry", "geometry_msgs/msg/Twist"
+    source.want({"/odom": Subscription(odometry, Topic("/odom"))})
+    wheel = Advertisement("/cmd_vel", twist)
+    source.graph.advertise([wheel]).result(5)
+    until(lambda: source.inbox.drain().get("/odom"))
+    turning = encode(twist, {"angular": {"z": 0.8}})
+
+    def turns() -> bool:
+        assert source.graph.publish(wheel, turning).result(5) == 1
+        arrived = source.inbox.drain().get("/odom", ())
+        speeds = [decode(odometry, raw.cdr).twist.twist for raw in arrived]
+        return any(abs(each.angular.z - 0.8) < 0.1 and each.linear.x < 0.05 for each in speeds)
+
+    until(turns)
+
+
+def test_it_is_placed_by_an_estimate_of_its_pose(source: ZenohSource) -> None:
+    type, tf = "geometry_msgs/msg/PoseWithCovarianceStamped", "tf2_msgs/msg/TFMessage"
+    source.want({"/tf": Subscription(tf, Topic("/tf"))})
+    estimate = Advertisement("/initialpose", type)
+    source.graph.advertise([estimate]).result(5)
+    pose = {"position": {"x": -5.0, "y": 1.0}, "orientation": {"w": 1.0}}
+    values = {"header": {"frame_id": "map"}, "pose": {"pose": pose}}
+    assert source.graph.publish(estimate, encode(type, values)).result(5) == 1
+    places: dict[str, tuple[float, float, float]] = {}
+
+    def is_there() -> bool:
+        for raw in source.inbox.drain().get("/tf", ()):
+            for each in decode(tf, raw.cdr).transforms:
+                x, y, _ = each.translation
+                *_, z, w = each.rotation
+                places[each.child] = x, y, 2 * math.atan2(z, w)
+        if not {"odom", BASE} <= places.keys():
+            return False
+        (x, y, yaw), (ahead, left, _) = places["odom"], places[BASE]
+        x += ahead * math.cos(yaw) - left * math.sin(yaw)
+        y += ahead * math.sin(yaw) + left * math.cos(yaw)
+        return math.hypot(x + 5.0, y - 1.0) < 0.5
+
+    until(is_there)
