@@ -10,13 +10,21 @@ from tests.page.conftest import Tab
 from webviz.commands import SetProperty
 
 MOUNT = """async (id) => {
-  const { properties } = await import("/webviz/panels/displays/properties.js");
+  const { globalOptions, propertiesOf } = await import("/webviz/panels/displays/properties.js");
+  const { root } = await import("/webviz/signals.js");
   const bench = document.createElement("div");
   bench.id = "bench";
   bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
   document.querySelector("#webviz").append(bench);
-  window.ended = properties(bench, id);
+  window.ended = root((end) => {
+    bench.append(...(id ? propertiesOf(id) : globalOptions()));
+    return () => {
+      end();
+      bench.replaceChildren();
+    };
+  });
 }"""
+"""Show the properties of a display, or of the whole viewer for \"\"."""
 
 
 class Pane:

@@ -35,7 +35,7 @@ def taken(
 ) -> Callable[[str, Any], None]:
     """Compare a panel with its picture: `taken(name, panel, fill, **state)`."""
     # A picture that takes longer would end the curves.
-    monkeypatch.setattr("webviz.panels.plot.panel.CLOSED_S", 60.0)
+    monkeypatch.setattr("webviz.panels.plot.CLOSED_S", 60.0)
     root = request.config.rootpath
     update = bool(request.config.getoption("--update-pictures"))
     references = ReferenceImages(

@@ -431,14 +431,7 @@ def test_untrusted_names_are_text(pane: Pane, make_row: MakeRow) -> None:
 @pytest.fixture
 def options(tab: Tab) -> Iterator[Pane]:
     tab.page.evaluate("localStorage.clear()")
-    module = "import('/webviz/panels/displays/properties.js')"
-    tab.page.evaluate(f"""async () => {{
-      const bench = document.createElement("div");
-      bench.id = "bench";
-      bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";
-      document.querySelector("#webviz").append(bench);
-      window.ended = (await {module}).properties(bench, "");
-    }}""")
+    tab.page.evaluate(MOUNT, "")
     pane = Pane(tab)
     tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate", "Robots"])
     yield pane

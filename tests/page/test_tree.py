@@ -506,3 +506,20 @@ def test_after_a_lost_connection_names_say_what_was_selected_and_folded(
     tree.wait_for_names("new", "g", "b")
     assert tree.selected() == ["b"]
     tree.fold("g")
+
+
+def test_cards_and_properties_leave_rows_in_sight(
+    loop: Loop, open_tab: Callable[..., Tab], make_row: MakeRow
+) -> None:
+    tab = open_tab(height=400)
+    loop.show(make_row("a", "A"))
+    tab.page.get_by_role("treeitem", name="Global Options", exact=True).click()
+    tab.page.get_by_role("region", name="Properties", exact=True).wait_for()
+    tab.page.evaluate(
+        """() => {
+          const card = document.createElement("div");
+          card.style = "flex: none; height: 120px";
+          document.querySelector(".wv-tree").before(card);
+        }"""
+    )
+    tab.page.get_by_role("treeitem", name="A", exact=True).click(timeout=5000)

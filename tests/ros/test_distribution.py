@@ -39,7 +39,9 @@ from webviz.sources import Subscription
 EMPTY = "std_srvs/srv/Empty_Request"
 ROOT = Path(__file__).parents[2]
 PLACE = "webviz/ros/distribution.py"
-NAMES = re.compile(r"\b(foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling)\b|ROS2_[A-Z]", re.I)
+NAMES = re.compile(
+    r"\b(foxy|galactic|humble|iron|jazzy|kilted|lyrical|rolling)\b|(?-i:ROS2_[A-Z])", re.I
+)
 NAMED = {
     PLACE,
     "webviz/checks/peer/distributions.py",  # of whose nodes others know nothing

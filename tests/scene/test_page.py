@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from pages import let_keys_in
 
 from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points
 
@@ -64,11 +65,12 @@ def test_removed_nodes_leave_nothing_in_the_page(view: Any) -> None:
     assert resources(view)["geometries"] <= before["geometries"] + 2  # viser's shared shapes
 
 
-def test_the_camera_does_not_walk_while_somebody_saves(view: Any) -> None:
+def test_the_camera_does_not_walk_by_keys_with_ctrl(view: Any) -> None:
+    let_keys_in(view)
     before = view.evaluate("() => window.__viserMutable.camera.position.toArray()")
-    view.tab.keyboard.press("Control+s", delay=300)
+    view.tab.keyboard.press("Control+e", delay=300)
     view.draw()
     assert view.evaluate("() => window.__viserMutable.camera.position.toArray()") == before
-    view.tab.keyboard.press("s", delay=300)
+    view.tab.keyboard.press("e", delay=300)
     view.draw()
     assert view.evaluate("() => window.__viserMutable.camera.position.toArray()") != before

@@ -14,7 +14,7 @@ import PIL.Image
 import playwright.sync_api as playwright
 import pytest
 from numpy.typing import NDArray
-from pages import let_mouse_in
+from pages import let_keys_in, let_mouse_in
 from viser_internals import cut_connections
 
 from tests.scene import conftest
@@ -410,6 +410,7 @@ def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
     )
     assert -2.0 <= point[0] <= -1.0
     assert point[2] > 0.01  # the box, not the ground below it
+    let_keys_in(window)
     window.tab.keyboard.press("f")
     window.wait_for(lambda: math.dist(window.pixel_of(*point), MIDDLE) < 2.0, "in the middle")
 

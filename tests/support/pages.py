@@ -22,6 +22,18 @@ def let_mouse_in(page: Page) -> None:
     page.evaluate(VISIBLE)
 
 
+KEYS = """async () => {
+  const { install } = await import("/webviz/commands.js");
+  if (!window.hasKeys) install();
+  window.hasKeys = true;
+}"""
+
+
+def let_keys_in(page: Page) -> None:
+    """Have a scene without panels listen to keys, as it does beside them."""
+    page.evaluate(KEYS)
+
+
 @contextmanager
 def open_pages(
     browser: playwright.Browser,

@@ -77,7 +77,13 @@ STATE = State(
 )
 
 
-def moment(state: State = STATE, *, with_names: bool = False, source: str = "run") -> ReportMoment:
+def moment(
+    state: State = STATE,
+    *,
+    warned: Sequence[Event] = (),
+    with_names: bool = False,
+    source: str = "run",
+) -> ReportMoment:
     names = PrivateNames(state.offers, () if with_names else ("alice", "alicexyz"), "/root")
     return ReportMoment(
         TextSlice(),
@@ -86,7 +92,7 @@ def moment(state: State = STATE, *, with_names: bool = False, source: str = "run
         state.statuses,
         state.offers,
         state.logged,
-        state.warned,
+        warned,
         Config(),
         "map\n",
         len(state.frames),
@@ -121,7 +127,7 @@ def written(tmp_path: Path) -> Callable[..., BugReport]:
 def test_the_statuses_have_the_times_at_which_they_began(written: Callable[..., BugReport]) -> None:
     times = START_NS + 10**9, START_NS + 2 * 10**9
     warned = [Event(at_ns, Level.WARN, "Plan", "alice lost it") for at_ns in times]
-    report = written(moment(replace(STATE, warned=warned), with_names=True))
+    report = written(moment(warned=warned, with_names=True))
     assert [(each.display, each.status, each.level, each.text) for each in report.statuses] == [
         ("", "Bag", "ok", "All is well"),
         ("Plan", "Map", "warn", "alice lost it"),
@@ -154,8 +160,9 @@ def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugRepo
             for number in range(first, first + count)
         ]
 
-    state = replace(STATE, logged=events("driver", 0, 300), warned=events("Plan", 100, 250))
-    report = written(moment(state), doctor(events=events("TF001", 349, 1)))
+    state = replace(STATE, logged=events("driver", 0, 300))
+    warned = events("Plan", 100, 250)
+    report = written(moment(state, warned=warned), doctor(events=events("TF001", 349, 1)))
     texts = [int(each.text) for each in report.moments]
     assert len(texts) == MAX_MOMENTS == 500
     assert texts == sorted(texts)
