@@ -78,6 +78,8 @@ else ifdef ARGS
 	@$(MAKE) --no-print-directory check
 	@$(PYTEST) -n 2 $(ARGS)
 else
+	@# Before the others, of which two would fetch its packages at once.
+	@$(MAKE) --no-print-directory $(VENV)/ready-to-check
 	@$(MAKE) --no-print-directory -j4 slow nice-quick-1 nice-quick-2 nice-check
 endif
 

@@ -72,11 +72,16 @@ def test_many_robots_over_one_session(source: ZenohSource, router: ZenohRouter, 
         assert len([node for node in source.graph.nodes() if node.endswith("/base")]) == count
         source.want({topic: Subscription(STRING, Topic(topic)) for topic in topics})
         until(lambda: all(source.offers()[topic].subscribers for topic in topics))
-        time.sleep(0.3)
-        for _ in range(5):
+
+        def publish_all() -> None:
             for each in publish:
                 each({"data": "x" * 1000})
-        until(lambda: sum(n for n, _ in source.inbox.received().values()) == 5 * count)
+
+        def have_come() -> bool:
+            received = source.inbox.received()
+            return all(received.get(topic, (0, 0))[0] >= 5 for topic in topics)
+
+        until(have_come, turn=publish_all, look_s=0.05)
         assert not source.bridges[0].remarks
     finally:
         for robot in robots:
