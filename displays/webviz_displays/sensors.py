@@ -235,14 +235,14 @@ def measured(message: Any) -> tuple[float, str]:
     if low == high:
         if distance == -math.inf or distance == low:
             return low, f"Something is within {low:g} m."
-        return 0.0, f"Nothing is within {low:g} m, so there is no cone."
+        return 0.0, f"Nothing detected within {low:g} m, so no cone is drawn."
     if distance == math.inf:
-        return 0.0, f"Nothing within the range of {high:g} m; there is no cone."
+        return 0.0, f"Nothing detected up to {high:g} m, so no cone is drawn."
     if distance == -math.inf:
         return 0.0, f"Something is closer than {low:g} m, so its distance is unknown."
     if low <= distance <= high:
         return distance, f"Showing {distance:.4g} m."
-    return 0.0, f"The range {distance:g} m is not between {low:g} and {high:g} m; there is no cone."
+    return 0.0, f"{distance:g} m is outside the limits, {low:g} to {high:g} m; no cone is drawn."
 
 
 _FLOAT = np.dtype(np.float32)

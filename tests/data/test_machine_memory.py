@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -21,7 +21,8 @@ def groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.setattr(machine_memory, "OWN", own)
     monkeypatch.setattr(machine_memory, "CGROUPS", root)
     machine_memory.memory_bytes.cache_clear()
-    monkeypatch.setattr(os, "sysconf", {"SC_PAGE_SIZE": 4096, "SC_PHYS_PAGES": 10**6}.__getitem__)
+    machine = SimpleNamespace(total=4_096_000_000)
+    monkeypatch.setattr(machine_memory.psutil, "virtual_memory", lambda: machine)
     yield root
     machine_memory.memory_bytes.cache_clear()
 
@@ -46,13 +47,3 @@ def test_the_least_limit_of_a_container_counts(
 def test_without_control_groups_it_is_that_of_the_machine(groups: Path) -> None:
     machine_memory.OWN.unlink()
     assert machine_memory.memory_bytes() == 4_096_000_000
-
-
-def test_a_system_that_does_not_tell_it_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    def unknown(name: str) -> int:
-        raise ValueError(name)
-
-    machine_memory.memory_bytes.cache_clear()
-    monkeypatch.setattr(os, "sysconf", unknown)
-    assert machine_memory.memory_bytes() is None
-    machine_memory.memory_bytes.cache_clear()

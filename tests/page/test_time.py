@@ -24,7 +24,7 @@ FIVE_TICKS = """async () => {
   });
   end();
 }"""
-"""Wait for as many ticks as the bar has, which is told the time as often."""
+"""Script that waits for five updates of the time bar."""
 
 
 def bar(tab: Tab) -> str:

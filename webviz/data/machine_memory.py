@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from functools import cache
 from pathlib import Path
+
+import psutil
 
 CGROUPS = Path("/sys/fs/cgroup")
 OWN = Path("/proc/self/cgroup")
@@ -14,26 +15,22 @@ kernel says of cgroup v2."""
 
 
 @cache
-def memory_bytes() -> int | None:
-    """Return the bytes of memory that this process may use, None where systems do not tell it."""
-    try:
-        machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, OSError, ValueError):  # Windows
-        return None
-    return min([machine, *_limits()]) if machine > 0 else None
+def memory_bytes() -> int:
+    """Return the bytes of memory that this process may use."""
+    return min([psutil.virtual_memory().total, *_limits()])
 
 
 def _limits() -> list[int]:
-    """Return the limits of the control groups that this process is in."""
+    """Return the limits of the control groups that this process is in, which psutil ignores."""
     try:
         lines = OWN.read_text(encoding="utf-8").splitlines()
-    except OSError:
+    except OSError:  # not on Linux
         return []
     own = next((line.removeprefix("0::/") for line in lines if line.startswith("0::/")), None)
     if own is None:
         return []
-    group = CGROUPS / own
     found: list[int] = []
+    group = CGROUPS / own
     for folder in (group, *group.parents):
         for name in LIMITS:
             try:

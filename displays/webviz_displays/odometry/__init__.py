@@ -148,7 +148,7 @@ def _oldest_first(places: Sequence[TrailPlace | None]) -> Iterator[tuple[int, Tr
 
 
 class Odometry(Display, Selective):
-    """Where a robot estimates that it was and is, with the uncertainty."""
+    """Estimated poses of a robot, past and present, with their uncertainty."""
 
     rviz = "rviz_default_plugins/Odometry"
     icon = "odometry"

@@ -41,7 +41,7 @@ _POSITION, _ORIENTATION, _WEIGHT = slice(0, 3), slice(3, 7), 7
 
 
 class ParticleCloud(Display):
-    """Where a particle filter such as amcl supposes the robot, with the weight of each guess."""
+    """Particles of a filter such as amcl: possible poses of the robot with their weights."""
 
     rviz = "nav2_rviz_plugins/ParticleCloud"
     is_threaded = True

@@ -51,8 +51,7 @@ class MemorySettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """Total size of the messages in MB."""
         if self.megabytes is not None:
             return self.megabytes
-        machine = memory_bytes()
-        return MEMORY_MB if machine is None else min(MEMORY_MB, machine // 8 // 1_000_000)
+        return min(MEMORY_MB, memory_bytes() // 8 // 1_000_000)
 
 
 class Settings(msgspec.Struct, forbid_unknown_fields=True):

@@ -1,7 +1,7 @@
 """Modules of the page as a release has them: packed into one by esbuild, beside themselves.
 
-A pack is used while it is one of the very modules that are installed; whoever changes one sees the
-change, without packing anything. Modules of others import those in it by their names as before.
+A pack is used only while it matches the installed modules, so that an edited module takes effect
+without packing. Modules of plug-ins import those in the pack by their names.
 """
 
 from __future__ import annotations

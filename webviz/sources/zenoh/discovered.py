@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from webviz.api.offer import Endpoint, Publisher
 from webviz.data.words import counted, joined, listed
@@ -14,6 +14,7 @@ from webviz.sources.names import is_own
 from webviz.sources.zenoh.attachment import gid_of
 from webviz.sources.zenoh.tokens import GraphEntity, LivelinessError, read_token
 
+E = TypeVar("E", Publisher, Endpoint)
 MAX_ENTITIES = 20_000
 """Nodes and endpoints that are known at once; a fleet of fifty robots has about 10 000."""
 NAMED = 3
@@ -115,7 +116,12 @@ class DiscoveredGraph:
         found: list[str] = []
         if self._refused:
             ignored = f"{counted(self._refused, 'liveliness token')} ignored"
-            found.append(joined(f"{ignored}: {self._refusal}", "Look for a program that lies."))
+            found.append(
+                joined(
+                    f"{ignored}: {self._refusal}",
+                    "Check for programs on this router that are not ROS nodes.",
+                )
+            )
         if self._left_out:
             most = f"The graph has more than {MAX_ENTITIES} nodes and endpoints"
             found.append(joined(most, "The others are ignored."))
@@ -187,28 +193,20 @@ def _once(publishers: Mapping[str, dict[str, GraphEntity]]) -> Sequence[str]:
 def _carried(
     publishers: Mapping[str, GraphEntity], readers: Mapping[str, GraphEntity]
 ) -> CarriedTopic:
-    offered = tuple(
-        Publisher(
-            each.node,
-            each.type,
-            each.qos.reliability,
-            each.qos.durability,
-            gid_of(token),
-            each.qos.deadline_s,
-            is_qos_known=not each.is_bridged,
-        )
-        for token, each in publishers.items()
+    offered = tuple(_endpoint(Publisher, *each) for each in publishers.items())
+    return CarriedTopic(
+        offered, readers=tuple(_endpoint(Endpoint, *each) for each in readers.items())
     )
-    reading = tuple(
-        Endpoint(
-            each.node,
-            each.type,
-            each.qos.reliability,
-            each.qos.durability,
-            gid_of(token),
-            each.qos.deadline_s,
-            is_qos_known=not each.is_bridged,
-        )
-        for token, each in readers.items()
+
+
+def _endpoint(kind: type[E], token: str, entity: GraphEntity) -> E:
+    qos = entity.qos
+    return kind(
+        entity.node,
+        entity.type,
+        qos.reliability,
+        qos.durability,
+        gid_of(token),
+        qos.deadline_s,
+        is_qos_known=not entity.is_bridged,
     )
-    return CarriedTopic(offered, readers=reading)

@@ -88,12 +88,12 @@ class ZenohLink:
 
     @property
     def problem(self) -> Problem | None:
-        """Why nothing comes, None if the session works."""
+        """Return the reason why nothing comes, None if the session works."""
         return self._problem
 
     @property
     def round_trip_s(self) -> float | None:
-        """Of the last answer of the router, in seconds; None before one."""
+        """Return the time of the last answer of the router in seconds; None before one."""
         return self._round_trip_s
 
     @property

@@ -70,14 +70,14 @@ def _silent(endpoints: Sequence[str], error: str) -> Problem:
 
 
 def gone(address: ZenohAddress, since_s: float) -> Problem:
-    """Return the problem of a session whose router has gone.
+    """Return the problem of a session that lost its router.
 
     Args:
         address: of the router.
-        since_s: monotonic time at which it went.
+        since_s: monotonic time at which it was lost.
     """
     seconds = time.monotonic() - since_s
-    text = f"The Zenoh router at {address.name} has gone {seconds:.0f} s ago."
+    text = f"The connection to the Zenoh router at {address.name} was lost {seconds:.0f} s ago."
     return Problem(text, "Start it again, or check the network; webviz reconnects automatically.")
 
 
