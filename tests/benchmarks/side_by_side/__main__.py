@@ -19,6 +19,7 @@ from side_by_side import machine, report
 from side_by_side.case import CaseFailed, CaseResult, Load, run
 from side_by_side.figures import rows
 from side_by_side.scenes import SCENES
+from side_by_side.small_computer import NoControlGroups, small_computer
 from side_by_side.systems.registry import SYSTEMS
 
 USUAL = (Load(1),)
@@ -43,7 +44,7 @@ def main() -> int:
                 print(f"round {number + 1}: {scene}, {system}", file=sys.stderr, flush=True)
                 try:
                     cases.append((scene, system, _case(scene, system, options)))
-                except (CaseFailed, OSError) as error:
+                except (CaseFailed, NoControlGroups, OSError) as error:
                     reason = " ".join(str(error).split())
                     print(f"  failed: {reason}", file=sys.stderr)
                     failures.append((scene, system, reason))
@@ -63,6 +64,7 @@ def _report(options: argparse.Namespace, cases: Cases, failures: list[tuple[str,
         "date": time.strftime("%Y-%m-%d"),
         "seconds of each load": options.seconds,
         "rounds": options.rounds,
+        "cores": options.cores,
     }
     made = {**facts, "rows": rows(cases), "failures": failures}
     return json.dumps(made, indent=1, default=asdict)
@@ -72,10 +74,13 @@ def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
     loads = [LOADS[name] for name in options.clients]
     if not SYSTEMS[system].is_served:
         loads = THE_CALLBACK
-    with tempfile.TemporaryDirectory() as folder:
-        return run(
-            SYSTEMS[system], SCENES[scene], loads, options.seconds, Path(folder), options.patience
-        )
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        small_computer(options.cores, options.memory) as computer,
+    ):
+        where = Path(folder)
+        seconds, patience = options.seconds, options.patience
+        return run(SYSTEMS[system], SCENES[scene], loads, seconds, where, patience, computer)
 
 
 def _options() -> argparse.Namespace:
@@ -95,6 +100,14 @@ def _options() -> argparse.Namespace:
         type=float,
         default=10.0,
         help="seconds to wait, before each load, for other programs to rest (default: 10)",
+    )
+    parser.add_argument(
+        "--cores",
+        type=float,
+        help="of the system alone, in a control group, such as 0.2 (default: the machine's)",
+    )
+    parser.add_argument(
+        "--memory", type=int, default=1000, help="of that group in MB (default: 1000)"
     )
     parser.add_argument("--json", type=Path, help="file for all figures")
     return parser.parse_args()

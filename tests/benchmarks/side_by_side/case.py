@@ -17,6 +17,7 @@ from program import Program
 
 from side_by_side.log import Log
 from side_by_side.scenes import Scene
+from side_by_side.small_computer import SmallComputer
 from side_by_side.systems.registry import System
 from side_by_side.watchers import Watcher
 from webviz.shell.testing.domain import isolated_domain
@@ -85,10 +86,13 @@ class CaseResult:
 class Case:
     """A publisher and a system that run, on a ROS domain of their own."""
 
-    def __init__(self, system: System, scene: Scene, folder: Path) -> None:
+    def __init__(
+        self, system: System, scene: Scene, folder: Path, computer: SmallComputer | None = None
+    ) -> None:
         self.system = system
         self.scene = scene
         self.folder = folder
+        self._computer = computer
         self._log = folder / "publications.bin"
         self._log.touch()
         self._stack = contextlib.ExitStack()
@@ -102,6 +106,8 @@ class Case:
             _said(self._publisher, "publishing")
             self.started = time.monotonic()
             self.program = self._start(self.system.command(self.scene, self.folder), "system")
+            if self._computer is not None:
+                self._computer.take(self.program.process.pid)
             self.port = int(_said(self.program, r"127\.0\.0\.1:(\d+)|listening").group(1) or 0)
             self.process = psutil.Process(self.program.process.pid)
         except BaseException:
@@ -218,9 +224,10 @@ def run(
     seconds: float,
     folder: Path,
     patience: float = 0.0,
+    computer: SmallComputer | None = None,
 ) -> CaseResult:
-    """Start everything, measure each load, end everything."""
-    with Case(system, scene, folder) as case:
+    """Start everything, the system on a `computer` of its own, measure each load, end all."""
+    with Case(system, scene, folder, computer) as case:
         if any(load.clients for load in loads):
             start_s, start_cpu = case.first_sight()
         else:

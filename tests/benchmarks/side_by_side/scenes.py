@@ -87,6 +87,17 @@ def _demo() -> list[Stream]:
     ]
 
 
+def _small_robot() -> list[Stream]:
+    return [
+        Stream("/robot_description", TEXT, 0, content.robot(12)),
+        Stream("/tf_static", TF, 0, content.static(("base_link", "scanner"))),
+        Stream("/map", MAP, 0, content.maps(400)),
+        Stream("/tf", TF, 20, content.moving("map", "base_link")),
+        Stream("/tf", TF, 20, content.links(12), Lane(1, Place.LINK)),
+        _scan("/scan", "scanner", 360, 10, 0),
+    ]
+
+
 def _robot() -> list[Stream]:
     return [
         Stream("/robot_description", TEXT, 0, content.robot(60)),
@@ -176,6 +187,7 @@ EVERYTHING = "".join(
         "- {type: Odometry, keep: 10000, covariance: {value: false}}\n",
     ]
 )
+SMALL_ROBOT = "".join(f"- {{type: {each}}}\n" for each in ("Map", "RobotModel", "LaserScan"))
 ARRAY = "- {type: MarkerArray, topic: /markers}\n"
 ALL_POINTS = "- {type: PointCloud2, max_points: 0}\n"
 
@@ -188,6 +200,13 @@ SCENES = {
             "a robot of 60 links and 200 frames, 50 Hz",
             _robot,
             "- {type: RobotModel}\n- {type: TF}\n",
+        ),
+        Scene(
+            "S",
+            "a small robot: a map, 12 links at 20 Hz, a scan at 10 Hz",
+            _small_robot,
+            SMALL_ROBOT,
+            lane=1,
         ),
         Scene("TF", "200 frames, 50 Hz", _frames, "- {type: TF}\n"),
         Scene("D", "a scan of 1080 beams, 40 Hz", _laser, "- {type: LaserScan}\n"),
