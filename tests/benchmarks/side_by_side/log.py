@@ -50,14 +50,21 @@ class Log:
         self, sightings: Iterable[Sighting], since_ns: int, until_ns: int
     ) -> dict[int, list[float]]:
         """Milliseconds from publication to first sight by lane, of what was published in a span."""
+        found = self.publications(sightings, since_ns, until_ns)
+        return {lane: [ms for _, ms in each] for lane, each in found.items()}
+
+    def publications(
+        self, sightings: Iterable[Sighting], since_ns: int, until_ns: int
+    ) -> dict[int, list[tuple[int, float]]]:
+        """Return the same, each with its time of publication in nanoseconds."""
         first: dict[tuple[int, int], int] = {}
         for sighting in sightings:
             found = self._find(sighting)
             if found is not None and since_ns <= found[3] < until_ns:
                 first.setdefault((int(found[0]), int(found[3])), sighting.time_ns)
-        late: dict[int, list[float]] = defaultdict(list)
+        late: dict[int, list[tuple[int, float]]] = defaultdict(list)
         for (lane, published), seen in first.items():
-            late[lane].append((seen - published) / 1e6)
+            late[lane].append((published, (seen - published) / 1e6))
         return late
 
     def gaps(self, sightings: Iterable[Sighting], until_ns: int) -> dict[int, float]:

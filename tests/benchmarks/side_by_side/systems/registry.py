@@ -66,6 +66,11 @@ def _webviz(scene: Scene, folder: Path) -> Sequence[str]:
     return [sys.executable, "-m", "webviz", "-d", _config(scene, folder), *options]
 
 
+def _traced(scene: Scene, folder: Path) -> Sequence[str]:
+    python, m, _, *arguments = _webviz(scene, folder)
+    return [python, m, "side_by_side.systems.traced", str(folder / "steps.txt"), *arguments]
+
+
 def _watch_viser(port: int, folder: Path, scene: Scene | None, stalls: bool) -> Watcher:
     return ViserWatcher(port, scene, stalls)
 
@@ -94,3 +99,5 @@ SYSTEMS = {
         System("foxglove", "foxglove-sdk", _module("foxglove"), _watch_foxglove, ("foxglove-sdk",)),
     )
 }
+TRACED = System("traced", "webviz, traced", _traced, _watch_viser, ("ros-webviz", "viser"))
+"""webviz with a trace of its slow steps, which takes time itself."""
