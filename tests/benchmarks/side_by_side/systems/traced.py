@@ -3,10 +3,10 @@
     python -m side_by_side.systems.traced STEPS ARGUMENT...
 
 It writes a line to STEPS for each step of `SLOW_S` or more: its end in nanoseconds since 1970, the
-milliseconds it took, its thread, and what it was. Steps are the calls that the frame loop guards, its turns,
-callbacks of the server's event loop, imports, collections of garbage, and those of a thread that
-sleeps for 1 ms again and again: it waits when the others hold the interpreter, or the machine is
-busy.
+milliseconds it took, its thread, and what it was. Steps are calls that the frame loop guards, its
+turns, callbacks of the server's event loop, imports, collections of garbage, and those of a thread
+that sleeps for 1 ms again and again: it waits when the others hold the interpreter, or the machine
+is busy.
 """
 
 from __future__ import annotations
