@@ -53,7 +53,7 @@ class Step(NamedTuple):
 
 
 class Heartbeat:
-    """Whether this process had to wait, too: then it was the machine, and not webviz."""
+    """Waits of this process, for which the machine is the cause, and not webviz."""
 
     def __init__(self) -> None:
         self.steps: list[Step] = []

@@ -19,7 +19,7 @@ __all__ = ["Batches", "Core", "Handler", "Part", "Parts"]
 
 _HOOKS = (
     *("subscriptions", "advertisements", "after", "take", "keep_up", "update"),
-    *("review", "statuses", "close"),
+    *("review", "statuses", "is_attended", "close"),
 )
 
 
@@ -115,6 +115,13 @@ class Parts:
             own: Mapping[str, Status] = {}
             found |= self._guard.attempt(part.name, own, part.statuses)
         return found
+
+    def is_attended(self) -> bool:
+        """Return whether somebody looks at something that changes all the time."""
+        return any(
+            self._guard.attempt(part.name, True, part.is_attended)
+            for part in self._overriding["is_attended"]
+        )
 
     def close(self) -> None:
         """Close all parts."""

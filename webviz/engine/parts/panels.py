@@ -147,6 +147,10 @@ class PanelsPart(Part):
             raise TypeError(f"`show` asks for {names}, which this viewer does not have")
         panel.show(*values.values())
 
+    def is_attended(self) -> bool:
+        """Return whether a panel is open."""
+        return bool(self._attended())
+
     def statuses(self) -> Mapping[str, Status]:
         """Return the statuses of unusable panels."""
         return self.list.statuses()

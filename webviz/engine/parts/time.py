@@ -150,6 +150,10 @@ class TimePart(Part):
             hz=float(f"{times.clock_hz:.2g}"),
         )
 
+    def is_attended(self) -> bool:
+        """Return whether a past is shown, whose position pages follow."""
+        return not self.core.player.is_live
+
     def state(self) -> Mapping[str, Any]:
         """Return the time, the recording, the counts of its messages, and what was logged."""
         return {

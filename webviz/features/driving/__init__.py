@@ -106,6 +106,10 @@ class DrivingFeature(PageFeature):
         self._newest.clear()
         self._subscriber.ask()
 
+    def is_attended(self) -> bool:
+        """Return whether a browser attends to a vehicle."""
+        return bool(self.core.controllers.attended())
+
     def state(self) -> Mapping[str, Any]:
         """Return the state of attended vehicles."""
         return {"driving": self.vehicles()}

@@ -140,6 +140,10 @@ class GoalsFeature(Feature):
             self._turn(goal)
         self._goals = {id: goal for id, goal in self._goals.items() if self._is_worth_keeping(goal)}
 
+    def is_attended(self) -> bool:
+        """Return whether a goal is active."""
+        return any(goal.is_active for goal in self._goals.values())
+
     def state(self) -> Mapping[str, Any]:
         """Return the goals."""
         return {"goals": self.progress()}

@@ -196,6 +196,10 @@ class HandlesFeature(PageFeature):
                 drag = replace(hold.drag, kind="release", pose=None, point=None)
                 runner.drag(drag, self.core.frames)
 
+    def is_attended(self) -> bool:
+        """Return whether a browser holds a handle."""
+        return bool(self._holds)
+
     def state(self) -> Mapping[str, Any]:
         """Return all handles, with the browsers that hold them."""
         return {"handles": self.found()}

@@ -169,6 +169,10 @@ class SelectionFeature(Feature):
                 selection.told = self._told(selection)
                 selection.values = msgspec.to_builtins(selection.told.by_key())
 
+    def is_attended(self) -> bool:
+        """Return whether a page shows its selection."""
+        return bool(self._viewers)
+
     def watched(self, stores: Set[str]) -> None:
         """Report on the selections that pages watch."""
 

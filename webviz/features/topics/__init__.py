@@ -73,6 +73,10 @@ class TopicsFeature(Feature):
             del self._last[gone]
             self._read.pop(gone, None)
 
+    def is_attended(self) -> bool:
+        """Return whether somebody looks into a topic."""
+        return bool(self._inspected())
+
     def state(self) -> Mapping[str, Any]:
         """Return the inspected topics."""
         return {"inspected": {topic: self._look(topic) for topic in self._inspected()}}
