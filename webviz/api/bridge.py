@@ -36,6 +36,7 @@ class Bridge:
         clock_s: by how much its clock is ahead of this machine's, which is corrected; 0 if it is
             not, or by less than can be measured.
         parameters: the nodes whose parameters it has.
+        doubled: full names of topics of its robot that others publish, too, sorted.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Bridge:
     robot: str = ""
     clock_s: float = 0.0
     parameters: BridgeParameters = BridgeParameters()
+    doubled: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:

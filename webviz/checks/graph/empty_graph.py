@@ -8,6 +8,11 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding, Severity
 from webviz.api.observation import Observation
 
+OVER_ZENOH = (
+    "Start the robot with RMW_IMPLEMENTATION=rmw_zenoh_cpp and a connection to this router, or a "
+    "zenoh-bridge-ros2dds beside it."
+)
+
 
 class EmptyGraph(Check):
     """No other node found.
@@ -35,16 +40,17 @@ class EmptyGraph(Check):
         if not seen.is_alone() or not explains:
             return
         domain = seen.environment.domain if seen.environment else "0"
+        router = next((b.name for b in seen.bridges if b.is_up and b.protocol == "Zenoh"), "")
+        place = f"the Zenoh router {router}" if router else f"domain {domain}"
         has_left = any(each.received for _, each in seen.inputs())
+        start = OVER_ZENOH if router else "Start the robot, or set the ROS_DOMAIN_ID of its nodes."
         yield self.found(
-            f"All other ROS nodes have left domain {domain}."
+            f"All other ROS nodes have left {place}."
             if has_left
-            else f"No other ROS node is visible in domain {domain}.",
-            "Start the robot again, or restore the link to its machine."
-            if has_left
-            else "Start the robot, or set the ROS_DOMAIN_ID of its nodes.",
+            else f"No other ROS node is visible {'on' if router else 'in'} {place}.",
+            "Start the robot again, or restore the link to its machine." if has_left else start,
             severity=Severity.ERROR,
-            evidence={"domain": domain, "nodes": tuple(seen.nodes)},
-            command="ros2 multicast receive",
+            evidence={"router" if router else "domain": router or domain, "nodes": (*seen.nodes,)},
+            command="" if router else "ros2 multicast receive",
             explains=explains,
         )

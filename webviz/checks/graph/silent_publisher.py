@@ -43,6 +43,8 @@ STREAMS = {
 }
 """Types that a node sends by itself; others, such as goals, wait for an event."""
 
+OVER_ZENOH = "Over Zenoh, `access_control` of a router may deny its messages, too."
+
 
 class SilentPublisher(Check):
     """Publisher from which nothing arrives.
@@ -84,6 +86,7 @@ class SilentPublisher(Check):
                 f"{each.silence} ago.",
                 joined(
                     "Check what the node waits for, such as its sensor or its inputs.",
+                    OVER_ZENOH if any(b.protocol == "Zenoh" for b in seen.bridges) else "",
                     earlier if is_single and not is_repeated else "",
                 ),
                 subject=each.topic,

@@ -13,8 +13,9 @@ class ZenohNetwork(Check):
     """Zenoh network that does not fit the viewer.
 
     The router is connected, but the ROS domain has no nodes while another has some, publishers have
-    another version of a type than this machine, a zenoh-bridge-ros2dds routes nothing, two ways
-    lead to one robot, liveliness tokens are invalid, or the router does not answer.
+    another version of a type than this machine or than those who subscribe, a zenoh-bridge-ros2dds
+    routes nothing, two ways lead to one robot, liveliness tokens are invalid, or the router does
+    not answer.
 
     Why:
         Zenoh passes on whatever matches by key, and keys begin with the domain and end with the
@@ -37,12 +38,16 @@ class ZenohNetwork(Check):
             if not bridge.is_up or bridge.protocol != "Zenoh":
                 continue
             keys = ("Connection", f"Connection to {bridge.title}")
-            for remark in bridge.remarks:
+            explains = [symptom for key in keys for symptom in seen.symptom(key)]
+            if not any(offer.publishers for offer in seen.offers.values()):
+                explains += seen.undiscovered()
+            for number, remark in enumerate(bridge.remarks):
                 cause, _, remedy = remark.partition(". ")
                 yield self.found(
                     f"{cause}.",
                     remedy or "Check the network.",
-                    subject=bridge.name,
+                    # A check has one finding for each subject.
+                    subject=f"{bridge.name} {number}" if number else bridge.name,
                     evidence={"router": bridge.name, "remark": remark},
-                    explains=tuple(symptom for key in keys for symptom in seen.symptom(key)),
+                    explains=tuple(explains),
                 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import os
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -18,7 +19,7 @@ from webviz.sources.bridge.address import address, headers_of
 from webviz.sources.fleet.member import FleetMember, RobotAddress
 from webviz.sources.graph import Advertisement, Goal, Graph, ReadOnly
 from webviz.sources.inbox import Inbox
-from webviz.sources.names import resolved
+from webviz.sources.names import is_own, resolved
 from webviz.sources.source import Source, Subscription
 from webviz.sources.zenoh.address import DOMAIN, PASSWORD, USER, is_zenoh, zenoh_address
 
@@ -166,6 +167,8 @@ class FleetSource:
         alone = ReadOnly(ALONE)
         self._graph = FleetGraph(lambda: alone if base is None else base.graph)
         self._offers: tuple[list[Mapping[str, Offer]], Mapping[str, Offer]] = [], {}
+        self._doubled: Mapping[str, tuple[str, ...]] = {}
+        """Topics that the base has, too, by the root of their robot."""
         self.follow(robots)
 
     def follow(self, robots: Sequence[NamespacedRobot]) -> None:
@@ -198,7 +201,7 @@ class FleetSource:
     def bridges(self) -> Sequence[Bridge]:
         """The links to all robots."""
         others = () if self._base is None else self._base.bridges
-        return [*others, *(member.bridge for member in self._members), *self._refused]
+        return [*others, *map(self._bridge, self._members), *self._refused]
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these, each over its connection."""
@@ -224,6 +227,7 @@ class FleetSource:
         if len(known) != len(found) or any(a is not b for a, b in zip(known, found, strict=True)):
             merged = {topic: offer for offers in found for topic, offer in offers.items()}
             self._offers = found, merged
+            self._doubled = self._both_ways()
         return merged
 
     def now_ns(self) -> int:
@@ -248,6 +252,23 @@ class FleetSource:
             member.source.close()
         if self._base is not None:
             self._base.close()
+
+    def _bridge(self, member: FleetMember) -> Bridge:
+        doubled = self._doubled.get(member.robot.root, ())
+        return dataclasses.replace(member.bridge, doubled=doubled) if doubled else member.bridge
+
+    def _both_ways(self) -> Mapping[str, tuple[str, ...]]:
+        """Return the topics of robots that others than webviz publish in the base, too."""
+        if self._base is None:
+            return {}
+        offers = self._base.offers().items()
+        names = [name for name, o in offers if any(not is_own(p.node) for p in o.publishers)]
+        found: dict[str, tuple[str, ...]] = {}
+        for member in self._members:
+            own = member.offers()
+            doubled = [n for n in names if n.startswith(member.robot.root) and n in own]
+            found[member.robot.root] = tuple(sorted(doubled))
+        return found
 
     def _member(self, robot: NamespacedRobot) -> FleetMember:
         return FleetMember(robot, self._address(robot), self.inbox, self.now_ns)

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 
 from webviz.data.messages import UnknownTypeError, type_hash
 from webviz.data.words import listed
-from webviz.sources.zenoh.discovered import NAMED, GraphSnapshot
+from webviz.sources.zenoh.discovered import GraphSnapshot
+from webviz.sources.zenoh.faults import NAMED
 
 BRIDGE_LIMITS = ("zenoh-bridge-ros2dds does not report which nodes publish, subscribe and serve.",)
 

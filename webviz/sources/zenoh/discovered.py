@@ -8,22 +8,16 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from webviz.api.offer import Endpoint, Publisher
-from webviz.data.words import counted, joined, listed
+from webviz.data.words import counted, joined
 from webviz.sources.bridge.session import CarriedTopic
 from webviz.sources.names import is_own
 from webviz.sources.zenoh.attachment import gid_of
+from webviz.sources.zenoh.faults import doubled, faults
 from webviz.sources.zenoh.tokens import GraphEntity, LivelinessError, read_token
 
 E = TypeVar("E", Publisher, Endpoint)
 MAX_ENTITIES = 20_000
 """Nodes and endpoints that are known at once; a fleet of fifty robots has about 10 000."""
-NAMED = 3
-"""Topics that one sentence names."""
-
-IDLE_BRIDGE = (
-    "A zenoh-bridge-ros2dds routes nothing. Start it in the ROS_DOMAIN_ID of the robot, and check "
-    "the lists `allow` and `deny` of its config."
-)
 
 
 class GraphSnapshot(NamedTuple):
@@ -134,10 +128,7 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
     nodes: list[str] = []
     servers: dict[str, GraphEntity] = {}
     actions: dict[str, GraphEntity] = {}
-    bridges, routing = set[str](), set[str]()
     for token, entity in entities.items():
-        if entity.is_bridged:
-            (bridges if entity.kind == "bridge" else routing).add(entity.session)
         match entity.kind:
             case "node":
                 nodes.append(entity.node)
@@ -151,16 +142,13 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
                 actions.setdefault(entity.name, entity)
             case "client" | "bridge":
                 pass
-    if bridges - routing:
-        remarks = [*remarks, IDLE_BRIDGE]
-    doubled = _once(publishers)
-    if doubled:
-        names = listed(sorted(doubled), NAMED)
-        remarks = [
-            *remarks,
-            f"Two ways lead to one robot: {names} come over rmw_zenoh and through "
-            "zenoh-bridge-ros2dds. Stop the bridge; webviz reads rmw_zenoh only.",
-        ]
+    found = {topic: tuple(each.values()) for topic, each in publishers.items()}
+    read = {topic: tuple(each.values()) for topic, each in readers.items()}
+    remarks = [*remarks, *faults(entities.values(), found, read)]
+    both, _ = doubled(found)
+    for topic in both:  # the direct way alone
+        direct = {t: each for t, each in publishers[topic].items() if not each.is_bridged}
+        publishers[topic], found[topic] = direct, tuple(direct.values())
     uses = {e.is_bridged for e in entities.values() if not is_own(e.node)}
     names = {False: "rmw_zenoh", True: "zenoh-bridge-ros2dds"}
     topics = {
@@ -168,26 +156,14 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
     }
     return GraphSnapshot(
         topics,
-        {topic: tuple(each.values()) for topic, each in publishers.items()},
-        {topic: tuple(each.values()) for topic, each in readers.items()},
+        found,
+        read,
         tuple(sorted(nodes)),
         servers,
         actions,
         tuple(names[each] for each in sorted(uses)),
         tuple(remarks),
     )
-
-
-def _once(publishers: Mapping[str, dict[str, GraphEntity]]) -> Sequence[str]:
-    """Leave out publishers behind a bridge where the same topic comes without it, too."""
-    doubled: list[str] = []
-    for topic, found in publishers.items():
-        bridged = [token for token, each in found.items() if each.is_bridged]
-        if bridged and len(bridged) < len(found):
-            doubled.append(topic)
-            for token in bridged:
-                del found[token]
-    return doubled
 
 
 def _carried(
