@@ -196,7 +196,11 @@ class ZenohRobot:
         self.token("SS", name, type, hash)
 
     def action(
-        self, name: str, type: str, run: Callable[[Any, Callable[..., None]], Mapping[str, Any]]
+        self,
+        name: str,
+        type: str,
+        run: Callable[[Any, Callable[..., None]], Mapping[str, Any]],
+        cancel: Callable[[], None] | None = None,
     ) -> dict[str, int]:
         """Serve an action; return how often its parts were called.
 
@@ -204,11 +208,13 @@ class ZenohRobot:
             name: full name.
             type: such as "nav2_msgs/action/Spin", which is known.
             run: takes the goal and a function that publishes fields of feedback; returns the fields
-                of the result. It decides on the goal, too: None rejects it.
+                of the result. Goals with a negative yaw are rejected.
+            cancel: called when a goal is cancelled; its status is then "canceled".
         """
         parts = interfaces.action(type)
         calls = {"send_goal": 0, "cancel_goal": 0, "get_result": 0}
         goals: dict[bytes, Any] = {}
+        cancelled = set[bytes]()
         publish = self.publisher(f"{name}/_action/feedback", parts.feedback)
 
         def send_goal(request: Any) -> Mapping[str, Any]:
@@ -223,16 +229,19 @@ class ZenohRobot:
             def feedback(**fields: Any) -> None:
                 publish({"goal_id": {"uuid": list(id)}, "feedback": fields})
 
-            return {"status": 4, "result": run(goals[id], feedback)}
+            result = run(goals[id], feedback)
+            return {"status": 5 if id in cancelled else 4, "result": result}
 
         def cancel_goal(request: Any) -> Mapping[str, Any]:
             calls["cancel_goal"] += 1
-            return {"return_code": 0}
+            cancelled.add(bytes(request.goal_info.goal_id.uuid))
+            if cancel is not None:
+                cancel()
+            return {"return_code": 0, "goals_canceling": [request.goal_info]}
 
         self.service(f"{name}/_action/send_goal", parts.send_goal, send_goal)
         self.service(f"{name}/_action/get_result", parts.get_result, get_result)
-        cancel = "action_msgs/srv/CancelGoal"
-        self.service(f"{name}/_action/cancel_goal", cancel, cancel_goal)
+        self.service(f"{name}/_action/cancel_goal", "action_msgs/srv/CancelGoal", cancel_goal)
         return calls
 
     def close(self) -> None:

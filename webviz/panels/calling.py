@@ -127,8 +127,25 @@ class ActionGoal(SendingPanel):
     def act(self, value: Any, browser: int | None) -> None:
         """Send the goal."""
         values = self.values()
-        request = goal_request(self.action, self.type, values, definition=self.definition)
+        request = goal_request(
+            self.action, self.type, values, definition=self.definition, feedback=texts
+        )
         self.send(commands.SendGoal(request, f"panel {self.id}", self.name, self.report), browser)
+
+
+def texts(feedback: Any) -> dict[str, str]:
+    """Return the fields of feedback that are neither sequences nor empty, by their paths."""
+    found: dict[str, str] = {}
+
+    def add(path: str, tree: Any) -> None:
+        if isinstance(tree, str):
+            found[path] = tree
+        else:
+            for name, each in tree.get("fields", {}).items():
+                add(f"{path}.{name}" if path else name, each)
+
+    add("", to_tree(feedback, is_readable=True))
+    return found
 
 
 def actions_of(offers: Mapping[str, Offer]) -> dict[str, str]:

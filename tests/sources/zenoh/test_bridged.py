@@ -11,6 +11,7 @@ from zenoh_robot import BridgedRobot, ZenohRobot, ZenohRouter
 
 from webviz.api.declared import Topic
 from webviz.data.messages import decode, encode, interfaces
+from webviz.panels.calling import actions_of
 from webviz.sources import Advertisement, Subscription
 from webviz.sources.zenoh.source import ZenohSource
 
@@ -76,6 +77,8 @@ def test_a_goal_through_the_bridge(source: ZenohSource, bridged: BridgedRobot) -
     bridged.service("/spin/_action/send_goal", parts.send_goal, lambda request: accept)
     bridged.service("/spin/_action/get_result", parts.get_result, lambda request: {"status": 4})
     until(lambda: "/robot1/spin" in source.snapshot.actions)
+    until(lambda: "/robot1/spin/_action/feedback" in source.offers())
+    assert actions_of(source.offers()) == {"/robot1/spin": SPIN}
     wish = encode(parts.goal, {"target_yaw": 1.0})
     goal = source.graph.send_goal("/robot1/spin", SPIN, wish, lambda cdr: None)
     assert goal.accepted.result(10) is True

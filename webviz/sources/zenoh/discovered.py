@@ -13,7 +13,7 @@ from webviz.sources.bridge.session import CarriedTopic
 from webviz.sources.names import is_own
 from webviz.sources.zenoh.attachment import gid_of
 from webviz.sources.zenoh.faults import doubled, faults
-from webviz.sources.zenoh.tokens import GraphEntity, LivelinessError, read_token
+from webviz.sources.zenoh.tokens import GraphEntity, LivelinessError, read_token, topics_of
 
 E = TypeVar("E", Publisher, Endpoint)
 MAX_ENTITIES = 20_000
@@ -140,6 +140,8 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
                 servers.setdefault(entity.name, entity)
             case "action":
                 actions.setdefault(entity.name, entity)
+                for topic in topics_of(entity):
+                    publishers[topic.name][token] = topic
             case "client" | "bridge":
                 pass
     found = {topic: tuple(each.values()) for topic, each in publishers.items()}

@@ -154,6 +154,25 @@ def write_token(
     return "/".join(parts)
 
 
+def topics_of(action: GraphEntity) -> tuple[GraphEntity, GraphEntity]:
+    """Return the publishers of feedback and status of an action behind zenoh-bridge-ros2dds.
+
+    It has one token for all of an action.
+    """
+    feedback = f"{action.type}_FeedbackMessage", "feedback"
+    status = "action_msgs/msg/GoalStatusArray", "status"
+    made = [
+        action._replace(
+            kind="publisher",
+            name=f"{action.name}/_action/{part}",
+            type=type,
+            key=f"{action.key}/_action/{part}",
+        )
+        for type, part in (feedback, status)
+    ]
+    return made[0], made[1]
+
+
 def _native(token: str) -> GraphEntity | None:
     parts = token.split("/", 14)
     if len(parts) not in (9, 13) or parts[0] != ADMIN or not all(parts):
