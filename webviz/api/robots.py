@@ -18,6 +18,9 @@ from webviz.data.transforms import Explanation, NewestTransform
 _NAME = "[A-Za-z_][A-Za-z0-9_]*"
 Namespace = Annotated[str, msgspec.Meta(max_length=256, pattern=f"^/?{_NAME}(/{_NAME})*$")]
 
+KEY_PREFIX = r"^[A-Za-z0-9_-]+(/[A-Za-z0-9_-]+)*$"
+"""Key expressions of Zenoh without wildcards and reserved characters."""
+
 
 class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A robot with topics of its own, also /tf, and with the frame names of the others."""
@@ -41,6 +44,13 @@ class NamespacedRobot(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     domain: Annotated[
         Annotated[int, msgspec.Meta(ge=0, le=232)] | None,
         Prop(help="ROS domain of the robot over Zenoh; null is ROS_DOMAIN_ID."),
+    ] = None
+    key_prefix: Annotated[
+        Annotated[str, msgspec.Meta(max_length=200, pattern=KEY_PREFIX)] | None,
+        Prop(
+            help="Before all keys of the robot over Zenoh, such as fleet/robot1: the `namespace` "
+            "of its sessions' configs; null for none."
+        ),
     ] = None
     tint: Annotated[
         Color | None, Prop(help="Colour that is mixed into everything of it; null for none.")

@@ -21,14 +21,31 @@ TWIST = "geometry_msgs/msg/Twist"
 SET_BOOL = "std_srvs/srv/SetBool"
 
 
-def test_a_domain_each(router: ZenohRouter) -> None:
-    robots = [ZenohRobot(router.endpoint, "/base", domain=number) for number in (1, 2)]
+@pytest.mark.parametrize("has_domain", [True, False])
+def test_a_domain_or_a_key_prefix_each(router: ZenohRouter, has_domain: bool) -> None:
+    """Robots that all use the same names, also those of keys in the second case."""
+    robots = [
+        ZenohRobot(router.endpoint, "/base", domain=number)
+        if has_domain
+        else ZenohRobot(router.endpoint, "/base", namespace=f"fleet/robot{number}")
+        for number in (1, 2)
+    ]
+    latched = [robot.publisher("/map", STRING, is_latched=True) for robot in robots]
+    for number, each in enumerate(latched, start=1):
+        each({"data": f"map of robot {number}"})
     publish = [robot.publisher("/words", STRING) for robot in robots]
     driven = [robot.subscription("/cmd_vel", TWIST) for robot in robots]
     robots[1].service("/light", SET_BOOL, lambda request: {"success": True})
-    named = [NamespacedRobot(f"robot{n}", connection=router.endpoint, domain=n) for n in (1, 2)]
+    named = [
+        NamespacedRobot(f"robot{n}", connection=router.endpoint, domain=n)
+        if has_domain
+        else NamespacedRobot(
+            f"robot{n}", connection=router.endpoint, domain=0, key_prefix=f"fleet/robot{n}"
+        )
+        for n in (1, 2)
+    ]
     fleet = FleetSource(named, None)
-    topics = ("/robot1/words", "/robot2/words")
+    topics = ("/robot1/words", "/robot2/words", "/robot1/map", "/robot2/map")
     try:
         until(lambda: set(topics) <= set(fleet.offers()))
         assert {"/robot1/base", "/robot2/base"} <= set(fleet.graph.nodes())
@@ -44,10 +61,18 @@ def test_a_domain_each(router: ZenohRouter) -> None:
         def take() -> bool:
             for topic, raws in fleet.inbox.drain().items():
                 found[topic] = decode(STRING, raws[-1].cdr).data
-            return len(found) == 2
+            return len(found) == 4
 
         until(take)
-        assert found == {"/robot1/words": "of robot 1", "/robot2/words": "of robot 2"}
+        assert found == {
+            "/robot1/words": "of robot 1",
+            "/robot2/words": "of robot 2",
+            "/robot1/map": "map of robot 1",
+            "/robot2/map": "map of robot 2",
+        }
+        request = encode(f"{SET_BOOL}_Request", {"data": True})
+        answer = fleet.graph.call("/robot2/light", SET_BOOL, request, 5).result(10)
+        assert decode(f"{SET_BOOL}_Response", answer).success
         cdr = encode(TWIST, {"linear": {"x": 1.0}})
         sent = fleet.graph.publish(Advertisement("/robot2/cmd_vel", TWIST), cdr)
         assert sent.result(5) == 1

@@ -279,7 +279,8 @@ class FleetSource:
         if is_zenoh(robot.connection or ""):
             domain = os.environ.get(DOMAIN, "") if robot.domain is None else str(robot.domain)
             secrets = {name: os.environ.get(name, "") for name in (USER, PASSWORD) if is_known}
-            return zenoh_address(robot.connection or "", {DOMAIN: domain, **secrets})
+            prefix = robot.key_prefix or ""
+            return zenoh_address(robot.connection or "", {DOMAIN: domain, **secrets}, prefix)
         environment = headers_of(robot.name) if is_known else {}
         return address(robot.connection or "", environment=environment)
 
@@ -298,6 +299,6 @@ def _connected(robots: Sequence[NamespacedRobot]) -> Sequence[NamespacedRobot]:
     return [robot for robot in robots if robot.connection]
 
 
-def _link(robot: NamespacedRobot) -> tuple[str, str | None, int | None]:
+def _link(robot: NamespacedRobot) -> tuple[str, str | None, int | None, str | None]:
     """Return what a robot's connection is made of."""
-    return robot.root, robot.connection, robot.domain
+    return robot.root, robot.connection, robot.domain, robot.key_prefix

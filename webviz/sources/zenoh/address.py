@@ -43,6 +43,7 @@ class ZenohAddress:
         domain: number of the ROS domain.
         user: for a router that asks for one, "" for none.
         password: of the user.
+        key_prefix: before all keys, "" for none; the engine adds and removes it.
     """
 
     endpoints: tuple[str, ...]
@@ -50,6 +51,7 @@ class ZenohAddress:
     domain: int = 0
     user: str = ""
     password: str = field(default="", repr=False)
+    key_prefix: str = ""
 
     @property
     def name(self) -> str:
@@ -63,12 +65,15 @@ def is_zenoh(address: str) -> bool:
     return is_endpoint or address.endswith(_CONFIG)
 
 
-def zenoh_address(text: str, environment: Mapping[str, str] = os.environ) -> ZenohAddress:
+def zenoh_address(
+    text: str, environment: Mapping[str, str] = os.environ, key_prefix: str = ""
+) -> ZenohAddress:
     """Return the address that a user gave.
 
     Args:
         text: such as "tcp/robot:7447", "tls/a:7447,tls/b:7447" or "zenoh.json5".
         environment: may have the domain and credentials.
+        key_prefix: before all keys, "" for that of the config, or none.
 
     Raises:
         Error: the address, the file or the domain is invalid, or the engine is not installed.
@@ -77,7 +82,7 @@ def zenoh_address(text: str, environment: Mapping[str, str] = os.environ) -> Zen
     user, password = environment.get(USER, ""), environment.get(PASSWORD, "")
     if text.endswith(_CONFIG):
         config = _read(Path(text))
-        found = ZenohAddress(_endpoints(config), Path(text), domain, user, password)
+        found = ZenohAddress(_endpoints(config), Path(text), domain, user, password, key_prefix)
     else:
         endpoints = tuple(part.strip() for part in text.split(",") if part.strip())
         for endpoint in endpoints[: MAX_ENDPOINTS + 1]:
@@ -86,7 +91,7 @@ def zenoh_address(text: str, environment: Mapping[str, str] = os.environ) -> Zen
                 raise Error(f"{endpoint[:200]!r} is not an address of Zenoh. {EXAMPLE}")
         if not 0 < len(endpoints) <= MAX_ENDPOINTS:
             raise Error(f"{len(endpoints)} addresses of Zenoh are given. {EXAMPLE}")
-        found = ZenohAddress(endpoints, None, domain, user, password)
+        found = ZenohAddress(endpoints, None, domain, user, password, key_prefix)
     session_config(found)  # refuses what the engine does not accept
     return found
 
@@ -107,6 +112,8 @@ def session_config(address: ZenohAddress) -> Any:
     }
     if address.config is None:
         values["connect/endpoints"] = list(address.endpoints)
+    if address.key_prefix:
+        values["namespace"] = address.key_prefix
     if address.user:
         values["transport/auth/usrpwd/user"] = address.user
         values["transport/auth/usrpwd/password"] = address.password
