@@ -134,24 +134,42 @@ def test_watchers_cannot_drive(stack: ExitStack) -> None:
     assert not driven
 
 
-def test_tls_on_both_sides(
-    stack: ExitStack, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("protocol", ["tls", "quic"])
+def test_certificates_on_both_sides(
+    stack: ExitStack, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, protocol: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     authority().cert_pem.write_to_path("ca.pem")
     certificate(tmp_path, "cloud")
     certificate(tmp_path, "desk")
     port = free_port()
-    router = opened(stack, block("cloud.json5", listen=f"127.0.0.1:{port}"))
-    router.liveliness().declare_token(f"@ros2_lv/0/{router.zid()}/0/0/NN/%/%/in_the_cloud")
-    Path("desk.json5").write_text(block("desk.json5", desk=f"localhost:{port}"))
+    cloud = block("cloud.json5", listen=f"127.0.0.1:{port}").replace("tls/", f"{protocol}/")
+    inner = f"tcp/127.0.0.1:{free_port()}"
+    opened(stack, cloud.replace("endpoints: [", f'endpoints: ["{inner}", '))
+    robot = robot_at(stack, inner)
+    publish = robot.publisher("/words", STRING, is_latched=True)
+    publish({"data": "over a cloud"})
+    desk = block("desk.json5", desk=f"localhost:{port}").replace("tls/", f"{protocol}/")
+    Path("desk.json5").write_text(desk)
     source = source_at(stack, "desk.json5")
-    assert source.bridges[0].name == f"tls/localhost:{port}"
+    assert source.bridges[0].name == f"{protocol}/localhost:{port}"
+    until(lambda: "/words" in source.offers())
+    source.want({"/words": Subscription(STRING, Topic("/words"))})
+    until(lambda: source.inbox.drain().get("/words"))
     # Without a certificate of the authority, the router lets nobody in.
-    stranger = ZenohSource(zenoh_address(f"tls/localhost:{port}", {}))
+    stranger = ZenohSource(zenoh_address(f"{protocol}/localhost:{port}", {}))
     stack.callback(stranger.close)
-    until(lambda: "no session over TLS was opened" in stranger.bridges[0].problem)
+    until(lambda: f"over {protocol.upper()} was opened" in stranger.bridges[0].problem)
     assert "root_ca_certificate" in stranger.bridges[0].remedy
+
+
+def test_nothing_listens_for_quic(stack: ExitStack) -> None:
+    port = free_port()
+    source = ZenohSource(zenoh_address(f"quic/localhost:{port}", {}))
+    stack.callback(source.close)
+    until(lambda: "over QUIC was opened" in source.bridges[0].problem)
+    assert source.bridges[0].problem.startswith("No session over QUIC was opened with localhost:")
+    assert "UDP" in source.bridges[0].remedy
 
 
 def test_a_robot_behind_nat_connects_out(stack: ExitStack) -> None:

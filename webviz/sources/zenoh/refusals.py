@@ -13,6 +13,10 @@ KNOCK_S = 2.0
 """Time for the answer of one host."""
 MAX_KNOCKS = 3
 """Endpoints that are tried to find the reason."""
+AUTHORITY = (
+    "the certificate of its authority in a session config, such as --connect zenoh.json5 "
+    "(transport/link/tls/root_ca_certificate)"
+)
 START = "Start one there with `ros2 run rmw_zenoh_cpp rmw_zenohd`, or check host and port."
 
 
@@ -59,8 +63,12 @@ def _silent(endpoints: Sequence[str], error: str) -> Problem:
     if endpoints[0].startswith("tls/"):
         return Problem(
             f"{place} listens, but no session over TLS was opened: {_line(error)}.",
-            "Name the certificate of its authority in a session config, such as "
-            "--connect zenoh.json5 (transport/link/tls/root_ca_certificate).",
+            f"Name {AUTHORITY}.",
+        )
+    if endpoints[0].startswith("quic/"):  # over UDP, nobody knows whether it listens
+        return Problem(
+            f"No session over QUIC was opened with {place}: {_line(error)}.",
+            f"Check that a router listens for QUIC on this UDP port, and name {AUTHORITY}.",
         )
     return Problem(
         f"What listens on {place} is not a Zenoh router, refuses webviz, or hangs.",
