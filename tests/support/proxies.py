@@ -7,7 +7,7 @@ import shutil
 import socket
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -36,13 +36,15 @@ CADDY = "{\n\tadmin off\n\tskip_install_trust\n\tauto_https off\n}\n"
 
 
 @contextmanager
-def running(name: str, folder: Path, viewer_port: int, certificate: Path) -> Iterator[int]:
+def running(
+    name: str, folder: Path, viewer_ports: Sequence[int], certificate: Path
+) -> Iterator[int]:
     """Run a proxy for https; skips the test if it is not installed.
 
     Args:
         name: nginx or caddy.
         folder: for its files.
-        viewer_port: where webviz listens on this machine.
+        viewer_ports: where webviz listens on this machine; for nginx three of one robot, or one.
         certificate: .pem, beside its .key.
 
     Returns:
@@ -55,7 +57,7 @@ def running(name: str, folder: Path, viewer_port: int, certificate: Path) -> Ite
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     write = nginx if name == "nginx" else caddy
-    arguments = write(folder, viewer_port, port, certificate)
+    arguments = write(folder, viewer_ports, port, certificate)
     with (folder / "output").open("w") as output:
         process = subprocess.Popen(
             [program, *arguments],
@@ -76,16 +78,17 @@ def running(name: str, folder: Path, viewer_port: int, certificate: Path) -> Ite
         process.wait(PATIENCE_S)
 
 
-def nginx(folder: Path, viewer_port: int, port: int, certificate: Path) -> list[str]:
+def nginx(folder: Path, viewer_ports: Sequence[int], port: int, certificate: Path) -> list[str]:
     """Write the configuration, and return the arguments."""
-    text = (FOLDER / "nginx.conf").read_text()
+    is_alone = len(viewer_ports) == 1
+    text = (FOLDER / ("nginx.conf" if is_alone else "nginx_watchers.conf")).read_text()
     site = substituted(
         text,
         {
             "listen 443 ssl": f"listen 127.0.0.1:{port} ssl",
             "/etc/ssl/certs/robots.example.pem": str(certificate),
             "/etc/ssl/private/robots.example.key": str(certificate.with_suffix(".key")),
-            "127.0.0.1:8080": f"127.0.0.1:{viewer_port}",
+            **{f"127.0.0.1:{8080 + i}": f"127.0.0.1:{each}" for i, each in enumerate(viewer_ports)},
         },
     )
     config = folder / "nginx.conf"
@@ -93,7 +96,7 @@ def nginx(folder: Path, viewer_port: int, port: int, certificate: Path) -> list[
     return ["-c", str(config), "-p", str(folder), "-e", str(folder / "log")]
 
 
-def caddy(folder: Path, viewer_port: int, port: int, certificate: Path) -> list[str]:
+def caddy(folder: Path, viewer_ports: Sequence[int], port: int, certificate: Path) -> list[str]:
     """Write the configuration, and return the arguments."""
     text = (FOLDER / "Caddyfile").read_text()
     hosts = f"https://localhost:{port}, https://robots.example:{port}"
@@ -102,7 +105,7 @@ def caddy(folder: Path, viewer_port: int, port: int, certificate: Path) -> list[
         {
             "robots.example {": f"{hosts} {{\n"
             f"\tbind 127.0.0.1\n\ttls {certificate} {certificate.with_suffix('.key')}\n",
-            "127.0.0.1:8080": f"127.0.0.1:{viewer_port}",
+            "127.0.0.1:8080": f"127.0.0.1:{viewer_ports[0]}",
         },
     )
     config = folder / "Caddyfile"

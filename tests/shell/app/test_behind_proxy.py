@@ -45,7 +45,7 @@ def test_page_websockets_and_uploads_work_below_a_path(
     name: str, viewer: webviz.Viewer, browser: playwright.Browser, tmp_path: Path
 ) -> None:
     viewer.config = {"displays": [{"type": "Grid"}]}
-    with running(name, tmp_path, viewer.port, certificate(tmp_path)) as port:
+    with running(name, tmp_path, [viewer.port], certificate(tmp_path)) as port:
         own = f"robots.example:{port}"
         assert told(port, own, "/robot1/").startswith(b"HTTP/1.1 403 ")
         let_in = told(port, own, f"/robot1/?own={SECRET}")
