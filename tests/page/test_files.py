@@ -172,6 +172,26 @@ def test_a_file_that_is_dropped_on_the_page_is_opened(tab: Tab) -> None:
     assert "Drop a config" not in tab.text()
 
 
+def test_a_file_over_the_page_shades_it(tab: Tab) -> None:
+    tab.page.evaluate("(name) => window.dispatchEvent(new DragEvent(name))", "dragenter")
+    assert not tab.page.get_by_text("Drop a config").is_visible()
+    tab.page.evaluate(
+        """(text) => {
+          const dataTransfer = new DataTransfer();
+          dataTransfer.items.add(new File([text], "mine.yaml"));
+          window.dispatchEvent(new DragEvent("dragenter", { dataTransfer }));
+        }""",
+        "version: 1\n",
+    )
+    cover = tab.page.locator(".wv-file-drop")
+    # A dashed box on a shade, unlike the place that a dragged panel would take.
+    playwright.expect(cover).to_have_css("border-top-width", "0px")
+    playwright.expect(cover.locator("p")).to_have_css("border-top-style", "dashed")
+    size = tab.page.viewport_size
+    assert size is not None
+    assert cover.bounding_box() == {"x": 0, "y": 0, **size}
+
+
 @pytest.mark.parametrize(
     ("item", "name"), [("Download as YAML", "lab.yaml"), ("Download as .rviz", "lab.rviz")]
 )

@@ -118,7 +118,7 @@ function previewOf(target, grab, home = WORDS.tabs) {
   };
   return el(
     "div",
-    { class: "wv-drop", hidden: () => !target.value, style },
+    { class: "wv-dock-drop", hidden: () => !target.value, style },
     el("span", {}, () => (target.value ? words(target.value) : "")),
   );
 }

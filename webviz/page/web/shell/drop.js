@@ -7,7 +7,7 @@ import { load } from "./opening.js";
 export function install(page) {
   const cover = el(
     "div",
-    { class: "wv-drop", hidden: true },
+    { class: "wv-file-drop", hidden: true },
     el("p", {}, "Drop a config, a bag or a report to open it"),
   );
   page.append(cover);
