@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 
 from webviz.api.registry import display_types
+from webviz.engine.feature import features
+from webviz.engine.parts.declaring import stores_of
 
 ROOT = Path(__file__).parent.parent
 FEATURES = ROOT / "webviz/features"
@@ -232,6 +234,43 @@ def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None
         for each in re.findall(r"webviz[./]features[./]\w+", path.read_text("utf-8"))
     }
     assert not wrong
+
+
+STORES_IN_THE_PAGE = {
+    "controls/permission.js": {"permission"},
+    "extensions.js": {"modules"},
+    "handles/known.js": {"handles"},
+    "panels/plugin.js": {"commands", "panel", "panel_properties", "panels"},
+    "shell/people.js": {"addresses", "journal", "links", "people"},
+    "tools/selection.js": {"selected"},
+}
+"""Stores of features that modules of the page itself read, each in one place."""
+
+
+def test_the_page_itself_reads_no_other_stores_of_features() -> None:
+    of_features = {name for feature in features().values() for name in stores_of(feature)}
+    read = {
+        name: own
+        for name, text in texts_of_the_page().items()
+        if (own := set(re.findall(r'\b(?:store|watch)\([`"](\w+)', text)) & of_features)
+    }
+    assert read == STORES_IN_THE_PAGE
+
+
+def test_the_page_itself_opens_no_panel_of_a_feature() -> None:
+    opened = {
+        (name, panel)
+        for name, text in texts_of_the_page().items()
+        for panel in re.findall(r'\bopenPanel\("(\w+)"', text)
+    }
+    assert opened
+    assert {panel for _, panel in opened} == {"displays"}
+
+
+def texts_of_the_page() -> dict[str, str]:
+    """Return the modules of the page that are no feature's by their names."""
+    page = ROOT / "webviz/page/web"
+    return {p.relative_to(page).as_posix(): p.read_text("utf-8") for p in page.rglob("*.js")}
 
 
 def feature_of(module: str) -> str:

@@ -8,15 +8,19 @@ import { el } from "../../dom.js";
 import { iconButton, textButton } from "../../icons.js";
 import { timeOfDay } from "../../time_text.js";
 import { openPanel } from "../../docks/layout.js";
-import { computed, each, effect, signal } from "../../signals.js";
+import { computed, each, effect, signal, untracked } from "../../signals.js";
 import { store } from "../../stores.js";
 import { GLOBAL } from "../../panels/displays/model.js";
 import * as selection from "../../panels/displays/selection.js";
 import { findingActs } from "../../panels/displays/statuses.js";
 import { panel } from "../../panels/panels.js";
 import { action } from "../../shell/actions.js";
-import { doctorSections } from "../../panels/doctor_sections.js";
-import { isSevere, keyOf, takeWanted } from "../../panels/findings.js";
+import { displaysStart } from "../../panels/displays/displays.js";
+import { explainStatuses, isSevere, keyOf } from "../../panels/findings.js";
+import { findingsSections } from "../../panels/findings_sections.js";
+import { headMark } from "../../shell/header.js";
+import { badge } from "./badge.js";
+import { causes } from "./causes.js";
 
 /** @import {ShownFinding, ExplainedStatus} from "../../contents.js" */
 /** @import {Readable} from "../../signals.js" */
@@ -28,6 +32,10 @@ const EXAMINING = "The doctor examines the viewer.";
 const LISTED = 3; // displays that a finding names at once
 
 const findings = store("findings");
+/** The findings of the last round; read in effects. */
+const all = () => findings.get("all") ?? [];
+/** The key of the finding that a link leads to, once; "" for none. */
+const wanted = signal("");
 
 /** @type {Panel} */
 const doctor = {
@@ -36,11 +44,10 @@ const doctor = {
   order: 60,
   isOnDemand: true,
   open(element) {
-    const all = () => findings.get("all") ?? [];
     const severe = computed(() => all().filter(isSevere));
     const notes = computed(() => all().filter((one) => !isSevere(one)));
     const at = () => findings.get("examined") ?? null;
-    const sections = doctorSections.map((make) => make());
+    const sections = findingsSections.map((make) => make());
     const trial = () => sections.map((one) => one.trial?.() ?? "").find(Boolean) ?? "";
     const list = listOf("Findings", () => severe.value);
     const count = () => notes.value.length;
@@ -73,7 +80,8 @@ const doctor = {
     );
     effect(() => {
       if (!all().length) return;
-      const key = takeWanted();
+      const key = untracked(() => wanted.value);
+      wanted.value = "";
       if (notes.value.some((one) => keyOf(one) === key)) isUnfolded.value = true;
       const made = /** @type {NodeListOf<HTMLElement>} */ (element.querySelectorAll(".wv-finding"));
       [...made].find((one) => one.dataset.finding === key)?.focus();
@@ -85,8 +93,18 @@ const doctor = {
 };
 
 export function install() {
+  const open = () => openPanel("doctor");
   panel(doctor);
-  action({ name: "Doctor", icon: "pulse", group: "View", run: () => openPanel("doctor") });
+  action({ name: "Doctor", icon: "pulse", group: "View", run: open });
+  explainStatuses({
+    all,
+    open(key) {
+      wanted.value = key;
+      open();
+    },
+  });
+  displaysStart(() => causes(all, open));
+  headMark(badge(all, open));
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import { disclosure } from "../../controls/disclosure.js";
 import { el } from "../../dom.js";
-import { doctorSection } from "../../panels/doctor_sections.js";
+import { findingsSection } from "../../panels/findings_sections.js";
 import { signal } from "../../signals.js";
 import { store } from "../../stores.js";
 
@@ -20,7 +20,7 @@ const NAMES = {
 };
 const NOTHING = "No display has drawn a message since this was opened.";
 
-export const install = () => doctorSection(stampToScreen);
+export const install = () => findingsSection(stampToScreen);
 
 /** The section; nothing is measured while it is folded. */
 function stampToScreen() {

@@ -7,7 +7,7 @@ import { number } from "../../controls/number.js";
 import { el, set, setText, showText } from "../../dom.js";
 import { textButton } from "../../icons.js";
 import { overlay } from "../../overlay/overlay.js";
-import { doctorSection } from "../../panels/doctor_sections.js";
+import { findingsSection } from "../../panels/findings_sections.js";
 import { frameAction } from "../../panels/frame_actions.js";
 import { command } from "../../commands.js";
 import { store, watch } from "../../stores.js";
@@ -42,7 +42,7 @@ export function install() {
     run: tryFrame,
   });
   overlay("cards", "what if", banner());
-  doctorSection(() => ({ trial }));
+  findingsSection(() => ({ trial }));
 }
 
 /** Says in the doctor that it examines what is tried. */

@@ -1,13 +1,20 @@
-// Findings of the doctor: what explains a status, and the way to them.
+// Findings, which explain statuses, and the way to them; a feature has them.
 
 import { textButton } from "../icons.js";
-import { openPanel } from "../docks/layout.js";
-import { store } from "../stores.js";
+import { signal } from "../signals.js";
 
 /** @import {ShownFinding} from "../contents.js" */
 
-const findings = store("findings");
-let wanted = "";
+/**
+ * `all` is read in effects; `open` shows the finding of a key.
+ *
+ * @typedef {{all(): readonly ShownFinding[], open(key: string): unknown}} Finder
+ */
+
+const finder = signal(/** @type {Finder | null} */ (null));
+
+/** @param {Finder} found */
+export const explainStatuses = (found) => (finder.value = found);
 
 /**
  * Returns true if a finding is more than a note.
@@ -35,9 +42,6 @@ const displaysOf = ({ explains }) => new Set(explains.map(({ display }) => displ
 export const isShared = (finding) =>
   isSevere(finding) && (displaysOf(finding).size > 1 || displaysOf(finding).has(""));
 
-/** The findings that are said once for several displays; read in effects. */
-export const shared = () => (findings.get("all") ?? []).filter(isShared);
-
 /**
  * The finding to repair first of those that explain a status, or any status of the display without
  * one; read in effects. The viewer as a whole is the display "".
@@ -46,34 +50,22 @@ export const shared = () => (findings.get("all") ?? []).filter(isShared);
  * @param {string} [status]
  */
 export const explaining = (display, status) =>
-  findings
-    .get("all")
-    ?.find(({ explains }) =>
+  finder.value
+    ?.all()
+    .find(({ explains }) =>
       explains.some(
         (one) => one.display === display && (status === undefined || one.status === status),
       ),
     );
 
 /**
- * A link that opens the doctor at a finding.
+ * A link that opens a finding.
  *
  * @param {ShownFinding} finding
  */
-export function findingLink(finding) {
-  const open = () => {
-    wanted = keyOf(finding);
-    openPanel("doctor");
-  };
-  return textButton("Why?", open, {
+export const findingLink = (finding) =>
+  textButton("Why?", () => finder.value?.open(keyOf(finding)), {
     class: "wv-link wv-finding-link",
     "aria-label": `Why? ${finding.cause}`,
     "data-finding": keyOf(finding),
   });
-}
-
-/** The key of the finding that a link has led to, once; "" for none. */
-export function takeWanted() {
-  const key = wanted;
-  wanted = "";
-  return key;
-}

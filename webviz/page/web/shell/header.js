@@ -3,16 +3,15 @@
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { actions, added, item, menuStarts, submenuItems } from "./actions.js";
-import { fold, openPanel } from "../docks/layout.js";
+import { fold } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
-import { isSevere } from "../panels/findings.js";
-import { store } from "../stores.js";
 import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 
 /** @import {MenuItem} from "../controls/menu.js" */
 
 const lead = el("span", { class: "wv-head-buttons" });
+const marks = el("span", { class: "wv-head-buttons" });
 const ofFeatures = el("span", { class: "wv-head-buttons" });
 
 /**
@@ -21,6 +20,13 @@ const ofFeatures = el("span", { class: "wv-head-buttons" });
  * @param {...HTMLElement} elements
  */
 export const headStart = (...elements) => lead.append(...elements);
+
+/**
+ * Adds what the buttons begin with, such as a number that is there while it is not zero.
+ *
+ * @param {HTMLElement} mark
+ */
+export const headMark = (mark) => marks.append(mark);
 
 /**
  * Adds a button of a feature.
@@ -40,34 +46,11 @@ export function build() {
     lead,
     roleMark(),
     el("span", { class: "wv-gap" }),
-    badge(),
+    marks,
     iconButton("search", "Commands", actions.commands.run, { "data-key": "Ctrl+k" }),
     ofFeatures,
     more,
     iconButton("fold", "Hide the panels", () => fold(true), { "data-key": "Ctrl+b" }),
-  );
-}
-
-// The number of findings, while there are any.
-function badge() {
-  const findings = store("findings");
-  const severe = () => (findings.get("all") ?? []).filter(isSevere);
-  const count = () => String(severe().length);
-  const cause = () => severe()[0]?.cause;
-  return el(
-    "button",
-    {
-      type: "button",
-      class: "wv-icon wv-doctor-badge",
-      hidden: () => !severe().length,
-      "data-level": () => severe()[0]?.level,
-      "aria-label": () => `Doctor: ${count() === "1" ? "1 finding" : `${count()} findings`}`,
-      "aria-description": cause,
-      "data-tip": cause,
-      onclick: () => openPanel("doctor"),
-    },
-    el("span", { class: "wv-dot", "aria-hidden": "true" }),
-    el("span", {}, count),
   );
 }
 

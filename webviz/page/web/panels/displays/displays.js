@@ -9,15 +9,24 @@ import { command } from "../../commands.js";
 import { keyText } from "../../keys.js";
 import { openMenuBelow } from "../../controls/menu.js";
 import * as actions from "./actions.js";
-import { causes } from "../causes.js";
 import { buildDetails } from "./details.js";
 import * as folding from "./folding.js";
 import { topmost } from "./model.js";
 import * as selection from "./selection.js";
+import { signal } from "../../signals.js";
 import { buildTree } from "./tree.js";
 
 /** @import {Command} from "../../commands.js" */
 /** @import {Panel} from "../../types.js" */
+
+const starts = signal(/** @type {readonly (() => HTMLElement)[]} */ ([]));
+
+/**
+ * Adds what stands above the tree.
+ *
+ * @param {() => HTMLElement} make called when the panel is opened
+ */
+export const displaysStart = (make) => (starts.value = [...starts.value, make]);
 
 /** @type {Panel} */
 export const displays = {
@@ -59,7 +68,7 @@ export const displays = {
         el("div", { class: "wv-tree-search" }, field, hint),
         more,
       ),
-      causes(),
+      el("div", { class: "wv-displays-start" }, () => starts.value.map((make) => make())),
       tree.element,
       details.element,
     );

@@ -1,21 +1,25 @@
 // The causes behind the statuses of several displays, each said once above the list of displays.
 
-import { el } from "../dom.js";
-import { textButton } from "../icons.js";
-import { openPanel } from "../docks/layout.js";
-import { computed, each } from "../signals.js";
-import { findingActs } from "./displays/statuses.js";
-import { findingLink, keyOf, shared } from "./findings.js";
+import { el } from "../../dom.js";
+import { textButton } from "../../icons.js";
+import { computed, each } from "../../signals.js";
+import { findingActs } from "../../panels/displays/statuses.js";
+import { findingLink, isShared, keyOf } from "../../panels/findings.js";
 
-/** @import {ShownFinding} from "../contents.js" */
-/** @import {Readable} from "../signals.js" */
+/** @import {ShownFinding} from "../../contents.js" */
+/** @import {Readable} from "../../signals.js" */
 
 const LISTED = 2; // the doctor has the others
 
-export function causes() {
+/**
+ * @param {() => readonly ShownFinding[]} findings read in effects
+ * @param {() => unknown} open shows all of them
+ */
+export function causes(findings, open) {
+  const shared = () => findings().filter(isShared);
   const more = () => shared().length - LISTED;
   const text = () => (more() === 1 ? "1 more cause" : `${more()} more causes`);
-  const others = textButton("", () => openPanel("doctor"), { class: "wv-link" });
+  const others = textButton("", open, { class: "wv-link" });
   others.append(el("span", {}, text));
   return el(
     "div",
