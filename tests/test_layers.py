@@ -241,7 +241,6 @@ STORES_IN_THE_PAGE = {
     "extensions.js": {"modules"},
     "handles/known.js": {"handles"},
     "panels/plugin.js": {"commands", "panel", "panel_properties", "panels"},
-    "shell/people.js": {"addresses", "journal", "links", "people"},
     "tools/selection.js": {"selected"},
 }
 """Stores of features that modules of the page itself read, each in one place."""

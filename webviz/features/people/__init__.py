@@ -97,6 +97,7 @@ class People(PageFeature):
     """Shows who is connected and what they did, and invites others."""
 
     name = "People"
+    module = "people.js"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)

@@ -6,7 +6,6 @@ import { openCommandList } from "./command_list.js";
 import { command } from "../commands.js";
 import { openKeys } from "./key_help.js";
 import { fold } from "../docks/layout.js";
-import { openPeople } from "./people.js";
 import { setTheme } from "./theme.js";
 import { toggle } from "./video.js";
 
@@ -36,7 +35,6 @@ export const actions = {
     needs: "AddDisplay",
     run: () => openAdd(),
   },
-  people: { name: "People…", icon: "eye", group: "View", run: () => openPeople() },
   fullscreen: { name: "Full screen", icon: "fullscreen", group: "View", run: toggleFullScreen },
   fold: {
     name: "Show or hide the panels",
@@ -71,12 +69,15 @@ export const actions = {
   },
 };
 
-/** Actions of features, which the menu has, too. @type {Command[]} */
+/** Actions of features, which the menu has, too. @type {(Command & {order?: number})[]} */
 export const added = [];
 
-/** @param {Command} wanted */
+const LAST = 1000;
+
+/** @param {Command & {order?: number}} wanted with its place among the others, the last without it */
 export function action(wanted) {
   added.push(wanted);
+  added.sort((a, b) => (a.order ?? LAST) - (b.order ?? LAST));
   command(wanted);
 }
 

@@ -1,11 +1,11 @@
 // The head of the side: what features put there, and the menu.
 
+import { onRole, self } from "../access.js";
 import { el } from "../dom.js";
 import { iconButton } from "../icons.js";
 import { actions, added, item, menuStarts, submenuItems } from "./actions.js";
 import { fold } from "../docks/layout.js";
 import { openMenuBelow } from "../controls/menu.js";
-import { roleMark } from "./people.js";
 import { theme } from "./theme.js";
 
 /** @import {MenuItem} from "../controls/menu.js" */
@@ -54,6 +54,18 @@ export function build() {
   );
 }
 
+/** A word on the role of this page, for those who are not the owner. */
+function roleMark() {
+  const mark = el("span", { class: "wv-role", hidden: true });
+  onRole(() => {
+    const { role, name } = self();
+    mark.hidden = role === "owner";
+    mark.textContent = role;
+    mark.dataset.tip = `Your link${name ? `, ${name},` : ""} is for ${role === "operator" ? "an" : "a"} ${role}.`;
+  });
+  return mark;
+}
+
 /** @returns {(MenuItem | null)[]} */
 function menu() {
   /** @param {string} name */
@@ -64,7 +76,6 @@ function menu() {
     item(actions.video),
     item(actions.fullscreen, { checked: document.fullscreenElement ? true : undefined }),
     ...submenuItems(),
-    item(actions.people),
     ...added.map((action) => item(action)),
     null,
     item(actions.dark, isTheme("dark")),

@@ -1,32 +1,24 @@
 // Who is connected and what they did, and how the owner invites others.
 
-import { timeOfDay } from "../time_text.js";
-import { onRole, self, why } from "../access.js";
-import { act } from "../act.js";
-import { copyAndTell } from "../clipboard.js";
-import { el } from "../dom.js";
-import { textButton } from "../icons.js";
-import { each, root } from "../signals.js";
-import { store } from "../stores.js";
-import { ask, openDialog } from "../controls/dialog.js";
+import { timeOfDay } from "../../time_text.js";
+import { self, why } from "../../access.js";
+import { act } from "../../act.js";
+import { copyAndTell } from "../../clipboard.js";
+import { el } from "../../dom.js";
+import { textButton } from "../../icons.js";
+import { each, root } from "../../signals.js";
+import { store } from "../../stores.js";
+import { ask, openDialog } from "../../controls/dialog.js";
+import { action } from "../../shell/actions.js";
 import { invitation } from "./invitation.js";
 
-/** @import {JournalEntry, Person, ValidLink} from "../contents.js" */
-/** @import {Child} from "../types.js" */
+/** @import {JournalEntry, Person, ValidLink} from "../../contents.js" */
+/** @import {Child} from "../../types.js" */
 
-/** A word on the role of this page, for those who are not the owner. */
-export function roleMark() {
-  const mark = el("span", { class: "wv-role", hidden: true });
-  onRole(() => {
-    const { role, name } = self();
-    mark.hidden = role === "owner";
-    mark.textContent = role;
-    mark.dataset.tip = `Your link${name ? `, ${name},` : ""} is for ${role === "operator" ? "an" : "a"} ${role}.`;
-  });
-  return mark;
-}
+export const install = () =>
+  action({ name: "People…", icon: "eye", group: "View", order: 0, run: openPeople });
 
-export const openPeople = () =>
+const openPeople = () =>
   root(async (end) => {
     const isOwner = self().role === "owner";
     const columns = ["Name", "Role", "Address", "Since", "Latency", "Drives", ""];
