@@ -99,7 +99,7 @@ check: $(VENV)/ready-to-check
 	@$(VENV)/bin/ruff check
 	@$(VENV)/bin/ruff format --check
 	@$(NODE) $(SCRIPTS)/node_modules/oxlint/bin/oxlint --config tests/javascript/oxlintrc.json \
-		--deny-warnings webviz/page/web webviz/features webviz/panels
+		--deny-warnings webviz/page/web webviz/features webviz/panels displays tests
 	@$(NODE) $(SCRIPTS)/node_modules/prettier/bin/prettier.cjs --check --log-level warn $(MODULES)
 	@$(NODE) $(SCRIPTS)/node_modules/typescript/bin/tsc --project tests/javascript
 	@# Much memory for what is new: garbage takes a tenth less time.

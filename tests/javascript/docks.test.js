@@ -59,7 +59,7 @@ test("a floating panel keeps its size, and stays over the scene", () => {
   let layout = place(EMPTY, "Log", "over", 0, 5, -3);
   const [{ left, top, width }] = layout.over;
   assert.deepEqual([left, top], [1 - width, 0]);
-  layout = floated(layout, "Log", { width: 9, height: NaN > 0 ? 1 : 0 });
+  layout = floated(layout, "Log", { width: 9, height: 0 });
   assert.deepEqual([layout.over[0].width, layout.over[0].height], [1, 0.05]);
   layout = place(layout, "Log", "over", 0, 0.5, 0.2);
   assert.deepEqual(layout.over[0], { panel: "Log", width: 1, height: 0.05, left: 0, top: 0.2 });

@@ -2,6 +2,9 @@
 
 import { setText } from "webviz/dom.js";
 
+/** @import {Page} from "webviz/extensions.js" */
+
+/** @param {Page} page */
 export default function install({ el, set, widget }) {
   widget("dial", (values, send) => {
     const text = el("span");
@@ -17,7 +20,7 @@ export default function install({ el, set, widget }) {
     });
     function update({ charge = 0, limit = 0 }) {
       set(bar, { value: charge, low: limit });
-      const percent = (share) => `${Math.round(share * 100)} %`;
+      const percent = (/** @type {number} */ share) => `${Math.round(share * 100)} %`;
       setText(text, `${percent(charge)}, warns below ${percent(limit)}`);
     }
     return { element: el("div", { style: "display: grid" }, text, bar), update };

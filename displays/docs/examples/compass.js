@@ -2,6 +2,9 @@
 
 import { setText } from "webviz/dom.js";
 
+/** @import {Page} from "webviz/extensions.js" */
+
+/** @param {Page} page */
 export default function install({ beforeRender, canvas, el, groundAt, overlay }) {
   const text = el("div", { class: "wv-card", title: "Heading of the camera" });
   overlay("legend", "compass", text);
@@ -11,7 +14,7 @@ export default function install({ beforeRender, canvas, el, groundAt, overlay })
       groundAt(left + width / 2, top + height * share),
     );
     text.hidden = !near || !far;
-    if (text.hidden) return;
+    if (!near || !far) return;
     const degrees = (Math.atan2(far[0] - near[0], far[1] - near[1]) * 180) / Math.PI;
     setText(text, `${Math.round(degrees + 360) % 360}°`);
   });

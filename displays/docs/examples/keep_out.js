@@ -2,13 +2,19 @@
 
 import { set, svgElement } from "webviz/dom.js";
 
+/** @import {Page} from "webviz/extensions.js" */
+/** @import {SceneEvent, Vec2, Vec3} from "webviz/types.js" */
+
 const STEP_PX = 10; // between two corners
 const MAX_CORNERS = 500;
 
+/** @param {Page} page */
 export default function install({ beforeRender, canvas, gesture, groundAt, makeLayer, onCanvas }) {
   const line = svgElement("polyline", { fill: "none", stroke: "#f80", "stroke-width": 3 });
   const layer = makeLayer("keep-out", svgElement("svg", { width: "100%", height: "100%" }, line));
+  /** @type {Vec3[]} */
   let corners = [];
+  /** @type {Vec2 | null} */
   let last = null; // where the newest corner was drawn, in pixels
 
   const draw = () => {
@@ -23,6 +29,7 @@ export default function install({ beforeRender, canvas, gesture, groundAt, makeL
     draw();
   }
 
+  /** @param {SceneEvent} event */
   function add({ clientX, clientY }) {
     const isNear = last && Math.hypot(clientX - last[0], clientY - last[1]) < STEP_PX;
     const corner = isNear || corners.length >= MAX_CORNERS ? null : groundAt(clientX, clientY);
@@ -37,7 +44,7 @@ export default function install({ beforeRender, canvas, gesture, groundAt, makeL
     cursor: "crosshair",
     leave: clear,
     pointer(event) {
-      if (event.type === "pointerdown" && event.button === 0) {
+      if (event instanceof PointerEvent && event.type === "pointerdown" && event.button === 0) {
         canvas().setPointerCapture(event.pointerId);
         add(event);
         return true;
