@@ -47,8 +47,9 @@ function pickOf({ display, key, number, at }, found) {
     const { group, key: own, path, first } = thing.node;
     if (group.split("/", 1)[0] !== display || own !== key) continue;
     if (number === null) {
-      const matrix = (viser.node(path) ?? thing.object).matrixWorld;
-      const point = viser.camera().position.clone().fromArray(at).applyMatrix4(matrix);
+      const whole = viser.node(path) ?? (thing.object.isText ? null : thing.object);
+      if (!whole) continue;
+      const point = viser.camera().position.clone().fromArray(at).applyMatrix4(whole.matrixWorld);
       return described({ ...thing, number, point });
     }
     const pick = described({ ...thing, number: number - first });

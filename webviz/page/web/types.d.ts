@@ -1,6 +1,6 @@
 // Types that modules share; those of the server are in messages.d.ts and contents.d.ts.
 
-import type { Object3D } from "three";
+import type { Matrix4, Object3D, Vector3, WebGLProgramParametersWithUniforms } from "three";
 import type { LiveTopic, Stores } from "./contents.js";
 import type { Tools } from "./messages.js";
 import type { Readable } from "./signals.js";
@@ -116,12 +116,31 @@ export interface SceneObject extends Object3D {
   isLineSegments2?: boolean;
   isPoints?: boolean;
   isLight?: boolean;
+  isText?: undefined;
+  /** Of one that is drawn several times. */
+  instancesCount?: number;
+  getMatrixAt?(number: number, into: Matrix4): Matrix4;
   /** Of three.js, with attributes of its own. */
   geometry?: any;
   /** Of three.js or one of viser's own, with uniforms of its own. */
   material?: any;
   traverse(visit: (object: SceneObject) => unknown): void;
 }
+/** A text of the scene, of which three.js has no object; see `texts.js`. */
+export interface SceneText {
+  isText: true;
+  isPoints?: undefined;
+  isLineSegments2?: undefined;
+  number: number;
+  /** In the coordinates of its node. */
+  local: Vec3;
+  /** In coordinates of three.js. */
+  place: Vector3;
+  /** Around it: left, bottom, width and height in metres along the screen. */
+  rect: [number, number, number, number];
+}
+/** The program of a material before it is compiled. */
+export type Shader = Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">;
 /** Parts of viser's page and of its materials, which have no types. */
 export type Three = any;
 /** A message of viser's, of which modules read some fields. */
@@ -143,7 +162,7 @@ export type LoggedEvent = [number, string, string];
 /** The node of the viewer that an object belongs to; `first` is the number of its first point. */
 export type NodePart = { group: string; key: string; path: string; first: number };
 /** An object that displays draw, see `things`. */
-export type SceneThing = { object: Three; name: string; node: NodePart; ordinal: number };
+export type SceneThing = { object: SceneObject | SceneText; name: string; node: NodePart; ordinal: number };
 /** A thing of the scene as `pickAt` found it; `at` and `local` are empty if it is gone. */
 export type Picked = {
   group: string;
@@ -151,20 +170,20 @@ export type Picked = {
   path: string;
   name: string;
   ordinal: number;
-  object: Three;
+  object: SceneObject | SceneText;
   number: number | null;
   color: Vec3 | null;
   item: number | null;
-  at: Vec3;
-  local: Vec3;
+  at: Vec3 | [];
+  local: Vec3 | [];
   /** In coordinates of three.js. */
-  point: Three;
+  point: Vector3;
   outline?: Shape | null;
 };
 /** What is under a point of the window: a thing, or the ground. */
-export type Hit = Picked | { point: Three; object: null };
+export type Hit = Picked | { point: Vector3; object: null };
 /** Points in coordinates of three.js, and which of them are joined. */
-export type Shape = { points: Three[]; edges: number[][] };
+export type Shape = { points: Vector3[]; edges: number[][] };
 /** The shape around something, and whether something else is drawn there now. */
 export type Outline = Shape & { isOld: boolean };
 /** What this page has selected; `oldSince` counts in ms. */

@@ -8,9 +8,9 @@ import { add, scaled } from "../vectors.js";
 
 /** @import {HandleControl} from "../contents.js" */
 /** @import {Projection} from "../scene/projection.js" */
-/** @import {Three, Vec2, Vec3} from "../types.js" */
+/** @import {SceneObject, Vec2, Vec3} from "../types.js" */
 
-/** @typedef {{object: Three, point: Vec3, axis: Vec3}} Line */
+/** @typedef {{object: SceneObject, point: Vec3, axis: Vec3}} Line */
 
 const REACH_PX = 4000; // to either side
 const STEPS = 40; // to find where it goes behind the camera

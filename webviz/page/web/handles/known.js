@@ -9,7 +9,8 @@ import { watch } from "../stores.js";
 import * as viser from "../viser_page.js";
 import { pathOf } from "../scene/projection.js";
 
-/** @import {SceneThing, Three, ValuesOf, Vec2} from "../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {SceneThing, ValuesOf, Vec2} from "../types.js" */
 
 /** @typedef {{groups: Map<string, string>, parts: Map<number, string[]>}} HandleNodes */
 
@@ -68,7 +69,7 @@ export function groupOf(group) {
  * coordinates. What lies in front of it hides it.
  *
  * @param {Vec2} xy
- * @returns {(Part & {point: Three}) | null}
+ * @returns {(Part & {point: Vector3}) | null}
  */
 export function controlAt(xy) {
   if (!handles.size) return null;

@@ -10,7 +10,7 @@ import { about, compose, inverse, rotate, scaled, turnedBy } from "../vectors.js
 /** @import {Moved} from "./drags.js" */
 /** @import {Pose} from "../vectors.js" */
 /** @import {SceneHandle} from "../contents.js" */
-/** @import {SceneObject, Three, Vec3, Wxyz} from "../types.js" */
+/** @import {SceneObject, Vec3, Wxyz} from "../types.js" */
 
 /**
  * `frames` are those that are left after the drag, null while it goes on.
@@ -29,7 +29,7 @@ const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward
 
 /** @type {Map<string, Dragged>} */
 const dragged = new Map(); // poses by id of the handle
-/** @type {Map<string, {object: Three, base: Pose}>} */
+/** @type {Map<string, {object: SceneObject, base: Pose}>} */
 const covered = new Map(); // by path of a group, where viser has placed it under a drag
 /** @type {string[]} */
 let facing = [];

@@ -4,7 +4,7 @@ import { toThree } from "../scene/fixed_frame.js";
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three, Vec3} from "../types.js" */
+/** @import {Vec3} from "../types.js" */
 
 const AXES = [0, 1, 2];
 
@@ -23,7 +23,7 @@ export function boxOf(displays) {
   const starts = displays.map((id) => `${constants.ROOT}/${encodeURIComponent(`${id}/`)}`);
   for (const [name, node] of Object.entries(viser.nodes())) {
     if (!node || !starts.some((start) => name.startsWith(start))) continue;
-    node.traverse((/** @type {Three} */ object) => {
+    node.traverse((object) => {
       if (!object.visible || !object.geometry) return;
       object.geometry.computeBoundingBox();
       const { min, max } = object.geometry.boundingBox ?? {};

@@ -5,13 +5,13 @@
 
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {SceneObject} from "../types.js" */
 
 export function install() {
-  /** @type {Set<Three>} */
+  /** @type {Set<SceneObject>} */
   let before = new Set();
   viser.afterRender(() => {
-    /** @type {Set<Three>} */
+    /** @type {Set<SceneObject>} */
     const drawn = new Set();
     viser.scene().traverse((object) => object.isInstancedMesh2 && drawn.add(object));
     for (const batch of before) if (!drawn.has(batch)) batch.geometry.dispose();

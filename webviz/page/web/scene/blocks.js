@@ -6,12 +6,12 @@ import * as capacity from "./capacity.js";
 import * as viser from "../viser_page.js";
 
 /** @import {Matrix4, PerspectiveCamera} from "three" */
-/** @import {SceneObject, Three} from "../types.js" */
+/** @import {SceneObject} from "../types.js" */
 
 const MARK = `/${constants.BLOCK_PREFIX}`;
 const LEAST_SHARE = 0.5; // of the points held, although other clouds have more
 
-/** @type {WeakMap<object, {middle: Three, radius: number}>} */
+/** @type {WeakMap<object, {middle: number[], radius: number}>} */
 const spheres = new WeakMap(); // by array of coordinates
 
 export function install() {
@@ -25,9 +25,9 @@ export function install() {
   viser.afterRender(() => (others = Math.max(viser.gl().info.render.points - thinned, 0)));
 }
 
-/** @returns {Three[]} */
+/** @returns {SceneObject[]} */
 function blocks() {
-  /** @type {Three[]} */
+  /** @type {SceneObject[]} */
   const found = [];
   const nodes = viser.nodes();
   for (const name in nodes) {
@@ -77,7 +77,7 @@ function thin(objects, camera, budget) {
 
 // The weight of a sphere, the more the nearer; 0 out of sight.
 /**
- * @param {{middle: Three, radius: number}} sphere
+ * @param {{middle: number[], radius: number}} sphere
  * @param {Matrix4} matrixWorld
  * @param {PerspectiveCamera} camera
  * @returns {number}
@@ -97,8 +97,8 @@ function weightOf({ middle, radius }, matrixWorld, camera) {
 }
 
 /**
- * @param {Three} xyz
- * @returns {{middle: Three, radius: number}}
+ * @param {Float32Array} xyz
+ * @returns {{middle: number[], radius: number}}
  */
 function sphereOf(xyz) {
   const known = spheres.get(xyz);

@@ -7,7 +7,8 @@
 import * as viser from "../viser_page.js";
 import { lit } from "./shade.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {BufferAttribute, BufferGeometry} from "three" */
+/** @import {SceneObject, Shader} from "../types.js" */
 
 const STEPS = 5;
 
@@ -15,7 +16,7 @@ export function install() {
   viser.beforeRender((gl, scene) => scene.traverse(paint));
 }
 
-/** @param {Three} mesh */
+/** @param {SceneObject} mesh */
 function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }) {
   if (!isMesh || isInstancedMesh || isInstancedMesh2) return;
   if (material.gradientMap?.image.width !== STEPS) return;
@@ -30,7 +31,7 @@ function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }
   material.webviz = true;
   material.vertexColors = true;
   material.depthWrite = !material.transparent;
-  material.onBeforeCompile = (/** @type {Three} */ shader) => {
+  material.onBeforeCompile = (/** @type {Shader} */ shader) => {
     lit(shader);
     shader.fragmentShader = shader.fragmentShader.replace(
       "#include <color_fragment>",
@@ -43,15 +44,16 @@ function paint({ isMesh, isInstancedMesh, isInstancedMesh2, geometry, material }
 }
 
 /**
- * @param {Three} geometry
- * @param {Three} attribute
+ * @param {BufferGeometry} geometry
+ * @param {BufferAttribute} attribute
  */
 function readColors(geometry, { array, constructor }) {
+  const Attribute = /** @type {typeof BufferAttribute} */ (constructor);
   const count = array.length / 6;
   let { color } = geometry.attributes;
   if (color?.count !== count) {
     geometry.dispose(); // frees the buffers in the graphics card; those that stay are made anew
-    geometry.setAttribute("color", (color = new constructor(new Float32Array(4 * count), 4)));
+    geometry.setAttribute("color", (color = new Attribute(new Float32Array(4 * count), 4)));
   }
   const colors = color.array;
   for (let i = 0, j = array.length / 2; i < colors.length; i += 4, j += 3) {
@@ -63,8 +65,9 @@ function readColors(geometry, { array, constructor }) {
   }
   color.needsUpdate = true;
   // Without the colours; of what is drawn and what is picked.
-  const corners = new constructor(array.subarray(0, array.length / 2), 3);
+  const corners = new Attribute(array.subarray(0, array.length / 2), 3);
+  if (!geometry.boundingSphere) geometry.computeBoundingSphere();
   geometry.computeBoundingBox();
-  geometry.boundingBox.setFromBufferAttribute(corners);
-  geometry.boundingBox.getBoundingSphere(geometry.boundingSphere);
+  const { boundingBox: box, boundingSphere: sphere } = geometry;
+  if (box && sphere) box.setFromBufferAttribute(corners).getBoundingSphere(sphere);
 }

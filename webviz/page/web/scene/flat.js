@@ -3,12 +3,12 @@
 
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {Shader} from "../types.js" */
 
 const STEPS = 3;
 const AFTER_LINES = 1;
 
-/** @param {Three} shader */
+/** @param {Shader} shader */
 const flat = (shader) => {
   // By as much as pictures lie behind lines, see tiles.js.
   shader.vertexShader = shader.vertexShader.replace(

@@ -5,15 +5,15 @@ import { hit } from "./mouse.js";
 import { casterAt } from "./rays.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Vector3} from "three" */
-/** @import {Three, Vec2, Vec3} from "../types.js" */
+/** @import {Ray, Vector3} from "three" */
+/** @import {Vec2, Vec3} from "../types.js" */
 
 const FARTHEST = 1e6; // metres
 const STEEP = 0.01; // square of the sine of an angle to the vertical
 
 /**
  * @param {Vec3} xyz
- * @returns {Three}
+ * @returns {Vector3}
  */
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
 
@@ -76,7 +76,7 @@ export function heightAt(xy, [x, y, z]) {
 // Through a point of the window, in the fixed frame.
 /**
  * @param {Vec2} xy
- * @returns {Three}
+ * @returns {Ray}
  */
 const rayAt = (xy) => casterAt(xy).ray.applyMatrix4(toThree().clone().invert());
 

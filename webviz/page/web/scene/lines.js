@@ -13,7 +13,16 @@ import { markOf } from "./marks.js";
 import { paint, scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {BufferGeometry, Color, InstancedInterleavedBuffer} from "three" */
+/** @import {InterleavedBufferAttribute, ShaderMaterial} from "three" */
+
+/**
+ * Geometry and material of LineSegments2, with the attributes that are added here.
+ *
+ * @typedef {"instanceStart" | "webvizStart" | "webvizEnd"} Attributes
+ * @typedef {BufferGeometry<Partial<Record<Attributes, InterleavedBufferAttribute>>>} LineGeometry
+ * @typedef {ShaderMaterial & {linewidth: number, worldUnits: boolean, color: Color}} LineMaterial
+ */
 
 const OF_THEME = 256;
 
@@ -81,7 +90,7 @@ const square = (source) =>
     );
 
 // An end is open unless the segment before or after goes on from there.
-/** @param {Three} geometry */
+/** @param {LineGeometry} geometry */
 function markEnds(geometry) {
   const { instanceStart } = geometry.attributes;
   if (!instanceStart) return;
@@ -103,9 +112,11 @@ function markEnds(geometry) {
     ends.set(joint, 8 * i + 4);
     ends.set(joint, 8 * next);
   }
-  const buffer = new instanceStart.data.constructor(ends, 8, 1);
-  geometry.setAttribute("webvizStart", new instanceStart.constructor(buffer, 4, 0));
-  geometry.setAttribute("webvizEnd", new instanceStart.constructor(buffer, 4, 4));
+  const Buffer = /** @type {typeof InstancedInterleavedBuffer} */ (instanceStart.data.constructor);
+  const Attribute = /** @type {typeof InterleavedBufferAttribute} */ (instanceStart.constructor);
+  const buffer = new Buffer(ends, 8, 1);
+  geometry.setAttribute("webvizStart", new Attribute(buffer, 4, 0));
+  geometry.setAttribute("webvizEnd", new Attribute(buffer, 4, 4));
 }
 
 // The unit vector along a segment, zero if that has no length.
@@ -124,7 +135,7 @@ function direction(xyz, number, into) {
 
 // Lines with a width in metres are drawn twice, the second time with smooth edges: transparent ones
 // only then. Grids without a colour of their own have that of the theme.
-/** @param {Three} material */
+/** @param {LineMaterial} material */
 function blend(material) {
   const { linewidth, worldUnits, defines } = material;
   const mark = markOf(linewidth);

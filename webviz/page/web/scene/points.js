@@ -7,7 +7,8 @@
 import { markOf } from "./marks.js";
 import * as viser from "../viser_page.js";
 
-/** @import {SceneObject, Three, ViserMessage} from "../types.js" */
+/** @import {ShaderMaterial} from "three" */
+/** @import {SceneObject, ViserMessage} from "../types.js" */
 
 /** @typedef {{opacity: number, plane: number[]}} Look */
 
@@ -44,7 +45,7 @@ function read({ type, name, props, updates }) {
 }
 
 // All of them, so that they share a shader.
-/** @param {Three} material */
+/** @param {ShaderMaterial} material */
 function patch(material) {
   if (material.uniforms?.webvizOpacity || !material.uniforms?.point_ball_norm) return;
   material.uniforms.webvizOpacity = { value: 1 };
@@ -57,7 +58,7 @@ function patch(material) {
 }
 
 /**
- * @param {Three} material
+ * @param {ShaderMaterial} material
  * @param {Look} look
  */
 function show(material, { opacity, plane }) {

@@ -6,7 +6,7 @@ import * as viser from "../viser_page.js";
 
 /** @import {Vector3} from "three" */
 /** @import {Ray} from "../vectors.js" */
-/** @import {SceneObject, Three, Vec2, Vec3} from "../types.js" */
+/** @import {SceneObject, Vec2, Vec3} from "../types.js" */
 
 /** @typedef {ReturnType<typeof projectionOf>} Projection */
 
@@ -44,7 +44,7 @@ export function projectionOf(object) {
   const camera = viser.camera();
   /**
    * @param {Vec3} xyz
-   * @returns {Three}
+   * @returns {Vector3}
    */
   const vector = (xyz) => camera.position.clone().fromArray(xyz);
   const back = object.matrixWorld.clone().invert();

@@ -5,7 +5,7 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {Color} from "three" */
 
 /** "background", "text" and "grid", each red, green and blue from 0 to 255. */
 export const scheme = () => constants.SCHEMES[document.documentElement.dataset.wvTheme ?? "dark"];
@@ -25,7 +25,7 @@ export function install() {
 /**
  * Gives a colour of three.js these bytes: red, green and blue.
  *
- * @param {Three} color
+ * @param {Color} color
  * @param {number[]} bytes
  */
 export const paint = (color, bytes) => {

@@ -11,7 +11,7 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {SceneObject, Three} from "../types.js" */
+/** @import {SceneObject, Shader} from "../types.js" */
 
 const { DARKEST } = constants;
 const BOX_STEPS = 5;
@@ -19,7 +19,7 @@ const BOX_STEPS = 5;
 /**
  * Shades like a surface.
  *
- * @param {Three} shader
+ * @param {Shader} shader
  */
 export function lit(shader) {
   shader.fragmentShader = shader.fragmentShader.replace(
@@ -34,7 +34,7 @@ export function lit(shader) {
 
 // The numbers are those of shaded_circle.frag and box.frag in rviz_rendering; the sides are as seen in
 // RViz. The edge of a box that is less than a pixel wide darkens the pixel as much as it covers of it.
-/** @param {Three} shader */
+/** @param {Shader} shader */
 function asData(shader) {
   shader.vertexShader = shader.vertexShader
     .replace(
@@ -83,7 +83,7 @@ function asData(shader) {
     );
 }
 
-/** @type {Record<string, (shader: Three) => void>} */
+/** @type {Record<string, (shader: Shader) => void>} */
 const shades = { MeshStandardMaterial: lit, MeshToonMaterial: asData };
 
 // Before the first of a kind is drawn, for viser's batches keep what a material had when it was.

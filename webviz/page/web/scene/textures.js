@@ -4,7 +4,8 @@
 
 import * as viser from "../viser_page.js";
 
-/** @import {SceneObject, Three} from "../types.js" */
+/** @import {TextureSource} from "three" */
+/** @import {SceneObject} from "../types.js" */
 
 const SEED = 0x811c9dc5;
 const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a has them by bytes
@@ -12,7 +13,7 @@ const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a ha
 /** @type {Map<string, Promise<WeakRef<ImageBitmap> | undefined>>} */
 const decoded = new Map(); // promises of weak references to pictures, by their content
 const gone = new FinalizationRegistry((content) => decoded.delete(content));
-/** @type {WeakMap<object, Three>} */
+/** @type {WeakMap<ImageBitmap, TextureSource<ImageBitmap>>} */
 const sources = new WeakMap(); // by picture, what three.js uploads
 /** @type {WeakSet<object>} */
 const shared = new WeakSet(); // materials

@@ -4,7 +4,7 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {Shader} from "../types.js" */
 
 const MARK = `/${constants.TILE_PREFIX}`;
 // Of three.js.
@@ -15,7 +15,7 @@ const BOTH_SIDES = 2;
 // than errors of rounding, less than what lies between two things. Units of a polygon offset
 // would hardly count, and three.js takes them for the opposite when it reverses the depth; its
 // factor is for lines, which are up to half a pixel wider than what they stand for.
-/** @param {Three} shader */
+/** @param {Shader} shader */
 const pushBack = (shader) => {
   shader.vertexShader = shader.vertexShader.replace(
     "#include <project_vertex>",

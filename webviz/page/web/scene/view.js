@@ -13,33 +13,32 @@ import { toThree } from "./fixed_frame.js";
 import { surviveReload } from "../remember.js";
 import * as viser from "../viser_page.js";
 
-/** @import {PerspectiveCamera} from "three" */
 /** @import {PlaceCamera, StartView} from "../messages.js" */
-
-/** @import {Three, Vec3} from "../types.js" */
+/** @import {Matrix4, PerspectiveCamera, Raycaster, Vector3} from "three" */
+/** @import {SceneObject, Vec3} from "../types.js" */
 
 const { RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const SENT_MS = 100; // after which viser has reported the camera
 
 /** @type {(() => void)[]} */
 const listeners = [];
-/** @type {Three} */
-let camera = null;
-/** @type {Three} */
-let canvas = null;
-/** @type {Three} */
-let cross = null;
+/** @type {PerspectiveCamera} */
+let camera;
+/** @type {HTMLCanvasElement} */
+let canvas;
+/** @type {SceneObject | undefined} */
+let cross;
 /** @type {PlaceCamera | StartView | null} */
 let view = null;
 /** @type {StartView | null} */
 let before = null; // the page was loaded again
-/** @type {Three} */
+/** @type {Matrix4 | null} */
 let rig = null;
 let height = 0;
-/** @type {Three} */
+/** @type {Vector3 | null} */
 let focal = null;
-/** @type {Three} */
-let aimed = null;
+/** @type {Vector3} */
+let aimed;
 
 /** The type of the view, "" before there is one. */
 export const type = () => (view === null ? "" : view.view);
@@ -99,10 +98,10 @@ export const onShow = (listener) => listeners.push(listener);
 
 /**
  * @param {Vec3} xyz
- * @returns {Three}
+ * @returns {Vector3}
  */
 const vector = (xyz) => camera.position.clone().fromArray(xyz);
-/** @returns {Three} */
+/** @returns {Matrix4} */
 const matrix = () => camera.matrixWorld.clone().identity();
 const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
@@ -289,18 +288,16 @@ export function install() {
   before = surviveReload("view", placement);
   cross = viser.scene().children.find((child) => {
     let found = false;
-    child.traverse(
-      (/** @type {Three} */ part) => (found ||= part.geometry?.parameters?.width === 0.4),
-    );
+    child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
     return found;
   });
 
   const rays = viser.Raycaster().prototype;
   const fromCamera = rays.setFromCamera;
-  /** @type {(point: Three, camera: Three) => void} */
+  /** @type {(this: Raycaster, ...args: Parameters<Raycaster["setFromCamera"]>) => void} */
   rays.setFromCamera = function (point, camera) {
     fromCamera.call(this, point, camera);
-    if (!isFlat() || !camera.webviz) return;
+    if (!isFlat() || !("webviz" in camera)) return;
     const near = camera.reversedDepth ? 1 : -1;
     this.ray.origin.set(point.x, point.y, near).unproject(camera);
     this.ray.direction.set(0, 0, -1).transformDirection(camera.matrixWorld);

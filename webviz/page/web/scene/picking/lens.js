@@ -67,6 +67,7 @@ export function pixelAt(depth) {
  *
  * @param {{m: number[], v: number[], wide: number, tall: number}} lens
  * @param {Vec3} xyz
+ * @returns {Vec2 | null}
  */
 export function project({ m, v, wide, tall }, [x, y, z]) {
   const w = m[3] * x + m[7] * y + m[11] * z + m[15];

@@ -2,7 +2,7 @@
 
 import { lensOf } from "./lens.js";
 
-/** @import {SceneObject, Vec2} from "../../types.js" */
+/** @import {SceneObject, Vec2, Vec3} from "../../types.js" */
 
 const NEAREST = 1e-3; // metres or more in front of the camera
 
@@ -78,11 +78,13 @@ export function lineAt(lines, [atX, atY], near) {
  *
  * @param {SceneObject} lines
  * @param {number} number
+ * @returns {Vec3[]}
  */
 export function lineOf(lines, number) {
+  /** @type {ArrayLike<number> | undefined} */
   const xyz = lines.geometry.attributes.instanceStart?.data.array;
   if (!xyz || 6 * number >= xyz.length) return [];
-  return [0, 3].map((end) => Array.from(xyz.subarray(6 * number + end, 6 * number + end + 3)));
+  return [6 * number, 6 * number + 3].map((i) => [xyz[i], xyz[i + 1], xyz[i + 2]]);
 }
 
 /**

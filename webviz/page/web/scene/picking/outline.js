@@ -5,7 +5,8 @@ import { anchorOf } from "./pick.js";
 import { lineOf } from "./lines.js";
 import { cornersOf } from "./texts.js";
 
-/** @import {Outline, Picked, Shape, Three, SceneObject, Vec3} from "../../types.js" */
+/** @import {Box3, Matrix4, Vector3} from "three" */
+/** @import {Outline, Picked, SceneObject, SceneText, Shape, Vec3} from "../../types.js" */
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -26,7 +27,7 @@ const EDGES = CORNERS.flatMap((from) =>
  * it was. Null while its node is not shown.
  *
  * @param {Picked} pick
- * @param {(name: string, ordinal: number) => Three} find
+ * @param {(name: string, ordinal: number) => SceneObject | SceneText | null} find
  * @param {boolean} moves
  * @returns {Outline | null}
  */
@@ -41,53 +42,50 @@ export function outlineOf(pick, find, moves) {
 // An object that does not move is known by where it is.
 /**
  * @param {Picked} pick
- * @param {Three} object
+ * @param {SceneObject | SceneText} object
  * @param {boolean} moves
  */
 function isSame(pick, object, moves) {
   const at = anchorOf(object, pick.item);
   if (moves) return at.length > 0;
-  return (
-    at.length > 0 &&
-    at.every(
-      (/** @type {number} */ number, /** @type {number} */ axis) => number === pick.local[axis],
-    )
-  );
+  return at.length > 0 && at.every((number, axis) => number === pick.local[axis]);
 }
 
 /**
  * @param {Picked} pick
- * @param {Three} object
+ * @param {SceneObject | SceneText} object
  */
 function make(pick, object) {
   /**
-   * @param {Vec3} xyz
-   * @param {Three} matrix
+   * @param {number[]} xyz
+   * @param {Matrix4} matrix
    */
   const place = (xyz, matrix) => vector(xyz).applyMatrix4(matrix);
   if (object.isText) return { points: cornersOf(object), edges: AROUND };
   if (object.isPoints) return { points: [place(pick.local, object.matrixWorld)], edges: [] };
   if (object.isLineSegments2) {
-    const ends = lineOf(object, Number(pick.item)).map((xyz) =>
-      place(/** @type {Vec3} */ (xyz), object.matrixWorld),
-    );
+    const ends = lineOf(object, Number(pick.item)).map((xyz) => place(xyz, object.matrixWorld));
     return { points: ends, edges: [[0, 1]] };
   }
   if (object.material?.map && object.geometry.parameters?.width) return cell(pick, object);
-  if (pick.item === null) return boxOf(viser.node(pick.path));
+  const whole = viser.node(pick.path);
+  if (pick.item === null || !object.getMatrixAt) return whole ? boxOf(whole) : null;
   const matrix = object.getMatrixAt(pick.item, object.matrixWorld.clone());
   return box(boundsOf(object), matrix.premultiply(object.matrixWorld));
 }
 
-/** @param {Three} mesh */
+/**
+ * @param {SceneObject} mesh
+ * @returns {Box3}
+ */
 function boundsOf({ geometry }) {
   if (!geometry.boundingBox) geometry.computeBoundingBox();
   return geometry.boundingBox;
 }
 
 /**
- * @param {{min: Three, max: Three}} bounds
- * @param {Three} matrix
+ * @param {{min: Vector3, max: Vector3}} bounds
+ * @param {Matrix4} matrix
  */
 function box({ min, max }, matrix) {
   const points = CORNERS.map((corner) => {
@@ -99,12 +97,12 @@ function box({ min, max }, matrix) {
 }
 
 // Around all meshes of a node, along its axes.
-/** @param {Three} node */
+/** @param {SceneObject} node */
 function boxOf(node) {
   const back = node.matrixWorld.clone().invert();
-  /** @type {Three} */
+  /** @type {Box3 | null} */
   let whole = null;
-  node.traverse((/** @type {Three} */ object) => {
+  node.traverse((object) => {
     if (!object.isMesh || !object.raycast.length) return;
     const bounds = boundsOf(object).clone();
     bounds.applyMatrix4(back.clone().multiply(object.matrixWorld));
@@ -116,7 +114,7 @@ function boxOf(node) {
 // Of a picture, the cell that was hit.
 /**
  * @param {Picked} pick
- * @param {Three} object
+ * @param {SceneObject} object
  */
 function cell(pick, object) {
   const { width, height } = object.geometry.parameters;
@@ -148,7 +146,7 @@ function cell(pick, object) {
 }
 
 /**
- * @param {Vec3} xyz
- * @returns {Three}
+ * @param {number[]} xyz
+ * @returns {Vector3}
  */
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);

@@ -8,12 +8,13 @@ import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
 import { isTextIn, textAt } from "./texts.js";
 import { isTile, things } from "./things.js";
 
-/** @import {Box, Picked, SceneThing, Three, Vec2, Vec3} from "../../types.js" */
+/** @import {Raycaster, Vector3} from "three" */
+/** @import {Box, Picked, SceneObject, SceneText, SceneThing, Vec2, Vec3} from "../../types.js" */
 
 /**
  * The hit of a thing; `off` is how far beside it, in pixels, `layer` that of a picture.
  *
- * @typedef {{number: number | null, off: number, depth: number, point?: Three, layer?: number}} Under
+ * @typedef {{number: number | null, off: number, depth: number, point?: Vector3, layer?: number}} Under
  * @typedef {SceneThing & Under & {rank: number}} Found
  */
 
@@ -78,16 +79,14 @@ export function pickIn({ left, top, right, bottom }, most, isWanted = () => true
 /**
  * @param {SceneThing} thing
  * @param {Vec2} at
- * @param {Three} caster
+ * @param {Raycaster} caster
  * @param {number} reach
  */
 function hitOf({ object, name }, at, caster, reach) {
   if (object.isText) return textAt(object, at);
   if (object.isPoints) return pointAt(object, at, reach);
   if (object.isLineSegments2) return lineAt(object, at, reach);
-  const [hit] = caster
-    .intersectObject(object, false)
-    .sort((/** @type {Three} */ a, /** @type {Three} */ b) => a.distance - b.distance);
+  const [hit] = caster.intersectObject(object, false).sort((a, b) => a.distance - b.distance);
   if (!hit) return null;
   // Not the point of the hit, which is wrong for instanced meshes.
   const point = caster.ray.at(hit.distance, viser.camera().position.clone());
@@ -119,7 +118,7 @@ function isNearer(a, b) {
 const isLevel = (a, b) => Math.abs(a.depth - b.depth) < PLANE_PX * pixelAt(b.depth);
 
 /**
- * @param {Three} object
+ * @param {SceneObject | SceneText} object
  * @returns {number}
  */
 const rankOf = ({ isText, isPoints, isLineSegments2 }) =>
@@ -139,8 +138,8 @@ function isOver(a, b) {
 /**
  * A part of an object as a pick; `number` is that of the object.
  *
- * @param {SceneThing & {number: number | null, depth?: number, point?: Three}} found
- * @param {Three} [caster]
+ * @param {SceneThing & {number: number | null, depth?: number, point?: Vector3}} found
+ * @param {Raycaster} [caster]
  * @returns {Picked}
  */
 export function described(found, caster) {
@@ -148,10 +147,10 @@ export function described(found, caster) {
   const { group, key, path, first } = found.node;
   const thing = { group, key, path, name, ordinal, object, number, color: null };
   const local = anchorOf(object, number);
-  /** @param {Vec3} xyz */
+  if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
+  /** @param {number[]} xyz */
   const inThree = (xyz) =>
     viser.camera().position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
-  if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
   if (object.isPoints) {
     const item = Number(number);
     const more = { number: item + first, item, color: colorOf(object, item) };
@@ -169,7 +168,7 @@ export function described(found, caster) {
 // Where a line is next to the pointer.
 /**
  * @param {number} depth
- * @param {Three} caster
+ * @param {Raycaster} caster
  */
 function onRay(depth, caster) {
   const forward = caster.ray.direction
@@ -182,8 +181,9 @@ function onRay(depth, caster) {
 /**
  * Where an item is in the coordinates of its object; of a mesh, its middle.
  *
- * @param {Three} object
+ * @param {SceneObject | SceneText} object
  * @param {number | null} number
+ * @returns {Vec3 | []} empty for an item that is gone
  */
 export function anchorOf(object, number) {
   if (object.isText) return object.local;
@@ -194,13 +194,14 @@ export function anchorOf(object, number) {
     const { min, max } = object.geometry.boundingBox;
     return [(min.x + max.x) / 2, (min.y + max.y) / 2, (min.z + max.z) / 2];
   }
-  if (number >= object.instancesCount) return [];
-  return object.getMatrixAt(number, object.matrixWorld.clone()).elements.slice(12, 15);
+  if (!object.getMatrixAt || number >= (object.instancesCount ?? Infinity)) return [];
+  const { elements } = object.getMatrixAt(number, object.matrixWorld.clone());
+  return [elements[12], elements[13], elements[14]];
 }
 
 // Lines count when they are in the box as a whole: else a box on a grid would take most of it.
 /**
- * @param {Three} object
+ * @param {SceneObject | SceneText} object
  * @param {Box} box
  * @param {(number: number | null) => unknown} take
  */
@@ -208,16 +209,15 @@ function itemsIn(object, box, take) {
   if (object.isPoints) return pointsIn(object, box, take);
   if (object.isText) return isTextIn(object, box) ? take(object.number) : undefined;
   const lens = lensOf(object);
-  /** @param {Vec3} xyz */
+  /** @param {Vec3 | []} xyz */
   const isIn = (xyz) => {
-    const place = xyz.length ? project(lens, xyz) : null;
+    const place = xyz.length === 3 ? project(lens, xyz) : null;
     if (!place) return false;
     const [x, y] = place;
     return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
   };
   if (object.isLineSegments2) {
-    for (let i = 0; i < lineCount(object); i++)
-      if (lineOf(object, i).every((end) => isIn(/** @type {Vec3} */ (end)))) take(i);
+    for (let i = 0; i < lineCount(object); i++) if (lineOf(object, i).every(isIn)) take(i);
   } else if (object.instancesCount === undefined) {
     if (isIn(anchorOf(object, null))) take(null);
   } else {

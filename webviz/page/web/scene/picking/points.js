@@ -83,9 +83,14 @@ export function pointsIn(points, { left, top, right, bottom }, take) {
  *
  * @param {SceneObject} points
  * @param {number} number
+ * @returns {Vec3 | []} empty for a point that is gone
  */
-export const pointOf = (points, number) =>
-  Array.from(points.geometry.attributes.position?.array.subarray(3 * number, 3 * number + 3) ?? []);
+export function pointOf(points, number) {
+  /** @type {ArrayLike<number> | undefined} */
+  const xyz = points.geometry.attributes.position?.array;
+  const i = 3 * number;
+  return xyz && i + 2 < xyz.length ? [xyz[i], xyz[i + 1], xyz[i + 2]] : [];
+}
 
 /**
  * The colour of a point, null if all have the same.

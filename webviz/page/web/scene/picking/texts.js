@@ -5,7 +5,8 @@ import { boxes } from "../labels.js";
 import * as viser from "../../viser_page.js";
 import { depthOf, lensOf, project } from "./lens.js";
 
-/** @import {Box, Three, Vec2} from "../../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {Box, SceneText, Vec2} from "../../types.js" */
 
 const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its number
 
@@ -15,11 +16,11 @@ const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its n
  * `local` is in the coordinates of that, `place` in three.js', and `rect` around it, `[left, bottom,
  * width, height]` in metres along the screen.
  *
- * @returns {{object: any, name: string}[]}
+ * @returns {{object: SceneText, name: string}[]}
  */
 export function texts() {
   const drawn = rectangles();
-  /** @type {any[]} */
+  /** @type {ReturnType<typeof texts>} */
   const found = [];
   for (const name of drawn.size ? Object.keys(viser.nodes()) : []) {
     const [, outer, number] = TEXT.exec(name) ?? [];
@@ -34,12 +35,12 @@ export function texts() {
   return found;
 }
 
-/** @param {Three} place */
+/** @param {{x: number, y: number, z: number}} place */
 const keyOf = ({ x, y, z }) => [x, y, z].map(Math.fround).join();
 
 // Of all texts that are shown, by where they are.
 function rectangles() {
-  /** @type {Map<string, any>} */
+  /** @type {Map<string, SceneText["rect"]>} */
   const found = new Map();
   for (const { geometry, material } of boxes()) {
     const { aLabelIndex: index, aRect: rect, aParams } = geometry.attributes;
@@ -47,13 +48,10 @@ function rectangles() {
     for (let i = 0; i < geometry.instanceCount; i++) {
       const at = 4 * index.getX(i);
       const scale = data[at + 3] ? aParams.getY(i) : 0;
-      const sizes = [rect.getX(i), rect.getY(i), rect.getZ(i), rect.getW(i)];
       const [x, y, z] = data.subarray(at, at + 3);
-      if (scale)
-        found.set(
-          keyOf({ x, y, z }),
-          sizes.map((size) => size * scale),
-        );
+      const [left, bottom] = [rect.getX(i) * scale, rect.getY(i) * scale];
+      const size = [rect.getZ(i) * scale, rect.getW(i) * scale];
+      if (scale) found.set(keyOf({ x, y, z }), [left, bottom, size[0], size[1]]);
     }
   }
   return found;
@@ -62,7 +60,7 @@ function rectangles() {
 /**
  * The corners of the rectangle around a text, in three.js' coordinates.
  *
- * @param {any} text
+ * @param {SceneText} text
  */
 export function cornersOf({ place, rect: [left, bottom, wide, tall] }) {
   const { elements: m } = viser.camera().matrixWorld;
@@ -83,7 +81,7 @@ export function cornersOf({ place, rect: [left, bottom, wide, tall] }) {
 /**
  * The text under a place of the canvas, or null: `{number, depth, off, point}`.
  *
- * @param {any} text
+ * @param {SceneText} text
  * @param {Vec2} at
  */
 export function textAt(text, [atX, atY]) {
@@ -98,7 +96,7 @@ export function textAt(text, [atX, atY]) {
 /**
  * True if the middle of a text is in a box of the canvas.
  *
- * @param {any} text
+ * @param {SceneText} text
  * @param {Box} box
  */
 export function isTextIn({ place }, { left, top, right, bottom }) {
@@ -107,8 +105,8 @@ export function isTextIn({ place }, { left, top, right, bottom }) {
 }
 
 /**
- * @param {Three} point
- * @returns {number[] | null}
+ * @param {Vector3} point
+ * @returns {Vec2 | null}
  */
 const onCanvas = (point) =>
   project(lensOf({ matrixWorld: viser.camera().matrixWorld.clone().identity() }), point.toArray());

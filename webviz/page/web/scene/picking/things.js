@@ -4,7 +4,7 @@ import constants from "../../constants.js";
 import * as viser from "../../viser_page.js";
 import { texts } from "./texts.js";
 
-/** @import {NodePart, SceneThing, Three} from "../../types.js" */
+/** @import {NodePart, SceneObject, SceneThing} from "../../types.js" */
 
 const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = constants;
 
@@ -19,7 +19,8 @@ export function things() {
   const counts = new Map();
   /** @type {SceneThing[]} */
   const found = [];
-  visit(viser.node(ROOT), ROOT);
+  const root = viser.node(ROOT);
+  if (root) visit(root, ROOT);
   for (const text of texts()) {
     const node = nodeNamed(text.name);
     if (node) found.push({ ...text, node, ordinal: 0 });
@@ -27,7 +28,7 @@ export function things() {
   return found;
 
   /**
-   * @param {Three} object
+   * @param {SceneObject} object
    * @param {string} outer
    */
   function visit(object, outer) {
@@ -54,11 +55,12 @@ export function finder() {
 
 // Without a `raycast` of its own an object is a second pass of another, as viser draws lines.
 /**
- * @param {Three} object
+ * @param {SceneObject} object
  * @returns {boolean}
  */
 const isPickable = (object) =>
-  Boolean(object.geometry) && (object.isPoints || (object.isMesh && object.raycast.length > 0));
+  Boolean(object.geometry) &&
+  Boolean(object.isPoints || (object.isMesh && object.raycast.length > 0));
 
 /** @param {string} name */
 export const isTile = (name) => name.includes(`/${TILE_PREFIX}`);
