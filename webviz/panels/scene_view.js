@@ -190,5 +190,6 @@ function fit(canvas) {
 function originOf(group) {
   const node = group && frameNode(group);
   if (!node) return [0, 0, 0];
-  return toThree().clone().invert().multiply(node.matrixWorld).elements.slice(12, 15);
+  const { elements } = toThree().clone().invert().multiply(node.matrixWorld);
+  return [elements[12], elements[13], elements[14]];
 }

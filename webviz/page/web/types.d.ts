@@ -117,6 +117,8 @@ export interface SceneObject extends Object3D {
   isPoints?: boolean;
   isLight?: boolean;
   isText?: undefined;
+  /** Set on one that a module has changed. */
+  webviz?: boolean;
   /** Of one that is drawn several times. */
   instancesCount?: number;
   getMatrixAt?(number: number, into: Matrix4): Matrix4;
@@ -141,8 +143,6 @@ export interface SceneText {
 }
 /** The program of a material before it is compiled. */
 export type Shader = Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">;
-/** Parts of viser's page and of its materials, which have no types. */
-export type Three = any;
 /** A message of viser's, of which modules read some fields. */
 export type ViserMessage = { type: string; [field: string]: any };
 

@@ -20,11 +20,12 @@ import { frameNode, projectionOf } from "../scene/projection.js";
 /** @import {Moved} from "./drags.js" */
 /** @import {Part} from "./known.js" */
 /** @import {Pose} from "../vectors.js" */
-/** @import {SceneEvent, Three, Vec2, Vec3} from "../types.js" */
+/** @import {Vector3} from "three" */
+/** @import {SceneEvent, Vec2, Vec3} from "../types.js" */
 
 /**
  * @typedef {Commands["DragHandle"]["drag"]} SentDrag
- * @typedef {Part & {point: Three}} Place
+ * @typedef {Part & {point: Vector3}} Place
  * @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked
  * @typedef {Part & {
  *   pose: Pose, pointer: number, button: number, wasMine: boolean, at: Vec2, before: Vec2,

@@ -5,13 +5,13 @@ import * as viser from "../viser_page.js";
 import * as known from "./known.js";
 
 /** @import {Part} from "./known.js" */
-/** @import {Three} from "../types.js" */
+/** @import {Color, MeshStandardMaterial} from "three" */
 
 /** @type {Record<"over" | "pressed", number>} */
 const SHINE = { over: 0.12, pressed: 0.28 }; // added in linear light; RViz adds 0.3 and 0.5
 const AFTER_PLACING = -998;
 
-/** @type {Map<Three, {emissive?: Three, color?: Three}>} */
+/** @type {Map<MeshStandardMaterial, {emissive?: Color, color?: Color}>} */
 const shining = new Map(); // materials, and what they were
 /** @type {string | null} */
 let lit = null;
@@ -39,7 +39,7 @@ export function light(part, level = "over") {
   }
   shining.clear();
   for (const path of part ? (known.nodesOf(part.id).parts.get(part.control) ?? []) : []) {
-    viser.node(path)?.traverse((/** @type {Three} */ { material }) => {
+    viser.node(path)?.traverse(({ material }) => {
       for (const each of [material].flat()) if (each) shine(each, SHINE[level]);
     });
   }
@@ -57,7 +57,7 @@ export function dim(id) {
 }
 
 /**
- * @param {Three} material
+ * @param {MeshStandardMaterial} material or another, which lacks some of its properties
  * @param {number} amount
  */
 function shine(material, amount) {

@@ -3,19 +3,21 @@
 import constants from "../constants.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {Matrix4} from "three" */
+/** @import {SceneObject} from "../types.js" */
 
-/** @type {Three} */
+/** @type {SceneObject | null} */
 let node = null;
 
 /**
  * The transform from the fixed frame to three.js. Its node is made anew when a lost connection is
  * back, and until then the last one counts.
  *
- * @returns {Three}
+ * @returns {Matrix4}
  */
 export function toThree() {
   node = viser.node(constants.ROOT) ?? node;
+  if (!node) throw new Error("viser has not made the root of the scene yet.");
   node.updateWorldMatrix(true, false);
   return node.matrixWorld;
 }

@@ -11,7 +11,7 @@ import constants from "../constants.js";
 import { scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
-/** @import {Three} from "../types.js" */
+/** @import {SceneObject} from "../types.js" */
 
 const BOXES = 10001;
 const LETTERS = 10002;
@@ -52,15 +52,13 @@ const OUTLINED = `
     gl_FragColor = vec4(mix(around, vColor, smoothstep(-soft, soft, inside)), alpha);
   }`;
 
-/** @type {Three} */
+/** @type {SceneObject | null} */
 let group = null;
 const ofTheme = { value: [1, 1, 1] };
 
 /** The boxes behind the letters, one of a mesh for each text: where the texts are, and how large. */
 export const boxes = () =>
-  group
-    ? group.children.filter((/** @type {Three} */ { renderOrder }) => renderOrder === BOXES)
-    : [];
+  group ? group.children.filter(({ renderOrder }) => renderOrder === BOXES) : [];
 
 export function install() {
   viser.beforeEveryRender((gl, scene) => {

@@ -7,8 +7,8 @@ import { toThree } from "./fixed_frame.js";
 import { scheme } from "./scheme.js";
 import * as viser from "../viser_page.js";
 
-/** @import {WebGLRenderer} from "three" */
-/** @import {SceneObject, Three, Vec3, Wxyz} from "../types.js" */
+/** @import {PerspectiveCamera, WebGLRenderer} from "three" */
+/** @import {SceneObject, Vec3, Wxyz} from "../types.js" */
 
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz
@@ -21,9 +21,10 @@ const NEAR = 0.01; // metres, as RViz
  * @typedef {{
  *   position: Vec3, wxyz: Wxyz, edges: number[], far: number, hidden: string[], flat?: number,
  * }} Sight
+ * @typedef {PerspectiveCamera & Pick<Sight, "edges"> & {flat: number}} Eye
  */
 
-/** @type {Three} */
+/** @type {Eye | null} */
 let eye = null;
 /** @type {Set<() => void> | null} */
 let drawings = null;
@@ -73,7 +74,7 @@ export function drawSecond(context, width, height, sight) {
   const [wide, tall] = [Math.floor(width * shrink), Math.floor(height * shrink)];
   if (!wide || !tall) return;
   eye ??= makeEye();
-  place(position, wxyz);
+  place(eye, position, wxyz);
   Object.assign(eye, { edges, far, flat });
   eye.updateProjectionMatrix();
   const undo = [hide(hidden), scalePoints((2 * tall) / (edges[2] - edges[3])), background(gl)];
@@ -91,29 +92,37 @@ export function drawSecond(context, width, height, sight) {
   }
 }
 
-/** @returns {Three} */
+/** @returns {Eye} */
 function makeEye() {
-  const made = new /** @type {any} */ (viser.camera().constructor)();
-  made.near = NEAR;
-  made.edges = [-1, 1, 1, -1];
+  const Camera = /** @type {typeof PerspectiveCamera} */ (viser.camera().constructor);
+  const made = Object.assign(new Camera(), { near: NEAR, edges: [-1, 1, 1, -1], flat: 0 });
   made.matrixAutoUpdate = false;
   made.updateProjectionMatrix = function () {
     const { edges, far, flat, coordinateSystem, reversedDepth } = this;
-    const [make, depth, near] = flat
-      ? ["makeOrthographic", flat, flat / 100]
-      : ["makePerspective", NEAR, NEAR];
-    const scaled = edges.map((/** @type {number} */ edge) => edge * depth);
-    this.projectionMatrix[make](...scaled, near, far, coordinateSystem, reversedDepth);
+    const [depth, near] = flat ? [flat, flat / 100] : [NEAR, NEAR];
+    const [left, right, top, bottom] = edges.map((edge) => edge * depth);
+    const make = flat ? "makeOrthographic" : "makePerspective";
+    this.projectionMatrix[make](
+      left,
+      right,
+      top,
+      bottom,
+      near,
+      far,
+      coordinateSystem,
+      reversedDepth,
+    );
     this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
   };
   return made;
 }
 
 /**
+ * @param {Eye} eye
  * @param {Vec3} position
  * @param {Wxyz} wxyz
  */
-function place(position, [w, x, y, z]) {
+function place(eye, position, [w, x, y, z]) {
   const at = eye.position.clone().fromArray(position);
   eye.matrix.compose(at, eye.quaternion.clone().set(x, y, z, w), eye.scale.clone().set(1, -1, -1));
   eye.matrix.premultiply(toThree());
@@ -149,7 +158,7 @@ const lettersOf = (mesh) => mesh.material?.uniforms?.uLabelData;
 // viser draws all labels at once, by a table of where each is and whether it can be seen; their nodes
 // have no objects.
 /**
- * @param {Three} labels
+ * @param {SceneObject} labels
  * @param {string[]} names
  */
 function hideLabels(labels, names) {
@@ -163,7 +172,9 @@ function hideLabels(labels, names) {
     const at = viser.node(name) ? null : viser.positionOf(name);
     if (!outer || !at) continue;
     places.add(
-      key(...eye.position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray()),
+      key(
+        ...viser.camera().position.clone().fromArray(at).applyMatrix4(outer.matrixWorld).toArray(),
+      ),
     );
   }
   /** @type {any[]} */
