@@ -116,7 +116,7 @@ def choose(page: Page, robot: Robot) -> None:
 
 
 DRIVER_OF = """async () => {
-  const { state } = await import("/webviz/features/driving/teleop.js");
+  const { state } = await import("webviz/features/driving/teleop.js");
   return [state()?.beat > 0, state()?.driver];
 }"""
 

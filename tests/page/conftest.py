@@ -57,7 +57,7 @@ NOT_CLICKED = (InspectSelections, OpenPanels, Refresh)
 """Commands that follow from what pages watch."""
 
 CATCH_UP = """async () => {
-  const { on, send } = await import("/webviz/channel.js");
+  const { on, send } = await import("webviz/channel.js");
   const answered = new Promise((resolve) => on("Pong", resolve));
   send({ type: "Ping" });
   await answered;

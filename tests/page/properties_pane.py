@@ -10,8 +10,8 @@ from tests.page.conftest import Tab
 from webviz.commands import SetProperty
 
 MOUNT = """async (id) => {
-  const { globalOptions, propertiesOf } = await import("/webviz/panels/displays/properties.js");
-  const { root } = await import("/webviz/signals.js");
+  const { globalOptions, propertiesOf } = await import("webviz/panels/displays/properties.js");
+  const { root } = await import("webviz/signals.js");
   const bench = document.createElement("div");
   bench.id = "bench";
   bench.style = "position: absolute; left: 420px; top: 40px; width: 340px";

@@ -65,7 +65,7 @@ def test_no_page_may_load_code() -> None:
 
 
 def test_the_page_that_asks_gets_the_answer(tab: Tab) -> None:
-    ask = "async (hz) => (await import('/webviz/act.js')).act('SetFrameRate', {hz})"
+    ask = "async (hz) => (await import('webviz/act.js')).act('SetFrameRate', {hz})"
     tab.page.evaluate(f"(hz) => {{ window.answer = ({ask})(hz) }}", 30)
     tab.wait_for_command(commands.SetFrameRate(30.0))
     assert tab.loop.senders[-1].browser is not None

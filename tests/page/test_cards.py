@@ -13,8 +13,8 @@ from webviz.engine.state import Row
 
 STACK = ".wv-stack"
 SHOW = """async () => {
-  const { overlay } = await import("/webviz/overlay/overlay.js");
-  const { toast } = await import("/webviz/toasts.js");
+  const { overlay } = await import("webviz/overlay/overlay.js");
+  const { toast } = await import("webviz/toasts.js");
   for (const name of ["request", "file", "upload"]) {
     const card = document.createElement("section");
     card.className = "wv-card";
@@ -24,7 +24,7 @@ SHOW = """async () => {
   toast("Something was saved.");
 }"""
 HIDE = """async () => {
-  const { overlay } = await import("/webviz/overlay/overlay.js");
+  const { overlay } = await import("webviz/overlay/overlay.js");
   for (const name of ["request", "file", "upload"]) {
     const none = document.createElement("section");
     none.hidden = true;

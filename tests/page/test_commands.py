@@ -264,7 +264,7 @@ def test_what_others_change_is_told_once(tab: Tab) -> None:
 
 
 SAME = """async () => {
-  const { toast } = await import("/webviz/toasts.js");
+  const { toast } = await import("webviz/toasts.js");
   for (let i = 0; i < 3; i++) toast("Not done.", { level: "error" });
   for (let i = 0; i < 9; i++) toast(`Done ${i}.`);
   toast("Not done.", { level: "error" });

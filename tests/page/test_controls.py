@@ -10,8 +10,8 @@ import pytest
 from tests.page.conftest import Tab
 
 MOUNT = """async ([path, name, options]) => {
-  const module = await import(`/webviz/controls/${path}.js`);
-  const { signal } = await import("/webviz/signals.js");
+  const module = await import(`webviz/controls/${path}.js`);
+  const { signal } = await import("webviz/signals.js");
   document.querySelector("#bench")?.remove();
   window.entered = [];
   window.refused = [];

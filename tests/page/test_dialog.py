@@ -8,8 +8,8 @@ import pytest
 from tests.page.conftest import Tab
 
 OPEN = """async () => {
-  const { openDialog } = await import("/webviz/controls/dialog.js");
-  const { el } = await import("/webviz/dom.js");
+  const { openDialog } = await import("webviz/controls/dialog.js");
+  const { el } = await import("webviz/dom.js");
   window.answer = "open";
   const field = el("input", { "aria-label": "Name" });
   const accept = () => field.value !== "";
@@ -21,7 +21,7 @@ OPEN = """async () => {
   }).then((value) => { window.answer = value });
 }"""
 ASK = """async (text) => {
-  const { ask } = await import("/webviz/controls/dialog.js");
+  const { ask } = await import("webviz/controls/dialog.js");
   window.answer = "open";
   ask(text, { confirm: "Discard" }).then((value) => { window.answer = value });
 }"""

@@ -22,7 +22,7 @@ from webviz.page.widgets import MAX_HTML, MAX_TEXT, CustomWidget
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
 
 DRAW = """async () => {
-  const { afterRender, requestRender } = await import("/webviz/viser_page.js");
+  const { afterRender, requestRender } = await import("webviz/viser_page.js");
   await new Promise((resolve) => (afterRender(resolve), requestRender()));
 }"""
 """Returns when the scene was drawn once more."""

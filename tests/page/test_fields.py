@@ -109,7 +109,7 @@ def test_a_docked_plot_leaves_its_height_to_the_curves(loop: Loop, tab: Tab) -> 
     tab.wait_for(lambda: (frame.bounding_box() or {}).get("width") == 640)
     assert (frame.bounding_box() or {})["height"] <= 240
     area = """async (canvas) => {
-      const { inside } = await import("/webviz/charts/draw.js");
+      const { inside } = await import("webviz/charts/draw.js");
       return inside(canvas.clientWidth, canvas.clientHeight).height;
     }"""
     assert tab.page.locator(".wv-chart-canvas").evaluate(area) >= 180

@@ -11,7 +11,7 @@ import pytest
 from tests.page.conftest import Tab
 
 OPEN = """async ([x, y]) => {
-  const { openMenu } = await import("/webviz/controls/menu.js");
+  const { openMenu } = await import("webviz/controls/menu.js");
   const run = (name) => () => { window.ran.push(name) };
   window.ran = [];
   window.closeMenu = openMenu(x, y, [

@@ -19,11 +19,11 @@ from webviz.scene import ViserScene
 from webviz.scene.server import Server
 
 TURN = """async () => {
-  const { controls } = await import("/webviz/viser_page.js");
+  const { controls } = await import("webviz/viser_page.js");
   return Math.sin(controls().azimuthAngle);
 }"""
 """The direction of the camera, which the picture may not show yet: 1 from -Y."""
-AXES = "async () => (await import('/webviz/scene/view.js')).axes()"
+AXES = "async () => (await import('webviz/scene/view.js')).axes()"
 CENTER = (700, 400)
 
 
@@ -56,8 +56,8 @@ def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: 
     tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
     tab.page.evaluate(
         """async () => {
-          const viser = await import("/webviz/viser_page.js");
-          const { on } = await import("/webviz/channel.js");
+          const viser = await import("webviz/viser_page.js");
+          const { on } = await import("webviz/channel.js");
           const before = viser.controls().azimuthAngle;
           window.turned = 0;
           (function look() {
@@ -86,7 +86,7 @@ def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
     meters = float(number) * {"km": 1e3, "m": 1.0, "cm": 0.01}[unit]
     across = tab.page.evaluate(
         """async (meters) => {
-          const { onCanvas } = await import('/webviz/scene/ground.js');
+          const { onCanvas } = await import('webviz/scene/ground.js');
           const [from, to] = [onCanvas([0, 0, 0]), onCanvas([meters, 0, 0])];
           return Math.hypot(to[0] - from[0], to[1] - from[1]);
         }""",
@@ -122,7 +122,7 @@ def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
     def is_pointed_at() -> bool:
         place = tab.page.evaluate(
             """async () => {
-              const { onCanvas } = await import('/webviz/scene/ground.js');
+              const { onCanvas } = await import('webviz/scene/ground.js');
               const box = document.querySelector('canvas').getBoundingClientRect();
               const [x, y] = onCanvas([-1, 0.5, 0]);
               return [box.left + x, box.top + y];
@@ -147,7 +147,7 @@ def test_what_is_under_the_resting_mouse_is_named(
     loop.show(make_row("display7", "Front scan"))
     tab.button("Look from Z").dispatch_event("click")
     hit = """async (xy) => {
-      const { hit } = await import("/webviz/scene/mouse.js");
+      const { hit } = await import("webviz/scene/mouse.js");
       return Boolean(hit(xy)?.object);
     }"""
     tab.wait_for(lambda: tab.page.evaluate(hit, CENTER))

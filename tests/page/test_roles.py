@@ -162,9 +162,7 @@ def test_lists_tabs_and_the_tree_are_locked_too(house: House, make_row: Callable
 
 
 def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
-    house.watcher.page.evaluate(
-        "async () => void (await import('/webviz/act.js')).act('ResetView')"
-    )
+    house.watcher.page.evaluate("async () => void (await import('webviz/act.js')).act('ResetView')")
     house.watcher.wait_for_command(commands.ResetView())
 
 
@@ -186,7 +184,7 @@ def test_a_watcher_arranges_panels_for_themselves(house: House) -> None:
 
 def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) -> None:
     ask = """async () => {
-      const channel = await import('/webviz/channel.js');
+      const channel = await import('webviz/channel.js');
       window.answers = [];
       channel.on('Done', ({number, text}) => number === 9999 && window.answers.push(text));
       channel.send({type: 'Do', number: 9999, command: 'Undo', arguments: {}});
@@ -205,7 +203,7 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
     owner.button("Undo")
     expect(owner.page.locator(".wv-locked")).to_have_count(0)
     owner.loop.answer = "Saved lab.yaml."
-    save = "(await import('/webviz/act.js')).act('Save', {path: 'lab.yaml'})"
+    save = "(await import('webviz/act.js')).act('Save', {path: 'lab.yaml'})"
     owner.page.evaluate(f"async () => void {save}")
     owner.wait_for_command(commands.Save("lab.yaml"))
     owner.button("Menu").click()

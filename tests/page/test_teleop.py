@@ -171,7 +171,7 @@ def test_the_card_shows_the_robot_who_drives_and_why_nothing_moves(driver: Tab) 
 
 
 def test_heartbeats_that_are_old_or_not_valid_move_nothing(driver: Tab, server: Server) -> None:
-    send = "async (drive) => (await import('./webviz/channel.js')).send({type: 'Drive', ...drive})"
+    send = "async (drive) => (await import('webviz/channel.js')).send({type: 'Drive', ...drive})"
     good = {"tool": "drive", "beat": 0, "linear": 1, "lateral": 0, "angular": 0}
     for wrong in (
         {"linear": 1e308},

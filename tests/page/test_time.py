@@ -17,7 +17,7 @@ CHANGES = """() => {
   window.counting.observe(document.querySelector(".wv-time"), everything);
 }"""
 FIVE_TICKS = """async () => {
-  const { watchTime } = await import("/webviz/clock.js");
+  const { watchTime } = await import("webviz/clock.js");
   let ticks = 0;
   const end = await new Promise((resolve) => {
     const end = watchTime(100, () => ++ticks === 5 && resolve(end));

@@ -140,7 +140,7 @@ def test_seeks_go_on_after_a_lost_connection(timeline: Tab, server: Server) -> N
     track = timeline.page.locator(".wv-track")
     timeline.page.evaluate(
         """async () => {
-          const { onOpen } = await import("/webviz/channel.js");
+          const { onOpen } = await import("webviz/channel.js");
           onOpen(() => (window.isBack = true));
         }"""
     )

@@ -15,12 +15,12 @@ from webviz.tools.goal_pose import GoalPose
 from webviz.tools.pose_estimate import PoseEstimate
 
 SEND = """async () => {
-  const history = await import("/webviz/features/tools/history.js");
+  const history = await import("webviz/features/tools/history.js");
   const goal = { id: "t1", name: "2D Goal Pose", gesture: "pose" };
   history.send(goal, { points: [[1, 2, 0.5]], yaw: Math.PI / 2, keys: [] });
 }"""
 
-ASKS = """async () => (await import("/webviz/tools/registry.js")).all().some(({ asks }) => asks)"""
+ASKS = """async () => (await import("webviz/tools/registry.js")).all().some(({ asks }) => asks)"""
 
 
 def button(id_: str, cls: type[Tool]) -> ToolButton:
@@ -111,7 +111,7 @@ def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(tab: Tab
     text = "Not sent: more than 20 gestures within a second. Wait a moment."
     tab.wait_for(lambda: text in tab.text())
     tab.page.evaluate(
-        "async () => { const { act } = await import('/webviz/act.js');"
+        "async () => { const { act } = await import('webviz/act.js');"
         "act('ReloadPlugin', { path: 'a.py' }); }"
     )
     tab.wait_for(lambda: "this page is out of date" in tab.text())

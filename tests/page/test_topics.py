@@ -84,7 +84,7 @@ def test_a_topic_has_its_facts_in_a_row(loop: Loop, panel: Tab) -> None:
 
 def test_a_wide_panel_has_all_columns(loop: Loop, panel: Tab) -> None:
     wide = panel
-    wide.page.evaluate("async () => (await import('/webviz/remember.js')).remember('width', 850)")
+    wide.page.evaluate("async () => (await import('webviz/remember.js')).remember('width', 850)")
     wide.page.set_viewport_size({"width": 1310, "height": HEIGHT})
     loop.show(
         offers={"/scan": Offer((SCAN,), subscribers=1)},

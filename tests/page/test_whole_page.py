@@ -56,7 +56,7 @@ STILL = f"""
 """
 FREEZE = "window.setTime = (ms) => { Date.now = () => ms }; setTime(1_764_000_000_000)"
 HAS_MAP = """async () => {
-  const { nodes } = await import("/webviz/viser_page.js");
+  const { nodes } = await import("webviz/viser_page.js");
   let isDecoded = false;
   for (const node of Object.values(nodes())) {
     node?.traverse((object) => (isDecoded ||= Boolean(object.material?.map)));
@@ -354,7 +354,7 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
 
 FITS = "canvas => canvas.clientWidth === document.getElementById('root').clientWidth"
 HEARD = """async () => {
-  const { on } = await import("/webviz/channel.js");
+  const { on } = await import("webviz/channel.js");
   await new Promise((resolve) => on("Beat", resolve));
 }"""
 """Returns when the server has been heard."""

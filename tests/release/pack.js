@@ -28,7 +28,7 @@ const page = {
   setup(build) {
     build.onResolve({ filter: /.*/ }, ({ path: wanted, importer }) => {
       const name = path.posix.join(path.posix.dirname(importer), wanted);
-      if (name === CONSTANTS) return { path: `./${CONSTANTS}`, external: true };
+      if (name === CONSTANTS) return { path: `webviz/${CONSTANTS}`, external: true };
       return { path: name, namespace: "page" };
     });
     build.onLoad({ filter: /.*/, namespace: "page" }, ({ path: name }) => ({

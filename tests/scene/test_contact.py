@@ -18,7 +18,7 @@ LOST = re.compile(
 
 
 TWO_BEATS = """async () => {
-  const { on } = await import("/webviz/channel.js");
+  const { on } = await import("webviz/channel.js");
   let beats = 0;
   await new Promise((resolve) => on("Beat", () => ++beats === 2 && resolve()));
 }"""

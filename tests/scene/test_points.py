@@ -37,8 +37,8 @@ def test_a_point_has_its_edge_in_metres(resized: View) -> None:
 
 
 POINT_AT = """async ([name, ...at]) => {
-  const viser = await import("/webviz/viser_page.js");
-  const { pointAt } = await import("/webviz/scene/picking/points.js");
+  const viser = await import("webviz/viser_page.js");
+  const { pointAt } = await import("webviz/scene/picking/points.js");
   const found = [];
   viser.node(name).traverse((each) => each.isPoints && found.push(pointAt(each, at, 0)?.number));
   return found[0] ?? null;

@@ -40,7 +40,7 @@ HANDLE = (150, 190)
 RED, WHITE = (255, 0, 0), (255, 255, 255)
 HALF = math.tan(FIELD_OF_VIEW / 2)
 AXES = """async () => {
-  const { axes } = await import("/webviz/scene/view.js");
+  const { axes } = await import("webviz/scene/view.js");
   return axes().flat();
 }"""
 
@@ -377,7 +377,7 @@ def test_turning_and_zooming_xy_orbit_keep_its_focal_point(window: Window) -> No
 
 def test_moving_xy_orbit_keeps_the_point_of_the_ground_under_the_mouse(window: Window) -> None:
     window.look(XYOrbit(distance=10.0, yaw=0.3, pitch=0.6, focal_point=(1.0, 0.5, 0.0)))
-    under = "async (xy) => (await import('/webviz/scene/ground.js')).groundAt(...xy)"
+    under = "async (xy) => (await import('webviz/scene/ground.js')).groundAt(...xy)"
     before = window.evaluate(under, HANDLE)
     window.drag(30, 20, "middle")
     window.tell(lambda view: math.dist(view.focal_point, (1.0, 0.5, 0.0)) > 0.3, "it moved")

@@ -16,7 +16,7 @@ MODULES = sorted(str(file.relative_to(FOLDER)) for file in FOLDER.rglob("*.js"))
 
 
 MISSING = """async () => {
-  const { VISER, missing } = await import("/webviz/viser_page.js");
+  const { VISER, missing } = await import("webviz/viser_page.js");
   return [VISER, missing()];
 }"""
 
@@ -28,7 +28,7 @@ def test_visers_page_has_all_that_is_accessed(view: View) -> None:
 
 
 WITHOUT = """async (names) => {
-  const { missing } = await import("/webviz/viser_page.js");
+  const { missing } = await import("webviz/viser_page.js");
   const whole = window.__viserMutable;
   try {
     window.__viserMutable = { ...whole };
@@ -58,7 +58,7 @@ def test_only_one_module_touches_visers_page() -> None:
 IMPORT = """async (names) => {
   const failures = {};
   for (const name of names) {
-    await import(`/webviz/${name}`).catch((error) => { failures[name] = String(error); });
+    await import(`webviz/${name}`).catch((error) => { failures[name] = String(error); });
   }
   return failures;
 }"""

@@ -23,7 +23,7 @@ def let_mouse_in(page: Page) -> None:
 
 
 KEYS = """async () => {
-  const { install } = await import("/webviz/commands.js");
+  const { install } = await import("webviz/commands.js");
   if (!window.hasKeys) install();
   window.hasKeys = true;
 }"""

@@ -11,7 +11,7 @@ from playwright.sync_api import expect
 from tests.support.memory_viewer import Memory
 from webviz.shell.pictures.browser import Page
 
-SHOW = "async (view) => (await import('/webviz/act.js')).act('ShowView', { view })"
+SHOW = "async (view) => (await import('webviz/act.js')).act('ShowView', { view })"
 QUESTION = "Look back for whom?"
 VIEW = {"type": "Orbit", "distance": 7.0, "yaw": -2.0, "pitch": 0.4}
 

@@ -129,7 +129,7 @@ def test_a_page_that_lies_gets_no_rights(house: House, enter: Enter) -> None:
     page = enter(Role.OPERATOR)
     page.evaluate(
         """async () => {
-            const channel = await import("./webviz/channel.js");
+            const channel = await import("webviz/channel.js");
             const lie = { type: "Do", number: 1e6, arguments: { name: "/calibrate" } };
             for (const command of ["Allow", "Decline", "Forbid"])
                 channel.send({ ...lie, command });

@@ -27,7 +27,7 @@ export default ({ overlay }) => overlay("legend", "own", el("b", { id: "own" }, 
 """
 """Module of a plug-in."""
 WHERE = """async () => {
-  const { keyText } = await import("/webviz/keys.js");
+  const { keyText } = await import("webviz/keys.js");
   try {
     keyText(null);
   } catch (error) {
@@ -85,8 +85,8 @@ def test_the_page_of_a_release_works(page: Page) -> None:
 
 def test_modules_that_are_not_packed_share_those_that_are(page: Page, tmp_path: Path) -> None:
     same = """async () => {
-      const { modules } = await import("/webviz/packed.js");
-      const { store } = await import("/webviz/stores.js");
+      const { modules } = await import("webviz/packed.js");
+      const { store } = await import("webviz/stores.js");
       return store === modules["stores.js"].store;
     }"""
     assert page.tab.evaluate(same)

@@ -128,7 +128,7 @@ def test_a_pose_that_waits_can_be_sent_or_cancelled(
     page: Page, viewer: webviz.Viewer, references: ReferenceImages
 ) -> None:
     viewer.do(SetToolProperty("2D Pose Estimate", "confirm", True))
-    knows = "async () => (await import('/webviz/tools/registry.js')).all().some((one) => one.asks)"
+    knows = "async () => (await import('webviz/tools/registry.js')).all().some((one) => one.asks)"
     page.wait_for(lambda: page.tab.evaluate(knows), "the tool that asks")
     press(page, "p", (-60.0, 40.0), (40.0, 70.0))
     page.tab.mouse.up()

@@ -20,8 +20,8 @@ VIEWS = [
     FPS(yaw=2.5, pitch=-0.3, position=(1.0, -2.0, 1.5)),
     TopDownOrtho(scale=37.5, angle=2.0, x=-3.0, y=1.25),
 ]
-SHOW = "async (view) => (await import('/webviz/act.js')).act('ShowView', { view })"
-ADD = "async (type) => (await import('/webviz/act.js')).act('AddPanel', { type, values: {} })"
+SHOW = "async (view) => (await import('webviz/act.js')).act('ShowView', { view })"
+ADD = "async (type) => (await import('webviz/act.js')).act('AddPanel', { type, values: {} })"
 
 
 @pytest.fixture(scope="module")

@@ -33,7 +33,7 @@ SIZE = 800, 640
 CANVAS = ".wv-scene-view canvas"
 HALF_VIEW = math.tan(math.pi / 8)
 POSITION = """async () => {
-  const viser = await import("/webviz/viser_page.js");
+  const viser = await import("webviz/viser_page.js");
   return viser.camera().position.toArray();
 }"""
 """Position of the camera of the main scene."""
@@ -198,7 +198,7 @@ def test_a_new_scene_sends_nothing_of_the_scene_again(viewer: webviz.Viewer, pag
     viewer.do(RemovePanel("3D scene"))
     page.wait_for(lambda: page.tab.locator(CANVAS).count() == 0, "it is gone")
     page.evaluate("""async () => {
-      const viser = await import("/webviz/viser_page.js");
+      const viser = await import("webviz/viser_page.js");
       window.sceneMessages = [];
       const note = ({ type }) => window.sceneMessages.push(type);
       viser.filterMessages((all) => (all.forEach(note), all));

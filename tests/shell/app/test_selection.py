@@ -336,7 +336,7 @@ def on_screen(page: Page, xy: Sequence[float]) -> tuple[float, float]:
     """Where a point of the ground is in the window."""
     return page.tab.evaluate(
         """async ([x, y]) => {
-          const { onCanvas } = await import("/webviz/scene/ground.js");
+          const { onCanvas } = await import("webviz/scene/ground.js");
           const box = document.querySelector("canvas").getBoundingClientRect();
           const place = onCanvas([x, y, 0]);
           return [box.left + place[0], box.top + place[1]];

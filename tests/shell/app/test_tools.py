@@ -178,11 +178,11 @@ def test_seen_from_above_a_pixel_up_lifts_by_a_pixel(page: Page, graph: Remember
 
 
 HEIGHT = """async (xy) => {
-  const { surfaceAt } = await import("/webviz/scene/ground.js");
+  const { surfaceAt } = await import("webviz/scene/ground.js");
   return surfaceAt(xy)[2];
 }"""
 STAYS = """async (name) => {
-  const { all } = await import("/webviz/tools/registry.js");
+  const { all } = await import("webviz/tools/registry.js");
   return all().find((tool) => tool.name === name).stays;
 }"""
 
@@ -380,7 +380,7 @@ def test_a_tool_that_asks_sends_nothing_before_it_is_told_to(
 ) -> None:
     tab, card = page.tab, page.tab.get_by_role("group", name="Send this?")
     preview = tab.locator("[data-webviz=preview]")
-    knows = "async () => (await import('/webviz/tools/registry.js')).all().some((one) => one.asks)"
+    knows = "async () => (await import('webviz/tools/registry.js')).all().some((one) => one.asks)"
     viewer.do(SetToolProperty("2D Goal Pose", "confirm", True))
     page.wait_for(lambda: tab.evaluate(knows), "the tool that asks")
 
@@ -484,7 +484,7 @@ def test_a_stroke_that_is_not_valid_publishes_nothing(
     goal = next(tool for tool in viewer.state.tools if tool.name == "2D Goal Pose")
     if gesture["tool"] == "TOOL":
         gesture = {**gesture, "tool": goal.id}
-    send = "async (gesture) => void (await import('./webviz/act.js')).send('UseTool', gesture)"
+    send = "async (gesture) => void (await import('webviz/act.js')).send('UseTool', gesture)"
     page.tab.evaluate(send, gesture)
     drag_works(page, graph)
 
@@ -508,7 +508,7 @@ def test_a_source_that_only_reads_says_so(
     assert not is_active(page)
     tips = disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)")
     assert f"2D Goal Pose: {reason}" in tips
-    page.tab.evaluate("async () => (await import('/webviz/tools/hint.js')).tell('hint', '')")
+    page.tab.evaluate("async () => (await import('webviz/tools/hint.js')).tell('hint', '')")
     page.tab.keyboard.press("g")
     assert answer(page) == reason
     assert not is_active(page)

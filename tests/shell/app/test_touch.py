@@ -31,8 +31,8 @@ VIEWS = (
     {"type": "TopDownOrtho", "scale": 30.0},
 )
 CAMERA = """async () => {
-  const viser = await import("/webviz/viser_page.js");
-  const { toThree } = await import("/webviz/scene/fixed_frame.js");
+  const viser = await import("webviz/viser_page.js");
+  const { toThree } = await import("webviz/scene/fixed_frame.js");
   const controls = viser.controls();
   const { distance, azimuthAngle: azimuth, polarAngle: polar } = controls;
   const target = controls.getTarget(viser.camera().position.clone());

@@ -49,23 +49,23 @@ TIMES = (1.0, 4.5, 0.5, 5.0, 2.0, 0.0)
 SIZE: playwright.ViewportSize = {"width": 800, "height": 420}
 
 MIMIC = """async (cases) => {
-  const { like, mimic } = await import(new URL("webviz/recorded/view_math.js", location.href));
+  const { like, mimic } = await import("webviz/recorded/view_math.js");
   return cases.map(([view, rig, type, newRig]) =>
     mimic(view, rig, like(type, view), newRig, 480));
 }"""
 
 BOX = """async () => {
-  const viser = await import(new URL("webviz/viser_page.js", location.href));
+  const viser = await import("webviz/viser_page.js");
   const { left, top, width, height } = viser.canvas().getBoundingClientRect();
   return [left, top, width, height];
 }"""
 COUNT_DONE = """async () => {
-  const { on } = await import(new URL("webviz/channel.js", location.href));
+  const { on } = await import("webviz/channel.js");
   window.done = 0;
   on("Done", () => (window.done += 1));
 }"""
 FOLLOW = """async (value) => {
-  const { act } = await import(new URL("webviz/act.js", location.href));
+  const { act } = await import("webviz/act.js");
   return act("ChangeView", { key: "target_frame", value });
 }"""
 

@@ -183,7 +183,6 @@ function style(name, rules) {
 
 const MAX_REPORTS = 3; // of a module: a fault may occur in every frame
 const IMPORT = /^(import\b[^"';(]*)["']\.\/([^"'/]+)["']/gm; // as in webviz/api/modules.py
-const IMPORT_OF_PAGE = /^(import\b[^"';(]*)["'](webviz\/[^"']+)["']/gm;
 
 export function install() {
   watch("modules", (modules, changed) => {
@@ -215,9 +214,7 @@ async function add(name, files) {
       style(`${name}/${file}`, source);
       continue;
     }
-    const text = source
-      .replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`)
-      .replace(IMPORT_OF_PAGE, (_, words, path) => `${words}"${new URL(path, location.href)}"`);
+    const text = source.replace(IMPORT, (_, words, other) => `${words}"${addresses.get(other)}"`);
     const parts = [text, `\n//# sourceURL=${new URL(file, folder)}`];
     addresses.set(file, URL.createObjectURL(new Blob(parts, { type: "text/javascript" })));
   }

@@ -70,7 +70,7 @@ async function install() {
 /** @param {string} module of a feature, which may fail without others */
 async function installFeature(module) {
   try {
-    (await import(new URL(`webviz/${module}`, location.href).href)).install();
+    (await import(`webviz/${module}`)).install();
   } catch (error) {
     console.error(error);
   }

@@ -67,8 +67,7 @@ def pack_of(modules: Mapping[str, str], file: Path) -> Pack | None:
 
 def _leading(name: str, exported: list[str]) -> str:
     """Return a module that exports what one in the pack does."""
-    up = "../" * name.count("/") or "./"
-    lines = [f'import {{ modules }} from "{up}{NAME}";', f'const own = modules["{name}"];']
+    lines = [f'import {{ modules }} from "webviz/{NAME}";', f'const own = modules["{name}"];']
     for each in exported:
         begin = "export default" if each == "default" else f"export const {each} ="
         lines.append(f"{begin} own.{each};")

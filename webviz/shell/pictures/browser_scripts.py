@@ -1,6 +1,6 @@
 """Scripts for the page in a headless browser."""
 
-VISER = 'const viser = await import(new URL("webviz/viser_page.js", location.href));'
+VISER = 'const viser = await import("webviz/viser_page.js");'
 """Begins a script that reads what the page alone may: of viser, through its own module."""
 
 CANVAS = f"""async () => {{ {VISER}
@@ -108,8 +108,8 @@ TRANSPARENT = f"""async () => {{ {VISER}
 # A picture with the scene over and under it, and with its marks, drawn by the modules of the page.
 PANE = """
 async ([width, height, camera, warp, hidden, marks, url]) => {
-  const viser = await import(new URL("webviz/viser_page.js", location.href));
-  const load = (name) => import(new URL(`webviz/images/${name}.js`, location.href));
+  const viser = await import("webviz/viser_page.js");
+  const load = (name) => import(`webviz/images/${name}.js`);
   const { paint, placeIn } = await load("camera_overlay");
   const { undistort } = await load("undistort");
   const { drawMarks } = await load("marks");
