@@ -1,13 +1,12 @@
-// Resolves what features import as the page does, which has their folders beside its own modules.
+// Resolves the names by which modules of the page import each other, as its import map does.
 
 import { registerHooks } from "node:module";
 
 const WEBVIZ = new URL("../../webviz/", import.meta.url).href;
-const OF_PAGE = /^\.\.\/\.\.\//;
+const OF_FEATURE = /^webviz\/(?=features\/)/;
+const OF_PAGE = /^webviz\//;
 
 registerHooks({
   resolve: (name, context, next) =>
-    context.parentURL?.startsWith(`${WEBVIZ}features/`)
-      ? next(name.replace(OF_PAGE, `${WEBVIZ}page/web/`), context)
-      : next(name, context),
+    next(name.replace(OF_FEATURE, WEBVIZ).replace(OF_PAGE, `${WEBVIZ}page/web/`), context),
 });

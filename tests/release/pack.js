@@ -19,15 +19,15 @@ const sources = JSON.parse(Buffer.concat(chunks).toString());
 const names = Object.keys(sources).sort();
 
 const entry = [
-  ...names.map((name, i) => `import * as m${i} from "./${name}";`),
+  ...names.map((name, i) => `import * as m${i} from "webviz/${name}";`),
   `export const modules = { ${names.map((name, i) => `"${name}": m${i}`).join(", ")} };`,
 ].join("\n");
 
 const page = {
   name: "page",
   setup(build) {
-    build.onResolve({ filter: /.*/ }, ({ path: wanted, importer }) => {
-      const name = path.posix.join(path.posix.dirname(importer), wanted);
+    build.onResolve({ filter: /.*/ }, ({ path: wanted }) => {
+      const name = wanted.replace(/^webviz\//, "");
       if (name === CONSTANTS) return { path: `webviz/${CONSTANTS}`, external: true };
       return { path: name, namespace: "page" };
     });

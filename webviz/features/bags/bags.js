@@ -1,17 +1,17 @@
 // Bags of this machine in the dialog "Open": they are played in the place of live topics.
 
-import { act } from "../../act.js";
-import { el } from "../../dom.js";
-import { icon, textButton } from "../../icons.js";
-import { filesSection } from "../../shell/opening.js";
-import { each } from "../../signals.js";
-import { store } from "../../stores.js";
-import { timeOfDay } from "../../time_text.js";
-import { install as installUpload } from "./upload.js";
+import { act } from "webviz/act.js";
+import { el } from "webviz/dom.js";
+import { icon, textButton } from "webviz/icons.js";
+import { filesSection } from "webviz/shell/opening.js";
+import { each } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { install as installUpload } from "webviz/features/bags/upload.js";
 
-/** @import {Close} from "../../controls/dialog.js" */
-/** @import {Bag} from "../../contents.js" */
-/** @import {Signal} from "../../signals.js" */
+/** @import {Close} from "webviz/controls/dialog.js" */
+/** @import {Bag} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 const NONE = "No bags yet. Start webviz with --library to name a folder that has some.";
 const ALONE = "This viewer was started with a bag. Start it without one to open others here.";

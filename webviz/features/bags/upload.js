@@ -1,14 +1,14 @@
 // Bags and reports of this computer: they are sent in parts, and played in the place of live topics.
 
-import { act } from "../../act.js";
-import { el } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { overlay } from "../../overlay/overlay.js";
-import { fileLoader } from "../../shell/opening.js";
-import { signal } from "../../signals.js";
-import { toast } from "../../toasts.js";
+import { act } from "webviz/act.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { fileLoader } from "webviz/shell/opening.js";
+import { signal } from "webviz/signals.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {Signal} from "../../signals.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /** @typedef {{name: string, share: number}} Progress */
 

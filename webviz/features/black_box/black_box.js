@@ -1,15 +1,15 @@
 // Recordings that the rules of the config made: a button with a menu, for the owner.
 
-import { onRole, self } from "../../access.js";
-import { act } from "../../act.js";
-import { copy } from "../../clipboard.js";
-import { el, set, setText } from "../../dom.js";
-import { icon } from "../../icons.js";
-import { openMenu } from "../../controls/menu.js";
-import { timeBarButton } from "../../shell/time_bar.js";
-import { toast } from "../../toasts.js";
-import { watch } from "../../stores.js";
-import { savedText } from "../../time_text.js";
+import { onRole, self } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copy } from "webviz/clipboard.js";
+import { el, set, setText } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { openMenu } from "webviz/controls/menu.js";
+import { timeBarButton } from "webviz/shell/time_bar.js";
+import { toast } from "webviz/toasts.js";
+import { watch } from "webviz/stores.js";
+import { savedText } from "webviz/time_text.js";
 
 export const install = () => timeBarButton(blackBox());
 

@@ -1,9 +1,9 @@
 // The bridges over which live topics come, and which of them are not live.
 
-import { el, set, setChildren, setText } from "../../dom.js";
-import { sanitized } from "../../sanitize.js";
-import { overlay } from "../../overlay/overlay.js";
-import { watch } from "../../stores.js";
+import { el, set, setChildren, setText } from "webviz/dom.js";
+import { sanitized } from "webviz/sanitize.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { watch } from "webviz/stores.js";
 
 const MANY = 3;
 

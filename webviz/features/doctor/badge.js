@@ -1,9 +1,9 @@
 // The number of findings in the head of the side, while there are any.
 
-import { el } from "../../dom.js";
-import { isSevere } from "../../panels/findings.js";
+import { el } from "webviz/dom.js";
+import { isSevere } from "webviz/panels/findings.js";
 
-/** @import {ShownFinding} from "../../contents.js" */
+/** @import {ShownFinding} from "webviz/contents.js" */
 
 /**
  * @param {() => readonly ShownFinding[]} findings read in effects

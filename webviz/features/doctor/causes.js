@@ -1,13 +1,13 @@
 // The causes behind the statuses of several displays, each said once above the list of displays.
 
-import { el } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { computed, each } from "../../signals.js";
-import { findingActs } from "../../panels/displays/statuses.js";
-import { findingLink, isShared, keyOf } from "../../panels/findings.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { computed, each } from "webviz/signals.js";
+import { findingActs } from "webviz/panels/displays/statuses.js";
+import { findingLink, isShared, keyOf } from "webviz/panels/findings.js";
 
-/** @import {ShownFinding} from "../../contents.js" */
-/** @import {Readable} from "../../signals.js" */
+/** @import {ShownFinding} from "webviz/contents.js" */
+/** @import {Readable} from "webviz/signals.js" */
 
 const LISTED = 2; // the doctor has the others
 

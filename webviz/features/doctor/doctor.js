@@ -1,30 +1,30 @@
 // The panel "Doctor": the causes of what is not shown, the one to repair first on top.
 
-import { needs } from "../../access.js";
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { disclosure } from "../../controls/disclosure.js";
-import { el } from "../../dom.js";
-import { iconButton, textButton } from "../../icons.js";
-import { timeOfDay } from "../../time_text.js";
-import { openPanel } from "../../docks/layout.js";
-import { computed, each, effect, signal, untracked } from "../../signals.js";
-import { store } from "../../stores.js";
-import { GLOBAL } from "../../panels/displays/model.js";
-import * as selection from "../../panels/displays/selection.js";
-import { findingActs } from "../../panels/displays/statuses.js";
-import { panel } from "../../panels/panels.js";
-import { action } from "../../shell/actions.js";
-import { displaysStart } from "../../panels/displays/displays.js";
-import { explainStatuses, isSevere, keyOf } from "../../panels/findings.js";
-import { findingsSections } from "../../panels/findings_sections.js";
-import { headMark } from "../../shell/header.js";
-import { badge } from "./badge.js";
-import { causes } from "./causes.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { disclosure } from "webviz/controls/disclosure.js";
+import { el } from "webviz/dom.js";
+import { iconButton, textButton } from "webviz/icons.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { openPanel } from "webviz/docks/layout.js";
+import { computed, each, effect, signal, untracked } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { GLOBAL } from "webviz/panels/displays/model.js";
+import * as selection from "webviz/panels/displays/selection.js";
+import { findingActs } from "webviz/panels/displays/statuses.js";
+import { panel } from "webviz/panels/panels.js";
+import { action } from "webviz/shell/actions.js";
+import { displaysStart } from "webviz/panels/displays/displays.js";
+import { explainStatuses, isSevere, keyOf } from "webviz/panels/findings.js";
+import { findingsSections } from "webviz/panels/findings_sections.js";
+import { headMark } from "webviz/shell/header.js";
+import { badge } from "webviz/features/doctor/badge.js";
+import { causes } from "webviz/features/doctor/causes.js";
 
-/** @import {ShownFinding, ExplainedStatus} from "../../contents.js" */
-/** @import {Readable} from "../../signals.js" */
-/** @import {Panel} from "../../types.js" */
+/** @import {ShownFinding, ExplainedStatus} from "webviz/contents.js" */
+/** @import {Readable} from "webviz/signals.js" */
+/** @import {Panel} from "webviz/types.js" */
 
 const WELL = "All is well: no check found a problem.";
 const WELL_IN_TRIAL = "No check finds a problem in this trial.";

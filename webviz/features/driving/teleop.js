@@ -3,20 +3,20 @@
 // new. Hence heartbeats come from here and not from a worker: a page that hangs does not learn what
 // is let go.
 
-import * as channel from "../../channel.js";
-import { isTyping, takeKeys } from "../../commands.js";
-import { shortcuts } from "../../keys.js";
-import { places } from "../../shell/shell.js";
-import { watch } from "../../stores.js";
-import { gesture } from "../../tools/gestures.js";
-import * as registry from "../../tools/registry.js";
-import { added, makeCard } from "./teleop_card.js";
-import * as gamepad from "./teleop_gamepad.js";
-import * as keys from "./teleop_keys.js";
+import * as channel from "webviz/channel.js";
+import { isTyping, takeKeys } from "webviz/commands.js";
+import { shortcuts } from "webviz/keys.js";
+import { places } from "webviz/shell/shell.js";
+import { watch } from "webviz/stores.js";
+import { gesture } from "webviz/tools/gestures.js";
+import * as registry from "webviz/tools/registry.js";
+import { added, makeCard } from "webviz/features/driving/teleop_card.js";
+import * as gamepad from "webviz/features/driving/teleop_gamepad.js";
+import * as keys from "webviz/features/driving/teleop_keys.js";
 
-/** @import {DrivingReport} from "../../messages.js" */
-/** @import {Shares} from "./teleop_keys.js" */
-/** @import {Made, ViewerTool} from "../../types.js" */
+/** @import {DrivingReport} from "webviz/messages.js" */
+/** @import {Shares} from "webviz/features/driving/teleop_keys.js" */
+/** @import {Made, ViewerTool} from "webviz/types.js" */
 
 /**
  * @typedef {{

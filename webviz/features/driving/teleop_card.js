@@ -1,10 +1,10 @@
 // The card over the scene while one drives: the stick, and what the robot does.
 
-import { el, set, setText } from "../../dom.js";
-import { makeStick } from "./teleop_stick.js";
+import { el, set, setText } from "webviz/dom.js";
+import { makeStick } from "webviz/features/driving/teleop_stick.js";
 
-/** @import {Shares} from "./teleop_keys.js" */
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {Shares} from "webviz/features/driving/teleop_keys.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 /**
  * Makes the card; `change()` is called when its controls are held or let go.

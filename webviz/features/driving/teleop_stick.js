@@ -1,9 +1,9 @@
 // A stick on the screen, for mouse, pen and finger: up is ahead, to the side turns.
 
-import { el, set } from "../../dom.js";
+import { el, set } from "webviz/dom.js";
 
-/** @import {Shares} from "./teleop_keys.js" */
-/** @import {Vec2} from "../../types.js" */
+/** @import {Shares} from "webviz/features/driving/teleop_keys.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 const DEAD = 0.08;
 

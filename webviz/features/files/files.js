@@ -1,27 +1,27 @@
 // The config file: its name in the head, saving, opening, downloading.
 
-import { act } from "../../act.js";
-import * as channel from "../../channel.js";
-import { textField } from "../../controls/fields.js";
-import { el, setText } from "../../dom.js";
-import { icon, textButton } from "../../icons.js";
-import { each, effect, root } from "../../signals.js";
-import { store } from "../../stores.js";
-import { ask, openDialog } from "../../controls/dialog.js";
-import { openMenuBelow } from "../../controls/menu.js";
-import { download } from "../../download.js";
-import { checkedName, hasSuffix, SUFFIXES } from "./file_names.js";
-import { command } from "../../commands.js";
-import { item, menuStart } from "../../shell/actions.js";
-import { headStart } from "../../shell/header.js";
-import { endings, fileLoader, load, sections } from "../../shell/opening.js";
-import { setTitle } from "../../title.js";
-import { toast } from "../../toasts.js";
+import { act } from "webviz/act.js";
+import * as channel from "webviz/channel.js";
+import { textField } from "webviz/controls/fields.js";
+import { el, setText } from "webviz/dom.js";
+import { icon, textButton } from "webviz/icons.js";
+import { each, effect, root } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { ask, openDialog } from "webviz/controls/dialog.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { download } from "webviz/download.js";
+import { checkedName, hasSuffix, SUFFIXES } from "webviz/features/files/file_names.js";
+import { command } from "webviz/commands.js";
+import { item, menuStart } from "webviz/shell/actions.js";
+import { headStart } from "webviz/shell/header.js";
+import { endings, fileLoader, load, sections } from "webviz/shell/opening.js";
+import { setTitle } from "webviz/title.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {Close} from "../../controls/dialog.js" */
-/** @import {Command} from "../../commands.js" */
-/** @import {MenuItem} from "../../controls/menu.js" */
-/** @import {Commands} from "../../messages.js" */
+/** @import {Close} from "webviz/controls/dialog.js" */
+/** @import {Command} from "webviz/commands.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
+/** @import {Commands} from "webviz/messages.js" */
 
 const MAX_BYTES = 2 << 20;
 const MAX_CHARACTERS = (3 << 20) - 1000; // of a message with the config in it

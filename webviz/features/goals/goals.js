@@ -1,16 +1,16 @@
 // The goals that tools have sent: what every page shows of them; operators can cancel.
 
-import { needs } from "../../access.js";
-import { act } from "../../act.js";
-import { el, set, setChildren, setText } from "../../dom.js";
-import { icon, iconButton, textButton } from "../../icons.js";
-import { cards as places } from "../../shell/tools.js";
-import { watch } from "../../stores.js";
-import { makePoses } from "../../tools/poses.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { el, set, setChildren, setText } from "webviz/dom.js";
+import { icon, iconButton, textButton } from "webviz/icons.js";
+import { cards as places } from "webviz/shell/tools.js";
+import { watch } from "webviz/stores.js";
+import { makePoses } from "webviz/tools/poses.js";
 
-/** @import {ValuesOf} from "../../types.js" */
-/** @import {Pose} from "../../tools/poses.js" */
-/** @import {Route, ShownGoal} from "../../contents.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
+/** @import {Pose} from "webviz/tools/poses.js" */
+/** @import {Route, ShownGoal} from "webviz/contents.js" */
 
 /** @type {Record<ShownGoal["phase"], string>} */
 const TEXTS = { sending: "Sending…", active: "", canceling: "Cancelling…", ended: "" };

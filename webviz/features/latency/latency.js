@@ -1,12 +1,12 @@
 // "Stamp to screen": for each display, where the time from a stamp to the browsers goes.
 
-import { disclosure } from "../../controls/disclosure.js";
-import { el } from "../../dom.js";
-import { findingsSection } from "../../panels/findings_sections.js";
-import { signal } from "../../signals.js";
-import { store } from "../../stores.js";
+import { disclosure } from "webviz/controls/disclosure.js";
+import { el } from "webviz/dom.js";
+import { findingsSection } from "webviz/panels/findings_sections.js";
+import { signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
-/** @import {BrowserLatency, Latency, Stage} from "../../contents.js" */
+/** @import {BrowserLatency, Latency, Stage} from "webviz/contents.js" */
 
 /** @type {Record<string, string>} */
 const NAMES = {

@@ -1,13 +1,13 @@
 // The saved layouts in the menu and in the list of commands.
 
-import { act } from "../../act.js";
-import { clear, savedLayouts, templates } from "../../docks/docks.js";
-import { openWindow } from "../../docks/windows.js";
-import { submenu } from "../../shell/actions.js";
-import { provide } from "../../commands.js";
-import { askName } from "../../controls/dialog.js";
+import { act } from "webviz/act.js";
+import { clear, savedLayouts, templates } from "webviz/docks/docks.js";
+import { openWindow } from "webviz/docks/windows.js";
+import { submenu } from "webviz/shell/actions.js";
+import { provide } from "webviz/commands.js";
+import { askName } from "webviz/controls/dialog.js";
 
-/** @import {MenuItem} from "../../controls/menu.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 /** @type {Record<string, string>} */
 const ICONS = { Navigate: "flag", Tune: "gear", "Debug a bag": "search" };

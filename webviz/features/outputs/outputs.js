@@ -1,19 +1,19 @@
 // Files that the viewer wrote for this page: where each is, and how one gets it.
 
-import { onRole, why } from "../../access.js";
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { provide } from "../../commands.js";
-import { save } from "../../download.js";
-import { el } from "../../dom.js";
-import { iconButton, textButton } from "../../icons.js";
-import { overlay } from "../../overlay/overlay.js";
-import { signal } from "../../signals.js";
-import { store, watch } from "../../stores.js";
-import { toast } from "../../toasts.js";
+import { onRole, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { provide } from "webviz/commands.js";
+import { save } from "webviz/download.js";
+import { el } from "webviz/dom.js";
+import { iconButton, textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { signal } from "webviz/signals.js";
+import { store, watch } from "webviz/stores.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {WrittenFile} from "../../contents.js" */
-/** @import {Signal} from "../../signals.js" */
+/** @import {WrittenFile} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /** @typedef {WrittenFile & {number: number}} Written */
 

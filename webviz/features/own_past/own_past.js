@@ -1,19 +1,19 @@
 // One's own past: a page that looks back asks for whom, and goes to a viewer of its own meanwhile.
 
-import { why } from "../../access.js";
-import { act, detour } from "../../act.js";
-import { wallNow } from "../../clock.js";
-import { command } from "../../commands.js";
-import { openDialog } from "../../controls/dialog.js";
-import { el } from "../../dom.js";
-import { overlay } from "../../overlay/overlay.js";
-import { recallInTab, rememberInTab, resumeAs } from "../../remember.js";
-import { once, store } from "../../stores.js";
-import { atMoment } from "../../moment.js";
-import { setTitlePrefix } from "../../title.js";
-import { effect } from "../../signals.js";
+import { why } from "webviz/access.js";
+import { act, detour } from "webviz/act.js";
+import { wallNow } from "webviz/clock.js";
+import { command } from "webviz/commands.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { el } from "webviz/dom.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { recallInTab, rememberInTab, resumeAs } from "webviz/remember.js";
+import { once, store } from "webviz/stores.js";
+import { atMoment } from "webviz/moment.js";
+import { setTitlePrefix } from "webviz/title.js";
+import { effect } from "webviz/signals.js";
 
-/** @import {Answer} from "../../act.js" */
+/** @import {Answer} from "webviz/act.js" */
 
 const CHOICE = "webviz.looks_back"; // of this tab, in its session
 const BEFORE_S = 0.5; // for a step back, which has no time of its own

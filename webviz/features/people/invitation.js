@@ -1,13 +1,13 @@
 // A form that makes a link for somebody else, and shows it with its QR code.
 
-import { act } from "../../act.js";
-import { combobox } from "../../controls/combobox.js";
-import { textField } from "../../controls/fields.js";
-import { el, setText } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { signal } from "../../signals.js";
+import { act } from "webviz/act.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { textField } from "webviz/controls/fields.js";
+import { el, setText } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { signal } from "webviz/signals.js";
 
-/** @import {Commands} from "../../messages.js" */
+/** @import {Commands} from "webviz/messages.js" */
 
 /** @type {[string, number | null][]} */
 const ENDS = [

@@ -1,19 +1,19 @@
 // Who is connected and what they did, and how the owner invites others.
 
-import { timeOfDay } from "../../time_text.js";
-import { self, why } from "../../access.js";
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { el } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { each, root } from "../../signals.js";
-import { store } from "../../stores.js";
-import { ask, openDialog } from "../../controls/dialog.js";
-import { action } from "../../shell/actions.js";
-import { invitation } from "./invitation.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { self, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { each, root } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { ask, openDialog } from "webviz/controls/dialog.js";
+import { action } from "webviz/shell/actions.js";
+import { invitation } from "webviz/features/people/invitation.js";
 
-/** @import {JournalEntry, Person, ValidLink} from "../../contents.js" */
-/** @import {Child} from "../../types.js" */
+/** @import {JournalEntry, Person, ValidLink} from "webviz/contents.js" */
+/** @import {Child} from "webviz/types.js" */
 
 export const install = () =>
   action({ name: "People…", icon: "eye", group: "View", order: 0, run: openPeople });

@@ -1,12 +1,12 @@
 // The bookmarks of a recording: a menu to go to them, to add and to remove them.
 
-import { act } from "../../act.js";
-import { iconButton } from "../../icons.js";
-import { askName } from "../../controls/dialog.js";
-import { openMenu } from "../../controls/menu.js";
-import { duration } from "../../time_text.js";
+import { act } from "webviz/act.js";
+import { iconButton } from "webviz/icons.js";
+import { askName } from "webviz/controls/dialog.js";
+import { openMenu } from "webviz/controls/menu.js";
+import { duration } from "webviz/time_text.js";
 
-/** @import {Seeks} from "./rewound.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 /** @typedef {ReturnType<typeof bookmarks>} Bookmarks */
 

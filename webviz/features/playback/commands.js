@@ -1,10 +1,10 @@
 // The commands of the timeline, which have keys while nothing else wants them.
 
-import { isTyping } from "../../commands.js";
-import { eventCommand } from "./events.js";
+import { isTyping } from "webviz/commands.js";
+import { eventCommand } from "webviz/features/playback/events.js";
 
-/** @import {LoggedEvent, Moment} from "../../types.js" */
-/** @import {Seeks} from "./rewound.js" */
+/** @import {LoggedEvent, Moment} from "webviz/types.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 const JUMP_S = 5;
 

@@ -1,12 +1,12 @@
 // Draws the timeline on a canvas: when there are messages, the span that is played, and the head.
 
-import { share, ticks } from "../../charts/scale.js";
-import { fitted } from "../../charts/canvas.js";
-import { duration } from "../../time_text.js";
-import { MARGIN, placeOf } from "./range.js";
-import { beforeText } from "../../moment.js";
+import { share, ticks } from "webviz/charts/scale.js";
+import { fitted } from "webviz/charts/canvas.js";
+import { duration } from "webviz/time_text.js";
+import { MARGIN, placeOf } from "webviz/features/playback/range.js";
+import { beforeText } from "webviz/moment.js";
 
-/** @import {LoggedEvent, Range} from "../../types.js" */
+/** @import {LoggedEvent, Range} from "webviz/types.js" */
 
 const TOP = 4;
 const BAR = 12;

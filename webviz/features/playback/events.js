@@ -1,9 +1,9 @@
 // Warnings and errors of a recording: `[time, level, text]`, of the log and of displays.
 
-import { toast } from "../../toasts.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {LoggedEvent, ValuesOf} from "../../types.js" */
-/** @import {Seeks} from "./rewound.js" */
+/** @import {LoggedEvent, ValuesOf} from "webviz/types.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 const CLOSE_S = 0.001; // positions are given in milliseconds
 /** @type {Record<string, string>} */

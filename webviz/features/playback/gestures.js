@@ -1,15 +1,15 @@
 // Gestures over a track: a drag seeks or, with Shift, selects; the wheel zooms and moves.
 
-import { why } from "../../access.js";
-import { act } from "../../act.js";
-import { el, set, setText } from "../../dom.js";
-import { sanitized } from "../../sanitize.js";
-import { toast } from "../../toasts.js";
-import { eventText } from "./events.js";
-import { nearest, placeOf, shareAt, timeAt, zoomed } from "./range.js";
+import { why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { el, set, setText } from "webviz/dom.js";
+import { sanitized } from "webviz/sanitize.js";
+import { toast } from "webviz/toasts.js";
+import { eventText } from "webviz/features/playback/events.js";
+import { nearest, placeOf, shareAt, timeAt, zoomed } from "webviz/features/playback/range.js";
 
-/** @import {LoggedEvent, Range} from "../../types.js" */
-/** @import {Seeks} from "./rewound.js" */
+/** @import {LoggedEvent, Range} from "webviz/types.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 /**
  * @typedef {{counts: number[], counted: Range, bookmarks: [string, number][], events: LoggedEvent[]}} Marks

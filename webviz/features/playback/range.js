@@ -1,9 +1,9 @@
 // The part of a recording that the timeline shows, in seconds from its start, and places of times in it,
 // in pixels from its left end. Without a document.
 
-import { at, changed, share } from "../../charts/scale.js";
+import { at, changed, share } from "webviz/charts/scale.js";
 
-/** @import {Moment, Range} from "../../types.js" */
+/** @import {Moment, Range} from "webviz/types.js" */
 
 export const MARGIN = 8;
 const SNAP_PX = 5;

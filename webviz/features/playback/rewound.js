@@ -1,19 +1,19 @@
 // Seeks, one at a time; a banner over the scene while the page shows the past of live topics, or a recording instead of them, and
 // what returns to live.
 
-import { why } from "../../access.js";
-import { act } from "../../act.js";
-import { wallNow } from "../../clock.js";
-import { el, set, setText } from "../../dom.js";
-import { sanitized } from "../../sanitize.js";
-import { command } from "../../commands.js";
-import { newest } from "../../newest.js";
-import { setTitlePrefix } from "../../title.js";
-import { store, watch } from "../../stores.js";
-import { agoText, atMoment, isOpened, isRewound } from "../../moment.js";
-import { savedText } from "../../time_text.js";
+import { why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { wallNow } from "webviz/clock.js";
+import { el, set, setText } from "webviz/dom.js";
+import { sanitized } from "webviz/sanitize.js";
+import { command } from "webviz/commands.js";
+import { newest } from "webviz/newest.js";
+import { setTitlePrefix } from "webviz/title.js";
+import { store, watch } from "webviz/stores.js";
+import { agoText, atMoment, isOpened, isRewound } from "webviz/moment.js";
+import { savedText } from "webviz/time_text.js";
 
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");

@@ -1,25 +1,25 @@
 // The timeline of a recording: a track over the bar of the time, and buttons within it.
 
-import { act } from "../../act.js";
-import { wallNow } from "../../clock.js";
-import { copy } from "../../clipboard.js";
-import { provide } from "../../commands.js";
-import { toast } from "../../toasts.js";
-import { store, watch } from "../../stores.js";
-import { bookmarks as bookmarkMenu } from "./bookmarks.js";
-import { timeCommands } from "./commands.js";
-import { byTime } from "./events.js";
-import { atMoment, behindAt, isNow, isRewound } from "../../moment.js";
-import { shownLength } from "./range.js";
-import { seeks } from "./rewound.js";
-import { topics as topicList } from "./topics.js";
-import { track as makeTrack } from "./track.js";
-import { transport as makeTransport } from "./transport.js";
-import { parseTime } from "./typed_time.js";
+import { act } from "webviz/act.js";
+import { wallNow } from "webviz/clock.js";
+import { copy } from "webviz/clipboard.js";
+import { provide } from "webviz/commands.js";
+import { toast } from "webviz/toasts.js";
+import { store, watch } from "webviz/stores.js";
+import { bookmarks as bookmarkMenu } from "webviz/features/playback/bookmarks.js";
+import { timeCommands } from "webviz/features/playback/commands.js";
+import { byTime } from "webviz/features/playback/events.js";
+import { atMoment, behindAt, isNow, isRewound } from "webviz/moment.js";
+import { shownLength } from "webviz/features/playback/range.js";
+import { seeks } from "webviz/features/playback/rewound.js";
+import { topics as topicList } from "webviz/features/playback/topics.js";
+import { track as makeTrack } from "webviz/features/playback/track.js";
+import { transport as makeTransport } from "webviz/features/playback/transport.js";
+import { parseTime } from "webviz/features/playback/typed_time.js";
 
-/** @import {LoggedEvent, Moment, Range, ValuesOf} from "../../types.js" */
+/** @import {LoggedEvent, Moment, Range, ValuesOf} from "webviz/types.js" */
 
-/** @import {Timeline, TimelinePlaces} from "../../shell/time_bar.js" */
+/** @import {Timeline, TimelinePlaces} from "webviz/shell/time_bar.js" */
 
 const TICK_MS = 200;
 

@@ -1,13 +1,13 @@
 // The topics of a recording, each with the times of its messages below those of the track.
 
-import { rowList } from "../../controls/rows.js";
-import { el, set, setText } from "../../dom.js";
-import { watch } from "../../stores.js";
-import { fitted } from "../../charts/canvas.js";
-import { placeOf } from "./range.js";
-import { bars } from "./draw.js";
+import { rowList } from "webviz/controls/rows.js";
+import { el, set, setText } from "webviz/dom.js";
+import { watch } from "webviz/stores.js";
+import { fitted } from "webviz/charts/canvas.js";
+import { placeOf } from "webviz/features/playback/range.js";
+import { bars } from "webviz/features/playback/draw.js";
 
-/** @import {Range} from "../../types.js" */
+/** @import {Range} from "webviz/types.js" */
 /** @typedef {{key: string, counts: number[]}} Strip */
 
 const ROW = 22;

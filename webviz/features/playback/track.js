@@ -1,15 +1,15 @@
 // The track of the timeline: a slider over the whole recording that is zoomed by the wheel.
 
-import { el, set } from "../../dom.js";
-import { duration } from "../../time_text.js";
-import { draw } from "./draw.js";
-import { listenToTrack } from "./gestures.js";
-import { beforeText } from "../../moment.js";
-import { boundsOf, following, isSame, rebounded } from "./range.js";
+import { el, set } from "webviz/dom.js";
+import { duration } from "webviz/time_text.js";
+import { draw } from "webviz/features/playback/draw.js";
+import { listenToTrack } from "webviz/features/playback/gestures.js";
+import { beforeText } from "webviz/moment.js";
+import { boundsOf, following, isSame, rebounded } from "webviz/features/playback/range.js";
 
-/** @import {Moment, Range} from "../../types.js" */
-/** @import {Marks} from "./gestures.js" */
-/** @import {Seeks} from "./rewound.js" */
+/** @import {Moment, Range} from "webviz/types.js" */
+/** @import {Marks} from "webviz/features/playback/gestures.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 /**
  * Returns `{element, range(), counted(), length(), show(recording), mark(marks)}`: `seek` is of `seeks.js`,

@@ -1,21 +1,21 @@
 // The buttons of a recording: step, rate, loop, and the time to go to.
 
-import { needs } from "../../access.js";
-import { act } from "../../act.js";
-import { textField } from "../../controls/fields.js";
-import { el, set, setText } from "../../dom.js";
-import { iconButton, textButton } from "../../icons.js";
-import { openMenu } from "../../controls/menu.js";
-import { duration } from "../../time_text.js";
-import { toast } from "../../toasts.js";
-import { beforeText, isOpened, isRewound } from "../../moment.js";
-import { returnToLive } from "./rewound.js";
-import { isDate, parseTime } from "./typed_time.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { textField } from "webviz/controls/fields.js";
+import { el, set, setText } from "webviz/dom.js";
+import { iconButton, textButton } from "webviz/icons.js";
+import { openMenu } from "webviz/controls/menu.js";
+import { duration } from "webviz/time_text.js";
+import { toast } from "webviz/toasts.js";
+import { beforeText, isOpened, isRewound } from "webviz/moment.js";
+import { returnToLive } from "webviz/features/playback/rewound.js";
+import { isDate, parseTime } from "webviz/features/playback/typed_time.js";
 
-/** @import {Moment} from "../../types.js" */
-/** @import {Bookmarks} from "./bookmarks.js" */
-/** @import {Seeks} from "./rewound.js" */
-/** @import {Topics} from "./topics.js" */
+/** @import {Moment} from "webviz/types.js" */
+/** @import {Bookmarks} from "webviz/features/playback/bookmarks.js" */
+/** @import {Seeks} from "webviz/features/playback/rewound.js" */
+/** @import {Topics} from "webviz/features/playback/topics.js" */
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
 const FULL = 0; // as fast as possible

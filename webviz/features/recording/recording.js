@@ -1,13 +1,13 @@
 // Buttons for live topics: record them, and save the last minute.
 
-import { needs } from "../../access.js";
-import { act } from "../../act.js";
-import { el } from "../../dom.js";
-import { icon } from "../../icons.js";
-import { provide } from "../../commands.js";
-import { timeBarButton } from "../../shell/time_bar.js";
-import { duration } from "../../time_text.js";
-import { store } from "../../stores.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { el } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { provide } from "webviz/commands.js";
+import { timeBarButton } from "webviz/shell/time_bar.js";
+import { duration } from "webviz/time_text.js";
+import { store } from "webviz/stores.js";
 
 const QUIET = { quiet: true }; // the card of the file says it
 

@@ -1,13 +1,13 @@
 // Selects what was selected when the bug report that is shown was made.
 
-import { described } from "../../scene/picking/pick.js";
-import { things } from "../../scene/picking/things.js";
-import { watch } from "../../stores.js";
-import * as selection from "../../tools/selection.js";
-import * as viser from "../../viser_page.js";
+import { described } from "webviz/scene/picking/pick.js";
+import { things } from "webviz/scene/picking/things.js";
+import { watch } from "webviz/stores.js";
+import * as selection from "webviz/tools/selection.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Picked} from "../../types.js" */
-/** @import {ReportedThing} from "../../contents.js" */
+/** @import {Picked} from "webviz/types.js" */
+/** @import {ReportedThing} from "webviz/contents.js" */
 
 const TRY_MS = 500;
 const TRIES = 60; // the displays are drawn within half a minute

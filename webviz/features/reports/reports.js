@@ -1,13 +1,13 @@
 // Bug reports: a preview of what goes in, and the picture and selection of this page.
 
-import { act } from "../../act.js";
-import { el, setText } from "../../dom.js";
-import { action } from "../../shell/actions.js";
-import { openDialog } from "../../controls/dialog.js";
-import { toast } from "../../toasts.js";
-import * as selection from "../../tools/selection.js";
-import { canvas } from "../../viser_page.js";
-import { restore } from "./reported.js";
+import { act } from "webviz/act.js";
+import { el, setText } from "webviz/dom.js";
+import { action } from "webviz/shell/actions.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { toast } from "webviz/toasts.js";
+import * as selection from "webviz/tools/selection.js";
+import { canvas } from "webviz/viser_page.js";
+import { restore } from "webviz/features/reports/reported.js";
 
 const QUALITY = 0.9;
 const MAX_CHARACTERS = 2 << 20; // of the picture, in a message of 4 MB

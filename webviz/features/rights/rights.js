@@ -1,16 +1,16 @@
 // What others ask the owner to allow, over the scene; and what is allowed for this session.
 
-import { onRole, why } from "../../access.js";
-import { act } from "../../act.js";
-import { provide } from "../../commands.js";
-import { el } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { overlay } from "../../overlay/overlay.js";
-import { computed, each } from "../../signals.js";
-import { store } from "../../stores.js";
+import { onRole, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { provide } from "webviz/commands.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { computed, each } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
-/** @import {PermissionRequest} from "../../contents.js" */
-/** @import {Signal} from "../../signals.js" */
+/** @import {PermissionRequest} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 const MAX_SHOWN = 3;
 

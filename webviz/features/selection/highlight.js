@@ -1,14 +1,14 @@
 // Marks what is selected, over the scene of this page alone.
 
-import { contextOf, el } from "../../dom.js";
-import { outlineOf } from "../../scene/picking/outline.js";
-import { finder } from "../../scene/picking/things.js";
-import * as viser from "../../viser_page.js";
-import { makeLayer } from "../../tools/layer.js";
-import * as selection from "../../tools/selection.js";
+import { contextOf, el } from "webviz/dom.js";
+import { outlineOf } from "webviz/scene/picking/outline.js";
+import { finder } from "webviz/scene/picking/things.js";
+import * as viser from "webviz/viser_page.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import * as selection from "webviz/tools/selection.js";
 
 /** @import {Vector3} from "three" */
-/** @import {Outline, Vec2} from "../../types.js" */
+/** @import {Outline, Vec2} from "webviz/types.js" */
 
 const POINT_PX = 5; // half of the square around a point
 const OLD_MS = 10_000; // how long something is marked that is not drawn any more

@@ -1,22 +1,22 @@
 // The tool that selects: a click, or a box. Shift adds, Ctrl removes, and Alt leaves the mouse to the
 // camera, as in RViz.
 
-import { command } from "../../commands.js";
-import { el } from "../../dom.js";
-import { focus } from "../../scene/mouse.js";
-import { outlineOf } from "../../scene/picking/outline.js";
-import { pickAt, pickIn } from "../../scene/picking/pick.js";
-import { finder } from "../../scene/picking/things.js";
-import { openPanel } from "../../docks/layout.js";
-import { watch } from "../../stores.js";
-import { canvas } from "../../viser_page.js";
-import { install as installHighlight, middle } from "./highlight.js";
-import { tell } from "../../tools/hint.js";
-import { makeLayer } from "../../tools/layer.js";
-import { active, provide } from "../../tools/registry.js";
-import * as selection from "../../tools/selection.js";
+import { command } from "webviz/commands.js";
+import { el } from "webviz/dom.js";
+import { focus } from "webviz/scene/mouse.js";
+import { outlineOf } from "webviz/scene/picking/outline.js";
+import { pickAt, pickIn } from "webviz/scene/picking/pick.js";
+import { finder } from "webviz/scene/picking/things.js";
+import { openPanel } from "webviz/docks/layout.js";
+import { watch } from "webviz/stores.js";
+import { canvas } from "webviz/viser_page.js";
+import { install as installHighlight, middle } from "webviz/features/selection/highlight.js";
+import { tell } from "webviz/tools/hint.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import { active, provide } from "webviz/tools/registry.js";
+import * as selection from "webviz/tools/selection.js";
 
-/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "../../types.js" */
+/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "webviz/types.js" */
 
 const CLICK_PX = 4;
 const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";

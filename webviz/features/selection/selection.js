@@ -1,24 +1,24 @@
 // The panel "Selection": what this page has selected in the scene, as a tree of values.
 
-import { copyAndTell } from "../../clipboard.js";
-import { rowList, touchable } from "../../controls/rows.js";
-import { el } from "../../dom.js";
-import { iconButton, textButton } from "../../icons.js";
-import { openPanel } from "../../docks/layout.js";
-import { ownStore } from "../../own_store.js";
-import { computed, effect, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { select } from "../../tools/registry.js";
-import * as tool from "./select.js";
-import * as selection from "../../tools/selection.js";
-import { panel } from "../../panels/panels.js";
-import { foldByKey, foldMark, showFold } from "../../panels/folds.js";
-import { rowsOf, textOf } from "../../panels/message_tree.js";
-import { statisticsRows, statisticsText } from "./statistics.js";
-import { showFrame } from "../../panels/frame_actions.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { el } from "webviz/dom.js";
+import { iconButton, textButton } from "webviz/icons.js";
+import { openPanel } from "webviz/docks/layout.js";
+import { ownStore } from "webviz/own_store.js";
+import { computed, effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { select } from "webviz/tools/registry.js";
+import * as tool from "webviz/features/selection/select.js";
+import * as selection from "webviz/tools/selection.js";
+import { panel } from "webviz/panels/panels.js";
+import { foldByKey, foldMark, showFold } from "webviz/panels/folds.js";
+import { rowsOf, textOf } from "webviz/panels/message_tree.js";
+import { statisticsRows, statisticsText } from "webviz/features/selection/statistics.js";
+import { showFrame } from "webviz/panels/frame_actions.js";
 
-/** @import {Panel} from "../../types.js" */
-/** @import {Fields, MessageRow} from "../../panels/message_tree.js" */
+/** @import {Panel} from "webviz/types.js" */
+/** @import {Fields, MessageRow} from "webviz/panels/message_tree.js" */
 
 /**
  * A row of a thing, of one of its values, or of statistics.

@@ -1,7 +1,7 @@
 // Statistics of the selection: how many things of each display, and the range of their values.
 
-/** @import {DisplayShare, ValueRange} from "../../contents.js" */
-/** @import {MessageRow} from "../../panels/message_tree.js" */
+/** @import {DisplayShare, ValueRange} from "webviz/contents.js" */
+/** @import {MessageRow} from "webviz/panels/message_tree.js" */
 
 const DIGITS = 3; // of how far values extend
 const MAX_DECIMALS = 9;

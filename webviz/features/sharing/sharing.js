@@ -1,18 +1,18 @@
 // "Share this moment": what is shown, and the time around it, as one file that opens without webviz.
 
-import { needs, onRole, why } from "../../access.js";
-import { act } from "../../act.js";
-import { openDialog } from "../../controls/dialog.js";
-import { el, newId } from "../../dom.js";
-import { icon, textButton } from "../../icons.js";
-import { overlay } from "../../overlay/overlay.js";
-import { action } from "../../shell/actions.js";
-import { timeBarButton } from "../../shell/time_bar.js";
-import { effect, root, signal } from "../../signals.js";
-import { store, watch } from "../../stores.js";
-import { toast } from "../../toasts.js";
+import { needs, onRole, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { el, newId } from "webviz/dom.js";
+import { icon, textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { action } from "webviz/shell/actions.js";
+import { timeBarButton } from "webviz/shell/time_bar.js";
+import { effect, root, signal } from "webviz/signals.js";
+import { store, watch } from "webviz/stores.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {Signal} from "../../signals.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /** Seconds before and after the moment; null for what is shared unless one chooses. @typedef {[number, number] | null} Span */
 

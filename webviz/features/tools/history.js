@@ -1,11 +1,11 @@
 // History of what this page has sent by tools, with the results: the newest first.
 
-import * as act from "../../act.js";
-import { signal } from "../../signals.js";
-import { watch } from "../../stores.js";
+import * as act from "webviz/act.js";
+import { signal } from "webviz/signals.js";
+import { watch } from "webviz/stores.js";
 
-/** @import {MadeGesture, ToolFacts} from "../../types.js" */
-/** @import {Published} from "../../messages.js" */
+/** @import {MadeGesture, ToolFacts} from "webviz/types.js" */
+/** @import {Published} from "webviz/messages.js" */
 
 /** @typedef {{topic: string, type: string, values: Published["values"]}} SentMessage */
 

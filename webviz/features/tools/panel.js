@@ -1,25 +1,25 @@
 // The panel "Tools": what this page has sent, and RViz's Tool Properties.
 
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { declaredForm, form } from "../../controls/form.js";
-import { disclosure } from "../../controls/disclosure.js";
-import { permission } from "../../controls/permission.js";
-import { el } from "../../dom.js";
-import { iconButton } from "../../icons.js";
-import { ask } from "../../controls/dialog.js";
-import { each, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { tell, tellLive } from "../../tools/hint.js";
-import * as history from "./history.js";
-import { fixed } from "../../numbers.js";
-import * as registry from "../../tools/registry.js";
-import * as preview from "../../tools/preview.js";
-import { timeOfDay } from "../../time_text.js";
-import { yaml } from "../../tools/yaml.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { declaredForm, form } from "webviz/controls/form.js";
+import { disclosure } from "webviz/controls/disclosure.js";
+import { permission } from "webviz/controls/permission.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { ask } from "webviz/controls/dialog.js";
+import { each, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { tell, tellLive } from "webviz/tools/hint.js";
+import * as history from "webviz/features/tools/history.js";
+import { fixed } from "webviz/numbers.js";
+import * as registry from "webviz/tools/registry.js";
+import * as preview from "webviz/tools/preview.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { yaml } from "webviz/tools/yaml.js";
 
-/** @import {Panel, SendProperty} from "../../types.js" */
-/** @import {SentGesture} from "./history.js" */
+/** @import {Panel, SendProperty} from "webviz/types.js" */
+/** @import {SentGesture} from "webviz/features/tools/history.js" */
 
 /** @param {Date} time */
 const clock = (time) =>

@@ -1,20 +1,20 @@
 // The tools of the viewer: this page follows their gestures, the server acts on what they became.
 
-import { why } from "../../access.js";
-import { onAnswer } from "../../act.js";
-import * as channel from "../../channel.js";
-import { panel } from "../../panels/panels.js";
-import { cards } from "../../shell/tools.js";
-import { canvas } from "../../viser_page.js";
-import { tell, tellLive } from "../../tools/hint.js";
-import { gesture, gestureOf, onGesture } from "../../tools/gestures.js";
-import * as history from "./history.js";
-import { active, provide, select } from "../../tools/registry.js";
-import * as preview from "../../tools/preview.js";
-import { toolsPanel } from "./panel.js";
-import * as waypoints from "./waypoints.js";
+import { why } from "webviz/access.js";
+import { onAnswer } from "webviz/act.js";
+import * as channel from "webviz/channel.js";
+import { panel } from "webviz/panels/panels.js";
+import { cards } from "webviz/shell/tools.js";
+import { canvas } from "webviz/viser_page.js";
+import { tell, tellLive } from "webviz/tools/hint.js";
+import { gesture, gestureOf, onGesture } from "webviz/tools/gestures.js";
+import * as history from "webviz/features/tools/history.js";
+import { active, provide, select } from "webviz/tools/registry.js";
+import * as preview from "webviz/tools/preview.js";
+import { toolsPanel } from "webviz/features/tools/panel.js";
+import * as waypoints from "webviz/features/tools/waypoints.js";
 
-/** @import {Made, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "../../types.js" */
+/** @import {Made, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "webviz/types.js" */
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
 const LIFTS = matchMedia("(pointer: coarse)").matches ? "A second finger" : "Ctrl";

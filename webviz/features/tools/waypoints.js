@@ -1,14 +1,14 @@
 // Collects poses of a tool that takes several, and sends them together.
 
-import { el, set, setChildren, setText } from "../../dom.js";
-import { icon, iconButton, textButton } from "../../icons.js";
-import { watch } from "../../stores.js";
-import { tell } from "../../tools/hint.js";
-import * as history from "./history.js";
-import { makePoses } from "../../tools/poses.js";
-import * as registry from "../../tools/registry.js";
+import { el, set, setChildren, setText } from "webviz/dom.js";
+import { icon, iconButton, textButton } from "webviz/icons.js";
+import { watch } from "webviz/stores.js";
+import { tell } from "webviz/tools/hint.js";
+import * as history from "webviz/features/tools/history.js";
+import { makePoses } from "webviz/tools/poses.js";
+import * as registry from "webviz/tools/registry.js";
 
-/** @import {MadeGesture, ToolFacts, Vec3} from "../../types.js" */
+/** @import {MadeGesture, ToolFacts, Vec3} from "webviz/types.js" */
 
 const MAX_POSES = 100;
 

@@ -1,26 +1,26 @@
 // The panel "Topics": all topics in a table, and the last message of the one that is chosen.
 
-import { why } from "../../access.js";
-import { openMenu } from "../../controls/menu.js";
-import { el } from "../../dom.js";
-import { icon, iconButton } from "../../icons.js";
-import { recall, remember } from "../../remember.js";
-import { rowList, touchable } from "../../controls/rows.js";
-import { searchField } from "../../controls/fields.js";
-import { panel } from "../../panels/panels.js";
-import { computed, effect, signal, untracked } from "../../signals.js";
-import { once, store } from "../../stores.js";
-import { canvas } from "../../viser_page.js";
-import { addDisplay, inspector } from "./topics_inspector.js";
-import { takeFields } from "../../panels/field_drag.js";
-import { toast } from "../../toasts.js";
-import { isHiddenTopic } from "../../words.js";
-import { arranged, tableHead, topicRow } from "../../panels/topics_table.js";
+import { why } from "webviz/access.js";
+import { openMenu } from "webviz/controls/menu.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { searchField } from "webviz/controls/fields.js";
+import { panel } from "webviz/panels/panels.js";
+import { computed, effect, signal, untracked } from "webviz/signals.js";
+import { once, store } from "webviz/stores.js";
+import { canvas } from "webviz/viser_page.js";
+import { addDisplay, inspector } from "webviz/features/topics/topics_inspector.js";
+import { takeFields } from "webviz/panels/field_drag.js";
+import { toast } from "webviz/toasts.js";
+import { isHiddenTopic } from "webviz/words.js";
+import { arranged, tableHead, topicRow } from "webviz/panels/topics_table.js";
 
-/** @import {Field} from "../../panels/field_drag.js" */
-/** @import {Readable, Signal} from "../../signals.js" */
-/** @import {Panel} from "../../types.js" */
-/** @import {Sort} from "../../panels/topics_table.js" */
+/** @import {Field} from "webviz/panels/field_drag.js" */
+/** @import {Readable, Signal} from "webviz/signals.js" */
+/** @import {Panel} from "webviz/types.js" */
+/** @import {Sort} from "webviz/panels/topics_table.js" */
 
 const WIDE_PX = 600;
 const HEIGHTS = { wide: 26, narrow: 44 };

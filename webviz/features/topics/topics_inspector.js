@@ -1,23 +1,23 @@
 // One topic: who publishes it and how, its last message as a tree, and a display for it.
 
-import { needs } from "../../access.js";
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { wallNow } from "../../clock.js";
-import { el, set } from "../../dom.js";
-import { iconButton, textButton } from "../../icons.js";
-import { openMenuBelow } from "../../controls/menu.js";
-import { toast } from "../../toasts.js";
-import { effect, owned, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { messageRows } from "../../panels/message_rows.js";
-import { textOf } from "../../panels/message_tree.js";
-import { bytesText, rateText, sizeText, spanText } from "../../panels/units.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { wallNow } from "webviz/clock.js";
+import { el, set } from "webviz/dom.js";
+import { iconButton, textButton } from "webviz/icons.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { toast } from "webviz/toasts.js";
+import { effect, owned, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { messageRows } from "webviz/panels/message_rows.js";
+import { textOf } from "webviz/panels/message_tree.js";
+import { bytesText, rateText, sizeText, spanText } from "webviz/panels/units.js";
 
-/** @import {MenuItem} from "../../controls/menu.js" */
-/** @import {Fields} from "../../panels/message_tree.js" */
-/** @import {GraphTopic} from "../../contents.js" */
-/** @import {TopicRow} from "../../panels/topics_table.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
+/** @import {Fields} from "webviz/panels/message_tree.js" */
+/** @import {GraphTopic} from "webviz/contents.js" */
+/** @import {TopicRow} from "webviz/panels/topics_table.js" */
 
 const OLD_S = 2; // until then, an age says nothing that the rate does not say
 

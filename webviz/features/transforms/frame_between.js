@@ -1,16 +1,16 @@
 // Two frames, and the transform between them.
 
-import { copyAndTell } from "../../clipboard.js";
-import { combobox } from "../../controls/combobox.js";
-import { el } from "../../dom.js";
-import { iconButton } from "../../icons.js";
-import { recall, remember } from "../../remember.js";
-import { batch, computed, effect, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { spanText } from "../../panels/units.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { batch, computed, effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { spanText } from "webviz/panels/units.js";
 
-/** @import {Stores} from "../../contents.js" */
-/** @import {StoreReader} from "../../types.js" */
+/** @import {Stores} from "webviz/contents.js" */
+/** @import {StoreReader} from "webviz/types.js" */
 
 /** @typedef {StoreReader<Stores["between"]> | null} Values what is known of two frames that are chosen */
 

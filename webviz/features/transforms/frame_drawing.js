@@ -1,9 +1,9 @@
 // Draws the tree of frames on a canvas: boxes in columns, and curves from parents to children.
 
-import { ageText, factOf } from "../../panels/frame_rows.js";
+import { ageText, factOf } from "webviz/panels/frame_rows.js";
 
-/** @import {ValuesOf} from "../../types.js" */
-/** @import {Frame} from "../../contents.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
+/** @import {Frame} from "webviz/contents.js" */
 
 /**
  * @typedef {{name: string, x: number, y: number, width: number, lines: string[], isStatic: boolean,

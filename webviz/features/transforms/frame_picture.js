@@ -1,15 +1,15 @@
 // The tree of frames as a picture, in a dialog: moved by dragging, zoomed by the wheel, searched.
 
-import { searchField } from "../../controls/fields.js";
-import { el, set, setText } from "../../dom.js";
-import { listenToPanning } from "../../panning.js";
-import { openDialog } from "../../controls/dialog.js";
-import { watch } from "../../stores.js";
-import { wordsOf } from "../../words.js";
-import { boxAt, draw, HEIGHT, layOut } from "./frame_drawing.js";
+import { searchField } from "webviz/controls/fields.js";
+import { el, set, setText } from "webviz/dom.js";
+import { listenToPanning } from "webviz/panning.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { watch } from "webviz/stores.js";
+import { wordsOf } from "webviz/words.js";
+import { boxAt, draw, HEIGHT, layOut } from "webviz/features/transforms/frame_drawing.js";
 
-/** @import {ValuesOf} from "../../types.js" */
-/** @import {Box, Drawing, Look} from "./frame_drawing.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
+/** @import {Box, Drawing, Look} from "webviz/features/transforms/frame_drawing.js" */
 
 const FURTHEST = 0.02;
 const NEAREST = 3;

@@ -1,24 +1,24 @@
 // The panel "TF": the tree of frames, and the transform between two of them.
 
-import { act } from "../../act.js";
-import { keyOf, rowList, touchable } from "../../controls/rows.js";
-import { searchField } from "../../controls/fields.js";
-import { el } from "../../dom.js";
-import { icon, iconButton, textButton } from "../../icons.js";
-import { recall, remember } from "../../remember.js";
-import { computed, effect, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { needs } from "../../access.js";
-import { foldByKey } from "../../panels/folds.js";
-import { panel } from "../../panels/panels.js";
-import { frameAction, frameActions, wantedFrame } from "../../panels/frame_actions.js";
-import { between } from "./frame_between.js";
-import { openFramePicture } from "./frame_picture.js";
-import { ageText, factOf, frameNames, frameRow, frameRows } from "../../panels/frame_rows.js";
+import { act } from "webviz/act.js";
+import { keyOf, rowList, touchable } from "webviz/controls/rows.js";
+import { searchField } from "webviz/controls/fields.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton, textButton } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { computed, effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { needs } from "webviz/access.js";
+import { foldByKey } from "webviz/panels/folds.js";
+import { panel } from "webviz/panels/panels.js";
+import { frameAction, frameActions, wantedFrame } from "webviz/panels/frame_actions.js";
+import { between } from "webviz/features/transforms/frame_between.js";
+import { openFramePicture } from "webviz/features/transforms/frame_picture.js";
+import { ageText, factOf, frameNames, frameRow, frameRows } from "webviz/panels/frame_rows.js";
 
-/** @import {FrameRow} from "../../panels/frame_rows.js" */
-/** @import {Signal} from "../../signals.js" */
-/** @import {Panel} from "../../types.js" */
+/** @import {FrameRow} from "webviz/panels/frame_rows.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {Panel} from "webviz/types.js" */
 
 const ROW_PX = 26;
 const NOTHING = "No transforms yet on /tf or /tf_static.";

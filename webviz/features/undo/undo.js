@@ -1,18 +1,18 @@
 // Undo and redo: buttons, keys and menus, and a word on what others have changed.
 
-import { needs, why } from "../../access.js";
-import { act } from "../../act.js";
-import * as channel from "../../channel.js";
-import { command } from "../../commands.js";
-import { iconButton } from "../../icons.js";
-import { action } from "../../shell/actions.js";
-import { headButton } from "../../shell/header.js";
-import { store, watch } from "../../stores.js";
-import { openMenuBelow } from "../../controls/menu.js";
-import { toast } from "../../toasts.js";
+import { needs, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import * as channel from "webviz/channel.js";
+import { command } from "webviz/commands.js";
+import { iconButton } from "webviz/icons.js";
+import { action } from "webviz/shell/actions.js";
+import { headButton } from "webviz/shell/header.js";
+import { store, watch } from "webviz/stores.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {HistoryStep} from "../../contents.js" */
-/** @import {MenuItem} from "../../controls/menu.js" */
+/** @import {HistoryStep} from "webviz/contents.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 /** @typedef {"undo" | "redo"} Way */
 

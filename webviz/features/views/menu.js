@@ -1,13 +1,13 @@
 // The saved views in the toolbar and in the list of commands.
 
-import { act } from "../../act.js";
-import { command } from "../../commands.js";
-import { ask, askName } from "../../controls/dialog.js";
-import { provideFrom } from "../../shell/command_list.js";
-import { barMenu } from "../../shell/toolbar.js";
-import { store } from "../../stores.js";
+import { act } from "webviz/act.js";
+import { command } from "webviz/commands.js";
+import { ask, askName } from "webviz/controls/dialog.js";
+import { provideFrom } from "webviz/shell/command_list.js";
+import { barMenu } from "webviz/shell/toolbar.js";
+import { store } from "webviz/stores.js";
 
-/** @import {MenuItem} from "../../controls/menu.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 const settings = store("settings");
 const saved = () => settings.get("views") ?? [];

@@ -1,14 +1,14 @@
 // The saved views: show, rename and remove them, let browsers begin with one, save the current one.
 
-import { needs, why } from "../../access.js";
-import { act } from "../../act.js";
-import { textField } from "../../controls/fields.js";
-import { el } from "../../dom.js";
-import { icon, iconButton, textButton } from "../../icons.js";
-import { each, signal } from "../../signals.js";
-import { store } from "../../stores.js";
+import { needs, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { textField } from "webviz/controls/fields.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton, textButton } from "webviz/icons.js";
+import { each, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
-/** @import {SavedView} from "../../contents.js" */
+/** @import {SavedView} from "webviz/contents.js" */
 
 const NAME = "View"; // of a view without a name, before its number
 

@@ -1,21 +1,21 @@
 // The panel "Views": what this browser looks at, and the views that are saved for all.
 
-import { act } from "../../act.js";
-import { declaredForm, form } from "../../controls/form.js";
-import { FIXED_FRAME } from "../../controls/frame.js";
-import { el } from "../../dom.js";
-import { iconButton } from "../../icons.js";
-import { openMenuBelow } from "../../controls/menu.js";
-import { panel } from "../../panels/panels.js";
-import { ownStore } from "../../own_store.js";
-import { computed } from "../../signals.js";
-import { watch } from "../../stores.js";
-import { addMenu } from "./menu.js";
-import { savedViews } from "./saved_views.js";
+import { act } from "webviz/act.js";
+import { declaredForm, form } from "webviz/controls/form.js";
+import { FIXED_FRAME } from "webviz/controls/frame.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { panel } from "webviz/panels/panels.js";
+import { ownStore } from "webviz/own_store.js";
+import { computed } from "webviz/signals.js";
+import { watch } from "webviz/stores.js";
+import { addMenu } from "webviz/features/views/menu.js";
+import { savedViews } from "webviz/features/views/saved_views.js";
 
-/** @import {DeclaredProperty} from "../../contents.js" */
-/** @import {MenuItem} from "../../controls/menu.js" */
-/** @import {Panel, SendProperty} from "../../types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
+/** @import {Panel, SendProperty} from "webviz/types.js" */
 
 /** @type {DeclaredProperty} */
 const TYPE = {

@@ -1,17 +1,17 @@
 // A static frame that is tried in another pose: a banner on every page, with the lines to copy.
 
-import { needs, why } from "../../access.js";
-import { act } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { number } from "../../controls/number.js";
-import { el, set, setText, showText } from "../../dom.js";
-import { textButton } from "../../icons.js";
-import { overlay } from "../../overlay/overlay.js";
-import { findingsSection } from "../../panels/findings_sections.js";
-import { frameAction } from "../../panels/frame_actions.js";
-import { command } from "../../commands.js";
-import { store, watch } from "../../stores.js";
-import * as registry from "../../tools/registry.js";
+import { needs, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { number } from "webviz/controls/number.js";
+import { el, set, setText, showText } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { findingsSection } from "webviz/panels/findings_sections.js";
+import { frameAction } from "webviz/panels/frame_actions.js";
+import { command } from "webviz/commands.js";
+import { store, watch } from "webviz/stores.js";
+import * as registry from "webviz/tools/registry.js";
 
 /** The numbers of a pose, as `MoveFrame` takes them, with their units. */
 const NUMBERS = /** @type {const} */ ([

@@ -1,12 +1,12 @@
 // Permissions on this page, as the server said when the page joined. The server holds every
 // message against the same roles; here, what is not allowed says so before it is tried.
 
-import * as channel from "./channel.js";
-import constants from "./constants.js";
-import { el, set } from "./dom.js";
-import { toast } from "./toasts.js";
+import * as channel from "webviz/channel.js";
+import constants from "webviz/constants.js";
+import { el, set } from "webviz/dom.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {Attribute, Child} from "./types.js" */
+/** @import {Attribute, Child} from "webviz/types.js" */
 
 const ROLES = ["watcher", "operator", "owner"];
 const FIELDS = "input, select, textarea, button";

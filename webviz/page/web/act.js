@@ -1,10 +1,10 @@
 // Commands of this page to the viewer, and their answers.
 
-import { why } from "./access.js";
-import * as channel from "./channel.js";
-import { toast } from "./toasts.js";
+import { why } from "webviz/access.js";
+import * as channel from "webviz/channel.js";
+import { toast } from "webviz/toasts.js";
 
-/** @import {Commands, Do, Done} from "./messages.js" */
+/** @import {Commands, Do, Done} from "webviz/messages.js" */
 
 /** @typedef {{level: string, text: string, [made: string]: string}} Answer */
 

@@ -1,6 +1,6 @@
 // The channel to the server: JSON objects whose `type` says what they are, and bytes from there.
 
-/** @import {FromPage, ToPage} from "./messages.js" */
+/** @import {FromPage, ToPage} from "webviz/messages.js" */
 
 const MAX_UNSENT = 100;
 

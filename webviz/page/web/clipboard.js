@@ -1,7 +1,7 @@
 // The clipboard, also where a page may not use it: without HTTPS, from another machine.
 
-import { el } from "./dom.js";
-import { toast } from "./toasts.js";
+import { el } from "webviz/dom.js";
+import { toast } from "webviz/toasts.js";
 
 export const NOT_COPIED =
   "This browser does not allow copying. Allow the clipboard for this page in the browser's settings.";

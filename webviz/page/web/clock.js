@@ -1,10 +1,10 @@
 // The viewer's time, counted here: the server says how it runs only when that changes.
 
-import * as channel from "./channel.js";
-import { offsetAfter } from "./clock_offset.js";
-import { watch } from "./stores.js";
+import * as channel from "webviz/channel.js";
+import { offsetAfter } from "webviz/clock_offset.js";
+import { watch } from "webviz/stores.js";
 
-/** @import {ValuesOf} from "./types.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 /** @type {number | null} */
 let ahead = null; // of the server's clock over that of this browser, in seconds

@@ -1,9 +1,9 @@
 // Everything that can be done, by name, and what keys do in parts of the page: the one table of keys,
 // and the one place that listens to them. Controls have the keys of their kind besides.
 
-import { why } from "./access.js";
-import { keyOf, shortcutGroups, takesDrag, takesPart } from "./keys.js";
-import { toast } from "./toasts.js";
+import { why } from "webviz/access.js";
+import { keyOf, shortcutGroups, takesDrag, takesPart } from "webviz/keys.js";
+import { toast } from "webviz/toasts.js";
 
 /**
  * @typedef {{
@@ -13,7 +13,7 @@ import { toast } from "./toasts.js";
  * }} Command
  */
 
-/** @import {Taker} from "./keys.js" */
+/** @import {Taker} from "webviz/keys.js" */
 
 const TYPED =
   "input:not([type=checkbox], [type=radio], [type=range], [type=button]), textarea, select, " +

@@ -1,8 +1,8 @@
 // Elements. Text is always text, never markup.
 
-import { effect, Source } from "./signals.js";
+import { effect, Source } from "webviz/signals.js";
 
-/** @import {Attribute, Child, Children} from "./types.js" */
+/** @import {Attribute, Child, Children} from "webviz/types.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
 const ids = { count: 0 };

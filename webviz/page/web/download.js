@@ -1,6 +1,6 @@
 // Files of the browser.
 
-import { el } from "./dom.js";
+import { el } from "webviz/dom.js";
 
 /**
  * Saves a text as a file with this name.

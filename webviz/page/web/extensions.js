@@ -2,35 +2,35 @@
 // gestures, widgets, overlays and tabs by the functions by which the page adds its own. Modules of
 // the page are imported as "webviz/dom.js".
 
-import { needs } from "./access.js";
-import { act } from "./act.js";
-import { fitted } from "./charts/canvas.js";
-import { copy, copyAndTell } from "./clipboard.js";
-import { indent, keyOf, rowList, touchable } from "./controls/rows.js";
-import { searchField } from "./controls/fields.js";
-import { el, set, setChildren, setText, showText, svgElement } from "./dom.js";
-import { guarded, textOf } from "./guarded.js";
-import { icon, iconButton, textButton } from "./icons.js";
-import { overlay } from "./overlay/overlay.js";
-import { foldByKey } from "./panels/folds.js";
-import { messageRows } from "./panels/message_rows.js";
-import { panel } from "./panels/panels.js";
-import { widget } from "./panels/plugin_widgets.js";
-import { listenToPanning } from "./panning.js";
-import { groundAt, onCanvas, planeAt, surfaceAt } from "./scene/ground.js";
-import { root } from "./signals.js";
-import { csvText } from "./csv.js";
-import { download } from "./download.js";
-import { timeOfDay } from "./time_text.js";
-import { toast } from "./toasts.js";
-import { watch } from "./stores.js";
-import { gesture } from "./tools/gestures.js";
-import { tellLive } from "./tools/hint.js";
-import { makeLayer } from "./tools/layer.js";
-import { beforeRender, camera, canvas, requestRender } from "./viser_page.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { fitted } from "webviz/charts/canvas.js";
+import { copy, copyAndTell } from "webviz/clipboard.js";
+import { indent, keyOf, rowList, touchable } from "webviz/controls/rows.js";
+import { searchField } from "webviz/controls/fields.js";
+import { el, set, setChildren, setText, showText, svgElement } from "webviz/dom.js";
+import { guarded, textOf } from "webviz/guarded.js";
+import { icon, iconButton, textButton } from "webviz/icons.js";
+import { overlay } from "webviz/overlay/overlay.js";
+import { foldByKey } from "webviz/panels/folds.js";
+import { messageRows } from "webviz/panels/message_rows.js";
+import { panel } from "webviz/panels/panels.js";
+import { widget } from "webviz/panels/plugin_widgets.js";
+import { listenToPanning } from "webviz/panning.js";
+import { groundAt, onCanvas, planeAt, surfaceAt } from "webviz/scene/ground.js";
+import { root } from "webviz/signals.js";
+import { csvText } from "webviz/csv.js";
+import { download } from "webviz/download.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { toast } from "webviz/toasts.js";
+import { watch } from "webviz/stores.js";
+import { gesture } from "webviz/tools/gestures.js";
+import { tellLive } from "webviz/tools/hint.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import { beforeRender, camera, canvas, requestRender } from "webviz/viser_page.js";
 
-/** @import {Panel} from "./types.js" */
-/** @import {MakeWidget} from "./panels/plugin_widgets.js" */
+/** @import {Panel} from "webviz/types.js" */
+/** @import {MakeWidget} from "webviz/panels/plugin_widgets.js" */
 
 /**
  * Makes a widget of a plug-in, whose values are its own.

@@ -1,8 +1,8 @@
 // Icons by name: paths on a field of 24 x 24.
 
-import { el, svg } from "./dom.js";
+import { el, svg } from "webviz/dom.js";
 
-/** @import {Attribute} from "./types.js" */
+/** @import {Attribute} from "webviz/types.js" */
 
 /** @type {Record<string, string>} */
 const PATHS = {

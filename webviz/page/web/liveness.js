@@ -3,9 +3,9 @@
 // The server says something at least every second. A browser learns from its websocket alone neither
 // that a server hangs nor that a radio link broke.
 
-import * as channel from "./channel.js";
-import { notice } from "./notice.js";
-import * as viser from "./viser_page.js";
+import * as channel from "webviz/channel.js";
+import { notice } from "webviz/notice.js";
+import * as viser from "webviz/viser_page.js";
 
 const TICK_MS = 500;
 const LOST_TICKS = 8;

@@ -1,43 +1,43 @@
 // Starts the modules as viser's page comes about, and opens the channel when the server calls.
 
-import { decideBy } from "./access.js";
-import * as batches from "./scene/batches.js";
-import * as blocks from "./scene/blocks.js";
-import * as channel from "./channel.js";
-import { about } from "./recorded/chunks.js";
-import { connection, refusal } from "./recorded/connection.js";
-import * as colors from "./scene/colors.js";
-import constants from "./constants.js";
-import * as liveness from "./liveness.js";
-import * as extensions from "./extensions.js";
-import { hasWebGL } from "./scene/graphics.js";
-import * as flat from "./scene/flat.js";
-import * as handles from "./handles/handles.js";
-import * as capacity from "./scene/capacity.js";
-import * as inStep from "./scene/in_step.js";
-import * as labels from "./scene/labels.js";
-import * as lines from "./scene/lines.js";
-import * as fingers from "./scene/fingers.js";
-import * as mouse from "./scene/mouse.js";
-import { notice } from "./notice.js";
-import * as overlay from "./overlay/overlay.js";
-import * as page from "./page.js";
-import * as points from "./scene/points.js";
-import * as pieces from "./scene/pieces.js";
-import * as saveImage from "./scene/save_image.js";
-import * as scheme from "./scene/scheme.js";
-import * as shade from "./scene/shade.js";
-import * as shell from "./shell/shell.js";
-import * as textures from "./scene/textures.js";
-import * as tiles from "./scene/tiles.js";
-import * as theme from "./shell/theme.js";
-import * as toolbar from "./shell/toolbar.js";
-import * as view from "./scene/view.js";
-import * as viser from "./viser_page.js";
-import * as vitals from "./scene/vitals.js";
-import * as whole from "./scene/whole.js";
+import { decideBy } from "webviz/access.js";
+import * as batches from "webviz/scene/batches.js";
+import * as blocks from "webviz/scene/blocks.js";
+import * as channel from "webviz/channel.js";
+import { about } from "webviz/recorded/chunks.js";
+import { connection, refusal } from "webviz/recorded/connection.js";
+import * as colors from "webviz/scene/colors.js";
+import constants from "webviz/constants.js";
+import * as liveness from "webviz/liveness.js";
+import * as extensions from "webviz/extensions.js";
+import { hasWebGL } from "webviz/scene/graphics.js";
+import * as flat from "webviz/scene/flat.js";
+import * as handles from "webviz/handles/handles.js";
+import * as capacity from "webviz/scene/capacity.js";
+import * as inStep from "webviz/scene/in_step.js";
+import * as labels from "webviz/scene/labels.js";
+import * as lines from "webviz/scene/lines.js";
+import * as fingers from "webviz/scene/fingers.js";
+import * as mouse from "webviz/scene/mouse.js";
+import { notice } from "webviz/notice.js";
+import * as overlay from "webviz/overlay/overlay.js";
+import * as page from "webviz/page.js";
+import * as points from "webviz/scene/points.js";
+import * as pieces from "webviz/scene/pieces.js";
+import * as saveImage from "webviz/scene/save_image.js";
+import * as scheme from "webviz/scene/scheme.js";
+import * as shade from "webviz/scene/shade.js";
+import * as shell from "webviz/shell/shell.js";
+import * as textures from "webviz/scene/textures.js";
+import * as tiles from "webviz/scene/tiles.js";
+import * as theme from "webviz/shell/theme.js";
+import * as toolbar from "webviz/shell/toolbar.js";
+import * as view from "webviz/scene/view.js";
+import * as viser from "webviz/viser_page.js";
+import * as vitals from "webviz/scene/vitals.js";
+import * as whole from "webviz/scene/whole.js";
 
-/** @import {About} from "./recorded/types.js" */
+/** @import {About} from "webviz/recorded/types.js" */
 
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {

@@ -1,6 +1,6 @@
 // The recording, or the past of live topics, at this moment.
 
-/** @import {Moment, ValuesOf} from "./types.js" */
+/** @import {Moment, ValuesOf} from "webviz/types.js" */
 
 /**
  * The store "playback", a Map, with "first", "duration", "position" and "ago" in seconds; those of live

@@ -1,10 +1,10 @@
 // Stores of this page by itself, under viser's id of it, which is another one when it connects again.
 
-import * as channel from "./channel.js";
-import { signal } from "./signals.js";
-import { store } from "./stores.js";
+import * as channel from "webviz/channel.js";
+import { signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
-/** @import {Named, StoreReader, ValuesOf} from "./types.js" */
+/** @import {Named, StoreReader, ValuesOf} from "webviz/types.js" */
 
 const browser = signal(/** @type {number | null} */ (null));
 channel.onOpen(() => (browser.value = window.webviz.browser));

@@ -1,6 +1,6 @@
 // Changes to viser's page, besides drawing.
 
-import * as viser from "./viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 export function install() {
   // Colours as they were sent: no film curve (viser's page turns ACES on).

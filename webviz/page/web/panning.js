@@ -1,6 +1,6 @@
 // Drags, wheel and keys over a canvas that shows a part of something larger.
 
-import { takeKeysOf } from "./keys.js";
+import { takeKeysOf } from "webviz/keys.js";
 
 /**
  * Listens to a canvas. `move` gets pixels, and `click` what was no drag of `slack` pixels or more.

@@ -4,7 +4,7 @@
 // Effects run before the write returns, or at the end of the outermost `batch`; each at most once for
 // all that was written. What they make belongs to them: effects that were made inside are ended first.
 
-/** @typedef {import("./types.js").End} End */
+/** @typedef {import("webviz/types.js").End} End */
 
 /**
  * A thing with a value that can be read.

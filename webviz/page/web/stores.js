@@ -1,10 +1,10 @@
 // Values by key that the server keeps the same here, of what this page reads.
 
-import * as channel from "./channel.js";
-import { batch, Source, untracked } from "./signals.js";
+import * as channel from "webviz/channel.js";
+import { batch, Source, untracked } from "webviz/signals.js";
 
-/** @import {Reader} from "./signals.js" */
-/** @import {End, Named, StoreReader, ValuesOf} from "./types.js" */
+/** @import {Reader} from "webviz/signals.js" */
+/** @import {End, Named, StoreReader, ValuesOf} from "webviz/types.js" */
 
 /** @type {Map<string, Store>} */
 const stores = new Map();

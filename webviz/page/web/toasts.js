@@ -1,7 +1,7 @@
 // Short messages over the scene, which go by themselves. The pointer goes through them.
 
-import { el, set, setText } from "./dom.js";
-import { iconButton } from "./icons.js";
+import { el, set, setText } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
 
 /**
  * @typedef {{

@@ -1,6 +1,6 @@
 // Vectors `[x, y, z]`, unit quaternions `[w, x, y, z]`, and poses `{position, wxyz}`.
 
-/** @import {Vec3, Wxyz} from "./types.js" */
+/** @import {Vec3, Wxyz} from "webviz/types.js" */
 
 /**
  * @typedef {{position: Vec3, wxyz: Wxyz}} Pose

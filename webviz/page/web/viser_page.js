@@ -13,7 +13,7 @@ const page = () => window.__viserMutable;
 
 /** @import {Material, PerspectiveCamera, Raycaster as Caster, Scene} from "three" */
 /** @import {WebGLRenderer, WebGLRenderTarget} from "three" */
-/** @import {SceneObject, Vec3, ViserMessage} from "./types.js" */
+/** @import {SceneObject, Vec3, ViserMessage} from "webviz/types.js" */
 const NEEDS = {
   "scene.onBeforeRender()": "everything that is adjusted before a frame is drawn",
   "scene.onAfterRender()": "measuring how many points the page holds",

@@ -1,6 +1,6 @@
 // Canvases as large as their place, at the resolution of the screen.
 
-import { contextOf } from "../dom.js";
+import { contextOf } from "webviz/dom.js";
 
 /**
  * A canvas that fits its place, with a context in pixels of the page:

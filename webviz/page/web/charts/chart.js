@@ -9,22 +9,22 @@
 // each new piece means new arrays; and gestures, legend, statistics, CSV and a curve in place of time
 // would stay ours, beside 51 kB of it.
 
-import { needs } from "../access.js";
-import { el } from "../dom.js";
-import { icon, iconButton } from "../icons.js";
-import { newest } from "../newest.js";
-import { batch, computed, effect, root, signal, untracked } from "../signals.js";
-import { download } from "../download.js";
-import { timeOfDay } from "../time_text.js";
-import { byAxis, csv, curvesOf, extent } from "./curves.js";
-import { draw, inside } from "./draw.js";
-import { listenToGestures } from "./gestures.js";
-import { hover, onHover } from "./hover.js";
-import { colorOf, makeLegend } from "./legend.js";
-import { at, roomy } from "./scale.js";
+import { needs } from "webviz/access.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { newest } from "webviz/newest.js";
+import { batch, computed, effect, root, signal, untracked } from "webviz/signals.js";
+import { download } from "webviz/download.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { byAxis, csv, curvesOf, extent } from "webviz/charts/curves.js";
+import { draw, inside } from "webviz/charts/draw.js";
+import { listenToGestures } from "webviz/charts/gestures.js";
+import { hover, onHover } from "webviz/charts/hover.js";
+import { colorOf, makeLegend } from "webviz/charts/legend.js";
+import { at, roomy } from "webviz/charts/scale.js";
 
-/** @import {Curve, Facts, Piece, Range, ValuesOf} from "../types.js" */
-/** @import {Zoom} from "./zoom.js" */
+/** @import {Curve, Facts, Piece, Range, ValuesOf} from "webviz/types.js" */
+/** @import {Zoom} from "webviz/charts/zoom.js" */
 
 /**
  * @typedef {{window: number, now: number, across: number, seeks: boolean, curves: Facts[]}} ChartFacts

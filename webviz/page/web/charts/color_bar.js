@@ -1,6 +1,6 @@
 // The bar of a legend: a scale of colours from the lowest value to the highest.
 
-import { el } from "../dom.js";
+import { el } from "webviz/dom.js";
 
 /** A bar; `show(colors)` paints red, green and blue of each, if they are others than before. */
 export function colorBar() {

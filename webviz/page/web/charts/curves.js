@@ -1,8 +1,8 @@
 // The values of curves, as the server sends them in pieces, and what is drawn of them.
 
-import { csvText } from "../csv.js";
+import { csvText } from "webviz/csv.js";
 
-/** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "../types.js" */
+/** @import {Curve, Facts, Piece, Range, ValuesOf, Vec2} from "webviz/types.js" */
 
 /**
  * Of each curve `{key, name, problem, unit, pieces}`; a piece is `{times, values}`, in ROS seconds.

@@ -1,11 +1,11 @@
 // Draws curves, grid and cursor of a chart on a canvas.
 
-import { fitted } from "./canvas.js";
-import { timeOfDay } from "../time_text.js";
-import { pairs, spans } from "./curves.js";
-import { numberText, share, ticks } from "./scale.js";
+import { fitted } from "webviz/charts/canvas.js";
+import { timeOfDay } from "webviz/time_text.js";
+import { pairs, spans } from "webviz/charts/curves.js";
+import { numberText, share, ticks } from "webviz/charts/scale.js";
 
-/** @import {Area, Curve, Range, Vec2} from "../types.js" */
+/** @import {Area, Curve, Range, Vec2} from "webviz/types.js" */
 /**
  * @typedef {{curve: Curve, range: Range}} Across another curve in place of time, and its values
  * @typedef {{axis: number, range: Range, color: string}} RightAxis with the colour of its only curve, or ""

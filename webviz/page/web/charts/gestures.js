@@ -1,11 +1,11 @@
 // Gestures over the curves of a chart, which read out, pan, and zoom by the wheel, a box and keys.
 
-import { shortcuts, takeKeysOf } from "../keys.js";
-import { el } from "../dom.js";
-import { boxBetween, boxed, panned, scaled, shareOf } from "./zoom.js";
+import { shortcuts, takeKeysOf } from "webviz/keys.js";
+import { el } from "webviz/dom.js";
+import { boxBetween, boxed, panned, scaled, shareOf } from "webviz/charts/zoom.js";
 
-/** @import {Area, Vec2} from "../types.js" */
-/** @import {Shown, Zoom} from "./zoom.js" */
+/** @import {Area, Vec2} from "webviz/types.js" */
+/** @import {Shown, Zoom} from "webviz/charts/zoom.js" */
 
 const WHEEL = 1.2;
 const CLICK_PX = 3;

@@ -1,11 +1,11 @@
 // The legend of a chart: what each curve is called, its value at a time, and sums of what is in sight.
 
-import { needs } from "../access.js";
-import { el, setChildren, setText } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { sumsText, valueText } from "./readings.js";
+import { needs } from "webviz/access.js";
+import { el, setChildren, setText } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { sumsText, valueText } from "webviz/charts/readings.js";
 
-/** @import {Curve, Range} from "../types.js" */
+/** @import {Curve, Range} from "webviz/types.js" */
 
 const HUES = [210, 28, 140, 0, 270, 180, 60, 320, 100, 240, 15, 160];
 

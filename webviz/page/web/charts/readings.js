@@ -1,9 +1,9 @@
 // Readings of curves: their values at a time, and statistics.
 
-import { visit } from "./curves.js";
-import { numberText, withUnit } from "./scale.js";
+import { visit } from "webviz/charts/curves.js";
+import { numberText, withUnit } from "webviz/charts/scale.js";
 
-/** @import {Curve, Range} from "../types.js" */
+/** @import {Curve, Range} from "webviz/types.js" */
 
 const SPAN = 0.001; // of which numbers have the digits
 

@@ -1,8 +1,8 @@
 // Ranges of values and of time, and the round numbers at their axes.
 
-import { fixed } from "../numbers.js";
+import { fixed } from "webviz/numbers.js";
 
-/** @import {Range} from "../types.js" */
+/** @import {Range} from "webviz/types.js" */
 
 const EDGE = 1e-6; // of a step, by which rounding may put a round number at an end outside
 

@@ -1,8 +1,8 @@
 // The part of its curves that a chart shows, as gestures change it. Without a document.
 
-import { at, changed } from "./scale.js";
+import { at, changed } from "webviz/charts/scale.js";
 
-/** @import {Area, Range, Vec2} from "../types.js" */
+/** @import {Area, Range, Vec2} from "webviz/types.js" */
 
 /**
  * @typedef {{times: Range, values: Range}} Shown ranges of the axes

@@ -1,11 +1,11 @@
 // A colour: a swatch that opens the browser's own picker, and red, green and blue as text.
 
-import { el, set } from "../dom.js";
-import { entry } from "./entry.js";
-import { textField } from "./fields.js";
+import { el, set } from "webviz/dom.js";
+import { entry } from "webviz/controls/entry.js";
+import { textField } from "webviz/controls/fields.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 /** @typedef {number[]} Rgb */
 

@@ -1,18 +1,18 @@
 // A field with a list of what could be entered: searched by typing, walked through by arrow keys.
 
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { computed, effect, signal, untracked } from "../signals.js";
-import { textField } from "./fields.js";
-import { listbox } from "./listbox.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
-import { sync } from "./sync.js";
+import { el, set, setText } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { computed, effect, signal, untracked } from "webviz/signals.js";
+import { textField } from "webviz/controls/fields.js";
+import { listbox } from "webviz/controls/listbox.js";
+import { MIXED, MIXED_TEXT } from "webviz/controls/mixed.js";
+import { sync } from "webviz/controls/sync.js";
 
 const CHEVRON_PX = 28;
 const COARSE = matchMedia("(pointer: coarse)");
 
-/** @import {Choice} from "../types.js" */
-/** @import {Mixed} from "./mixed.js" */
+/** @import {Choice} from "webviz/types.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
 
 /**
  * A field that calls `change(value)` with what was chosen or typed.

@@ -3,18 +3,18 @@
 // A control is made by `(property, options)`: a property as `content/forms.py` declares it, and
 // `ControlOptions`. It follows the value that the viewer has, unless it is being edited.
 
-import { checkbox, choice, text } from "./simple.js";
-import { color } from "./color.js";
-import { frame } from "./frame.js";
-import { lines } from "./lines.js";
-import { number } from "./number.js";
-import { slider } from "./slider.js";
-import { switches } from "./switches.js";
-import { topic } from "./topic.js";
-import { vector } from "./vector.js";
+import { checkbox, choice, text } from "webviz/controls/simple.js";
+import { color } from "webviz/controls/color.js";
+import { frame } from "webviz/controls/frame.js";
+import { lines } from "webviz/controls/lines.js";
+import { number } from "webviz/controls/number.js";
+import { slider } from "webviz/controls/slider.js";
+import { switches } from "webviz/controls/switches.js";
+import { topic } from "webviz/controls/topic.js";
+import { vector } from "webviz/controls/vector.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 /**
  * @type {Partial<Record<DeclaredProperty["kind"], (property: DeclaredProperty, options: ControlOptions) => Control>>}

@@ -1,10 +1,10 @@
 // Dialogs over everything else: they have the focus until they are closed.
 
-import { textField } from "./fields.js";
-import { el, newId } from "../dom.js";
-import { iconButton } from "../icons.js";
+import { textField } from "webviz/controls/fields.js";
+import { el, newId } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
 
-/** @import {Child} from "../types.js" */
+/** @import {Child} from "webviz/types.js" */
 
 /**
  * @typedef {{label: string | (() => string), value: unknown, primary?: boolean, danger?: boolean, focused?: boolean,

@@ -1,11 +1,11 @@
 // A line that unfolds what is below it.
 
-import { el, newId } from "../dom.js";
-import { icon } from "../icons.js";
-import { effect, signal } from "../signals.js";
+import { el, newId } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { effect, signal } from "webviz/signals.js";
 
-/** @import {Signal} from "../signals.js" */
-/** @import {Child} from "../types.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {Child} from "webviz/types.js" */
 
 /**
  * A button, and below it what it unfolds; `content` is called when that is first shown.

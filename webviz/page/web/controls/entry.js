@@ -1,10 +1,10 @@
 // Text fields: input counts on Enter, or when the field is left; Escape goes back.
 
-import { set } from "../dom.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
-import { sync } from "./sync.js";
+import { set } from "webviz/dom.js";
+import { MIXED, MIXED_TEXT } from "webviz/controls/mixed.js";
+import { sync } from "webviz/controls/sync.js";
 
-/** @import {Mixed} from "./mixed.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
 
 const MAX_TEXT = 100_000;
 

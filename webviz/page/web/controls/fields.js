@@ -1,8 +1,8 @@
 // Fields to type a text in, and to search or filter a list.
 
-import { el } from "../dom.js";
+import { el } from "webviz/dom.js";
 
-/** @import {Attribute} from "../types.js" */
+/** @import {Attribute} from "webviz/types.js" */
 
 /**
  * @param {string} label

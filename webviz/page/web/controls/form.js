@@ -1,13 +1,13 @@
 // The properties of something, one below the other, with those that belong together in sections.
 
-import { el, set } from "../dom.js";
-import { icon } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { computed, signal, untracked } from "../signals.js";
-import { row } from "./property_row.js";
+import { el, set } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { computed, signal, untracked } from "webviz/signals.js";
+import { row } from "webviz/controls/property_row.js";
 
-/** @import {DeclaredProperty} from "../contents.js" */
-/** @import {Child, FormValues, SendProperty} from "../types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+/** @import {Child, FormValues, SendProperty} from "webviz/types.js" */
 
 /**
  * The values of a form, and how they are sent.

@@ -1,11 +1,11 @@
 // A frame: one of those there are, or any name.
 
-import { store } from "../stores.js";
-import { combobox } from "./combobox.js";
+import { store } from "webviz/stores.js";
+import { combobox } from "webviz/controls/combobox.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
-/** @import {Mixed} from "./mixed.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
 
 export const FIXED_FRAME = "<Fixed Frame>";
 

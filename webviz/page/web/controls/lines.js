@@ -1,12 +1,12 @@
 // Lists and dictionaries: an entry per line, texts as they are, all else as JSON.
 
-import { el } from "../dom.js";
-import { entry } from "./entry.js";
+import { el } from "webviz/dom.js";
+import { entry } from "webviz/controls/entry.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
 
 /** @typedef {unknown[] | Record<string, unknown>} Lines */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 const MAX_ROWS = 12;
 

@@ -1,12 +1,12 @@
 // The list below a combobox, over everything else.
 
-import { el, newId, set } from "../dom.js";
-import { effect, owned, untracked } from "../signals.js";
-import { wordsOf } from "../words.js";
+import { el, newId, set } from "webviz/dom.js";
+import { effect, owned, untracked } from "webviz/signals.js";
+import { wordsOf } from "webviz/words.js";
 
-/** @import {Choice} from "../types.js" */
-/** @import {Mixed} from "./mixed.js" */
-/** @import {Readable, Signal} from "../signals.js" */
+/** @import {Choice} from "webviz/types.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Readable, Signal} from "webviz/signals.js" */
 
 const MAX_SHOWN = 100;
 

@@ -1,9 +1,9 @@
 // Menus: a list of actions over everything else, with arrow keys.
 
-import { why } from "../access.js";
-import { el } from "../dom.js";
-import { icon } from "../icons.js";
-import { keyText } from "../keys.js";
+import { why } from "webviz/access.js";
+import { el } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { keyText } from "webviz/keys.js";
 
 /**
  * @typedef {{

@@ -1,15 +1,15 @@
 // A number: typed with or without its unit, stepped by arrow keys, dragged sideways.
 
-import { el, set, setText } from "../dom.js";
-import { drag } from "./drag.js";
-import { entry } from "./entry.js";
-import { textField } from "./fields.js";
-import { MIXED_TEXT } from "./mixed.js";
-import { format, isAngle, parse, stepOf, unitText, within } from "./units.js";
+import { el, set, setText } from "webviz/dom.js";
+import { drag } from "webviz/controls/drag.js";
+import { entry } from "webviz/controls/entry.js";
+import { textField } from "webviz/controls/fields.js";
+import { MIXED_TEXT } from "webviz/controls/mixed.js";
+import { format, isAngle, parse, stepOf, unitText, within } from "webviz/controls/units.js";
 
-/** @import {ControlOptions} from "../types.js" */
-/** @import {Mixed} from "./mixed.js" */
-/** @import {NumberProperty} from "./units.js" */
+/** @import {ControlOptions} from "webviz/types.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {NumberProperty} from "webviz/controls/units.js" */
 
 /** @typedef {ControlOptions<number | Mixed>} NumberOptions */
 

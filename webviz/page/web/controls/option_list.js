@@ -1,9 +1,9 @@
 // A list below a search field: the field keeps the focus, arrow keys walk through the list.
 
-import { el, newId, set, setChildren } from "../dom.js";
-import { icon } from "../icons.js";
-import { wordsOf } from "../words.js";
-import { keyText } from "../keys.js";
+import { el, newId, set, setChildren } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { wordsOf } from "webviz/words.js";
+import { keyText } from "webviz/keys.js";
 
 /**
  * @typedef {{

@@ -1,11 +1,11 @@
 // The right to use a topic, service or action, where its form is: the owner allows it there, others
 // see whose permission it needs and ask for it.
 
-import { self, why } from "../access.js";
-import { act } from "../act.js";
-import { el } from "../dom.js";
-import { textButton } from "../icons.js";
-import { store } from "../stores.js";
+import { self, why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { store } from "webviz/stores.js";
 
 const LOOPBACK = /^(localhost|127(\.\d+){3}|\[::1\])$/;
 

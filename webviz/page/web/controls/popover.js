@@ -1,10 +1,10 @@
 // Popovers: what belongs to a button, below it and over everything else, until one clicks elsewhere.
 
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { root, signal } from "../signals.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { root, signal } from "webviz/signals.js";
 
-/** @import {Attribute, Children} from "../types.js" */
+/** @import {Attribute, Children} from "webviz/types.js" */
 
 const GAP = 4;
 

@@ -1,14 +1,14 @@
 // One property: its label, its control, and what leads back to the default.
 
-import { holder, why } from "../access.js";
-import { el } from "../dom.js";
-import { icon } from "../icons.js";
-import { computed, signal } from "../signals.js";
-import { control } from "./control.js";
-import { bounds } from "./units.js";
+import { holder, why } from "webviz/access.js";
+import { el } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { computed, signal } from "webviz/signals.js";
+import { control } from "webviz/controls/control.js";
+import { bounds } from "webviz/controls/units.js";
 
-/** @import {DeclaredProperty} from "../contents.js" */
-/** @import {ControlOptions} from "../types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+/** @import {ControlOptions} from "webviz/types.js" */
 
 /** @type {Partial<Record<DeclaredProperty["kind"], string>>} */
 const ITEMS = { dict: "One entry per line, name: value.", list: "One entry per line." };

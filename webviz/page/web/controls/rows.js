@@ -2,9 +2,9 @@
 //
 // The list has the focus; arrow keys move the row that is marked, which screen readers announce.
 
-import { el, newId, set } from "../dom.js";
-import { batch, effect, owned, signal, untracked } from "../signals.js";
-import { VirtualList } from "./virtual.js";
+import { el, newId, set } from "webviz/dom.js";
+import { batch, effect, owned, signal, untracked } from "webviz/signals.js";
+import { VirtualList } from "webviz/controls/virtual.js";
 
 /** @typedef {HTMLElement & {wvKey: string, wvDepth?: number}} Row */
 

@@ -1,14 +1,14 @@
 // Simple controls: a check box, one of a few values, a line of text.
 
-import { el } from "../dom.js";
-import { combobox } from "./combobox.js";
-import { entry } from "./entry.js";
-import { textField } from "./fields.js";
-import { MIXED } from "./mixed.js";
-import { sync } from "./sync.js";
+import { el } from "webviz/dom.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { entry } from "webviz/controls/entry.js";
+import { textField } from "webviz/controls/fields.js";
+import { MIXED } from "webviz/controls/mixed.js";
+import { sync } from "webviz/controls/sync.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 /**
  * A check box; see `control.js`.

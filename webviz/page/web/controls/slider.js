@@ -1,15 +1,15 @@
 // A number between two bounds: a slider, and a field beside it.
 
-import { el } from "../dom.js";
-import { effect, signal } from "../signals.js";
-import { MIXED, MIXED_TEXT } from "./mixed.js";
-import { number } from "./number.js";
-import { sync } from "./sync.js";
-import { stepOf } from "./units.js";
+import { el } from "webviz/dom.js";
+import { effect, signal } from "webviz/signals.js";
+import { MIXED, MIXED_TEXT } from "webviz/controls/mixed.js";
+import { number } from "webviz/controls/number.js";
+import { sync } from "webviz/controls/sync.js";
+import { stepOf } from "webviz/controls/units.js";
 
-/** @import {Mixed} from "./mixed.js" */
-/** @import {NumberOptions} from "./number.js" */
-/** @import {NumberProperty} from "./units.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {NumberOptions} from "webviz/controls/number.js" */
+/** @import {NumberProperty} from "webviz/controls/units.js" */
 
 /**
  * A slider; see `control.js`.

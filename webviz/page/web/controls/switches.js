@@ -1,18 +1,18 @@
 // Switches by name, such as those of frames or of namespaces: check boxes with a search, for
 // hundreds of names.
 
-import { el, set } from "../dom.js";
-import { icon, textButton } from "../icons.js";
-import { sanitized } from "../sanitize.js";
-import { computed, effect, signal } from "../signals.js";
-import { store } from "../stores.js";
-import { wordsOf } from "../words.js";
-import { searchField } from "./fields.js";
-import { rowList, touchable } from "./rows.js";
-import { sync } from "./sync.js";
+import { el, set } from "webviz/dom.js";
+import { icon, textButton } from "webviz/icons.js";
+import { sanitized } from "webviz/sanitize.js";
+import { computed, effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { wordsOf } from "webviz/words.js";
+import { searchField } from "webviz/controls/fields.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { sync } from "webviz/controls/sync.js";
 
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 /** @typedef {Record<string, boolean>} Switches */
 

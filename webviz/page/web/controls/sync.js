@@ -4,10 +4,10 @@
 // over, it sends older values, which must not set the control back under the hand. So what comes from
 // outside waits during an edit, and a moment longer; then the newest is shown.
 
-import { effect, untracked } from "../signals.js";
+import { effect, untracked } from "webviz/signals.js";
 
-/** @import {Mixed} from "./mixed.js" */
-/** @import {Outcome} from "../types.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Outcome} from "webviz/types.js" */
 
 const SETTLE_MS = 500;
 const ANSWER_MS = 8000; // then it was lost with the connection

@@ -1,12 +1,12 @@
 // A topic: one of those that carry the right type, or any name.
 
-import { store } from "../stores.js";
-import { hertz, isHiddenTopic } from "../words.js";
-import { combobox } from "./combobox.js";
+import { store } from "webviz/stores.js";
+import { hertz, isHiddenTopic } from "webviz/words.js";
+import { combobox } from "webviz/controls/combobox.js";
 
-/** @import {Choice, Control, ControlOptions} from "../types.js" */
-/** @import {Mixed} from "./mixed.js" */
-/** @import {DeclaredProperty, LiveTopic, TopicOffer} from "../contents.js" */
+/** @import {Choice, Control, ControlOptions} from "webviz/types.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {DeclaredProperty, LiveTopic, TopicOffer} from "webviz/contents.js" */
 
 /**
  * A field for the name of a topic; see `control.js`. What is `known` has the rate it arrives at.

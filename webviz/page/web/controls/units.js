@@ -1,6 +1,6 @@
 // Numbers as people write them, with a unit.
 
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 /** @typedef {Pick<DeclaredProperty, "kind" | "low" | "above" | "high" | "below" | "unit">} NumberProperty */
 

@@ -1,11 +1,11 @@
 // Two or three numbers.
 
-import { el } from "../dom.js";
-import { number } from "./number.js";
+import { el } from "webviz/dom.js";
+import { number } from "webviz/controls/number.js";
 
-/** @import {Mixed} from "./mixed.js" */
-/** @import {Control, ControlOptions} from "../types.js" */
-/** @import {DeclaredProperty} from "../contents.js" */
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Control, ControlOptions} from "webviz/types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
 
 const AXES = ["X", "Y", "Z"];
 

@@ -2,11 +2,11 @@
 //
 // Rows have one height, or each that of its content, which is a guess until it has been seen.
 
-import { setChildren } from "../dom.js";
-import { batch, owned, root, signal, untracked } from "../signals.js";
+import { setChildren } from "webviz/dom.js";
+import { batch, owned, root, signal, untracked } from "webviz/signals.js";
 
-/** @import {Signal} from "../signals.js" */
-/** @import {End} from "../types.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {End} from "webviz/types.js" */
 
 const SETTLED_MS = 300; // by then, rows that come into sight have been measured
 

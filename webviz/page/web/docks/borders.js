@@ -1,8 +1,8 @@
 // The borders of the rows of panels, and those between panels: dragged for other sizes.
 
-import { shared, sized } from "./places.js";
-import { splitter } from "./splitter.js";
-import { arrange, layout } from "./state.js";
+import { shared, sized } from "webviz/docks/places.js";
+import { splitter } from "webviz/docks/splitter.js";
+import { arrange, layout } from "webviz/docks/state.js";
 
 /** @type {Map<string, HTMLElement>} */
 const known = new Map();

@@ -1,6 +1,6 @@
 // The corner of a panel over the scene, to be dragged for another size.
 
-import { el } from "../dom.js";
+import { el } from "webviz/dom.js";
 
 /**
  * `move(width, height)` is called with pixels, `end()` after the drag.

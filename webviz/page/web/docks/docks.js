@@ -1,15 +1,15 @@
 // The panels beside, below and over the scene, as the layout says that all browsers share.
 
-import { el, setChildren } from "../dom.js";
-import { command } from "../commands.js";
-import { openMenuBelow } from "../controls/menu.js";
-import { each, effect, owned, signal, untracked } from "../signals.js";
-import { watch } from "../stores.js";
-import { corner } from "./corner.js";
-import { draggable } from "./drag.js";
-import { makeFrame } from "./frame.js";
-import { floated, layoutOf, moved, placeOf, sizesIn, without } from "./places.js";
-import { between, border } from "./borders.js";
+import { el, setChildren } from "webviz/dom.js";
+import { command } from "webviz/commands.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { each, effect, owned, signal, untracked } from "webviz/signals.js";
+import { watch } from "webviz/stores.js";
+import { corner } from "webviz/docks/corner.js";
+import { draggable } from "webviz/docks/drag.js";
+import { makeFrame } from "webviz/docks/frame.js";
+import { floated, layoutOf, moved, placeOf, sizesIn, without } from "webviz/docks/places.js";
+import { between, border } from "webviz/docks/borders.js";
 import {
   arrange,
   choose,
@@ -28,13 +28,13 @@ import {
   take,
   templates,
   visible,
-} from "./state.js";
-import { alone, layoutName, openWindow } from "./windows.js";
+} from "webviz/docks/state.js";
+import { alone, layoutName, openWindow } from "webviz/docks/windows.js";
 
-/** @import {Panel} from "../types.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
-/** @import {Signal} from "../signals.js" */
-/** @import {Boxes, PanelBox, Target} from "./places.js" */
+/** @import {Panel} from "webviz/types.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {Boxes, PanelBox, Target} from "webviz/docks/places.js" */
 /** @typedef {{name: string, element: HTMLElement}} Frame */
 
 const beside = el("div", { class: "wv-beside", hidden: true });
@@ -180,7 +180,7 @@ export function menuOf({ name: long, remove, home = "In the tabs" }) {
   ];
 }
 
-export { isTabsOnly, templates } from "./state.js";
+export { isTabsOnly, templates } from "webviz/docks/state.js";
 
 /** The saved layouts: names, and whether browsers show them. */
 export const savedLayouts = () => saved.value;

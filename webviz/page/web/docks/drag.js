@@ -1,12 +1,12 @@
 // Dragging a panel by its tab or its head to another place.
 
-import { takeKeysFirst } from "../keys.js";
-import { el } from "../dom.js";
-import { signal } from "../signals.js";
-import { targetAt } from "./places.js";
+import { takeKeysFirst } from "webviz/keys.js";
+import { el } from "webviz/dom.js";
+import { signal } from "webviz/signals.js";
+import { targetAt } from "webviz/docks/places.js";
 
-/** @import {Signal} from "../signals.js" */
-/** @import {Boxes, Target} from "./places.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {Boxes, Target} from "webviz/docks/places.js" */
 
 const SLACK = 6; // pixels that a click may move
 

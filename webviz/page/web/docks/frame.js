@@ -1,11 +1,11 @@
 // The frame of a panel that is not in the tabs of the side: its head, and what it shows.
 
-import { needs } from "../access.js";
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { each, root } from "../signals.js";
+import { needs } from "webviz/access.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { each, root } from "webviz/signals.js";
 
-/** @import {End, Panel} from "../types.js" */
+/** @import {End, Panel} from "webviz/types.js" */
 
 /**
  * Opens a panel in an element, and puts what belongs to its head into another; returns what ends it,

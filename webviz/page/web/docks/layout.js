@@ -1,10 +1,10 @@
 // Layout of the side: its width, and whether it is folded away.
 
-import { reveal } from "./docks.js";
-import { splitter } from "./splitter.js";
-import { el } from "../dom.js";
-import { recall, remember } from "../remember.js";
-import * as viser from "../viser_page.js";
+import { reveal } from "webviz/docks/docks.js";
+import { splitter } from "webviz/docks/splitter.js";
+import { el } from "webviz/dom.js";
+import { recall, remember } from "webviz/remember.js";
+import * as viser from "webviz/viser_page.js";
 
 const MIN_WIDTH = 240;
 const MAX_SHARE = 0.7;

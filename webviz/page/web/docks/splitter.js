@@ -1,6 +1,6 @@
 // A border between two things, to be dragged or moved by arrow keys.
 
-import { el } from "../dom.js";
+import { el } from "webviz/dom.js";
 
 /**
  * `move(pixels, before)` is called with the distance from where the drag began and the `size()` then,

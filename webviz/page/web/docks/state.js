@@ -1,15 +1,15 @@
 // The places of panels as this page knows them, and how they change.
 
-import { why } from "../access.js";
-import { act } from "../act.js";
-import { surviveReload } from "../remember.js";
-import { batch, computed, signal } from "../signals.js";
-import { EMPTY, namesIn, namesOf } from "./places.js";
-import { alone, layoutName } from "./windows.js";
+import { why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { surviveReload } from "webviz/remember.js";
+import { batch, computed, signal } from "webviz/signals.js";
+import { EMPTY, namesIn, namesOf } from "webviz/docks/places.js";
+import { alone, layoutName } from "webviz/docks/windows.js";
 
-/** @import {Panel} from "../types.js" */
-/** @import {Signal} from "../signals.js" */
-/** @import {Layout} from "./places.js" */
+/** @import {Panel} from "webviz/types.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {Layout} from "webviz/docks/places.js" */
 /** @typedef {{full: string, chosen: string[], own: Layout | null}} Before */
 /** @typedef {{key: string, weight: number, names: string[], front: string}} Place */
 

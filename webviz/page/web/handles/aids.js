@@ -1,14 +1,14 @@
 // The axis along which, or about which, a handle is dragged.
 
-import { set, svgElement } from "../dom.js";
-import { makeLayer } from "../tools/layer.js";
-import { beforeRender } from "../viser_page.js";
-import { projectionOf } from "../scene/projection.js";
-import { add, scaled } from "../vectors.js";
+import { set, svgElement } from "webviz/dom.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import { beforeRender } from "webviz/viser_page.js";
+import { projectionOf } from "webviz/scene/projection.js";
+import { add, scaled } from "webviz/vectors.js";
 
-/** @import {HandleControl} from "../contents.js" */
-/** @import {Projection} from "../scene/projection.js" */
-/** @import {SceneObject, Vec2, Vec3} from "../types.js" */
+/** @import {HandleControl} from "webviz/contents.js" */
+/** @import {Projection} from "webviz/scene/projection.js" */
+/** @import {SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
 /** @typedef {{object: SceneObject, point: Vec3, axis: Vec3}} Line */
 

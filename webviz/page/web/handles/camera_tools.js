@@ -1,11 +1,11 @@
 // The tools that leave the pointer to the camera, and the one that aims the camera.
 
-import { leave, pointer } from "./gesture.js";
-import { focusOn } from "../scene/mouse.js";
-import { clicks } from "../tools/clicks.js";
-import { select } from "../tools/registry.js";
+import { leave, pointer } from "webviz/handles/gesture.js";
+import { focusOn } from "webviz/scene/mouse.js";
+import { clicks } from "webviz/tools/clicks.js";
+import { select } from "webviz/tools/registry.js";
 
-/** @import {Tool} from "../types.js" */
+/** @import {Tool} from "webviz/types.js" */
 
 /** @type {Tool} */
 export const interact = {

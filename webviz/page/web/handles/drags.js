@@ -18,12 +18,12 @@ import {
   sub,
   turnedBy,
   unit,
-} from "../vectors.js";
+} from "webviz/vectors.js";
 
-/** @import {HandleControl} from "../contents.js" */
-/** @import {Pose} from "../vectors.js" */
-/** @import {Projection} from "../scene/projection.js" */
-/** @import {Vec2, Vec3} from "../types.js" */
+/** @import {HandleControl} from "webviz/contents.js" */
+/** @import {Pose} from "webviz/vectors.js" */
+/** @import {Projection} from "webviz/scene/projection.js" */
+/** @import {Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * @typedef {Pose & {turned: number}} Moved

@@ -1,27 +1,27 @@
 // Gestures of the pointer on handles while the tool Interact is active.
 
-import { why } from "../access.js";
-import * as act from "../act.js";
-import * as channel from "../channel.js";
-import { takeKeysFirst } from "../keys.js";
-import { pickAt } from "../scene/picking/pick.js";
-import { tell, tellLive } from "../tools/hint.js";
-import { canvas, eachFrame, requestRender } from "../viser_page.js";
-import * as aids from "./aids.js";
-import { axisOf, begin } from "./drags.js";
-import * as glow from "./glow.js";
-import { heldText, helpOf } from "./help.js";
-import * as known from "./known.js";
-import * as menu from "./menu.js";
-import * as poses from "./poses.js";
-import { frameNode, projectionOf } from "../scene/projection.js";
+import { why } from "webviz/access.js";
+import * as act from "webviz/act.js";
+import * as channel from "webviz/channel.js";
+import { takeKeysFirst } from "webviz/keys.js";
+import { pickAt } from "webviz/scene/picking/pick.js";
+import { tell, tellLive } from "webviz/tools/hint.js";
+import { canvas, eachFrame, requestRender } from "webviz/viser_page.js";
+import * as aids from "webviz/handles/aids.js";
+import { axisOf, begin } from "webviz/handles/drags.js";
+import * as glow from "webviz/handles/glow.js";
+import { heldText, helpOf } from "webviz/handles/help.js";
+import * as known from "webviz/handles/known.js";
+import * as menu from "webviz/handles/menu.js";
+import * as poses from "webviz/handles/poses.js";
+import { frameNode, projectionOf } from "webviz/scene/projection.js";
 
-/** @import {Commands} from "../messages.js" */
-/** @import {Moved} from "./drags.js" */
-/** @import {Part} from "./known.js" */
-/** @import {Pose} from "../vectors.js" */
+/** @import {Commands} from "webviz/messages.js" */
+/** @import {Moved} from "webviz/handles/drags.js" */
+/** @import {Part} from "webviz/handles/known.js" */
+/** @import {Pose} from "webviz/vectors.js" */
 /** @import {Vector3} from "three" */
-/** @import {SceneEvent, Vec2, Vec3} from "../types.js" */
+/** @import {SceneEvent, Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * @typedef {Commands["DragHandle"]["drag"]} SentDrag

@@ -1,10 +1,10 @@
 // Brightens the control under the pointer, and hides controls that cannot be used now.
 
-import { active, isDefault, onChange } from "../tools/registry.js";
-import * as viser from "../viser_page.js";
-import * as known from "./known.js";
+import { active, isDefault, onChange } from "webviz/tools/registry.js";
+import * as viser from "webviz/viser_page.js";
+import * as known from "webviz/handles/known.js";
 
-/** @import {Part} from "./known.js" */
+/** @import {Part} from "webviz/handles/known.js" */
 /** @import {Color, MeshStandardMaterial} from "three" */
 
 /** @type {Record<"over" | "pressed", number>} */

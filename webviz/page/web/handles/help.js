@@ -1,6 +1,6 @@
 // Texts about handles. Without a document.
 
-/** @import {HandleControl, SceneHandle} from "../contents.js" */
+/** @import {HandleControl, SceneHandle} from "webviz/contents.js" */
 
 /** @type {Partial<Record<HandleControl["mode"], string>>} */
 const DOES = { menu: "Show menu", button: "Activate" };

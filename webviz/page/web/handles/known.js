@@ -1,16 +1,16 @@
 // The handles of the scene, and which of their parts is under a point of the window.
 
-import constants from "../constants.js";
-import { listeners } from "../listeners.js";
-import { depthOf } from "../scene/picking/lens.js";
-import { pickAt } from "../scene/picking/pick.js";
-import { nodeNamed } from "../scene/picking/things.js";
-import { watch } from "../stores.js";
-import * as viser from "../viser_page.js";
-import { pathOf } from "../scene/projection.js";
+import constants from "webviz/constants.js";
+import { listeners } from "webviz/listeners.js";
+import { depthOf } from "webviz/scene/picking/lens.js";
+import { pickAt } from "webviz/scene/picking/pick.js";
+import { nodeNamed } from "webviz/scene/picking/things.js";
+import { watch } from "webviz/stores.js";
+import * as viser from "webviz/viser_page.js";
+import { pathOf } from "webviz/scene/projection.js";
 
 /** @import {Vector3} from "three" */
-/** @import {SceneThing, ValuesOf, Vec2} from "../types.js" */
+/** @import {SceneThing, ValuesOf, Vec2} from "webviz/types.js" */
 
 /** @typedef {{groups: Map<string, string>, parts: Map<number, string[]>}} HandleNodes */
 

@@ -1,10 +1,10 @@
 // The menu of a handle.
 
-import { openMenu } from "../controls/menu.js";
+import { openMenu } from "webviz/controls/menu.js";
 
-/** @import {HandleMenuEntry, SceneHandle} from "../contents.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
-/** @import {Vec2} from "../types.js" */
+/** @import {HandleMenuEntry, SceneHandle} from "webviz/contents.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 /**
  * Opens the menu of a handle at a place of the window; `choose(id)` gets the chosen entry.

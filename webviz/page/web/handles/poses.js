@@ -1,16 +1,16 @@
 // Where handles are on this page: what it drags is where the drag puts it, whatever the server
 // says meanwhile, and controls that face the camera do so in every frame.
 
-import { nodeNamed } from "../scene/picking/things.js";
-import * as viser from "../viser_page.js";
-import * as known from "./known.js";
-import { frameNode } from "../scene/projection.js";
-import { about, compose, inverse, rotate, scaled, turnedBy } from "../vectors.js";
+import { nodeNamed } from "webviz/scene/picking/things.js";
+import * as viser from "webviz/viser_page.js";
+import * as known from "webviz/handles/known.js";
+import { frameNode } from "webviz/scene/projection.js";
+import { about, compose, inverse, rotate, scaled, turnedBy } from "webviz/vectors.js";
 
-/** @import {Moved} from "./drags.js" */
-/** @import {Pose} from "../vectors.js" */
-/** @import {SceneHandle} from "../contents.js" */
-/** @import {SceneObject, Vec3, Wxyz} from "../types.js" */
+/** @import {Moved} from "webviz/handles/drags.js" */
+/** @import {Pose} from "webviz/vectors.js" */
+/** @import {SceneHandle} from "webviz/contents.js" */
+/** @import {SceneObject, Vec3, Wxyz} from "webviz/types.js" */
 
 /**
  * `frames` are those that are left after the drag, null while it goes on.

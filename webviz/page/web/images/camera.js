@@ -1,16 +1,16 @@
 // The canvas of a pane with the scene over and under a picture, as the camera sees it that took the
 // picture. It has the same functions as that of a pane without the scene, see picture.js.
 
-import * as viser from "../viser_page.js";
-import { contextOf } from "../dom.js";
-import { undistort, straight } from "./undistort.js";
-import { boxIn, paint, placeIn } from "./camera_overlay.js";
-import { eachPicture } from "../scene/second_camera.js";
-import { makePicture } from "./picture.js";
+import * as viser from "webviz/viser_page.js";
+import { contextOf } from "webviz/dom.js";
+import { undistort, straight } from "webviz/images/undistort.js";
+import { boxIn, paint, placeIn } from "webviz/images/camera_overlay.js";
+import { eachPicture } from "webviz/scene/second_camera.js";
+import { makePicture } from "webviz/images/picture.js";
 
-/** @import {Picture, PictureListener} from "./picture.js" */
-/** @import {PictureCamera, PictureHeader, PictureWarp} from "../messages.js" */
-/** @import {Vec2} from "../types.js" */
+/** @import {Picture, PictureListener} from "webviz/images/picture.js" */
+/** @import {PictureCamera, PictureHeader, PictureWarp} from "webviz/messages.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 const SCENE_MS = 100; // at most so often for what moves in the scene; for each picture anyway
 

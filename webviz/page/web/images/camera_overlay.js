@@ -1,11 +1,11 @@
 // A picture with the scene over and under it, as the camera sees it that took the picture.
 
-import { drawSecond } from "../scene/second_camera.js";
-import { bent } from "./undistort.js";
+import { drawSecond } from "webviz/scene/second_camera.js";
+import { bent } from "webviz/images/undistort.js";
 
-/** @import {PictureCamera, PictureWarp} from "../messages.js" */
-/** @import {Places} from "./marks.js" */
-/** @import {Vec2} from "../types.js" */
+/** @import {PictureCamera, PictureWarp} from "webviz/messages.js" */
+/** @import {Places} from "webviz/images/marks.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 /**
  * Fills a 2D context. `image` shows what the camera sees, undistorted; `size` is that of the picture;

@@ -1,16 +1,16 @@
 // The images of displays: a pane for each display with a picture, in the dock beside the scene, below
 // it where there is little room, or placed as panels are.
 
-import { splitter } from "../docks/splitter.js";
-import { dragTab, isPlaced, offerOthers } from "../docks/docks.js";
-import { el, setChildren } from "../dom.js";
-import { recall, remember } from "../remember.js";
-import { effect, signal } from "../signals.js";
-import { watch } from "../stores.js";
-import * as frames from "./frames.js";
-import { makePane } from "./pane.js";
+import { splitter } from "webviz/docks/splitter.js";
+import { dragTab, isPlaced, offerOthers } from "webviz/docks/docks.js";
+import { el, setChildren } from "webviz/dom.js";
+import { recall, remember } from "webviz/remember.js";
+import { effect, signal } from "webviz/signals.js";
+import { watch } from "webviz/stores.js";
+import * as frames from "webviz/images/frames.js";
+import { makePane } from "webviz/images/pane.js";
 
-/** @import {Panel, ValuesOf} from "../types.js" */
+/** @import {Panel, ValuesOf} from "webviz/types.js" */
 /** @typedef {{pane: ReturnType<typeof makePane>, panel: Panel}} Image */
 
 const STANDARD = 360;

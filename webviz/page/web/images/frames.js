@@ -1,9 +1,9 @@
 // Pictures from the server: a header as JSON behind its length, and the files it describes.
 
-import * as channel from "../channel.js";
-import constants from "../constants.js";
+import * as channel from "webviz/channel.js";
+import constants from "webviz/constants.js";
 
-/** @import {PictureHeader} from "../messages.js" */
+/** @import {PictureHeader} from "webviz/messages.js" */
 
 /**
  * @typedef {{

@@ -1,7 +1,7 @@
 // Figures over the picture of a pane: boxes of detections, lines, points, circles and texts.
 
-/** @import {Mark} from "../messages.js" */
-/** @import {Vec2} from "../types.js" */
+/** @import {Mark} from "webviz/messages.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 /**
  * The places at which pixels of the picture are drawn, the size of one, and the width of the pane.

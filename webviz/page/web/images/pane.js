@@ -1,21 +1,21 @@
 // A pane: the picture of one display, its title, and the value under the mouse.
 
-import { el, set, showText } from "../dom.js";
-import { takeKeysOf } from "../keys.js";
-import { sanitized } from "../sanitize.js";
-import { recall, remember } from "../remember.js";
-import { makeCamera } from "./camera.js";
-import * as frames from "./frames.js";
-import { makeHead } from "./pane_head.js";
-import { makeLegend } from "./pane_legend.js";
-import { marksOver } from "./pane_marks.js";
-import { makePicture } from "./picture.js";
-import { makeReading } from "./pixel_reading.js";
-import { makeReadout } from "./readout.js";
-import { makeZoom, takeKey } from "./zoom.js";
+import { el, set, showText } from "webviz/dom.js";
+import { takeKeysOf } from "webviz/keys.js";
+import { sanitized } from "webviz/sanitize.js";
+import { recall, remember } from "webviz/remember.js";
+import { makeCamera } from "webviz/images/camera.js";
+import * as frames from "webviz/images/frames.js";
+import { makeHead } from "webviz/images/pane_head.js";
+import { makeLegend } from "webviz/images/pane_legend.js";
+import { marksOver } from "webviz/images/pane_marks.js";
+import { makePicture } from "webviz/images/picture.js";
+import { makeReading } from "webviz/images/pixel_reading.js";
+import { makeReadout } from "webviz/images/readout.js";
+import { makeZoom, takeKey } from "webviz/images/zoom.js";
 
-/** @import {PictureHeader} from "../messages.js" */
-/** @import {PaneCaption} from "../contents.js" */
+/** @import {PictureHeader} from "webviz/messages.js" */
+/** @import {PaneCaption} from "webviz/contents.js" */
 
 const RATE_MS = 1000;
 const TEXT = "application/json";

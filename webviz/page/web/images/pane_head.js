@@ -1,7 +1,7 @@
 // The head of a pane: its title, facts about it, and its buttons.
 
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
+import { el, set, setText } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
 
 /**
  * A head, whose buttons call `toggle`, `toggleFull` and `unzoom`.

@@ -1,9 +1,9 @@
 // The legend of a picture that is coloured by value.
 
-import { el, setText } from "../dom.js";
-import { colorBar } from "../charts/color_bar.js";
+import { el, setText } from "webviz/dom.js";
+import { colorBar } from "webviz/charts/color_bar.js";
 
-/** @import {ColorRange} from "../messages.js" */
+/** @import {ColorRange} from "webviz/messages.js" */
 
 /** A legend; `show(range)` hides it without one. */
 export function makeLegend() {

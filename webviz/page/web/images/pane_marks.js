@@ -1,12 +1,12 @@
 // The canvas of marks over the picture of a pane.
 
-import { fitted } from "../charts/canvas.js";
-import { el } from "../dom.js";
-import { drawMarks, markAt, zoomedPlaces } from "./marks.js";
+import { fitted } from "webviz/charts/canvas.js";
+import { el } from "webviz/dom.js";
+import { drawMarks, markAt, zoomedPlaces } from "webviz/images/marks.js";
 
-/** @import {Mark} from "../messages.js" */
-/** @import {Picture} from "./picture.js" */
-/** @import {makeZoom} from "./zoom.js" */
+/** @import {Mark} from "webviz/messages.js" */
+/** @import {Picture} from "webviz/images/picture.js" */
+/** @import {makeZoom} from "webviz/images/zoom.js" */
 
 /**
  * Returns `{show(marks), redraw(), textAt(mouse), close()}`; the canvas is there while there are marks.

@@ -1,12 +1,12 @@
 // The canvas of a pane: draws still pictures and video, and knows which pixel is under the mouse.
 
-import { contextOf } from "../dom.js";
-import { placeIn } from "./camera_overlay.js";
-import { makeVideo } from "./video.js";
+import { contextOf } from "webviz/dom.js";
+import { placeIn } from "webviz/images/camera_overlay.js";
+import { makeVideo } from "webviz/images/video.js";
 
-/** @import {PictureHeader} from "../messages.js" */
-/** @import {Vec2} from "../types.js" */
-/** @import {Places} from "./marks.js" */
+/** @import {PictureHeader} from "webviz/messages.js" */
+/** @import {Vec2} from "webviz/types.js" */
+/** @import {Places} from "webviz/images/marks.js" */
 
 /**
  * @typedef {{drawn: () => void, fail: (sentence: string) => void}} PictureListener

@@ -1,12 +1,12 @@
 // The value of the pixel under the mouse: as the server has it, or as it is drawn.
 
-import * as channel from "../channel.js";
-import { el, setText } from "../dom.js";
-import { pixelText } from "./pixel_text.js";
+import * as channel from "webviz/channel.js";
+import { el, setText } from "webviz/dom.js";
+import { pixelText } from "webviz/images/pixel_text.js";
 
-/** @import {PictureHeader, PixelValue} from "../messages.js" */
-/** @import {Vec2} from "../types.js" */
-/** @import {Picture} from "./picture.js" */
+/** @import {PictureHeader, PixelValue} from "webviz/messages.js" */
+/** @import {Vec2} from "webviz/types.js" */
+/** @import {Picture} from "webviz/images/picture.js" */
 
 /** @typedef {{clientX: number, clientY: number}} Mouse */
 

@@ -1,6 +1,6 @@
 // The value of a pixel by its colour, where there is no message to read.
 
-/** @import {ColorRange} from "../messages.js" */
+/** @import {ColorRange} from "webviz/messages.js" */
 
 const DIGITS = 3; // more than the 8 bits of a picture tell
 const NO_COLOR = 60; // away from all colours of a scale: black, which stands for no measurement

@@ -1,13 +1,13 @@
 // The text of a pane: the newest message of a topic, and how old it is.
 
-import { rosNow, watchTime } from "../clock.js";
-import { el, setText } from "../dom.js";
-import { messageRows } from "../panels/message_rows.js";
-import { spanText } from "../panels/units.js";
-import { watch } from "../stores.js";
-import { hertz } from "../words.js";
+import { rosNow, watchTime } from "webviz/clock.js";
+import { el, setText } from "webviz/dom.js";
+import { messageRows } from "webviz/panels/message_rows.js";
+import { spanText } from "webviz/panels/units.js";
+import { watch } from "webviz/stores.js";
+import { hertz } from "webviz/words.js";
 
-/** @import {PictureHeader} from "../messages.js" */
+/** @import {PictureHeader} from "webviz/messages.js" */
 
 const AGE_MS = 500;
 const OLD_S = 1; // until then, an age says nothing that the rate does not say

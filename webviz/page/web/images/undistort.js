@@ -1,8 +1,8 @@
 // Images without lens distortion: a grid of triangles, whose
 // corners the server computes.
 
-/** @import {PictureWarp} from "../messages.js" */
-/** @import {Vec2} from "../types.js" */
+/** @import {PictureWarp} from "webviz/messages.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 /** @typedef {(image: TexImageSource, warp: PictureWarp, width: number, height: number) => HTMLCanvasElement} Bench */
 

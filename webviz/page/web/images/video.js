@@ -1,6 +1,6 @@
 // Video by the decoder of the browser (WebCodecs).
 
-/** @import {PictureHeader} from "../messages.js" */
+/** @import {PictureHeader} from "webviz/messages.js" */
 
 // Codecs of the packets: baseline strings, since the streams carry their own parameters.
 /** @type {Record<string, string>} */

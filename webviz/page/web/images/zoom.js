@@ -1,8 +1,8 @@
 // The part of a picture that a pane shows: zoomed by wheel, pinch and keys, moved by a drag.
 
-import { shortcuts } from "../keys.js";
+import { shortcuts } from "webviz/keys.js";
 
-/** @import {Vec2} from "../types.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 const MAX_ZOOM = 32;
 const WHEEL_STEP = 0.002; // per pixel of the wheel, as an exponent

@@ -1,7 +1,7 @@
 // Whom to credit for what the scene shows, such as the makers of a map.
 
-import { el, setText } from "../dom.js";
-import { watch } from "../stores.js";
+import { el, setText } from "webviz/dom.js";
+import { watch } from "webviz/stores.js";
 
 export function build() {
   const line = el("div", { class: "wv-card wv-attribution" });

@@ -1,10 +1,10 @@
 // The axes of the fixed frame as the camera sees them; a click on an end looks from there.
 
-import { svgElement } from "../dom.js";
-import * as views from "../scene/view.js";
-import * as viser from "../viser_page.js";
+import { svgElement } from "webviz/dom.js";
+import * as views from "webviz/scene/view.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Vec3} from "../types.js" */
+/** @import {Vec3} from "webviz/types.js" */
 
 const SIZE = 84;
 const REACH = 28;

@@ -1,11 +1,11 @@
 // Legends of colours, for each display that colours by value.
 
-import { el } from "../dom.js";
-import { each, effect } from "../signals.js";
-import { store } from "../stores.js";
-import { colorBar } from "../charts/color_bar.js";
+import { el } from "webviz/dom.js";
+import { each, effect } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { colorBar } from "webviz/charts/color_bar.js";
 
-/** @import {Scale} from "../contents.js" */
+/** @import {Scale} from "webviz/contents.js" */
 
 const MAX_CARDS = 4;
 

@@ -1,14 +1,14 @@
 // Overlays that explain the scene: axes, scale, legend, what is under the mouse, rates.
 
-import { places } from "../shell/shell.js";
-import { videoButton } from "../shell/video.js";
-import * as attribution from "./attribution.js";
-import * as gizmo from "./gizmo.js";
-import * as legend from "./legend.js";
-import * as pointer from "./pointer.js";
-import * as rates from "./rates.js";
-import * as scaleBar from "./scale_bar.js";
-import * as slowLink from "./slow_link.js";
+import { places } from "webviz/shell/shell.js";
+import { videoButton } from "webviz/shell/video.js";
+import * as attribution from "webviz/overlay/attribution.js";
+import * as gizmo from "webviz/overlay/gizmo.js";
+import * as legend from "webviz/overlay/legend.js";
+import * as pointer from "webviz/overlay/pointer.js";
+import * as rates from "webviz/overlay/rates.js";
+import * as scaleBar from "webviz/overlay/scale_bar.js";
+import * as slowLink from "webviz/overlay/slow_link.js";
 
 const shown = new Map();
 

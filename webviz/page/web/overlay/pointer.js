@@ -1,18 +1,18 @@
 // Where the mouse or a resting finger is on the ground, and what it points at; until then, what the
 // buttons of the mouse do.
 
-import { act } from "../act.js";
-import { listenToLongPresses } from "../controls/long_press.js";
-import { el, setText } from "../dom.js";
-import { recall, remember } from "../remember.js";
-import { groundAt, toFixedFrame } from "../scene/ground.js";
-import { hit } from "../scene/mouse.js";
-import * as views from "../scene/view.js";
-import { watch } from "../stores.js";
-import { sendable } from "../tools/selection.js";
-import * as viser from "../viser_page.js";
+import { act } from "webviz/act.js";
+import { listenToLongPresses } from "webviz/controls/long_press.js";
+import { el, setText } from "webviz/dom.js";
+import { recall, remember } from "webviz/remember.js";
+import { groundAt, toFixedFrame } from "webviz/scene/ground.js";
+import { hit } from "webviz/scene/mouse.js";
+import * as views from "webviz/scene/view.js";
+import { watch } from "webviz/stores.js";
+import { sendable } from "webviz/tools/selection.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {ValuesOf, Vec2, Vec3} from "../types.js" */
+/** @import {ValuesOf, Vec2, Vec3} from "webviz/types.js" */
 
 const REST_MS = 150;
 const AGAIN_MS = 2000; // what is named may move on below a mouse that rests

@@ -1,12 +1,12 @@
 // Performance of the page: frames per second and round trip to the server; a click shows details.
 
-import * as channel from "../channel.js";
-import { el } from "../dom.js";
-import { points } from "../scene/capacity.js";
-import { isSoftware, renderer } from "../scene/graphics.js";
-import { batch, each, signal } from "../signals.js";
-import { store } from "../stores.js";
-import * as viser from "../viser_page.js";
+import * as channel from "webviz/channel.js";
+import { el } from "webviz/dom.js";
+import { points } from "webviz/scene/capacity.js";
+import { isSoftware, renderer } from "webviz/scene/graphics.js";
+import { batch, each, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import * as viser from "webviz/viser_page.js";
 
 const EVERY_MS = 1000;
 const PING_TICKS = 2;

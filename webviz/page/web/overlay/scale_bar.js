@@ -1,9 +1,9 @@
 // The scale where the camera looks at: a bar of a round length.
 
-import { el, setText } from "../dom.js";
-import * as views from "../scene/view.js";
-import * as viser from "../viser_page.js";
-import { inWords, rounded } from "./lengths.js";
+import { el, setText } from "webviz/dom.js";
+import * as views from "webviz/scene/view.js";
+import * as viser from "webviz/viser_page.js";
+import { inWords, rounded } from "webviz/overlay/lengths.js";
 
 const WIDEST = 110;
 

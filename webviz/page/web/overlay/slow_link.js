@@ -1,7 +1,7 @@
 // A note of what the server has reduced because the link to this page is slow.
 
-import * as channel from "../channel.js";
-import { el, showText } from "../dom.js";
+import * as channel from "webviz/channel.js";
+import { el, showText } from "webviz/dom.js";
 
 export function build() {
   const note = el("output", { class: "wv-card wv-slow-link", hidden: true });

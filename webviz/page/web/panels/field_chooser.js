@@ -1,17 +1,17 @@
 // The widgets "fields" and "path" of panels that show fields of messages: what adds one, and what
 // chooses the one that is shown. Both stand in the head of their panel.
 
-import { combobox } from "../controls/combobox.js";
-import { textField } from "../controls/fields.js";
-import { optionList, search } from "../controls/option_list.js";
-import { popoverButton } from "../controls/popover.js";
-import { el } from "../dom.js";
-import { computed, effect, signal } from "../signals.js";
-import { messagePath } from "./field_drag.js";
-import { widget } from "./plugin_widgets.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { textField } from "webviz/controls/fields.js";
+import { optionList, search } from "webviz/controls/option_list.js";
+import { popoverButton } from "webviz/controls/popover.js";
+import { el } from "webviz/dom.js";
+import { computed, effect, signal } from "webviz/signals.js";
+import { messagePath } from "webviz/panels/field_drag.js";
+import { widget } from "webviz/panels/plugin_widgets.js";
 
-/** @import {Signal} from "../signals.js" */
-/** @import {MakeWidget, Send} from "./plugin_widgets.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {MakeWidget, Send} from "webviz/panels/plugin_widgets.js" */
 
 /**
  * @typedef {{what: string, topic: string, topics: string[], fields: string[]}} Fields `fields` of the

@@ -1,9 +1,9 @@
 // Findings, which explain statuses, and the way to them; a feature has them.
 
-import { textButton } from "../icons.js";
-import { signal } from "../signals.js";
+import { textButton } from "webviz/icons.js";
+import { signal } from "webviz/signals.js";
 
-/** @import {ShownFinding} from "../contents.js" */
+/** @import {ShownFinding} from "webviz/contents.js" */
 
 /**
  * `all` is read in effects; `open` shows the finding of a key.

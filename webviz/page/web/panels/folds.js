@@ -1,8 +1,8 @@
 // Rows that fold: Left closes a row or goes to the one around it, Right opens it.
 
-import { indent } from "../controls/rows.js";
-import { el, set } from "../dom.js";
-import { icon } from "../icons.js";
+import { indent } from "webviz/controls/rows.js";
+import { el, set } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
 
 /** The mark of a row that folds, its first child. */
 export const foldMark = () => el("span", { class: "wv-fold-mark" }, icon("chevron", 12));

@@ -1,6 +1,6 @@
 // Actions on the frame that is marked in the panel "TF"; features add to them.
 
-/** @import {Frame} from "../contents.js" */
+/** @import {Frame} from "webviz/contents.js" */
 
 /**
  * @typedef {{

@@ -1,13 +1,13 @@
 // The tree of frames as rows.
 
-import { el } from "../dom.js";
-import { effect } from "../signals.js";
-import { wordsOf } from "../words.js";
-import { foldMark, showFold } from "./folds.js";
-import { rateText, spanText } from "./units.js";
+import { el } from "webviz/dom.js";
+import { effect } from "webviz/signals.js";
+import { wordsOf } from "webviz/words.js";
+import { foldMark, showFold } from "webviz/panels/folds.js";
+import { rateText, spanText } from "webviz/panels/units.js";
 
-/** @import {Frame} from "../contents.js" */
-/** @import {ValuesOf} from "../types.js" */
+/** @import {Frame} from "webviz/contents.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 /**
  * @typedef {ValuesOf<"transforms">} Frames

@@ -1,16 +1,16 @@
 // A message as rows that fold, which arrow keys move through.
 
-import { needs } from "../access.js";
-import { rowList, touchable } from "../controls/rows.js";
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { effect } from "../signals.js";
-import { dragField } from "./field_drag.js";
-import { foldByKey, foldMark, showFold } from "./folds.js";
-import { NAMED, rowsOf } from "./message_tree.js";
-import { plotField } from "./plot_field.js";
+import { needs } from "webviz/access.js";
+import { rowList, touchable } from "webviz/controls/rows.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { effect } from "webviz/signals.js";
+import { dragField } from "webviz/panels/field_drag.js";
+import { foldByKey, foldMark, showFold } from "webviz/panels/folds.js";
+import { NAMED, rowsOf } from "webviz/panels/message_tree.js";
+import { plotField } from "webviz/panels/plot_field.js";
 
-/** @import {Fields, MessageRow} from "./message_tree.js" */
+/** @import {Fields, MessageRow} from "webviz/panels/message_tree.js" */
 
 const ROW_PX = 22;
 

@@ -4,10 +4,10 @@
 // what is to be done when it is not any more. The tab of one that `isOnDemand` is there while it is
 // open only.
 
-import { listeners } from "../listeners.js";
-import { displays } from "./displays/displays.js";
+import { listeners } from "webviz/listeners.js";
+import { displays } from "webviz/panels/displays/displays.js";
 
-/** @import {Panel} from "../types.js" */
+/** @import {Panel} from "webviz/types.js" */
 
 const LAST = 1000;
 

@@ -1,9 +1,9 @@
 // Adds fields of messages to the panel Plot.
 
-import { act } from "../act.js";
-import { toast } from "../toasts.js";
-import { messagePath } from "./field_drag.js";
-import { once } from "../stores.js";
+import { act } from "webviz/act.js";
+import { toast } from "webviz/toasts.js";
+import { messagePath } from "webviz/panels/field_drag.js";
+import { once } from "webviz/stores.js";
 
 const TYPE = "Plot";
 

@@ -1,20 +1,20 @@
 // The panels of plug-ins: what a Python program has recorded of widgets, drawn.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { declaredForm, form } from "../controls/form.js";
-import { popoverButton } from "../controls/popover.js";
-import { el, setChildren, showText } from "../dom.js";
-import { provide } from "../commands.js";
-import { once, store, watch } from "../stores.js";
-import { toast } from "../toasts.js";
-import "./field_chooser.js";
-import { takeFields } from "./field_drag.js";
-import { makeWidget } from "./plugin_widgets.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { declaredForm, form } from "webviz/controls/form.js";
+import { popoverButton } from "webviz/controls/popover.js";
+import { el, setChildren, showText } from "webviz/dom.js";
+import { provide } from "webviz/commands.js";
+import { once, store, watch } from "webviz/stores.js";
+import { toast } from "webviz/toasts.js";
+import "webviz/panels/field_chooser.js";
+import { takeFields } from "webviz/panels/field_drag.js";
+import { makeWidget } from "webviz/panels/plugin_widgets.js";
 
-/** @import {Panel, SendProperty, ValuesOf} from "../types.js" */
-/** @import {PanelType} from "../contents.js" */
-/** @import {Widget, WidgetValues} from "./plugin_widgets.js" */
+/** @import {Panel, SendProperty, ValuesOf} from "webviz/types.js" */
+/** @import {PanelType} from "webviz/contents.js" */
+/** @import {Widget, WidgetValues} from "webviz/panels/plugin_widgets.js" */
 
 /**
  * Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise.

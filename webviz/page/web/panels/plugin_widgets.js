@@ -1,14 +1,14 @@
 // The widgets of plug-ins' panels, by their kind: each `{kind, element, update(values)}`.
 
-import { chart } from "../charts/chart.js";
-import { combobox } from "../controls/combobox.js";
-import { slider } from "../controls/slider.js";
-import { sync } from "../controls/sync.js";
-import { el, set, setChildren, setText } from "../dom.js";
-import { signal } from "../signals.js";
+import { chart } from "webviz/charts/chart.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { slider } from "webviz/controls/slider.js";
+import { sync } from "webviz/controls/sync.js";
+import { el, set, setChildren, setText } from "webviz/dom.js";
+import { signal } from "webviz/signals.js";
 
-/** @import {ValuesOf} from "../types.js" */
-/** @import {Field} from "./field_drag.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
+/** @import {Field} from "webviz/panels/field_drag.js" */
 
 /**
  * Values of a widget, which its panel in Python makes; each kind reads those that it has.

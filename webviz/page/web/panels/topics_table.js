@@ -1,12 +1,12 @@
 // The table of topics: which there are, in which order, and their cells.
 
-import { dragField } from "./field_drag.js";
-import { el } from "../dom.js";
-import { wordsOf } from "../words.js";
-import { bytesText, rateText, spanText } from "./units.js";
+import { dragField } from "webviz/panels/field_drag.js";
+import { el } from "webviz/dom.js";
+import { wordsOf } from "webviz/words.js";
+import { bytesText, rateText, spanText } from "webviz/panels/units.js";
 
-/** @import {GraphTopic, TopicTraffic} from "../contents.js" */
-/** @import {Signal} from "../signals.js" */
+/** @import {GraphTopic, TopicTraffic} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /**
  * @typedef {{key: string} & GraphTopic & Partial<TopicTraffic>} TopicRow

@@ -1,10 +1,10 @@
 // Everything that was recorded, by number; chunks are unpacked as they are needed.
 
-import { bufferOf, chunks, revived } from "./chunks.js";
-import { lastUpTo } from "./moments.js";
+import { bufferOf, chunks, revived } from "webviz/recorded/chunks.js";
+import { lastUpTo } from "webviz/recorded/moments.js";
 
-/** @import {ViserMessage} from "../types.js" */
-/** @import {Chunk, ChunkIndex, Known} from "./types.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
+/** @import {Chunk, ChunkIndex, Known} from "webviz/recorded/types.js" */
 
 /** @typedef {"message" | "value" | "picture"} Kind */
 

@@ -1,10 +1,10 @@
 // The box around what displays draw, as the page has it.
 
-import { toThree } from "../scene/fixed_frame.js";
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
+import { toThree } from "webviz/scene/fixed_frame.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Vec3} from "../types.js" */
+/** @import {Vec3} from "webviz/types.js" */
 
 const AXES = [0, 1, 2];
 

@@ -1,7 +1,7 @@
 // The chunks of a recorded run: each is some seconds that can be shown by themselves, unpacked when
 // they are needed.
 
-/** @import {About, Chunk, RawChunk} from "./types.js" */
+/** @import {About, Chunk, RawChunk} from "webviz/recorded/types.js" */
 
 const MAX_UNPACKED = 160 << 20; // bytes; then the one that was used longest ago is dropped
 

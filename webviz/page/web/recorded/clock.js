@@ -1,6 +1,6 @@
 // Plays a recorded run: position, rate and span, as the viewer plays a bag.
 
-/** @import {Playing} from "./types.js" */
+/** @import {Playing} from "webviz/recorded/types.js" */
 
 const TELL_MS = 100;
 

@@ -1,17 +1,17 @@
 // Stands in for the server of a page that was exported: answers from the recorded run what a viewer
 // would, and refuses the rest.
 
-import { clock } from "./clock.js";
-import { player } from "./player.js";
-import { boxOf } from "./bounds.js";
-import { frameAt } from "./moments.js";
-import { selection } from "./selection.js";
-import { views } from "./views.js";
+import { clock } from "webviz/recorded/clock.js";
+import { player } from "webviz/recorded/player.js";
+import { boxOf } from "webviz/recorded/bounds.js";
+import { frameAt } from "webviz/recorded/moments.js";
+import { selection } from "webviz/recorded/selection.js";
+import { views } from "webviz/recorded/views.js";
 
-/** @import {Do, FromPage, ToPage} from "../messages.js" */
-/** @import {Socket} from "../channel.js" */
-/** @import {ViserMessage} from "../types.js" */
-/** @import {About} from "./types.js" */
+/** @import {Do, FromPage, ToPage} from "webviz/messages.js" */
+/** @import {Socket} from "webviz/channel.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
+/** @import {About} from "webviz/recorded/types.js" */
 
 const MAX_IN_FLIGHT = 2;
 /** Stores of what a page asks for: they are too many to record. */

@@ -1,6 +1,6 @@
 // Contents of a recorded run at each of its frames, by numbers of messages, values and pictures.
 
-/** @import {Chunk, ChunkIndex, Shown} from "./types.js" */
+/** @import {Chunk, ChunkIndex, Shown} from "webviz/recorded/types.js" */
 
 /**
  * The last item of a sorted list that is not above a value; at least the first.

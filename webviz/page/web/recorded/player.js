@@ -1,12 +1,12 @@
 // Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
 
-import { archive } from "./archive.js";
-import { frameAt, shownAt, within } from "./moments.js";
-import { changesBetween } from "./scene_changes.js";
-import { switches } from "./switches.js";
+import { archive } from "webviz/recorded/archive.js";
+import { frameAt, shownAt, within } from "webviz/recorded/moments.js";
+import { changesBetween } from "webviz/recorded/scene_changes.js";
+import { switches } from "webviz/recorded/switches.js";
 
-/** @import {ViserMessage} from "../types.js" */
-/** @import {About, Known, Shown} from "./types.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
+/** @import {About, Known, Shown} from "webviz/recorded/types.js" */
 
 /**
  * @typedef {{

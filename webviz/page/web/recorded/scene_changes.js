@@ -3,7 +3,7 @@
 // A state is the set of messages that a browser would receive that joins then. Those of one node come
 // together: the one that creates it, and changes, each of which has a key.
 
-/** @import {Known} from "./types.js" */
+/** @import {Known} from "webviz/recorded/types.js" */
 
 /** @typedef {{create: Known | null, changes: Map<string, Known>}} Node */
 

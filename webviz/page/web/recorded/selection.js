@@ -1,7 +1,7 @@
 // The selection of a page that was exported: the recorded details of things, and what the scene has.
 
-/** @import {DisplayRow} from "../contents.js" */
-/** @import {Column, NodeValues} from "./types.js" */
+/** @import {DisplayRow} from "webviz/contents.js" */
+/** @import {Column, NodeValues} from "webviz/recorded/types.js" */
 
 const MISSING = "not in the file. Open the bag in webviz to see them.";
 

@@ -1,10 +1,10 @@
 // Displays that are switched off on this page: their nodes are hidden, and their rows say so.
 
-import constants from "../constants.js";
+import constants from "webviz/constants.js";
 
-/** @import {DisplayRow} from "../contents.js" */
-/** @import {ViserMessage} from "../types.js" */
-/** @import {Known} from "./types.js" */
+/** @import {DisplayRow} from "webviz/contents.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
+/** @import {Known} from "webviz/recorded/types.js" */
 
 const VISIBILITY = "SetSceneNodeVisibilityMessage";
 

@@ -2,11 +2,11 @@
 //
 // A camera is `[position, lookAt]` in the coordinates of a target frame, whose z points up.
 
-import constants from "../constants.js";
-import { add, inverse, norm, rotate, scaled, sub } from "../vectors.js";
+import constants from "webviz/constants.js";
+import { add, inverse, norm, rotate, scaled, sub } from "webviz/vectors.js";
 
-/** @import {Vec3} from "../types.js" */
-/** @import {View, ViewCamera, ViewRig} from "./types.js" */
+/** @import {Vec3} from "webviz/types.js" */
+/** @import {View, ViewCamera, ViewRig} from "webviz/recorded/types.js" */
 
 const { RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const STEEPEST = 1.5698;

@@ -1,16 +1,24 @@
 // The view of a page that was exported: what a viewer does for a browser.
 
-import * as placing from "../scene/view.js";
-import { toThree } from "../scene/fixed_frame.js";
-import { VIEW_TYPES } from "../shell/view_menus.js";
-import * as viser from "../viser_page.js";
-import { about as turn, turnedBy } from "../vectors.js";
-import { cameraOf, focus, like, mimic, optionsOf, viewOf, zeroView } from "./view_math.js";
+import * as placing from "webviz/scene/view.js";
+import { toThree } from "webviz/scene/fixed_frame.js";
+import { VIEW_TYPES } from "webviz/shell/view_menus.js";
+import * as viser from "webviz/viser_page.js";
+import { about as turn, turnedBy } from "webviz/vectors.js";
+import {
+  cameraOf,
+  focus,
+  like,
+  mimic,
+  optionsOf,
+  viewOf,
+  zeroView,
+} from "webviz/recorded/view_math.js";
 
 /** @import {Vector3} from "three" */
-/** @import {PlaceCamera} from "../messages.js" */
-/** @import {Vec3} from "../types.js" */
-/** @import {About, View, ViewRig} from "./types.js" */
+/** @import {PlaceCamera} from "webviz/messages.js" */
+/** @import {Vec3} from "webviz/types.js" */
+/** @import {About, View, ViewRig} from "webviz/recorded/types.js" */
 
 const FIXED = "<Fixed Frame>";
 const FRAME_M = 0.5; // half of the edge of the cube around a frame that is looked at

@@ -3,9 +3,9 @@
 // viser makes a new batch for each change of its opacities, and frees the old one before it is drawn
 // for the last time, which has it uploaded again.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {SceneObject} from "../types.js" */
+/** @import {SceneObject} from "webviz/types.js" */
 
 export function install() {
   /** @type {Set<SceneObject>} */

@@ -1,12 +1,12 @@
 // Large clouds at rest, of which as many points are drawn as the page holds: fewer of a block that is
 // far away, none of one out of sight. The first points of a block stand for all of it.
 
-import constants from "../constants.js";
-import * as capacity from "./capacity.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import * as capacity from "webviz/scene/capacity.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Matrix4, PerspectiveCamera} from "three" */
-/** @import {SceneObject} from "../types.js" */
+/** @import {SceneObject} from "webviz/types.js" */
 
 const MARK = `/${constants.BLOCK_PREFIX}`;
 const LEAST_SHARE = 0.5; // of the points held, although other clouds have more

@@ -1,10 +1,10 @@
 // The number of points that this page draws 20 times a second, measured while it draws.
 
-import { why } from "../access.js";
-import * as channel from "../channel.js";
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
-import { whenDrawn } from "./graphics.js";
+import { why } from "webviz/access.js";
+import * as channel from "webviz/channel.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
+import { whenDrawn } from "webviz/scene/graphics.js";
 
 const { POINTS_HELD, FEWEST_POINTS, MAX_POINTS } = constants;
 const GOAL_MS = 50;

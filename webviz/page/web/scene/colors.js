@@ -4,11 +4,11 @@
 // scene/meshes.py, and its toon material of five steps says that they are there. Between the vertices
 // they are mixed as in RViz, in sRGB.
 
-import * as viser from "../viser_page.js";
-import { lit } from "./shade.js";
+import * as viser from "webviz/viser_page.js";
+import { lit } from "webviz/scene/shade.js";
 
 /** @import {BufferAttribute, BufferGeometry} from "three" */
-/** @import {SceneObject, Shader} from "../types.js" */
+/** @import {SceneObject, Shader} from "webviz/types.js" */
 
 const STEPS = 5;
 

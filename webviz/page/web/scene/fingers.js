@@ -3,11 +3,11 @@
 // One finger turns the view, as the left button does. viser's own two fingers zoom by a share of the
 // pixels that depends on the rate of the events.
 
-import { isLocked, move, slides, slide, walk, zoom } from "./mouse.js";
-import * as views from "./view.js";
-import * as viser from "../viser_page.js";
+import { isLocked, move, slides, slide, walk, zoom } from "webviz/scene/mouse.js";
+import * as views from "webviz/scene/view.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Vec2} from "../types.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 const FPS_STEP = 0.02; // metres for a pixel
 

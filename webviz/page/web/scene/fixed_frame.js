@@ -1,10 +1,10 @@
 // Where the fixed frame is in three.js, whose y points up.
 
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Matrix4} from "three" */
-/** @import {SceneObject} from "../types.js" */
+/** @import {SceneObject} from "webviz/types.js" */
 
 /** @type {SceneObject | null} */
 let node = null;

@@ -1,9 +1,9 @@
 // Sheets, such as cells of a grid: in their exact colour, and over lines that lie in their plane, which
 // are blended before them. viser's toon material of three steps says what is one, see scene/meshes.py.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Shader} from "../types.js" */
+/** @import {Shader} from "webviz/types.js" */
 
 const STEPS = 3;
 const AFTER_LINES = 1;

@@ -1,6 +1,6 @@
 // The graphics of this browser: what draws, and when it has drawn.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 const LOOK_MS = 2;
 

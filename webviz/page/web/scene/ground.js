@@ -1,12 +1,12 @@
 // Places in the fixed frame, whose plane z = 0 is the ground, as the camera sees them.
 
-import { toThree } from "./fixed_frame.js";
-import { hit } from "./mouse.js";
-import { casterAt } from "./rays.js";
-import * as viser from "../viser_page.js";
+import { toThree } from "webviz/scene/fixed_frame.js";
+import { hit } from "webviz/scene/mouse.js";
+import { casterAt } from "webviz/scene/rays.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Ray, Vector3} from "three" */
-/** @import {Vec2, Vec3} from "../types.js" */
+/** @import {Vec2, Vec3} from "webviz/types.js" */
 
 const FARTHEST = 1e6; // metres
 const STEEP = 0.01; // square of the sine of an angle to the vertical

@@ -5,7 +5,7 @@
 // what React has to do is done when it ends. The first batch of a connection, which makes the nodes,
 // is left to viser.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 export function install() {
   const request = window.requestAnimationFrame.bind(window);

@@ -7,11 +7,11 @@
 // those of viser's renderOrders.ts; shaders and uniforms, LabelRenderer.tsx's. One code of a colour
 // stands for that of the theme.
 
-import constants from "../constants.js";
-import { scheme } from "./scheme.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import { scheme } from "webviz/scene/scheme.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {SceneObject} from "../types.js" */
+/** @import {SceneObject} from "webviz/types.js" */
 
 const BOXES = 10001;
 const LETTERS = 10002;

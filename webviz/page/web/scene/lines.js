@@ -9,9 +9,9 @@
 // and went. Between the ends, colours are mixed as in RViz, in sRGB. Shaders and attributes are those
 // of LineMaterial and LineSegmentsGeometry in three-stdlib.
 
-import { markOf } from "./marks.js";
-import { paint, scheme } from "./scheme.js";
-import * as viser from "../viser_page.js";
+import { markOf } from "webviz/scene/marks.js";
+import { paint, scheme } from "webviz/scene/scheme.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {BufferGeometry, Color, InstancedInterleavedBuffer} from "three" */
 /** @import {InterleavedBufferAttribute, ShaderMaterial} from "three" */

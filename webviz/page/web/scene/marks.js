@@ -1,6 +1,6 @@
 // Numbers in the last bits of a width or size, too small for what is drawn; see scene/drawn.py.
 
-import constants from "../constants.js";
+import constants from "webviz/constants.js";
 
 /**
  * The number that a size carries, 0 for none: 255 times what an opacity lacks, and multiples of 256.

@@ -3,16 +3,16 @@
 // Left turns, middle or left with shift moves, right and the wheel come closer. F looks at what is
 // under the mouse.
 
-import { command } from "../commands.js";
-import { shortcuts } from "../keys.js";
-import constants from "../constants.js";
-import { pickAt } from "./picking/pick.js";
-import { casterAt } from "./rays.js";
-import * as views from "./view.js";
-import * as viser from "../viser_page.js";
+import { command } from "webviz/commands.js";
+import { shortcuts } from "webviz/keys.js";
+import constants from "webviz/constants.js";
+import { pickAt } from "webviz/scene/picking/pick.js";
+import { casterAt } from "webviz/scene/rays.js";
+import * as views from "webviz/scene/view.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Vector3} from "three" */
-/** @import {Hit, Vec2} from "../types.js" */
+/** @import {Hit, Vec2} from "webviz/types.js" */
 
 const { EYE, FIELD_OF_VIEW } = constants;
 const MAX_SLIDE = 1; // metres

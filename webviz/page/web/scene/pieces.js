@@ -1,8 +1,8 @@
 // Updates of nodes that came in pieces, as on slow links: put together, viser handles them as ever.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {ViserMessage} from "../types.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
 
 const KIND = "webviz:Piece";
 /** @type {Record<string, {new (buffer: ArrayBufferLike, start: number, count: number): ArrayLike<number>, BYTES_PER_ELEMENT: number}>} */

@@ -4,11 +4,11 @@
 // The opacity is in the last bits of the size, which viser multiplies before it draws; so it is read
 // from the messages, as the plane is, which viser does not know.
 
-import { markOf } from "./marks.js";
-import * as viser from "../viser_page.js";
+import { markOf } from "webviz/scene/marks.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {ShaderMaterial} from "three" */
-/** @import {SceneObject, ViserMessage} from "../types.js" */
+/** @import {SceneObject, ViserMessage} from "webviz/types.js" */
 
 /** @typedef {{opacity: number, plane: number[]}} Look */
 

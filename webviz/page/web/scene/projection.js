@@ -1,12 +1,12 @@
 // Projection of a frame by the camera.
 
-import constants from "../constants.js";
-import { casterAt } from "./rays.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import { casterAt } from "webviz/scene/rays.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Vector3} from "three" */
-/** @import {Ray} from "../vectors.js" */
-/** @import {SceneObject, Vec2, Vec3} from "../types.js" */
+/** @import {Ray} from "webviz/vectors.js" */
+/** @import {SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
 /** @typedef {ReturnType<typeof projectionOf>} Projection */
 

@@ -1,9 +1,9 @@
 // Rays from the camera through points of the window.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Raycaster} from "three" */
-/** @import {Vec2} from "../types.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 /**
  * The raycaster through a point of the window, in three.js' coordinates.

@@ -1,7 +1,7 @@
 // Saves what the page shows.
 
-import * as channel from "../channel.js";
-import * as viser from "../viser_page.js";
+import * as channel from "webviz/channel.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @param {{name: string}} message */
 function save({ name }) {

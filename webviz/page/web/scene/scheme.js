@@ -2,8 +2,8 @@
 // and texts and grids without a colour of their own. The scene is shared, and others may have another
 // theme.
 
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Color} from "three" */
 

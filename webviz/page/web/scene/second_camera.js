@@ -1,14 +1,14 @@
 // The scene as another camera sees it: drawn on the page's own canvas before what the page shows, in
 // the same frame, and copied from there. So colours, depth and smoothing are those of the page.
 
-import constants from "../constants.js";
-import { pathOf } from "./projection.js";
-import { toThree } from "./fixed_frame.js";
-import { scheme } from "./scheme.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import { pathOf } from "webviz/scene/projection.js";
+import { toThree } from "webviz/scene/fixed_frame.js";
+import { scheme } from "webviz/scene/scheme.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {PerspectiveCamera, WebGLRenderer} from "three" */
-/** @import {SceneObject, Vec3, Wxyz} from "../types.js" */
+/** @import {SceneObject, Vec3, Wxyz} from "webviz/types.js" */
 
 const { ROOT } = constants;
 const NEAR = 0.01; // metres, as RViz

@@ -8,10 +8,10 @@
 // edges; squares have their exact colour. Of viser's toon materials nothing but the shader is left, and
 // the number of steps: three for spheres, five for boxes and squares, see scene/instances.py.
 
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {SceneObject, Shader} from "../types.js" */
+/** @import {SceneObject, Shader} from "webviz/types.js" */
 
 const { DARKEST } = constants;
 const BOX_STEPS = 5;

@@ -2,10 +2,10 @@
 //
 // The parts of a robot often have the same pictures, and each model brings its own.
 
-import * as viser from "../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {TextureSource} from "three" */
-/** @import {SceneObject} from "../types.js" */
+/** @import {SceneObject} from "webviz/types.js" */
 
 const SEED = 0x811c9dc5;
 const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a has them by bytes

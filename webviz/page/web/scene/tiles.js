@@ -1,10 +1,10 @@
 // Pictures: sharp cells; behind lines and meshes of the same plane, and by layer over each other;
 // never hiding what is blended later; not a white sheet while the first texture is decoded.
 
-import constants from "../constants.js";
-import * as viser from "../viser_page.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {Shader} from "../types.js" */
+/** @import {Shader} from "webviz/types.js" */
 
 const MARK = `/${constants.TILE_PREFIX}`;
 // Of three.js.

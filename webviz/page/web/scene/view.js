@@ -7,15 +7,15 @@
 // (dragging, sizes of points and labels) stays right, and the projection of the picture and of rays
 // is replaced by a parallel one.
 
-import * as channel from "../channel.js";
-import constants from "../constants.js";
-import { toThree } from "./fixed_frame.js";
-import { surviveReload } from "../remember.js";
-import * as viser from "../viser_page.js";
+import * as channel from "webviz/channel.js";
+import constants from "webviz/constants.js";
+import { toThree } from "webviz/scene/fixed_frame.js";
+import { surviveReload } from "webviz/remember.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {PlaceCamera, StartView} from "../messages.js" */
+/** @import {PlaceCamera, StartView} from "webviz/messages.js" */
 /** @import {Matrix4, PerspectiveCamera, Raycaster, Vector3} from "three" */
-/** @import {SceneObject, Vec3} from "../types.js" */
+/** @import {SceneObject, Vec3} from "webviz/types.js" */
 
 const { RAISED, EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW } = constants;
 const SENT_MS = 100; // after which viser has reported the camera

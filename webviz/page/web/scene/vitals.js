@@ -1,10 +1,10 @@
 // Reports to the server how this page draws, and when it has painted what came before a probe. Those of
 // watchers would show up in the findings of others, so they are not sent.
 
-import { why } from "../access.js";
-import * as channel from "../channel.js";
-import { isSoftware, renderer, whenDrawn } from "./graphics.js";
-import * as viser from "../viser_page.js";
+import { why } from "webviz/access.js";
+import * as channel from "webviz/channel.js";
+import { isSoftware, renderer, whenDrawn } from "webviz/scene/graphics.js";
+import * as viser from "webviz/viser_page.js";
 
 const TICK_MS = 1000;
 const REPORT_TICKS = 5;

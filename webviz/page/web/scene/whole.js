@@ -1,9 +1,9 @@
 // Clouds that come in several messages are shown as a whole: never parts of two of them together.
 
-import * as channel from "../channel.js";
-import * as viser from "../viser_page.js";
+import * as channel from "webviz/channel.js";
+import * as viser from "webviz/viser_page.js";
 
-/** @import {ViserMessage} from "../types.js" */
+/** @import {ViserMessage} from "webviz/types.js" */
 
 // By name of the cloud and version: messages by their node.
 /** @type {Map<string, any>} */

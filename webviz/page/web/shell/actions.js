@@ -1,16 +1,16 @@
 // Commands of the page's frame; the header and its menu are made of them.
 
-import { act } from "../act.js";
-import { openAdd } from "../panels/displays/add.js";
-import { openCommandList } from "./command_list.js";
-import { command } from "../commands.js";
-import { openKeys } from "./key_help.js";
-import { fold } from "../docks/layout.js";
-import { setTheme } from "./theme.js";
-import { toggle } from "./video.js";
+import { act } from "webviz/act.js";
+import { openAdd } from "webviz/panels/displays/add.js";
+import { openCommandList } from "webviz/shell/command_list.js";
+import { command } from "webviz/commands.js";
+import { openKeys } from "webviz/shell/key_help.js";
+import { fold } from "webviz/docks/layout.js";
+import { setTheme } from "webviz/shell/theme.js";
+import { toggle } from "webviz/shell/video.js";
 
-/** @import {Command} from "../commands.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {Command} from "webviz/commands.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 /**
  * Keys are RViz's where a browser leaves them to a page. Not those of RViz that open a window,

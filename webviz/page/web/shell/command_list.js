@@ -1,17 +1,17 @@
 // The list of commands (Ctrl+K): everything that can be done, found by its name.
 
-import { why } from "../access.js";
-import { act } from "../act.js";
-import { textField } from "../controls/fields.js";
-import { el } from "../dom.js";
-import { watch } from "../stores.js";
-import { all, keysOf, run } from "../commands.js";
-import { openDialog } from "../controls/dialog.js";
-import { FIXED, follow } from "./follow.js";
-import { optionList, search } from "../controls/option_list.js";
+import { why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { textField } from "webviz/controls/fields.js";
+import { el } from "webviz/dom.js";
+import { watch } from "webviz/stores.js";
+import { all, keysOf, run } from "webviz/commands.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { FIXED, follow } from "webviz/shell/follow.js";
+import { optionList, search } from "webviz/controls/option_list.js";
 
-/** @import {Command} from "../commands.js" */
-/** @import {StoreName, ValuesOf} from "../types.js" */
+/** @import {Command} from "webviz/commands.js" */
+/** @import {StoreName, ValuesOf} from "webviz/types.js" */
 
 /**
  * @typedef {{[K in StoreName]?: ValuesOf<K>}} Values

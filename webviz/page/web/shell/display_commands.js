@@ -1,11 +1,11 @@
 // Displays in the list of commands: to select one, or to look at it.
 
-import { act } from "../act.js";
-import { command } from "../commands.js";
-import * as selection from "../panels/displays/selection.js";
-import { provideFrom } from "./command_list.js";
-import { openPanel } from "../docks/layout.js";
-import { toast } from "../toasts.js";
+import { act } from "webviz/act.js";
+import { command } from "webviz/commands.js";
+import * as selection from "webviz/panels/displays/selection.js";
+import { provideFrom } from "webviz/shell/command_list.js";
+import { openPanel } from "webviz/docks/layout.js";
+import { toast } from "webviz/toasts.js";
 
 const ALL = ""; // displays
 

@@ -1,7 +1,7 @@
 // A file that is dropped on the page.
 
-import { el } from "../dom.js";
-import { load } from "./opening.js";
+import { el } from "webviz/dom.js";
+import { load } from "webviz/shell/opening.js";
 
 /** @param {HTMLElement} page */
 export function install(page) {

@@ -1,14 +1,14 @@
 // First steps: shown while nothing is published at all, and beside the demo's robot.
 
-import { copy } from "../clipboard.js";
-import * as commands from "../commands.js";
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { signal } from "../signals.js";
-import { store } from "../stores.js";
+import { copy } from "webviz/clipboard.js";
+import * as commands from "webviz/commands.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
-/** @import {Child} from "../types.js" */
+/** @import {Child} from "webviz/types.js" */
 
 const COMMAND = "webviz-sim";
 

@@ -1,6 +1,6 @@
 // The frame that the camera of this page follows.
 
-import { act } from "../act.js";
+import { act } from "webviz/act.js";
 
 /** No frame to follow. */
 export const FIXED = "<Fixed Frame>";

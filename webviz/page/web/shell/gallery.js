@@ -1,12 +1,12 @@
 // The gallery of panels: what can be added, what it shows, and where it opens.
 
-import { openDialog } from "../controls/dialog.js";
-import { textField } from "../controls/fields.js";
-import { optionList, search } from "../controls/option_list.js";
-import { el } from "../dom.js";
-import { effect, root, signal } from "../signals.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { textField } from "webviz/controls/fields.js";
+import { optionList, search } from "webviz/controls/option_list.js";
+import { el } from "webviz/dom.js";
+import { effect, root, signal } from "webviz/signals.js";
 
-/** @import {PanelType} from "../contents.js" */
+/** @import {PanelType} from "webviz/contents.js" */
 
 /** @type {Record<string, string>} */
 const PLACES = { side: "In the side bar", below: "Below the scene" };

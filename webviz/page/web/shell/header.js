@@ -1,14 +1,14 @@
 // The head of the side: what features put there, and the menu.
 
-import { onRole, self } from "../access.js";
-import { el } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { actions, added, item, menuStarts, submenuItems } from "./actions.js";
-import { fold } from "../docks/layout.js";
-import { openMenuBelow } from "../controls/menu.js";
-import { theme } from "./theme.js";
+import { onRole, self } from "webviz/access.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { actions, added, item, menuStarts, submenuItems } from "webviz/shell/actions.js";
+import { fold } from "webviz/docks/layout.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { theme } from "webviz/shell/theme.js";
 
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 const lead = el("span", { class: "wv-head-buttons" });
 const marks = el("span", { class: "wv-head-buttons" });

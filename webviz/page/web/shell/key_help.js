@@ -1,9 +1,9 @@
 // All keys in a dialog (?), from the one table of them, also those of another moment.
 
-import { el } from "../dom.js";
-import { keyTable } from "../commands.js";
-import { openDialog } from "../controls/dialog.js";
-import { keyText } from "../keys.js";
+import { el } from "webviz/dom.js";
+import { keyTable } from "webviz/commands.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { keyText } from "webviz/keys.js";
 
 const FIRST = ["File", "Edit", "View", "Time", "Tools", "Displays"];
 const LAST = "Scene";

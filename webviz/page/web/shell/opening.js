@@ -1,9 +1,9 @@
 // Openers: features add sections to the dialog "Open", and take files by their endings.
 
-import { el } from "../dom.js";
+import { el } from "webviz/dom.js";
 
-/** @import {Children} from "../types.js" */
-/** @import {Close} from "../controls/dialog.js" */
+/** @import {Children} from "webviz/types.js" */
+/** @import {Close} from "webviz/controls/dialog.js" */
 
 /** @type {((close: Close) => Children[])[]} */
 const added = [];

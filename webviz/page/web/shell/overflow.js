@@ -1,6 +1,6 @@
 // A bar that is as long as there is space: what does not fit is made smaller or goes into a menu.
 
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 /** @typedef {{element: HTMLElement, items: () => (MenuItem | null)[]}} Part */
 

@@ -1,23 +1,23 @@
 // Everything around the scene: the side with its tabs, the places over the scene, the bar below it.
 
-import * as channel from "../channel.js";
-import { el } from "../dom.js";
-import * as docks from "../docks/docks.js";
-import * as dock from "../images/dock.js";
-import * as actions from "./actions.js";
-import { keepKeysFree } from "./click_focus.js";
-import * as commands from "../commands.js";
-import * as displayCommands from "./display_commands.js";
-import * as drop from "./drop.js";
-import * as firstRun from "./first_run.js";
-import * as header from "./header.js";
-import * as layout from "../docks/layout.js";
-import { keepTextStill } from "./text_drag.js";
-import * as timeBar from "./time_bar.js";
-import { tabs } from "./tabs.js";
-import * as toasts from "../toasts.js";
-import * as tooltips from "./tooltips.js";
-import * as viser from "../viser_page.js";
+import * as channel from "webviz/channel.js";
+import { el } from "webviz/dom.js";
+import * as docks from "webviz/docks/docks.js";
+import * as dock from "webviz/images/dock.js";
+import * as actions from "webviz/shell/actions.js";
+import { keepKeysFree } from "webviz/shell/click_focus.js";
+import * as commands from "webviz/commands.js";
+import * as displayCommands from "webviz/shell/display_commands.js";
+import * as drop from "webviz/shell/drop.js";
+import * as firstRun from "webviz/shell/first_run.js";
+import * as header from "webviz/shell/header.js";
+import * as layout from "webviz/docks/layout.js";
+import { keepTextStill } from "webviz/shell/text_drag.js";
+import * as timeBar from "webviz/shell/time_bar.js";
+import { tabs } from "webviz/shell/tabs.js";
+import * as toasts from "webviz/toasts.js";
+import * as tooltips from "webviz/shell/tooltips.js";
+import * as viser from "webviz/viser_page.js";
 
 /** Places for what lies over the scene and beside it; filled by the modules that they belong to. */
 export const places = {

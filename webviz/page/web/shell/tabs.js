@@ -1,23 +1,23 @@
 // The tabs of the side: the panels of webviz, and additional ones, which come and go.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { openMenu, openMenuBelow } from "../controls/menu.js";
-import * as docks from "../docks/docks.js";
-import { openIn } from "../docks/frame.js";
-import { openPanel } from "../docks/layout.js";
-import { el, set } from "../dom.js";
-import { iconButton } from "../icons.js";
-import { onPanel, panels } from "../panels/panels.js";
-import { followPlugins } from "../panels/plugin.js";
-import { recall, remember } from "../remember.js";
-import { computed, each, effect, owned, signal, untracked } from "../signals.js";
-import { provideFrom } from "./command_list.js";
-import { chooseType } from "./gallery.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { openMenu, openMenuBelow } from "webviz/controls/menu.js";
+import * as docks from "webviz/docks/docks.js";
+import { openIn } from "webviz/docks/frame.js";
+import { openPanel } from "webviz/docks/layout.js";
+import { el, set } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { onPanel, panels } from "webviz/panels/panels.js";
+import { followPlugins } from "webviz/panels/plugin.js";
+import { recall, remember } from "webviz/remember.js";
+import { computed, each, effect, owned, signal, untracked } from "webviz/signals.js";
+import { provideFrom } from "webviz/shell/command_list.js";
+import { chooseType } from "webviz/shell/gallery.js";
 
-/** @import {PanelType} from "../contents.js" */
-/** @import {Readable, Signal} from "../signals.js" */
-/** @import {Panel} from "../types.js" */
+/** @import {PanelType} from "webviz/contents.js" */
+/** @import {Readable, Signal} from "webviz/signals.js" */
+/** @import {Panel} from "webviz/types.js" */
 
 const FADED = 20; // pixels at the edge of a list that goes on, as in plugin.css
 

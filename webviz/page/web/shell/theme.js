@@ -1,6 +1,6 @@
 // Dark or light: as the system has it, or as chosen in this browser.
 
-import { recall, remember } from "../remember.js";
+import { recall, remember } from "webviz/remember.js";
 
 const light = matchMedia("(prefers-color-scheme: light)");
 

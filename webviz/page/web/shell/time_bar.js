@@ -1,15 +1,15 @@
 // The bar below the scene: pause, reset, ROS time and wall time.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { rosNow, wallNow, watchTime } from "../clock.js";
-import { el, set, setText } from "../dom.js";
-import { icon, iconButton } from "../icons.js";
-import { recall, remember } from "../remember.js";
-import { command, provide } from "../commands.js";
-import { duration, timeOfDay } from "../time_text.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { rosNow, wallNow, watchTime } from "webviz/clock.js";
+import { el, set, setText } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { recall, remember } from "webviz/remember.js";
+import { command, provide } from "webviz/commands.js";
+import { duration, timeOfDay } from "webviz/time_text.js";
 
-/** @import {ValuesOf} from "../types.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 /**
  * The state of a timeline for the bar: whether a position is shown instead of what arrives, whether topics

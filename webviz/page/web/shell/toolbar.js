@@ -1,26 +1,26 @@
 // The toolbar over the scene: the tools, what this page looks at, and what everything is drawn in.
 
-import { needs } from "../access.js";
-import { act } from "../act.js";
-import { combobox } from "../controls/combobox.js";
-import { frameOptions } from "../controls/frame.js";
-import { el } from "../dom.js";
-import { icon, iconButton } from "../icons.js";
-import { ownStore } from "../own_store.js";
-import { each, effect, signal } from "../signals.js";
-import { store } from "../stores.js";
-import { actions, item } from "./actions.js";
-import { command } from "../commands.js";
-import { FIXED, follow } from "./follow.js";
-import { fold } from "../docks/layout.js";
-import { openMenuBelow } from "../controls/menu.js";
-import { fit } from "./overflow.js";
-import * as tools from "./tools.js";
-import { VIEW_TYPES, setType, typeMenu } from "./view_menus.js";
+import { needs } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { combobox } from "webviz/controls/combobox.js";
+import { frameOptions } from "webviz/controls/frame.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { ownStore } from "webviz/own_store.js";
+import { each, effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { actions, item } from "webviz/shell/actions.js";
+import { command } from "webviz/commands.js";
+import { FIXED, follow } from "webviz/shell/follow.js";
+import { fold } from "webviz/docks/layout.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import { fit } from "webviz/shell/overflow.js";
+import * as tools from "webviz/shell/tools.js";
+import { VIEW_TYPES, setType, typeMenu } from "webviz/shell/view_menus.js";
 
-/** @import {Readable} from "../signals.js" */
-/** @import {Child, Choice} from "../types.js" */
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {Readable} from "webviz/signals.js" */
+/** @import {Child, Choice} from "webviz/types.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 /** @typedef {{icon: string, label: string, items: () => (MenuItem | null)[]}} BarMenu */
 

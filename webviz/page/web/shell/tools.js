@@ -1,23 +1,23 @@
 // The tools in the toolbar: their buttons and keys, and the pointer while one is active.
 
-import { el } from "../dom.js";
-import * as gesture from "../handles/gesture.js";
-import * as glow from "../handles/glow.js";
-import { icon } from "../icons.js";
-import { focusCamera, interact, moveCamera } from "../handles/camera_tools.js";
-import { hint, tell } from "../tools/hint.js";
-import { measure } from "../tools/measure.js";
-import * as registry from "../tools/registry.js";
-import * as selection from "../tools/selection.js";
-import * as preview from "../tools/preview.js";
-import { recall, remember } from "../remember.js";
-import { each, effect } from "../signals.js";
-import { canvas } from "../viser_page.js";
-import { command, provide } from "../commands.js";
-import { keyText } from "../keys.js";
+import { el } from "webviz/dom.js";
+import * as gesture from "webviz/handles/gesture.js";
+import * as glow from "webviz/handles/glow.js";
+import { icon } from "webviz/icons.js";
+import { focusCamera, interact, moveCamera } from "webviz/handles/camera_tools.js";
+import { hint, tell } from "webviz/tools/hint.js";
+import { measure } from "webviz/tools/measure.js";
+import * as registry from "webviz/tools/registry.js";
+import * as selection from "webviz/tools/selection.js";
+import * as preview from "webviz/tools/preview.js";
+import { recall, remember } from "webviz/remember.js";
+import { each, effect } from "webviz/signals.js";
+import { canvas } from "webviz/viser_page.js";
+import { command, provide } from "webviz/commands.js";
+import { keyText } from "webviz/keys.js";
 
-/** @import {Signal} from "../signals.js" */
-/** @import {SceneEvent, Tool} from "../types.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {SceneEvent, Tool} from "webviz/types.js" */
 
 const USES = "tool-uses";
 const LEARNED = 3;

@@ -1,8 +1,8 @@
 // Tooltips: what `data-tip` or `title` says, after a moment under the mouse or a finger, and on focus.
 
-import { listenToLongPresses } from "../controls/long_press.js";
-import { el, setText } from "../dom.js";
-import { keyText } from "../keys.js";
+import { listenToLongPresses } from "webviz/controls/long_press.js";
+import { el, setText } from "webviz/dom.js";
+import { keyText } from "webviz/keys.js";
 
 const WAIT_MS = 500;
 const GAP = 6;

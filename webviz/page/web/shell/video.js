@@ -1,11 +1,11 @@
 // Records what the scene shows as a video file of the browser.
 
-import { el, set, setText } from "../dom.js";
-import { icon } from "../icons.js";
-import { listeners } from "../listeners.js";
-import { canvas } from "../viser_page.js";
-import { duration } from "../time_text.js";
-import { toast } from "../toasts.js";
+import { el, set, setText } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { listeners } from "webviz/listeners.js";
+import { canvas } from "webviz/viser_page.js";
+import { duration } from "webviz/time_text.js";
+import { toast } from "webviz/toasts.js";
 
 const TYPES = ["video/mp4;codecs=avc1.42E01F", "video/mp4", "video/webm;codecs=vp9", "video/webm"]; // by preference
 const FPS = 30;

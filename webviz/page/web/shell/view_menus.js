@@ -1,8 +1,8 @@
 // The menu of the types of views.
 
-import { act } from "../act.js";
+import { act } from "webviz/act.js";
 
-/** @import {MenuItem} from "../controls/menu.js" */
+/** @import {MenuItem} from "webviz/controls/menu.js" */
 
 export const VIEW_TYPES = [
   "Orbit",

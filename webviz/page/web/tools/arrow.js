@@ -1,9 +1,9 @@
 // The arrow of a pose, drawn over the scene.
 
-import { onCanvas } from "../scene/ground.js";
-import { canvas } from "../viser_page.js";
+import { onCanvas } from "webviz/scene/ground.js";
+import { canvas } from "webviz/viser_page.js";
 
-/** @import {Vec2, Vec3} from "../types.js" */
+/** @import {Vec2, Vec3} from "webviz/types.js" */
 
 // RViz's arrow, in metres: a shaft and a head. It is never too small to see, nor too large.
 const SHAFT = [2.0, 0.1];

@@ -1,6 +1,6 @@
 // Clicks among the pointer's events; drags stay with the camera.
 
-/** @import {SceneEvent, Vec2} from "../types.js" */
+/** @import {SceneEvent, Vec2} from "webviz/types.js" */
 
 const CLICK_PX = 4;
 

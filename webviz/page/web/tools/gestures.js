@@ -1,8 +1,8 @@
 // The gestures of tools by name, of the page and of plug-ins.
 
-import { listeners } from "../listeners.js";
+import { listeners } from "webviz/listeners.js";
 
-/** @import {Gesture, MadeGesture, ViewerTool} from "../types.js" */
+/** @import {Gesture, MadeGesture, ViewerTool} from "webviz/types.js" */
 
 /** @type {Map<string, Gesture>} */
 const makers = new Map();

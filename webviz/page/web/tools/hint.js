@@ -1,6 +1,6 @@
 // The line below the toolbar: what to do, where the pointer is, and what came of it.
 
-import { el, set, setText } from "../dom.js";
+import { el, set, setText } from "webviz/dom.js";
 
 /** @type {Partial<Record<string, number>>} */
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };

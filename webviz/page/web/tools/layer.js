@@ -1,9 +1,9 @@
 // Drawings over the scene, below the controls of the page.
 
-import { el } from "../dom.js";
-import { canvas } from "../viser_page.js";
+import { el } from "webviz/dom.js";
+import { canvas } from "webviz/viser_page.js";
 
-/** @import {Child} from "../types.js" */
+/** @import {Child} from "webviz/types.js" */
 
 /**
  * A layer over the canvas; `place()` moves it to where the canvas is.

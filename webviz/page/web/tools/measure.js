@@ -1,17 +1,17 @@
 // The tool that measures between points of surfaces. Its lines stay where they are in the fixed
 // frame.
 
-import { NOT_COPIED, copy } from "../clipboard.js";
-import { el, set, setText, svgElement } from "../dom.js";
-import { onCanvas, surfaceAt } from "../scene/ground.js";
-import { watch } from "../stores.js";
-import * as viser from "../viser_page.js";
-import { clicks } from "./clicks.js";
-import { tell, tellLive } from "./hint.js";
-import { makeLayer } from "./layer.js";
-import { fixed } from "../numbers.js";
+import { NOT_COPIED, copy } from "webviz/clipboard.js";
+import { el, set, setText, svgElement } from "webviz/dom.js";
+import { onCanvas, surfaceAt } from "webviz/scene/ground.js";
+import { watch } from "webviz/stores.js";
+import * as viser from "webviz/viser_page.js";
+import { clicks } from "webviz/tools/clicks.js";
+import { tell, tellLive } from "webviz/tools/hint.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import { fixed } from "webviz/numbers.js";
 
-/** @import {Tool, Vec2, Vec3} from "../types.js" */
+/** @import {Tool, Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * @typedef {{

@@ -1,12 +1,12 @@
 // Poses over the scene, with numbers: waypoints that are collected, and where robots drive to.
 
-import { set, setText, svgElement } from "../dom.js";
-import { onCanvas } from "../scene/ground.js";
-import * as viser from "../viser_page.js";
-import { arrowAt } from "./arrow.js";
-import { makeLayer } from "./layer.js";
+import { set, setText, svgElement } from "webviz/dom.js";
+import { onCanvas } from "webviz/scene/ground.js";
+import * as viser from "webviz/viser_page.js";
+import { arrowAt } from "webviz/tools/arrow.js";
+import { makeLayer } from "webviz/tools/layer.js";
 
-/** @import {Vec3} from "../types.js" */
+/** @import {Vec3} from "webviz/types.js" */
 
 /** @typedef {{point: Vec3, yaw: number, number: string}} Pose */
 

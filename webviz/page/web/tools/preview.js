@@ -1,14 +1,14 @@
 // Follows the gesture of a tool and draws its preview, without asking the server.
 
-import { set, svgElement } from "../dom.js";
-import { arrowAt } from "./arrow.js";
-import { makeLayer } from "./layer.js";
-import { sendCard } from "./send_card.js";
-import { fixed } from "../numbers.js";
-import { canvas } from "../viser_page.js";
-import { heightAt, onCanvas, planeAt, surfaceAt } from "../scene/ground.js";
+import { set, svgElement } from "webviz/dom.js";
+import { arrowAt } from "webviz/tools/arrow.js";
+import { makeLayer } from "webviz/tools/layer.js";
+import { sendCard } from "webviz/tools/send_card.js";
+import { fixed } from "webviz/numbers.js";
+import { canvas } from "webviz/viser_page.js";
+import { heightAt, onCanvas, planeAt, surfaceAt } from "webviz/scene/ground.js";
 
-/** @import {MadeGesture, ToolFacts, Vec2, Vec3} from "../types.js" */
+/** @import {MadeGesture, ToolFacts, Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * @typedef {{done: (made: MadeGesture) => void, live: (text: string) => void}} Listener

@@ -7,11 +7,11 @@
 // `isLean`, whether its button is an icon only.
 // Interact is the default.
 
-import { batch, computed, effect, root, signal } from "../signals.js";
-import { canvas } from "../viser_page.js";
-import { tell } from "./hint.js";
+import { batch, computed, effect, root, signal } from "webviz/signals.js";
+import { canvas } from "webviz/viser_page.js";
+import { tell } from "webviz/tools/hint.js";
 
-/** @import {End, Tool} from "../types.js" */
+/** @import {End, Tool} from "webviz/types.js" */
 
 const sets = signal(/** @type {Map<string, Tool[]>} */ (new Map()));
 const ordered = computed(() => [...sets.value.values()].flat().sort((a, b) => a.order - b.order));

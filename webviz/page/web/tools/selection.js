@@ -1,13 +1,13 @@
 // The selection of this page in the scene. The server knows the same things by the ids that they get
 // here, and what there is to say about them.
 
-import { act } from "../act.js";
-import * as channel from "../channel.js";
-import { listeners } from "../listeners.js";
-import { watch } from "../stores.js";
+import { act } from "webviz/act.js";
+import * as channel from "webviz/channel.js";
+import { listeners } from "webviz/listeners.js";
+import { watch } from "webviz/stores.js";
 
-/** @import {Picked, Selected, ValuesOf} from "../types.js" */
-/** @import {Commands} from "../messages.js" */
+/** @import {Picked, Selected, ValuesOf} from "webviz/types.js" */
+/** @import {Commands} from "webviz/messages.js" */
 
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;

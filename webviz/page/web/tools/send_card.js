@@ -1,10 +1,10 @@
 // Asks at the preview of a gesture whether to send it.
 
-import { el } from "../dom.js";
-import { textButton } from "../icons.js";
-import { canvas } from "../viser_page.js";
+import { el } from "webviz/dom.js";
+import { textButton } from "webviz/icons.js";
+import { canvas } from "webviz/viser_page.js";
 
-/** @import {Vec2} from "../types.js" */
+/** @import {Vec2} from "webviz/types.js" */
 
 const GAP = 18; // pixels from the start of the gesture
 const MARGIN = 8;

@@ -1,15 +1,15 @@
 // Actions on displays, and their menu.
 
-import { act, newStep } from "../../act.js";
-import { copyAndTell } from "../../clipboard.js";
-import { openMenu } from "../../controls/menu.js";
-import { setOpen } from "./folding.js";
-import { siblings, topmost } from "./model.js";
-import { moves, step } from "./places.js";
-import * as selection from "./selection.js";
+import { act, newStep } from "webviz/act.js";
+import { copyAndTell } from "webviz/clipboard.js";
+import { openMenu } from "webviz/controls/menu.js";
+import { setOpen } from "webviz/panels/displays/folding.js";
+import { siblings, topmost } from "webviz/panels/displays/model.js";
+import { moves, step } from "webviz/panels/displays/places.js";
+import * as selection from "webviz/panels/displays/selection.js";
 
-/** @import {Commands} from "../../messages.js" */
-/** @import {Item, Model, Place, Way} from "./types.js" */
+/** @import {Commands} from "webviz/messages.js" */
+/** @import {Item, Model, Place, Way} from "webviz/panels/displays/types.js" */
 
 /** @type {Map<string, boolean>} */
 const switching = new Map();

@@ -1,18 +1,18 @@
 // The dialog that adds displays: for topics that are published just now, or by type.
 
-import { act, newStep } from "../../act.js";
-import { textField } from "../../controls/fields.js";
-import { el } from "../../dom.js";
-import { recall, remember } from "../../remember.js";
-import { computed, effect, root, signal } from "../../signals.js";
-import { store } from "../../stores.js";
-import { openDialog } from "../../controls/dialog.js";
-import { optionList, search } from "../../controls/option_list.js";
-import { topicEntries } from "./topic_entries.js";
+import { act, newStep } from "webviz/act.js";
+import { textField } from "webviz/controls/fields.js";
+import { el } from "webviz/dom.js";
+import { recall, remember } from "webviz/remember.js";
+import { computed, effect, root, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { openDialog } from "webviz/controls/dialog.js";
+import { optionList, search } from "webviz/controls/option_list.js";
+import { topicEntries } from "webviz/panels/displays/topic_entries.js";
 
-/** @import {Close} from "../../controls/dialog.js" */
-/** @import {Signal} from "../../signals.js" */
-/** @import {AddRow, Choice, Entry, Known} from "./topic_entries.js" */
+/** @import {Close} from "webviz/controls/dialog.js" */
+/** @import {Signal} from "webviz/signals.js" */
+/** @import {AddRow, Choice, Entry, Known} from "webviz/panels/displays/topic_entries.js" */
 
 const MAX_SHOWN = 200;
 const WAYS = { topic: "By topic", type: "By display" };

@@ -1,9 +1,9 @@
 // Properties that several displays have in common, declared alike, and their values.
 
-import { MIXED } from "../../controls/mixed.js";
+import { MIXED } from "webviz/controls/mixed.js";
 
-/** @import {DeclaredProperty} from "../../contents.js" */
-/** @import {FormValues} from "../../types.js" */
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+/** @import {FormValues} from "webviz/types.js" */
 
 const ALONE = new Set(["switches"]); // by names that each display has for itself
 

@@ -1,17 +1,17 @@
 // Below the tree: statuses and properties of the display that is selected, with a border to drag.
 
-import { splitter } from "../../docks/splitter.js";
-import { el } from "../../dom.js";
-import { iconButton } from "../../icons.js";
-import { sanitized } from "../../sanitize.js";
-import { recall, remember } from "../../remember.js";
-import { computed, effect, signal, untracked } from "../../signals.js";
-import { duplicate, focus } from "./actions.js";
-import { GLOBAL } from "./model.js";
-import { globalOptions, propertiesOf } from "./properties.js";
-import { severalProperties } from "./several.js";
+import { splitter } from "webviz/docks/splitter.js";
+import { el } from "webviz/dom.js";
+import { iconButton } from "webviz/icons.js";
+import { sanitized } from "webviz/sanitize.js";
+import { recall, remember } from "webviz/remember.js";
+import { computed, effect, signal, untracked } from "webviz/signals.js";
+import { duplicate, focus } from "webviz/panels/displays/actions.js";
+import { GLOBAL } from "webviz/panels/displays/model.js";
+import { globalOptions, propertiesOf } from "webviz/panels/displays/properties.js";
+import { severalProperties } from "webviz/panels/displays/several.js";
 
-/** @import {Item} from "./types.js" */
+/** @import {Item} from "webviz/panels/displays/types.js" */
 
 const LEAST = 90; // pixels of the tree and of the properties
 const HEIGHT_KEY = "displays.height";

@@ -1,23 +1,23 @@
 // The panel "Displays": the search field, the tree, and the properties of what is selected.
 
-import { needs } from "../../access.js";
-import { searchField } from "../../controls/fields.js";
-import { el } from "../../dom.js";
-import { icon, iconButton } from "../../icons.js";
-import { openAdd } from "./add.js";
-import { command } from "../../commands.js";
-import { keyText } from "../../keys.js";
-import { openMenuBelow } from "../../controls/menu.js";
-import * as actions from "./actions.js";
-import { buildDetails } from "./details.js";
-import * as folding from "./folding.js";
-import { topmost } from "./model.js";
-import * as selection from "./selection.js";
-import { signal } from "../../signals.js";
-import { buildTree } from "./tree.js";
+import { needs } from "webviz/access.js";
+import { searchField } from "webviz/controls/fields.js";
+import { el } from "webviz/dom.js";
+import { icon, iconButton } from "webviz/icons.js";
+import { openAdd } from "webviz/panels/displays/add.js";
+import { command } from "webviz/commands.js";
+import { keyText } from "webviz/keys.js";
+import { openMenuBelow } from "webviz/controls/menu.js";
+import * as actions from "webviz/panels/displays/actions.js";
+import { buildDetails } from "webviz/panels/displays/details.js";
+import * as folding from "webviz/panels/displays/folding.js";
+import { topmost } from "webviz/panels/displays/model.js";
+import * as selection from "webviz/panels/displays/selection.js";
+import { signal } from "webviz/signals.js";
+import { buildTree } from "webviz/panels/displays/tree.js";
 
-/** @import {Command} from "../../commands.js" */
-/** @import {Panel} from "../../types.js" */
+/** @import {Command} from "webviz/commands.js" */
+/** @import {Panel} from "webviz/types.js" */
 
 const starts = signal(/** @type {readonly (() => HTMLElement)[]} */ ([]));
 

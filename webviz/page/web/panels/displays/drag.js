@@ -1,19 +1,19 @@
 // Dragging displays to another place: by mouse, or by a finger that has rested on one.
 
-import { why } from "../../access.js";
-import { takeKeysFirst } from "../../keys.js";
-import { swallowClick, swallowClickOfRelease } from "../../controls/long_press.js";
-import { el } from "../../dom.js";
-import { sanitized } from "../../sanitize.js";
-import { toast } from "../../toasts.js";
-import { move } from "./actions.js";
-import { createMark } from "./drop_mark.js";
-import { isOpen } from "./folding.js";
-import { GLOBAL, isWithin, topmost } from "./model.js";
-import { below, inside } from "./places.js";
-import * as selection from "./selection.js";
+import { why } from "webviz/access.js";
+import { takeKeysFirst } from "webviz/keys.js";
+import { swallowClick, swallowClickOfRelease } from "webviz/controls/long_press.js";
+import { el } from "webviz/dom.js";
+import { sanitized } from "webviz/sanitize.js";
+import { toast } from "webviz/toasts.js";
+import { move } from "webviz/panels/displays/actions.js";
+import { createMark } from "webviz/panels/displays/drop_mark.js";
+import { isOpen } from "webviz/panels/displays/folding.js";
+import { GLOBAL, isWithin, topmost } from "webviz/panels/displays/model.js";
+import { below, inside } from "webviz/panels/displays/places.js";
+import * as selection from "webviz/panels/displays/selection.js";
 
-/** @import {Item, Place, Tree} from "./types.js" */
+/** @import {Item, Place, Tree} from "webviz/panels/displays/types.js" */
 
 /**
  * @typedef {{

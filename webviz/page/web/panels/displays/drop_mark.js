@@ -1,8 +1,8 @@
 // The mark that shows where what is dragged will go: a line between rows, or a frame around a group.
 
-import { el } from "../../dom.js";
+import { el } from "webviz/dom.js";
 
-/** @import {Tree} from "./types.js" */
+/** @import {Tree} from "webviz/panels/displays/types.js" */
 
 /**
  * A mark in a tree; it scrolls with the rows.

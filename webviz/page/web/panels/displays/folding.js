@@ -2,10 +2,10 @@
 //
 // Ids serve while the viewer runs; names last longer, so they are what is remembered.
 
-import * as channel from "../../channel.js";
-import { recall, remember } from "../../remember.js";
+import * as channel from "webviz/channel.js";
+import { recall, remember } from "webviz/remember.js";
 
-/** @import {Item} from "./types.js" */
+/** @import {Item} from "webviz/panels/displays/types.js" */
 
 const KEY = "displays.folds";
 const MAX_REMEMBERED = 500;

@@ -1,12 +1,12 @@
 // The keys of the tree, as the pattern for trees of ARIA has them, and those that move displays.
 
-import { shortcuts, takeKeysOf } from "../../keys.js";
-import * as actions from "./actions.js";
-import { isOpen, setOpen } from "./folding.js";
-import { topmost } from "./model.js";
-import * as selection from "./selection.js";
+import { shortcuts, takeKeysOf } from "webviz/keys.js";
+import * as actions from "webviz/panels/displays/actions.js";
+import { isOpen, setOpen } from "webviz/panels/displays/folding.js";
+import { topmost } from "webviz/panels/displays/model.js";
+import * as selection from "webviz/panels/displays/selection.js";
 
-/** @import {Item, Tree, Way} from "./types.js" */
+/** @import {Item, Tree, Way} from "webviz/panels/displays/types.js" */
 
 const ROW_PX = 26;
 

@@ -1,9 +1,9 @@
 // The displays and groups as a tree, and which of them are rows of the list.
 
-import { wordsOf } from "../../words.js";
+import { wordsOf } from "webviz/words.js";
 
-/** @import {Item, Model} from "./types.js" */
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {Item, Model} from "webviz/panels/displays/types.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 const NAME_IN_PATH = 80;
 

@@ -1,8 +1,8 @@
 // Where displays can go: `{group, before}`, ids as of the command MoveDisplay.
 
-import { isWithin, siblings, topmost } from "./model.js";
+import { isWithin, siblings, topmost } from "webviz/panels/displays/model.js";
 
-/** @import {Item, Model, Place, Way} from "./types.js" */
+/** @import {Item, Model, Place, Way} from "webviz/panels/displays/types.js" */
 
 /**
  * The place at the end of a group.

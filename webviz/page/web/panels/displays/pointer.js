@@ -1,11 +1,11 @@
 // The pointer over the tree: clicks on rows and their parts, the menu, and the row that it rests on.
 
-import { set } from "../../dom.js";
-import * as actions from "./actions.js";
-import { isOpen } from "./folding.js";
-import * as selection from "./selection.js";
+import { set } from "webviz/dom.js";
+import * as actions from "webviz/panels/displays/actions.js";
+import { isOpen } from "webviz/panels/displays/folding.js";
+import * as selection from "webviz/panels/displays/selection.js";
 
-/** @import {Tree} from "./types.js" */
+/** @import {Tree} from "webviz/panels/displays/types.js" */
 
 export const HOVER_MS = 250;
 const SEEN_MS = 400; // a second click must find the row where the first one did

@@ -1,13 +1,13 @@
 // Statuses and properties of a display, and what holds for the viewer as a whole.
 
-import { act } from "../../act.js";
-import { declaredForm, form } from "../../controls/form.js";
-import { el } from "../../dom.js";
-import { store } from "../../stores.js";
-import { statuses } from "./statuses.js";
+import { act } from "webviz/act.js";
+import { declaredForm, form } from "webviz/controls/form.js";
+import { el } from "webviz/dom.js";
+import { store } from "webviz/stores.js";
+import { statuses } from "webviz/panels/displays/statuses.js";
 
-/** @import {DeclaredProperty, StatusLine, WorstStatus} from "../../contents.js" */
-/** @import {Outcome, SendProperty, Vec3} from "../../types.js" */
+/** @import {DeclaredProperty, StatusLine, WorstStatus} from "webviz/contents.js" */
+/** @import {Outcome, SendProperty, Vec3} from "webviz/types.js" */
 
 const LEVELS = ["ok", "warn", "error"];
 const QUIET = /** @type {const} */ ({ quiet: true, errors: "caller" });

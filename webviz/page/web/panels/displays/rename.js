@@ -1,10 +1,10 @@
 // Renaming where the name is read.
 
-import { why } from "../../access.js";
-import { act } from "../../act.js";
-import { el } from "../../dom.js";
+import { why } from "webviz/access.js";
+import { act } from "webviz/act.js";
+import { el } from "webviz/dom.js";
 
-/** @import {Item, Row} from "./types.js" */
+/** @import {Item, Row} from "webviz/panels/displays/types.js" */
 
 /**
  * Turns the name of a row into a text field; Enter or leaving keeps it, Escape does not.

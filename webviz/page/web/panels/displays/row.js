@@ -1,18 +1,18 @@
 // One row of the tree: a display, a group, or the options that hold for everything.
 
-import { why } from "../../access.js";
-import { el, set } from "../../dom.js";
-import { icon } from "../../icons.js";
-import { sanitized } from "../../sanitize.js";
-import { computed, effect, untracked } from "../../signals.js";
-import { store } from "../../stores.js";
-import { hertz } from "../../words.js";
-import { explaining, isSevere, isShared } from "../findings.js";
-import { globalOptions, propertiesOf } from "./properties.js";
-import { fillHelp } from "./statuses.js";
+import { why } from "webviz/access.js";
+import { el, set } from "webviz/dom.js";
+import { icon } from "webviz/icons.js";
+import { sanitized } from "webviz/sanitize.js";
+import { computed, effect, untracked } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { hertz } from "webviz/words.js";
+import { explaining, isSevere, isShared } from "webviz/panels/findings.js";
+import { globalOptions, propertiesOf } from "webviz/panels/displays/properties.js";
+import { fillHelp } from "webviz/panels/displays/statuses.js";
 
-/** @import {Item} from "./types.js" */
-/** @import {Readable} from "../../signals.js" */
+/** @import {Item} from "webviz/panels/displays/types.js" */
+/** @import {Readable} from "webviz/signals.js" */
 
 /**
  * The state of a row: its item, and how it looks here.

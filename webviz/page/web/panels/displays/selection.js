@@ -1,9 +1,9 @@
 // Displays that are selected in this browser, and the one that keys act on.
 
-import * as channel from "../../channel.js";
-import { recall, remember } from "../../remember.js";
+import * as channel from "webviz/channel.js";
+import { recall, remember } from "webviz/remember.js";
 
-/** @import {Item} from "./types.js" */
+/** @import {Item} from "webviz/panels/displays/types.js" */
 
 const KEY = "displays.selected";
 const MAX_REMEMBERED = 100;

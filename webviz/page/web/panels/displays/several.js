@@ -1,15 +1,15 @@
 // The properties that several displays have in common, edited together.
 
-import { act, newStep } from "../../act.js";
-import { declaredForm, form } from "../../controls/form.js";
-import { el } from "../../dom.js";
-import { sanitized } from "../../sanitize.js";
-import { computed } from "../../signals.js";
-import { store } from "../../stores.js";
-import { commonOf, filled, valuesOf } from "./common.js";
+import { act, newStep } from "webviz/act.js";
+import { declaredForm, form } from "webviz/controls/form.js";
+import { el } from "webviz/dom.js";
+import { sanitized } from "webviz/sanitize.js";
+import { computed } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { commonOf, filled, valuesOf } from "webviz/panels/displays/common.js";
 
-/** @import {Stores} from "../../contents.js" */
-/** @import {FormValues, StoreReader} from "../../types.js" */
+/** @import {Stores} from "webviz/contents.js" */
+/** @import {FormValues, StoreReader} from "webviz/types.js" */
 
 const MAX_DISPLAYS = 50;
 const SAME_MS = 1500; // changes of one property that follow each other are undone together

@@ -1,16 +1,16 @@
 // Statuses of a display, or of the viewer: a line each, folded to the worst.
 
-import { needs } from "../../access.js";
-import { act, newStep } from "../../act.js";
-import { el, newId, set } from "../../dom.js";
-import { icon, textButton } from "../../icons.js";
-import { computed, each, effect, signal } from "../../signals.js";
-import { explaining, findingLink, keyOf } from "../findings.js";
+import { needs } from "webviz/access.js";
+import { act, newStep } from "webviz/act.js";
+import { el, newId, set } from "webviz/dom.js";
+import { icon, textButton } from "webviz/icons.js";
+import { computed, each, effect, signal } from "webviz/signals.js";
+import { explaining, findingLink, keyOf } from "webviz/panels/findings.js";
 
-/** @import {Commands} from "../../messages.js" */
-/** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "../../contents.js" */
-/** @import {Readable} from "../../signals.js" */
-/** @import {Child} from "../../types.js" */
+/** @import {Commands} from "webviz/messages.js" */
+/** @import {RemedyButton, ShownFinding, StatusLine, WorstStatus} from "webviz/contents.js" */
+/** @import {Readable} from "webviz/signals.js" */
+/** @import {Child} from "webviz/types.js" */
 
 /**
  * Sends a command that a remedy names with each of its arguments, as one step to undo.

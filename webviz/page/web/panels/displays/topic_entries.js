@@ -1,10 +1,10 @@
 // Topics that can be added: each with the displays that show it, an image once for all transports.
 
-import { isHiddenTopic } from "../../words.js";
+import { isHiddenTopic } from "webviz/words.js";
 
-/** @import {DisplayType, GraphTopic, TopicTraffic} from "../../contents.js" */
-/** @import {OptionRow} from "../../controls/option_list.js" */
-/** @import {ValuesOf} from "../../types.js" */
+/** @import {DisplayType, GraphTopic, TopicTraffic} from "webviz/contents.js" */
+/** @import {OptionRow} from "webviz/controls/option_list.js" */
+/** @import {ValuesOf} from "webviz/types.js" */
 
 /**
  * @typedef {{type: string, values: Record<string, unknown>}} Choice

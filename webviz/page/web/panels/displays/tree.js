@@ -1,22 +1,30 @@
 // The tree: global options, displays and groups, with what this browser has selected and folded.
 
-import { el, showText } from "../../dom.js";
-import { touchable } from "../../controls/rows.js";
-import { VirtualList } from "../../controls/virtual.js";
-import { watch } from "../../stores.js";
-import { recall, remember } from "../../remember.js";
-import * as actions from "./actions.js";
-import { listenToDrags } from "./drag.js";
-import * as folding from "./folding.js";
-import { listenToKeys } from "./keys.js";
-import { GLOBAL, arrange, editable, globalItem, matches, placeAmong, visible } from "./model.js";
-import { HOVER_MS, listenToPointer } from "./pointer.js";
-import { rename } from "./rename.js";
-import { makeRow } from "./row.js";
-import * as selection from "./selection.js";
-import { wordsOf } from "../../words.js";
+import { el, showText } from "webviz/dom.js";
+import { touchable } from "webviz/controls/rows.js";
+import { VirtualList } from "webviz/controls/virtual.js";
+import { watch } from "webviz/stores.js";
+import { recall, remember } from "webviz/remember.js";
+import * as actions from "webviz/panels/displays/actions.js";
+import { listenToDrags } from "webviz/panels/displays/drag.js";
+import * as folding from "webviz/panels/displays/folding.js";
+import { listenToKeys } from "webviz/panels/displays/keys.js";
+import {
+  GLOBAL,
+  arrange,
+  editable,
+  globalItem,
+  matches,
+  placeAmong,
+  visible,
+} from "webviz/panels/displays/model.js";
+import { HOVER_MS, listenToPointer } from "webviz/panels/displays/pointer.js";
+import { rename } from "webviz/panels/displays/rename.js";
+import { makeRow } from "webviz/panels/displays/row.js";
+import * as selection from "webviz/panels/displays/selection.js";
+import { wordsOf } from "webviz/words.js";
 
-/** @import {Item, Model, Tree} from "./types.js" */
+/** @import {Item, Model, Tree} from "webviz/panels/displays/types.js" */
 
 const SCROLL_KEY = "displays.scroll";
 const EMPTY = "No displays yet. Add one for a topic, the robot or a grid.";

@@ -2,10 +2,10 @@
 // of a cloud and every line itself. A ray of three.js tests each against its own sphere, which takes
 // seconds for a large cloud, and does not know how large points are drawn.
 
-import * as viser from "../../viser_page.js";
+import * as viser from "webviz/viser_page.js";
 
 /** @import {Vector3} from "three" */
-/** @import {SceneObject, Vec2, Vec3} from "../../types.js" */
+/** @import {SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * `{m, v, wide, tall, dpr, grow}` of an object: `m` takes its coordinates to the clip space, `v` to the

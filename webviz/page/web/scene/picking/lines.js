@@ -1,8 +1,8 @@
 // Picking line segments, of widths in pixels or metres.
 
-import { lensOf } from "./lens.js";
+import { lensOf } from "webviz/scene/picking/lens.js";
 
-/** @import {SceneObject, Vec2, Vec3} from "../../types.js" */
+/** @import {SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
 const NEAREST = 1e-3; // metres or more in front of the camera
 

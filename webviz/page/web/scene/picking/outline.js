@@ -1,12 +1,12 @@
 // The outline of what was picked, where it is now.
 
-import * as viser from "../../viser_page.js";
-import { anchorOf } from "./pick.js";
-import { lineOf } from "./lines.js";
-import { cornersOf } from "./texts.js";
+import * as viser from "webviz/viser_page.js";
+import { anchorOf } from "webviz/scene/picking/pick.js";
+import { lineOf } from "webviz/scene/picking/lines.js";
+import { cornersOf } from "webviz/scene/picking/texts.js";
 
 /** @import {Box3, Matrix4, Vector3} from "three" */
-/** @import {Outline, Picked, SceneObject, SceneText, Shape, Vec3} from "../../types.js" */
+/** @import {Outline, Picked, SceneObject, SceneText, Shape, Vec3} from "webviz/types.js" */
 
 // The corners of a box by the bits of their numbers, and which of them its edges join.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];

@@ -1,15 +1,15 @@
 // Picking under a point of the window, or in a box of it: the node, and which of its items.
 
-import { casterAt } from "../rays.js";
-import * as viser from "../../viser_page.js";
-import { depthOf, lensOf, onCanvasAt, pixelAt, project } from "./lens.js";
-import { lineAt, lineCount, lineOf } from "./lines.js";
-import { colorOf, pointAt, pointOf, pointsIn } from "./points.js";
-import { isTextIn, textAt } from "./texts.js";
-import { isTile, things } from "./things.js";
+import { casterAt } from "webviz/scene/rays.js";
+import * as viser from "webviz/viser_page.js";
+import { depthOf, lensOf, onCanvasAt, pixelAt, project } from "webviz/scene/picking/lens.js";
+import { lineAt, lineCount, lineOf } from "webviz/scene/picking/lines.js";
+import { colorOf, pointAt, pointOf, pointsIn } from "webviz/scene/picking/points.js";
+import { isTextIn, textAt } from "webviz/scene/picking/texts.js";
+import { isTile, things } from "webviz/scene/picking/things.js";
 
 /** @import {Raycaster, Vector3} from "three" */
-/** @import {Box, Picked, SceneObject, SceneText, SceneThing, Vec2, Vec3} from "../../types.js" */
+/** @import {Box, Picked, SceneObject, SceneText, SceneThing, Vec2, Vec3} from "webviz/types.js" */
 
 /**
  * The hit of a thing; `off` is how far beside it, in pixels, `layer` that of a picture.

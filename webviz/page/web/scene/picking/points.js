@@ -1,9 +1,9 @@
 // Picking points of clouds, as large as viser's shader draws them.
 
-import { lensOf } from "./lens.js";
-import { planeOf } from "../points.js";
+import { lensOf } from "webviz/scene/picking/lens.js";
+import { planeOf } from "webviz/scene/points.js";
 
-/** @import {Box, SceneObject, Vec2, Vec3} from "../../types.js" */
+/** @import {Box, SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
 const ROUND = 1000; // above this, the norm of its outline makes a point a square
 

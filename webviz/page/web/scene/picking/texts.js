@@ -1,12 +1,12 @@
 // Picking texts. viser draws all of them in a few meshes, which know where each is and how large, but
 // not of which node: that is the one at the same place.
 
-import { boxes } from "../labels.js";
-import * as viser from "../../viser_page.js";
-import { depthOf, lensOf, project } from "./lens.js";
+import { boxes } from "webviz/scene/labels.js";
+import * as viser from "webviz/viser_page.js";
+import { depthOf, lensOf, project } from "webviz/scene/picking/lens.js";
 
 /** @import {Vector3} from "three" */
-/** @import {Box, SceneText, Vec2} from "../../types.js" */
+/** @import {Box, SceneText, Vec2} from "webviz/types.js" */
 
 const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its number
 

@@ -1,10 +1,10 @@
 // Objects that are drawn in the scene, with the names of the nodes that they belong to.
 
-import constants from "../../constants.js";
-import * as viser from "../../viser_page.js";
-import { texts } from "./texts.js";
+import constants from "webviz/constants.js";
+import * as viser from "webviz/viser_page.js";
+import { texts } from "webviz/scene/picking/texts.js";
 
-/** @import {NodePart, SceneObject, SceneThing} from "../../types.js" */
+/** @import {NodePart, SceneObject, SceneThing} from "webviz/types.js" */
 
 const { ROOT, TILE_PREFIX, PART_PREFIX, BLOCK_PREFIX, POINTS_PER_PART } = constants;
 
