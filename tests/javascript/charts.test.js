@@ -13,11 +13,41 @@ import { statistics, sumsText, valueAt, valueText } from "../../webviz/page/web/
 import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
 import { boxBetween, boxed, panned, scaled, shareOf } from "../../webviz/page/web/charts/zoom.js";
 
-const LARGEST = Number.MAX_VALUE;
-const piece = (times, values) => ({ times, values });
-const TWO = { name: "x", pieces: [piece([], []), piece([0, 1], [5, 6]), piece([2, 3], [7, NaN])] };
+/** @import {Shown} from "webviz/charts/zoom.js" */
+/** @import {Curve, Facts, Range} from "webviz/types.js" */
 
+const LARGEST = Number.MAX_VALUE;
+/**
+ * @param {Iterable<number>} times
+ * @param {Iterable<number>} values
+ */
+const piece = (times, values) => ({
+  times: Float64Array.from(times),
+  values: Float64Array.from(values),
+});
+/**
+ * A curve with what a test says of it.
+ *
+ * @param {Partial<Curve>} said
+ * @returns {Curve}
+ */
+const curve = (said) => ({
+  key: 0,
+  name: "",
+  problem: "",
+  pieces: [],
+  axis: 0,
+  unit: "",
+  ...said,
+});
+const TWO = curve({ pieces: [piece([], []), piece([0, 1], [5, 6]), piece([2, 3], [7, NaN])] });
+
+/**
+ * @param {Curve} curve
+ * @param {Range} range
+ */
 function visited(curve, range) {
+  /** @type {number[]} */
   const found = [];
   visit(curve, range, (time) => found.push(time));
   return found;
@@ -26,14 +56,14 @@ function visited(curve, range) {
 test("statistics are of the finite values within a range, and do not overflow", () => {
   assert.deepEqual(statistics(TWO, [0.5, 3]), { count: 2, low: 6, high: 7, mean: 6.5 });
   assert.equal(statistics(TWO, [8, 9]).count, 0);
-  const large = { name: "x", pieces: [piece([0, 1, 2], [LARGEST, LARGEST, -LARGEST])] };
+  const large = curve({ pieces: [piece([0, 1, 2], [LARGEST, LARGEST, -LARGEST])] });
   const { low, high, mean } = statistics(large, [0, 2]);
   assert.deepEqual([low, high], [-LARGEST, LARGEST]);
   assert.ok(Math.abs(mean / LARGEST - 1 / 3) < 1e-9);
 });
 
 test("a curve over another has the values of both at the same times", () => {
-  const across = { name: "a", pieces: [piece([0, 1], [10, 11]), piece([2, 3], [12, 13])] };
+  const across = curve({ pieces: [piece([0, 1], [10, 11]), piece([2, 3], [12, 13])] });
   assert.deepEqual(pairs(TWO, across, [0, 3]), [
     [10, 5],
     [11, 6],
@@ -44,8 +74,8 @@ test("a curve over another has the values of both at the same times", () => {
     [12, 7],
     [13, NaN],
   ]);
-  assert.deepEqual(pairs(TWO, { name: "none", pieces: [] }, [0, 3]), []);
-  assert.deepEqual(pairs(TWO, { name: "late", pieces: [piece([1.5], [9])] }, [0, 3]), [
+  assert.deepEqual(pairs(TWO, curve({}), [0, 3]), []);
+  assert.deepEqual(pairs(TWO, curve({ pieces: [piece([1.5], [9])] }), [0, 3]), [
     [9, 7],
     [9, NaN],
   ]);
@@ -110,12 +140,13 @@ test("numbers have the digits that the span of their axis needs", () => {
 });
 
 test("curves are made of the pieces that have come, and unchanged pieces stay the same objects", () => {
-  const values = new Map([["plot/a.3", { start: 100, times: [0, 0.5], values: [1, null] }]]);
-  const facts = [{ key: "a", name: "/a", problem: "", chunks: [2, 4] }];
+  const values = new Map([["plot/8.3", { start: 100, times: [0, 0.5], values: [1, null] }]]);
+  /** @type {Facts[]} */
+  const facts = [{ key: 8, name: "/a", problem: "", chunks: [2, 4], axis: 0, unit: "" }];
   const known = new WeakMap();
-  const [curve] = curvesOf(facts, values, "plot", known);
-  assert.deepEqual(curve.pieces, [piece(Float64Array.of(100, 100.5), Float64Array.of(1, NaN))]);
-  assert.equal(curvesOf(facts, values, "plot", known)[0].pieces[0], curve.pieces[0]);
+  const [{ pieces }] = curvesOf(facts, values, "plot", known);
+  assert.deepEqual(pieces, [piece(Float64Array.of(100, 100.5), Float64Array.of(1, NaN))]);
+  assert.equal(curvesOf(facts, values, "plot", known)[0].pieces[0], pieces[0]);
 });
 
 test("a line is drawn from the value before a range to the one behind it", () => {
@@ -123,12 +154,12 @@ test("a line is drawn from the value before a range to the one behind it", () =>
   assert.deepEqual(visited(TWO, [1.2, 1.4]), [1, 2]);
   assert.deepEqual(visited(TWO, [5, 9]), [3]);
   assert.deepEqual(visited(TWO, [-5, -1]), [0]);
-  assert.deepEqual(visited({ pieces: [] }, [0, 1]), []);
+  assert.deepEqual(visited(curve({}), [0, 1]), []);
 });
 
 test("the extent of curves leaves out NaN", () => {
-  assert.deepEqual(extent([TWO, { pieces: [piece([1], [-1e308])] }], [0, 9]), [-1e308, 7]);
-  assert.deepEqual(extent([{ pieces: [piece([1], [NaN])] }], [0, 9]), [Infinity, -Infinity]);
+  assert.deepEqual(extent([TWO, curve({ pieces: [piece([1], [-1e308])] })], [0, 9]), [-1e308, 7]);
+  assert.deepEqual(extent([curve({ pieces: [piece([1], [NaN])] })], [0, 9]), [Infinity, -Infinity]);
 });
 
 test("the value at a time is the newest up to then", () => {
@@ -137,35 +168,39 @@ test("the value at a time is the newest up to then", () => {
   assert.deepEqual(valueAt(TWO, 99), { time: 3, value: NaN });
   assert.equal(valueAt(TWO, -0.1), null);
   const times = Array.from({ length: 1000 }, (_, i) => i);
-  const long = { pieces: [piece(times, times)] };
+  const long = curve({ pieces: [piece(times, times)] });
   for (const time of [637, 637.5]) assert.deepEqual(valueAt(long, time), { time: 637, value: 637 });
 });
 
 test("CSV quotes names and leaves gaps out", () => {
-  const curves = [{ name: 'a "b",ü', pieces: [piece([1, 2, 3], [1e308, NaN, Infinity])] }];
+  const pieces = [piece([1, 2, 3], [1e308, NaN, Infinity])];
+  const curves = [curve({ name: 'a "b",ü', pieces })];
   assert.equal(csv(curves), 'curve,time (s),value\n"a ""b"",ü",1.000000,1e+308\n');
-  assert.match(csv([{ name: "=1+1", pieces: curves[0].pieces }]), /\n"'=1\+1",1\.000000,/);
+  assert.match(csv([curve({ name: "=1+1", pieces })]), /\n"'=1\+1",1\.000000,/);
   assert.equal(csv([]), "curve,time (s),value\n");
 });
 
 test("curves stand at their axes, apart from the one in place of time", () => {
-  const curves = [2, 0, 1, 0, 2].map((axis, key) => ({ key, axis }));
-  const keys = ({ across, left, rights }) =>
-    [across?.key, left, ...rights].map((each) => (each?.map ? each.map(({ key }) => key) : each));
+  const curves = [2, 0, 1, 0, 2].map((axis, key) => curve({ key, axis }));
+  /** @param {Curve[]} group */
+  const keysOf = (group) => group.map(({ key }) => key);
+  /** @param {ReturnType<typeof byAxis>} axes */
+  const keys = ({ across, left, rights }) => [across?.key, keysOf(left), ...rights.map(keysOf)];
   assert.deepEqual(keys(byAxis(curves, -1)), [undefined, [1, 3], [2], [0, 4]]);
   assert.deepEqual(keys(byAxis(curves, 2)), [2, [1, 3], [0, 4]]);
   assert.deepEqual(keys(byAxis([], 0)), [undefined, []]);
 });
 
 test("a legend reads values with their units, and says where there are none", () => {
-  const curve = { ...TWO, unit: "m/s" };
-  assert.equal(valueText(curve, 1.5), "6 m/s");
-  assert.equal(valueText(curve, Infinity), "no value");
-  assert.equal(valueText(curve, -1), "");
-  assert.equal(sumsText(curve, [0, 2]), "min 5, max 7, mean 6 m/s, 3 values");
-  assert.equal(sumsText(curve, [8, 9]), "No values in this span.");
+  const speed = { ...TWO, unit: "m/s" };
+  assert.equal(valueText(speed, 1.5), "6 m/s");
+  assert.equal(valueText(speed, Infinity), "no value");
+  assert.equal(valueText(speed, -1), "");
+  assert.equal(sumsText(speed, [0, 2]), "min 5, max 7, mean 6 m/s, 3 values");
+  assert.equal(sumsText(speed, [8, 9]), "No values in this span.");
 });
 
+/** @type {Shown} */
 const SHOWN = { times: [0, 10], values: [-1, 1] };
 const AREA = { left: 50, top: 10, width: 200, height: 100 };
 
@@ -177,6 +212,7 @@ test("the wheel zooms times or values, and values that were zoomed stay so", () 
 });
 
 test("a zoom to hardly any time, or to far too much, is none", () => {
+  /** @type {Shown} */
   const short = { ...SHOWN, times: [5, 5 + 1.5e-6] };
   assert.equal(scaled(short, null, { by: 0.5 }, false), null);
   assert.equal(scaled({ ...SHOWN, times: [0, 9e5] }, null, { by: 1.2 }, false), null);

@@ -5,6 +5,10 @@ import { parse as parseColor } from "../../webviz/page/web/controls/color.js";
 import { decode, encode } from "../../webviz/page/web/controls/lines.js";
 import { bounds, format, parse, stepOf, within } from "../../webviz/page/web/controls/units.js";
 
+/** @import {DeclaredProperty} from "webviz/contents.js" */
+
+/** @typedef {Pick<DeclaredProperty, "kind" | "items">} Items */
+
 test("numbers are typed with their unit or another of its kind", () => {
   const typed = {
     "5 cm": 0.05,
@@ -33,6 +37,7 @@ test("capital letters tell units apart only where they must", () => {
 });
 
 test("numbers that mean nothing are refused with the reason", () => {
+  /** @type {[string, string, RegExp][]} */
   const refused = [
     ["much", "m", /“much” is not a number/],
     ["", "m", /“” is not a number/],
@@ -119,16 +124,19 @@ test("colours are typed as numbers, as RViz writes them, or as hexadecimal digit
 });
 
 test("lists and dictionaries are a line for each entry", () => {
+  /** @type {Items} */
   const list = { kind: "list", items: "text" };
   assert.equal(encode(list, ["a", "b\r\nc"]), "a\nb c");
   assert.deepEqual(decode(list, " a \r\n\n b c\n"), ["a", "b c"]);
   assert.deepEqual(decode(list, ""), []);
-  const numbers = { kind: "list", items: "float" };
+  /** @type {Items} */
+  const numbers = { kind: "list", items: "json" };
   assert.deepEqual(decode(numbers, encode(numbers, [1e308, -0.5])), [1e308, -0.5]);
 });
 
 test("names of a dictionary may have colons", () => {
-  const flags = { kind: "dict", items: "bool" };
+  /** @type {Items} */
+  const flags = { kind: "dict", items: "json" };
   const value = { base_link: true, "robot:arm": false };
   assert.equal(encode(flags, value), "base_link: true\nrobot:arm: false");
   assert.deepEqual(decode(flags, encode(flags, value)), value);
@@ -136,12 +144,13 @@ test("names of a dictionary may have colons", () => {
 });
 
 test("lines that mean nothing are refused with the reason", () => {
-  const flags = { kind: "dict", items: "bool" };
+  /** @type {Items} */
+  const flags = { kind: "dict", items: "json" };
   assert.throws(() => decode(flags, "base_link: yes"), { message: /“yes” is not valid/ });
   for (const text of ["base_link", ": true"]) {
     assert.throws(() => decode(flags, text), { message: /is not valid; enter name: value/ });
   }
-  assert.throws(() => decode({ kind: "list", items: "float" }, "z".repeat(1e5)), {
+  assert.throws(() => decode({ kind: "list", items: "json" }, "z".repeat(1e5)), {
     message: /^.{0,120}$/,
   });
 });

@@ -12,7 +12,16 @@ import {
   visible,
 } from "../../webviz/page/web/panels/displays/model.js";
 import { below, moves, step } from "../../webviz/page/web/panels/displays/places.js";
+import { storeOf } from "./values.js";
 
+/** @import {DeclaredProperty, DisplayRow} from "webviz/contents.js" */
+/** @import {Item, Place, Way} from "webviz/panels/displays/types.js" */
+
+/**
+ * @param {string} name
+ * @param {number} depth
+ * @param {Partial<DisplayRow>} [more]
+ */
 const row = (name, depth, more = {}) => ({
   name,
   depth,
@@ -21,11 +30,16 @@ const row = (name, depth, more = {}) => ({
   enabled: true,
   ...more,
 });
+/**
+ * @param {string} name
+ * @param {number} depth
+ * @param {Partial<DisplayRow>} [more]
+ */
 const group = (name, depth, more = {}) => row(name, depth, { type: "Group", ...more });
 
 /** A group with a display and a group in it, and a display before and behind it. */
-const VALUES = new Map(
-  Object.entries({
+const MODEL = arrange(
+  storeOf("displays", {
     order: ["a", "g", "b", "h", "c", "d"],
     a: row("Same", 0),
     g: group("Robot", 0, { enabled: false }),
@@ -35,24 +49,31 @@ const VALUES = new Map(
     d: row("Same", 0),
   }),
 );
-const MODEL = arrange(VALUES);
+/** @param {string} id */
+function itemOf(id, model = MODEL) {
+  const item = model.byId.get(id);
+  assert.ok(item);
+  return item;
+}
+/** @param {Pick<Item, "id">[]} items */
 const ids = (items) => items.map(({ id }) => id).join("");
 const always = () => true;
 
 test("rows with depths become a tree, and a group that is off switches off what is in it", () => {
   assert.equal(ids(MODEL.top), "agd");
-  assert.equal(ids(MODEL.byId.get("g").children), "bh");
-  assert.equal(MODEL.byId.get("c").parent, MODEL.byId.get("h"));
+  assert.equal(ids(itemOf("g").children), "bh");
+  assert.equal(itemOf("c").parent, itemOf("h"));
   assert.equal(ids(MODEL.items.filter(({ isActive }) => isActive)), "ad");
   const deep = arrange(
-    new Map(Object.entries({ order: ["x", "y"], x: group("x", 0), y: row("y", 9) })),
+    storeOf("displays", { order: ["x", "y"], x: group("x", 0), y: row("y", 9) }),
   );
-  assert.equal(deep.byId.get("y").parent, deep.byId.get("x"));
-  assert.deepEqual(arrange(new Map()).items, []);
+  assert.equal(itemOf("y", deep).parent, itemOf("x", deep));
+  assert.deepEqual(arrange(storeOf("displays", {})).items, []);
 });
 
 test("rows count their siblings, those on top with the global options", () => {
-  const place = (id) => Object.values(placeAmong(MODEL, MODEL.byId.get(id)));
+  /** @param {string} id */
+  const place = (id) => Object.values(placeAmong(MODEL, itemOf(id)));
   assert.deepEqual(
     [place("a"), place("d"), place("b")],
     [
@@ -67,11 +88,12 @@ test("rows count their siblings, those on top with the global options", () => {
 test("one selected item is shown whatever it is, several only as far as they can be edited", () => {
   const items = [
     globalItem(null),
-    { id: "a", can_edit: true },
-    { id: "b", can_edit: true },
-    { id: "g", can_edit: true, isGroup: true },
-    { id: "x", can_edit: false },
+    { ...itemOf("a"), can_edit: true },
+    { ...itemOf("b"), can_edit: true },
+    { ...itemOf("g"), can_edit: true },
+    { ...itemOf("c"), id: "x", can_edit: false },
   ];
+  /** @param {...string} wanted */
   const chosen = (...wanted) => ids(editable(items, (id) => wanted.includes(id)));
   for (const id of ["global", "a", "g", "x"]) assert.equal(chosen(id), id);
   assert.equal(chosen("global", "a", "b", "g", "x"), "ab");
@@ -88,9 +110,7 @@ test("paths are of names, short and each its own", () => {
     "/Robot/Inner/Same",
     "/Same#2",
   ]);
-  const [item] = arrange(
-    new Map(Object.entries({ order: ["x"], x: row("y".repeat(1e5), 0) })),
-  ).items;
+  const [item] = arrange(storeOf("displays", { order: ["x"], x: row("y".repeat(1e5), 0) })).items;
   assert.ok(item.path.length < 100);
 });
 
@@ -100,6 +120,7 @@ test("rows of folded groups are not shown", () => {
 });
 
 test("a search shows what matches, the groups around it and all in groups that match", () => {
+  /** @param {string} text */
   const found = (text) => ids(visible(MODEL, () => false, text));
   assert.equal(found("FRONT grid"), "gb");
   assert.equal(found("same"), "aghcd");
@@ -117,16 +138,20 @@ test("the row on top has the worst status of the viewer", () => {
     ["Time", "warn", "slow", ""],
     ["Frame", "error", "no frame", "choose another"],
   ];
-  const item = globalItem(
-    new Map(Object.entries({ statuses, frame_rate: 29.97, fixed_frame: "map" })),
-  );
+  const item = globalItem(storeOf("settings", { statuses, frame_rate: 29.97, fixed_frame: "map" }));
   assert.deepEqual([item.level, item.line, item.remedy], ["error", "no frame", "choose another"]);
   assert.equal(item.note, "map, 30 Hz");
-  assert.deepEqual([globalItem(new Map()).level, globalItem(new Map()).note], ["ok", ""]);
+  const { level, note } = globalItem(storeOf("settings", {}));
+  assert.deepEqual([level, note], ["ok", ""]);
 });
 
 test("a place below a row has a depth that is possible there", () => {
   const rows = MODEL.items;
+  /**
+   * @param {number} index
+   * @param {number} depth
+   * @param {string[]} [moved]
+   */
   const at = (index, depth, moved = [], isOpen = always) =>
     below(MODEL, rows, index, depth, new Set(moved), isOpen);
   assert.deepEqual(at(-1, 0), { group: "", before: "a", depth: 0 });
@@ -149,18 +174,24 @@ test("a place below a row has a depth that is possible there", () => {
 });
 
 test("keys move up, down, out of a group and into one", () => {
+  /**
+   * @param {string} id
+   * @param {Way} way
+   */
   const to = (id, way) => step(MODEL, new Set(id), way);
   assert.deepEqual(to("d", "up"), { group: "", before: "g" });
   assert.deepEqual(to("a", "down"), { group: "", before: "d" });
   assert.deepEqual(to("c", "out"), { group: "g", before: "" });
   assert.deepEqual(to("d", "into"), { group: "g", before: "", depth: 1 });
-  for (const [id, way] of [
+  /** @type {[string, Way][]} */
+  const nowhere = [
     ["a", "up"],
     ["d", "down"],
     ["a", "out"],
     ["a", "into"],
     ["", "up"],
-  ]) {
+  ];
+  for (const [id, way] of nowhere) {
     assert.equal(to(id, way), null, way);
   }
   assert.deepEqual(to("bd", "out"), { group: "", before: "" }, "what moves is not there");
@@ -168,6 +199,10 @@ test("keys move up, down, out of a group and into one", () => {
 });
 
 test("what is at its place already is not moved", () => {
+  /**
+   * @param {string} id
+   * @param {Place} place
+   */
   const to = (id, place) =>
     moves(MODEL, new Set(id), place)
       .map(({ display }) => display)
@@ -181,7 +216,21 @@ test("what is at its place already is not moved", () => {
   assert.equal(to("", { group: "", before: "" }), "");
 });
 
-const number = { path: "size", kind: "float", label: "Size", unit: "m", low: 0, default: 1 };
+/**
+ * A property with what a test says of it.
+ *
+ * @param {Partial<DeclaredProperty>} said
+ * @returns {DeclaredProperty}
+ */
+const property = (said) => ({ path: "", label: "", kind: "text", offered: false, ...said });
+const number = property({
+  path: "size",
+  kind: "float",
+  label: "Size",
+  unit: "m",
+  low: 0,
+  default: 1,
+});
 
 test("nothing moves into a group that somebody has removed", () => {
   assert.deepEqual(moves(MODEL, new Set("a"), { group: "gone", before: "" }), []);
@@ -189,41 +238,41 @@ test("nothing moves into a group that somebody has removed", () => {
 
 test("properties are common if they are declared alike; other defaults and help do not matter", () => {
   assert.deepEqual(commonOf([[number], [{ ...number, help: "of points" }]]), [number]);
-  const { default: standard, ...rest } = number;
-  assert.deepEqual(commonOf([[number], [{ ...number, default: standard + 1 }]]), [rest]);
-  for (const other of [{ unit: "px" }, { low: 1 }, { path: "width" }, { kind: "int" }]) {
+  const { default: _standard, ...rest } = number;
+  assert.deepEqual(commonOf([[number], [{ ...number, default: 2 }]]), [rest]);
+  /** @type {Partial<DeclaredProperty>[]} */
+  const others = [{ unit: "px" }, { low: 1 }, { path: "width" }, { kind: "int" }];
+  for (const other of others) {
     assert.deepEqual(commonOf([[number], [{ ...number, ...other }]]), []);
   }
-  const switches = { path: "shown", kind: "switches", label: "Shown" };
+  const switches = property({ path: "shown", kind: "switches", label: "Shown" });
   assert.deepEqual(commonOf([[switches], [switches]]), []);
 });
 
 test("topics of other types have their QoS in common, and no name", () => {
-  const topic = {
+  const topic = property({
     path: "topic",
     kind: "topic",
     label: "Topic",
     type: "A",
-    children: [{ path: "topic.name" }, number],
-  };
-  assert.deepEqual(commonOf([[topic], [topic]])[0].children.length, 2);
+    children: [property({ path: "topic.name" }), number],
+  });
+  assert.deepEqual(commonOf([[topic], [topic]])[0].children?.length, 2);
   const [{ kind, label, children }] = commonOf([[topic], [{ ...topic, type: "B" }]]);
   assert.deepEqual([kind, label, children], ["group", "QoS", [number]]);
 });
 
 test("values that are not equal are mixed, of vectors each element", () => {
-  const place = { path: "at", kind: "vector" };
-  const stores = [
+  const place = property({ path: "at", kind: "vector" });
+  /** @type {[number, number[]][]} */
+  const both = [
     [1, [0, 1]],
     [2, [0, 2]],
-  ].map(
-    ([size, at]) =>
-      new Map([
-        ["value.size", size],
-        ["value.at", at],
-      ]),
+  ];
+  const stores = both.map(
+    ([size, at]) => new Map(Object.entries({ "value.size": size, "value.at": at })),
   );
-  const values = valuesOf(stores, [{ children: [number] }, place]);
+  const values = valuesOf(stores, [property({ children: [number] }), place]);
   assert.deepEqual(
     [...values],
     [

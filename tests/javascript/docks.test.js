@@ -16,7 +16,20 @@ import {
   without,
 } from "../../webviz/page/web/docks/places.js";
 
-const at = (place, at = 0, left = 0, top = 0) => ({ place, at, left, top });
+/** @import {Boxes, Layout, Target} from "webviz/docks/places.js" */
+
+const NONE = { left: 0, top: 0, width: 0, height: 0 };
+
+/**
+ * @param {Target["place"]} place
+ * @returns {Target}
+ */
+const at = (place, at = 0, left = 0, top = 0) => ({ place, at, left, top, box: NONE });
+/**
+ * @param {Layout} layout
+ * @param {string} panel
+ * @param {Parameters<typeof at>} where
+ */
 const place = (layout, panel, ...where) => moved(layout, panel, at(...where));
 
 test("a panel stands in one place", () => {
@@ -30,6 +43,11 @@ test("a panel stands in one place", () => {
 });
 
 test("a panel becomes a tab of another's place, and leaves it", () => {
+  /**
+   * @param {Layout} layout
+   * @param {string} panel
+   * @param {string} into
+   */
   const join = (layout, panel, into) => moved(layout, panel, { ...at("below"), into });
   let layout = place(place(EMPTY, "Log", "below"), "Plot", "beside");
   layout = join(layout, "Plot", "Log");
@@ -49,10 +67,11 @@ test("the head of a panel takes another as a tab", () => {
   const below = { left: 300, top: 600, width: 1000, height: 200 };
   const belowBoxes = [{ ...below, panel: "Log" }];
   const scene = { ...boxes.scene, height: 600 };
-  const target = (y) => targetAt(700, y, { ...boxes, scene, below, belowBoxes });
-  assert.deepEqual([target(610).place, target(610).into], ["below", "Log"]);
-  assert.deepEqual(target(610).box, below);
-  assert.equal(target(700).into, undefined);
+  const target = (/** @type {number} */ y) =>
+    targetAt(700, y, { ...boxes, scene, below, belowBoxes });
+  assert.deepEqual([target(610)?.place, target(610)?.into], ["below", "Log"]);
+  assert.deepEqual(target(610)?.box, below);
+  assert.equal(target(700)?.into, undefined);
 });
 
 test("a floating panel keeps its size, and stays over the scene", () => {
@@ -76,7 +95,7 @@ test("neighbours share what they have", () => {
   assert.equal(layout.below[0].weight, 0.05);
 });
 
-const NONE = { left: 0, top: 0, width: 0, height: 0 };
+/** @type {Boxes} */
 const boxes = {
   side: { left: 0, top: 0, width: 300, height: 800 },
   scene: { left: 300, top: 0, width: 1000, height: 800 },
@@ -87,13 +106,17 @@ const boxes = {
 };
 
 test("the edges of the scene are the places beside and below it", () => {
-  const target = (x, y, more = {}) => targetAt(x, y, { ...boxes, ...more });
-  assert.equal(target(100, 400).place, "tabs");
-  assert.equal(target(1290, 400).place, "beside");
-  assert.equal(target(600, 790).place, "below");
-  assert.equal(target(1295, 790).place, "beside");
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
+  const target = (x, y) => targetAt(x, y, boxes);
+  assert.equal(target(100, 400)?.place, "tabs");
+  assert.equal(target(1290, 400)?.place, "beside");
+  assert.equal(target(600, 790)?.place, "below");
+  assert.equal(target(1295, 790)?.place, "beside");
   const over = target(800, 400);
-  assert.deepEqual([over.place, over.left, over.top], ["over", 0.5, 0.5]);
+  assert.deepEqual([over?.place, over?.left, over?.top], ["over", 0.5, 0.5]);
   assert.equal(target(2000, 400), null);
 });
 
@@ -101,12 +124,12 @@ test("a row is entered between its panels", () => {
   const beside = { left: 1000, top: 0, width: 300, height: 800 };
   const half = { left: 1000, width: 300, height: 400 };
   const besideBoxes = [
-    { ...half, top: 0 },
-    { ...half, top: 400 },
+    { ...half, top: 0, panel: "Log" },
+    { ...half, top: 400, panel: "Plot" },
   ];
   const scene = { ...boxes.scene, width: 700 };
   const numbers = [100, 300, 790].map(
-    (y) => targetAt(1100, y, { ...boxes, scene, beside, besideBoxes }).at,
+    (y) => targetAt(1100, y, { ...boxes, scene, beside, besideBoxes })?.at,
   );
   assert.deepEqual(numbers, [0, 1, 2]);
 });

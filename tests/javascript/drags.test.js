@@ -4,13 +4,26 @@ import { test } from "node:test";
 import { begin } from "../../webviz/page/web/handles/drags.js";
 import { heldText, helpOf } from "../../webviz/page/web/handles/help.js";
 
+/** @import {HandleControl, SceneHandle} from "webviz/contents.js" */
+/** @import {Control, Moved, View} from "webviz/handles/drags.js" */
+/** @import {Vec2, Vec3, Wxyz} from "webviz/types.js" */
+
+/** @typedef {Partial<Control> & Pick<Control, "mode">} GivenControl */
+
 const S = Math.SQRT1_2;
+/** @type {Wxyz} */
 const IDENTITY = [1, 0, 0, 0];
+/** @type {Wxyz} */
 const DOWN = [S, 0, S, 0]; // turns the x axis to -z
 const QUARTER = Math.PI / 2;
 
 // The camera is 10 m above and sees 100 pixels a metre, without perspective.
+/**
+ * @param {number[]} point
+ * @returns {Vec2}
+ */
 const place = ([x, y]) => [100 * x, -100 * y];
+/** @type {View} */
 const projection = {
   rayAt: ([x, y]) => ({ origin: [x / 100, -y / 100, 10], direction: [0, 0, -1] }),
   project: place,
@@ -21,7 +34,14 @@ const projection = {
   forward: [0, 0, -1],
 };
 
-/** The pose, and the angle, of a handle at a position that is gripped at a point and dragged. */
+/**
+ * The pose, and the angle, of a handle at a position that is gripped at a point and dragged.
+ *
+ * @param {GivenControl} control
+ * @param {Vec3} position
+ * @param {Vec3} grab
+ * @param {...{to: Vec2, wheel?: number, shift?: boolean, ctrl?: boolean}} pointers
+ */
 function dragged({ mode, wxyz = IDENTITY, facing = "inherit" }, position, grab, ...pointers) {
   let before = place(grab);
   const pose = { position, wxyz: IDENTITY };
@@ -33,6 +53,7 @@ function dragged({ mode, wxyz = IDENTITY, facing = "inherit" }, position, grab, 
     projection,
     at: before,
   });
+  /** @type {Partial<Moved> | null} */
   let moved = null;
   for (const { to, wheel = 0, shift = false, ctrl = false } of pointers) {
     const at = place(to);
@@ -45,9 +66,14 @@ function dragged({ mode, wxyz = IDENTITY, facing = "inherit" }, position, grab, 
   return moved;
 }
 
+/**
+ * @param {Partial<Moved> | null} moved
+ * @param {Vec3} position
+ */
 function assertPose(moved, position, wxyz = IDENTITY, turned = 0) {
+  assert.ok(moved?.position && moved.wxyz);
   const [found, wanted] = [
-    [...moved.position, ...moved.wxyz, moved.turned],
+    [...moved.position, ...moved.wxyz, moved.turned ?? NaN],
     [...position, ...wxyz, turned],
   ];
   found.forEach((value, i) =>
@@ -55,6 +81,7 @@ function assertPose(moved, position, wxyz = IDENTITY, turned = 0) {
   );
 }
 
+/** @type {Vec3} */
 const ORIGIN = [0, 0, 0];
 
 test("along an axis, it goes as far as the pointer does, however far beside the axis that is", () => {
@@ -62,16 +89,19 @@ test("along an axis, it goes as far as the pointer does, however far beside the 
 });
 
 test("in a plane, it follows the pointer", () => {
+  /** @type {GivenControl} */
   const control = { mode: "move_plane", wxyz: DOWN };
   assertPose(dragged(control, [1, 2, 0], [1, 2, 0.3], { to: [2, 3] }), [2, 3, 0]);
 });
 
 test("facing the camera, the plane is that of the screen, whatever the control says", () => {
+  /** @type {GivenControl} */
   const control = { mode: "move_plane", facing: "view_facing" };
   assertPose(dragged(control, [0, 0, 5], [0, 0, 5], { to: [2, 3] }), [2, 3, 5]);
 });
 
 test("a quarter to the left is a quarter to the right about -z", () => {
+  /** @type {GivenControl} */
   const control = { mode: "rotate_axis", wxyz: DOWN };
   assertPose(
     dragged(control, [1, 2, 0], [2, 2, 0], { to: [1, 4] }),
@@ -82,13 +112,16 @@ test("a quarter to the left is a quarter to the right about -z", () => {
 });
 
 test("towed by a rope, it follows the pointer and turns to it", () => {
+  /** @type {GivenControl} */
   const control = { mode: "move_rotate", wxyz: DOWN };
   assertPose(dragged(control, ORIGIN, [1, 0, 0], { to: [2, 0] }), [1, 0, 0]);
   assertPose(dragged(control, ORIGIN, [1, 0, 0], { to: [0, 1] }), ORIGIN, [S, 0, 0, S], -QUARTER);
 });
 
 test("freely, it moves in the plane of the screen, and in depth by Shift or the wheel", () => {
+  /** @type {GivenControl} */
   const control = { mode: "move_3d" };
+  /** @type {Vec3} */
   const from = [1, 1, 1];
   assertPose(dragged(control, from, from, { to: [3, 0] }), [3, 0, 1]);
   // Up the screen is away from the camera, by 1 cm a pixel; a notch is 20 pixels closer.
@@ -108,6 +141,7 @@ test("a move by Shift stays when Shift is let go", () => {
 });
 
 test("freely, 300 pixels are a whole turn: like a ball, or like a wheel with Shift", () => {
+  /** @type {GivenControl} */
   const control = { mode: "rotate_3d" };
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0.75, 0] }), ORIGIN, [S, 0, S, 0]);
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0.75, 0], shift: true }), ORIGIN, [
@@ -119,6 +153,7 @@ test("freely, 300 pixels are a whole turn: like a ball, or like a wheel with Shi
 });
 
 test("of a control that moves and turns, Ctrl turns", () => {
+  /** @type {GivenControl} */
   const control = { mode: "move_rotate_3d" };
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [1, 0] }), [1, 0, 0]);
   assertPose(dragged(control, ORIGIN, ORIGIN, { to: [0, -0.75], ctrl: true }), ORIGIN, [
@@ -130,24 +165,30 @@ test("of a control that moves and turns, Ctrl turns", () => {
 });
 
 test("nothing moves along an axis that points to the camera, in a plane seen from its side, or by a button", () => {
-  for (const control of [
-    { mode: "move_axis", wxyz: DOWN },
-    { mode: "move_plane" },
-    { mode: "button" },
-  ]) {
+  /** @type {GivenControl[]} */
+  const controls = [{ mode: "move_axis", wxyz: DOWN }, { mode: "move_plane" }, { mode: "button" }];
+  for (const control of controls) {
     assert.equal(dragged(control, ORIGIN, ORIGIN, { to: [2, 3] }), null, control.mode);
   }
 });
 
+/** @type {SceneHandle["menu"][number]} */
+const ENTRY = { id: 1, title: "", checked: null, refusal: "", entries: [] };
+
 test("the hint of a handle names its buttons, and who drags it", () => {
+  /** @type {Pick<SceneHandle, "name" | "holder" | "menu">} */
   const handle = { name: "Dock", holder: null, menu: [] };
+  /**
+   * @param {Partial<Parameters<typeof helpOf>[0]>} more
+   * @param {Pick<HandleControl, "mode" | "help">} control
+   */
   const help = (more, control, refusal = "") => helpOf({ ...handle, ...more }, control, refusal);
   assert.equal(help({}, { mode: "move_axis", help: "" }), "Dock Left-click: Move.");
   assert.equal(
-    help({ menu: [{}], holder: 2 }, { mode: "rotate_axis", help: "Turn it." }),
+    help({ menu: [ENTRY], holder: 2 }, { mode: "rotate_axis", help: "Turn it." }),
     "Turn it. Left-click: Rotate. Right-click: Show context menu. In use by browser 2.",
   );
-  assert.equal(help({ menu: [{}] }, { mode: "menu", help: "" }), "Dock Left-click: Show menu.");
+  assert.equal(help({ menu: [ENTRY] }, { mode: "menu", help: "" }), "Dock Left-click: Show menu.");
   assert.equal(help({}, { mode: "button", help: "" }, "Only watching."), "Dock: Only watching.");
   assert.equal(heldText(handle), "");
 });

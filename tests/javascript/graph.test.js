@@ -13,13 +13,43 @@ import {
   zoomed,
 } from "../../webviz/panels/graph_view.js";
 
+/** @import {Box, Drawing, Topic} from "../../webviz/panels/graph_layout.js" */
+
+/**
+ * @param {string} name
+ * @param {string[]} from
+ * @param {string[]} to
+ * @returns {Topic}
+ */
 const topic = (name, from, to) => ({ name, type: "T", from, to: to.map((node) => [node, ""]) });
 const CHAIN = [
   topic("/scan", ["/driver"], ["/amcl"]),
   topic("/pose", ["/amcl"], ["/planner"]),
   topic("/cmd", ["/planner"], ["/driver"]),
 ];
-const layerOf = ({ boxes }, key) => boxes.get(key).layer;
+/**
+ * @param {Drawing} drawing
+ * @param {string} key
+ */
+const layerOf = ({ boxes }, key) => boxes.get(key)?.layer ?? NaN;
+/**
+ * A box with what a test says of it.
+ *
+ * @param {Partial<Box>} said
+ * @returns {Box}
+ */
+const boxOf = (said) => ({
+  key: "",
+  kind: "node",
+  name: "",
+  about: "",
+  topics: [],
+  layer: 0,
+  x: 0,
+  y: 0,
+  width: 0,
+  ...said,
+});
 
 test("links lead to the right, apart from one of a loop", () => {
   const drawing = layOut(CHAIN, () => false);
@@ -80,14 +110,14 @@ test("zooming keeps what is under the pointer, and a box that is found is in the
   const look = { x: 10, y: 20, scale: 0.5 };
   assert.deepEqual(zoomed(look, 4, 30, 40), { x: 55, y: 80, scale: 2 });
   assert.equal(zoomed(look, 1e9, 0, 0).scale, 3);
-  const box = { x: 100, y: 82, width: 100 };
+  const box = boxOf({ x: 100, y: 82, width: 100 });
   const size = { width: 80, height: 40 };
   assert.deepEqual(centred(look, box, size), { x: 100, y: 75, scale: 0.8 });
   assert.equal(centred({ ...look, scale: 2 }, box, size).scale, 2);
 });
 
 test("a box is hit within its edges", () => {
-  const boxes = new Map([["a", { x: 10, y: 10, width: 100 }]]);
+  const boxes = new Map([["a", boxOf({ x: 10, y: 10, width: 100 })]]);
   const look = { x: 0, y: 0, scale: 0.5 };
   for (const [x, y] of [
     [5, 5],
@@ -107,7 +137,7 @@ test("words find boxes and what is folded in them, and are counted", () => {
   assert.equal(sumText(drawing, null), "6 boxes, 1 QoS mismatch");
   drawing.links[1].why = "Nor does it.";
   assert.equal(sumText(drawing, null), "6 boxes, 2 QoS mismatches");
-  assert.ok(finder("inner")({ name: "/a", topics: ["/a/inner"] }));
+  assert.ok(finder("inner")?.(boxOf({ name: "/a", topics: ["/a/inner"] })));
 });
 
 test("the highest rate of several topics counts, with few digits", () => {
@@ -119,7 +149,9 @@ test("the highest rate of several topics counts, with few digits", () => {
 
 test("a group is unfolded, and the innermost namespace that is open is folded", () => {
   const [all, none] = [new Set(["/a", "/a/b"]), new Set()];
-  assert.deepEqual(foldsOf({ name: "/a", kind: "group" }, all, none), [["Unfold", "/a"]]);
-  assert.deepEqual(foldsOf({ name: "/a/b/x", kind: "topic" }, all, all), [["Fold /a/b", "/a/b"]]);
-  assert.deepEqual(foldsOf({ name: "/x", kind: "topic" }, all, all), []);
+  assert.deepEqual(foldsOf(boxOf({ name: "/a", kind: "group" }), all, none), [["Unfold", "/a"]]);
+  assert.deepEqual(foldsOf(boxOf({ name: "/a/b/x", kind: "topic" }), all, all), [
+    ["Fold /a/b", "/a/b"],
+  ]);
+  assert.deepEqual(foldsOf(boxOf({ name: "/x", kind: "topic" }), all, all), []);
 });

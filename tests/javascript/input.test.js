@@ -5,20 +5,37 @@ import { bent, straight } from "../../webviz/page/web/images/undistort.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
 import { disarm, share } from "../../webviz/features/driving/teleop_gamepad.js";
 
-const at = (type, x, more = {}) => ({
-  type,
-  pointerId: 1,
-  clientX: x,
-  clientY: 0,
-  button: 0,
-  buttons: 0,
-  ...more,
-});
+/** @import {SceneEvent, Vec2} from "webviz/types.js" */
 
-/** The names of what a pointer's events call. */
+/**
+ * An event of a pointer, which Node.js does not have.
+ *
+ * @param {string} type
+ * @param {number} x
+ * @param {Partial<PointerEvent>} [more]
+ */
+const at = (type, x, more = {}) =>
+  /** @type {PointerEvent} */ ({
+    type,
+    pointerId: 1,
+    clientX: x,
+    clientY: 0,
+    button: 0,
+    buttons: 0,
+    ...more,
+  });
+
+/**
+ * The names of what a pointer's events call.
+ *
+ * @param {...SceneEvent} events
+ */
 function heard(...events) {
+  /** @type {string[]} */
   const calls = [];
-  const take = clicks(...["click", "right", "move"].map((name) => () => calls.push(name)));
+  /** @param {string} name */
+  const note = (name) => () => calls.push(name);
+  const take = clicks(note("click"), note("right"), note("move"));
   for (const event of events) assert.equal(take(event), false, "the camera gets all events");
   return calls;
 }
@@ -38,6 +55,7 @@ test("a drag, another pointer or one that is cancelled clicks nothing", () => {
   assert.deepEqual(heard(at("pointerup", 0)), []);
 });
 
+/** @param {...({connected: boolean, axes: number[]} | null)} pads */
 function plug(...pads) {
   Object.defineProperty(navigator, "getGamepads", { value: () => pads, configurable: true });
 }
@@ -81,41 +99,50 @@ test("a place of an undistorted image is between the corners of its cell", () =>
 });
 
 test("places outside an undistorted image, or of a cell that the lens does not see, show nothing", () => {
-  for (const place of [
+  /** @type {Vec2[]} */
+  const outside = [
     [-0.1, 0.6],
     [1.1, 0.6],
     [0.5, -0.1],
     [0.5, 1.1],
-  ]) {
+  ];
+  for (const place of outside) {
     assert.equal(straight(MIDDLE, place), null, String(place));
   }
-  for (const place of [
+  /** @type {Vec2[]} */
+  const unseen = [
     [0.75, 0.5],
     [0, 1],
-  ])
-    assert.equal(straight(HALF, place), null, String(place));
+  ];
+  for (const place of unseen) assert.equal(straight(HALF, place), null, String(place));
 });
 
 test("a place of an image is where the undistorted image shows it", () => {
   const rows = 9;
   const columns = 13;
-  const places = [];
+  const corners = [];
   for (let row = 0; row < rows; row++)
     for (let column = 0; column < columns; column++) {
       const [x, y] = [column / (columns - 1) - 0.5, row / (rows - 1) - 0.5];
       const swell = 1 - 0.5 * (x * x + y * y); // a barrel
-      places.push(0.5 + x * swell, 0.5 + y * swell);
+      corners.push(0.5 + x * swell, 0.5 + y * swell);
     }
-  const warp = { rows, columns, places };
-  for (const place of [
+  const warp = { rows, columns, places: corners };
+  /** @type {Vec2[]} */
+  const places = [
     [0.5, 0.5],
     [0.1, 0.8],
     [0.93, 0.07],
-  ]) {
-    const found = bent(warp, straight(warp, place));
-    assert.ok(Math.hypot(found[0] - place[0], found[1] - place[1]) < 1e-4, `${place}: ${found}`);
+  ];
+  for (const place of places) {
+    const share = straight(warp, place);
+    const found = share && bent(warp, share);
+    assert.ok(
+      found && Math.hypot(found[0] - place[0], found[1] - place[1]) < 1e-4,
+      `${place}: ${found}`,
+    );
   }
   const beside = bent(warp, [0, 0]); // the corner of the image, which is not shown
-  assert.ok(beside[0] < 0 && beside[1] < 0, String(beside));
+  assert.ok(beside && beside[0] < 0 && beside[1] < 0, String(beside));
   assert.equal(bent({ rows: 2, columns: 2, places: Array(8).fill(null) }, [0.5, 0.5]), null);
 });

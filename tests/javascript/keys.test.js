@@ -4,8 +4,27 @@ import { afterEach, test } from "node:test";
 import { keyOf, keyText, shortcutGroups, shortcuts } from "../../webviz/page/web/keys.js";
 import * as keys from "../../webviz/features/driving/teleop_keys.js";
 
+/**
+ * An event of a key, which Node.js does not have.
+ *
+ * @param {Partial<KeyboardEvent>} said
+ */
+const event = (said) =>
+  /** @type {KeyboardEvent} */ ({
+    altKey: false,
+    ctrlKey: false,
+    metaKey: false,
+    shiftKey: false,
+    repeat: false,
+    ...said,
+  });
+
+/**
+ * @param {string} code
+ * @param {Partial<KeyboardEvent>} [more]
+ */
 const press = (code, more = {}, canGoSideways = true) =>
-  keys.press({ code, ...more }, canGoSideways);
+  keys.press(event({ code, ...more }), canGoSideways);
 
 afterEach(() => keys.release());
 
@@ -26,18 +45,18 @@ test("on a Mac Ctrl is the command key", async () => {
     configurable: true,
   });
   const mac = await import(`${import.meta.resolve("../../webviz/page/web/keys.js")}?mac`);
-  Object.defineProperty(globalThis, "navigator", here);
+  if (here) Object.defineProperty(globalThis, "navigator", here);
   assert.equal(mac.keyText("Ctrl+z"), "⌘+Z");
   assert.equal(keyText("Ctrl+z"), "Ctrl+Z");
 });
 
 test("an event is named as commands name their keys", () => {
-  assert.equal(keyOf({ key: "S", ctrlKey: true, shiftKey: true }), "Ctrl+Shift+s");
-  assert.equal(keyOf({ key: "s", metaKey: true }), "Ctrl+s");
-  assert.equal(keyOf({ key: "?", shiftKey: true }), "?");
-  assert.equal(keyOf({ key: "Delete", shiftKey: true }), "Shift+Delete");
-  assert.equal(keyOf({ key: "ArrowUp", altKey: true }), "Alt+ArrowUp");
-  assert.equal(keyOf({ key: "É" }), "é");
+  assert.equal(keyOf(event({ key: "S", ctrlKey: true, shiftKey: true })), "Ctrl+Shift+s");
+  assert.equal(keyOf(event({ key: "s", metaKey: true })), "Ctrl+s");
+  assert.equal(keyOf(event({ key: "?", shiftKey: true })), "?");
+  assert.equal(keyOf(event({ key: "Delete", shiftKey: true })), "Shift+Delete");
+  assert.equal(keyOf(event({ key: "ArrowUp", altKey: true })), "Alt+ArrowUp");
+  assert.equal(keyOf(event({ key: "É" })), "é");
 });
 
 test("keys drive while they are held", () => {
@@ -46,7 +65,7 @@ test("keys drive while they are held", () => {
   press("ArrowUp");
   assert.deepEqual(keys.share(), [1, 0, 1], "two keys for the same direction add no speed");
   press("KeyS");
-  keys.lift({ code: "ArrowUp" });
+  keys.lift(event({ code: "ArrowUp" }));
   assert.deepEqual(keys.share(), [0, 0, 1], "opposite keys cancel");
   keys.release();
   assert.deepEqual(keys.share(), [0, 0, 0]);
@@ -73,6 +92,7 @@ test("a repeat begins nothing, and a shortcut ends all that is held", () => {
 });
 
 test("shortcuts of a part do what the table of keys says", () => {
+  /** @type {unknown[]} */
   const done = [];
   const take = shortcuts("A part", [
     { does: "Zoom", keys: ["Wheel"] },
@@ -81,9 +101,9 @@ test("shortcuts of a part do what the table of keys says", () => {
     { does: "Go", keys: [], unnamed: ["Home"], run: () => done.push("home") },
   ]);
   assert.equal(shortcutGroups().get("A part")?.length, 4);
-  assert.equal(take("here", { key: "=" }), true);
-  assert.equal(take("here", { key: "Home" }), true);
-  assert.equal(take("here", { key: "0" }), false, "it does nothing now");
-  assert.equal(take("here", { key: "+", ctrlKey: true }), false);
+  assert.equal(take("here", event({ key: "=" })), true);
+  assert.equal(take("here", event({ key: "Home" })), true);
+  assert.equal(take("here", event({ key: "0" })), false, "it does nothing now");
+  assert.equal(take("here", event({ key: "+", ctrlKey: true })), false);
   assert.deepEqual(done, ["here", "home"]);
 });

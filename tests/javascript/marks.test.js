@@ -3,7 +3,19 @@ import { test } from "node:test";
 
 import { markAt, zoomedPlaces } from "../../webviz/page/web/images/marks.js";
 
+/** @import {Places} from "webviz/images/marks.js" */
+/** @import {Mark} from "webviz/messages.js" */
+
+/** @type {Places} */
 const places = { at: (x, y) => [2 * x, 2 * y], scale: 2, width: 200 };
+/**
+ * @param {string} about
+ * @param {number} left
+ * @param {number} top
+ * @param {number} right
+ * @param {number} bottom
+ * @returns {Mark}
+ */
 const box = (about, left, top, right, bottom) => ({
   kind: "loop",
   points: [left, top, right, top, right, bottom, left, bottom],

@@ -4,6 +4,8 @@ import { test } from "node:test";
 import { rowsOf, textOf } from "../../webviz/page/web/panels/message_tree.js";
 import { statisticsRows, statisticsText } from "../../webviz/features/selection/statistics.js";
 
+/** @import {MessageRow} from "webviz/panels/message_tree.js" */
+
 const stamp = { fields: { sec: "5", nanosec: "0" } };
 const header = { fields: { stamp, frame_id: "'base'" } };
 const numbers = { items: ["0.0", "1e+308"], length: 720, type: "" };
@@ -12,6 +14,7 @@ const MESSAGE = {
   fields: { header, ranges: numbers, poses, none: { items: [], length: 0, type: "" } },
 };
 
+/** @param {MessageRow[]} rows */
 const shown = (rows) =>
   rows.map(({ depth, name, value }) => `${"  ".repeat(depth)}${name} ${value}`.trimEnd());
 
@@ -65,7 +68,8 @@ test("messages deep within others are folded, and the line of a folded one is sh
       ["c", false],
     ],
   );
-  assert.ok(rows.at(-1).value.length < 100 && rows.at(-1).value.endsWith("…"));
+  const { value } = rows[rows.length - 1];
+  assert.ok(value.length < 100 && value.endsWith("…"));
 });
 
 test("a message is copied as it is echoed, and what was left out is marked", () => {

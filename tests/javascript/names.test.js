@@ -22,7 +22,7 @@ test("a file name without a known suffix becomes YAML", () => {
 
 test("a file name that leaves the folder is refused", () => {
   for (const entered of ["", "  ", ".", "..", "a/b.yaml", "../x", "a\\b", "a\0b", "/etc/x"]) {
-    assert.match(checkedName(entered).problem, /name/, entered);
+    assert.match(checkedName(entered).problem ?? "", /name/, entered);
   }
 });
 
@@ -43,7 +43,8 @@ test("a search finds what has all words and puts the best match first", () => {
     ["Cloud", ""],
     ["Grid", ""],
   ];
-  const found = (text) => search(all, text, (each) => each).map(([title]) => title);
+  const found = (/** @type {string} */ text) =>
+    search(all, text, (each) => each).map(([title]) => title);
   assert.deepEqual(found("cloud"), ["Cloud", "My cloud", "Hair/cloud", "Incloudy", "Depth image"]);
   assert.deepEqual(found("POINTS depth"), ["Depth image"]);
   assert.deepEqual(found("cloud grid"), []);

@@ -4,6 +4,9 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { pixelText } from "../../webviz/page/web/images/pixel_text.js";
 
+/** @import {ColorRange} from "webviz/messages.js" */
+
+/** @type {ColorRange["colors"]} */
 const RAINBOW = [
   [48, 18, 59],
   [97, 252, 108],
@@ -15,6 +18,7 @@ test("a colour of a legend is a measurement, also after it was compressed", () =
   assert.equal(pixelText([97, 252, 108], legend), "≈ 2.5 m");
   assert.equal(pixelText([110, 128, 55], legend), "≈ 3.5 m");
   assert.equal(pixelText([255, 0, 255], legend), "no measurement");
+  /** @type {ColorRange} */
   const grey = {
     low: 0,
     high: 255,

@@ -11,9 +11,12 @@ const { McapIndexedReader } = createRequire(`${folder}/`)("@mcap/core");
 const data = readFileSync(file);
 const readable = {
   size: async () => BigInt(data.length),
-  read: async (at, length) => new Uint8Array(data.subarray(Number(at), Number(at + length))),
+  read: async (/** @type {bigint} */ at, /** @type {bigint} */ length) =>
+    new Uint8Array(data.subarray(Number(at), Number(at + length))),
 };
-const decompressHandlers = { zstd: (packed) => new Uint8Array(zstdDecompressSync(packed)) };
+const decompressHandlers = {
+  zstd: (/** @type {Uint8Array} */ packed) => new Uint8Array(zstdDecompressSync(packed)),
+};
 const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
 const messages = [];
 for await (const { channelId, logTime, data: bytes } of reader.readMessages()) {

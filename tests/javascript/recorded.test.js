@@ -4,8 +4,26 @@ import { test } from "node:test";
 import { frameAt, shownAt, within } from "../../webviz/page/web/recorded/moments.js";
 import { changesBetween } from "../../webviz/page/web/recorded/scene_changes.js";
 
+/** @import {Chunk, Known} from "webviz/recorded/types.js" */
+
+/**
+ * @param {number} number
+ * @param {string} node
+ * @returns {Known}
+ */
 const create = (number, node) => ({ number, node, key: `create:${node}`, phase: "create" });
+/**
+ * @param {number} number
+ * @param {string} node
+ * @returns {Known}
+ */
 const remove = (number, node) => ({ number, node, key: `create:${node}`, phase: "remove" });
+/**
+ * @param {number} number
+ * @param {string} node
+ * @param {string} key
+ * @returns {Known}
+ */
 const change = (number, node, key) => ({ number, node, key: `${node}:${key}`, phase: "" });
 const SCENE = [change(0, "", "background"), create(1, "/a"), create(2, "/a/b")];
 
@@ -38,6 +56,7 @@ test("nodes that are not there yet, or any more, are removed", () => {
   assert.deepEqual(changesBetween(removed, SCENE), { gone: [], wanted: [2] });
 });
 
+/** @type {Pick<Chunk, "start" | "frames">} */
 const CHUNK = {
   start: { scene: [0, 1], stores: { displays: { order: 0 } }, panes: { image: [0] } },
   frames: [
@@ -53,13 +72,13 @@ test("each frame of a chunk is what its beginning and the changes up to it make"
   assert.deepEqual([...second.scene], [1, 2]);
   assert.deepEqual([...third.scene], [1, 3]);
   assert.deepEqual(
-    [...second.stores.get("displays")],
+    [...(second.stores.get("displays") ?? [])],
     [
       ["order", 0],
       ["a", 1],
     ],
   );
-  assert.deepEqual([...third.stores.get("displays")], [["a", 1]]);
+  assert.deepEqual([...(third.stores.get("displays") ?? [])], [["a", 1]]);
   assert.deepEqual([first.panes.get("image"), second.panes.has("image")], [[0], false]);
   assert.deepEqual(third.panes.get("image"), [4, 5]);
   assert.equal(third.ros, 10.2);
@@ -67,22 +86,22 @@ test("each frame of a chunk is what its beginning and the changes up to it make"
 
 test("the frame of a time is the last one up to it", () => {
   const index = [{ times: [0, 0.1] }, { times: [0.2, 0.3, 0.4] }];
-  for (const [at, wanted] of [
+  /** @type {[number, [number, number]][]} */
+  const moments = [
     [-1, [0, 0]],
     [0.15, [0, 1]],
     [0.2, [1, 0]],
     [0.39999999999, [1, 2]],
     [9, [1, 2]],
-  ])
-    assert.deepEqual(frameAt(index, at), wanted);
+  ];
+  for (const [at, wanted] of moments) assert.deepEqual(frameAt(index, at), wanted);
 });
 
 test("a group is a display with those that follow it and are deeper", () => {
   const depths = { a: 0, g: 0, b: 1, c: 2, d: 0 };
-  const rows = new Map([
-    ["order", Object.keys(depths)],
-    ...Object.entries(depths).map(([id, depth]) => [id, { depth }]),
-  ]);
+  /** @type {[string, unknown][]} */
+  const displays = Object.entries(depths).map(([id, depth]) => [id, { depth }]);
+  const rows = new Map([["order", Object.keys(depths)], ...displays]);
   assert.deepEqual(within(rows, "g"), ["g", "b", "c"]);
   assert.deepEqual(within(rows, "b"), ["b", "c"]);
   assert.deepEqual(within(rows, "d"), ["d"]);

@@ -11,11 +11,21 @@ import {
 } from "../../webviz/panels/scene_view_camera.js";
 import { add, rotate, scaled } from "../../webviz/page/web/vectors.js";
 
+/** @import {Vec2} from "webviz/types.js" */
+/** @import {SceneCamera} from "../../webviz/panels/scene_view_camera.js" */
+
+/** @type {Vec2} */
 const SIZE = [400, 200];
+/**
+ * @param {number[]} a
+ * @param {number[]} b
+ */
 const near = (a, b) => a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-9, `${a} ~ ${b}`));
+/** @type {SceneCamera} */
 const above = { ...STANDARD, type: "TopDownOrtho", yaw: -Math.PI / 2 };
 
 test("an orbit is as far from its focal point as it says, by yaw and pitch", () => {
+  /** @type {SceneCamera} */
   const camera = { ...STANDARD, focal_point: [1, 2, 3], distance: 2, yaw: 0, pitch: Math.PI / 6 };
   near(sightOf(camera, SIZE).position, [1 + Math.sqrt(3), 2, 4]);
 });

@@ -12,8 +12,16 @@ import {
   untracked,
 } from "../../webviz/page/web/signals.js";
 
-/** An effect that keeps what it reads. */
+/** @import {Readable} from "webviz/signals.js" */
+
+/**
+ * An effect that keeps what it reads.
+ *
+ * @template T
+ * @param {() => T} read
+ */
 function follow(read) {
+  /** @type {T[]} */
   const seen = [];
   const end = effect(() => {
     seen.push(read());
@@ -21,10 +29,17 @@ function follow(read) {
   return { seen, end };
 }
 
-/** What is printed as errors while `act` runs. */
+/**
+ * What is printed as errors while `act` runs.
+ *
+ * @param {() => unknown} act
+ */
 function errorsOf(act) {
+  /** @type {string[]} */
   const errors = [];
-  const printed = mock.method(console, "error", (error) => errors.push(error.message));
+  const printed = mock.method(console, "error", (/** @type {Error} */ error) =>
+    errors.push(error.message),
+  );
   act();
   printed.mock.restore();
   return errors;
@@ -117,15 +132,16 @@ test("what a computed value throws is thrown where it is read, until it can be m
     try {
       return inverse.value;
     } catch (error) {
-      return error.message;
+      return String(error);
     }
   });
   count.value = 2;
-  assert.deepEqual(seen, ["division by zero", 0.5]);
+  assert.deepEqual(seen, ["Error: division by zero", 0.5]);
 });
 
 test("an effect that throws does not stop others, nor itself the next time", () => {
   const count = signal(1);
+  /** @type {number[]} */
   const seen = [];
   effect(() => {
     if (count.value === 2) throw new Error("not two");
@@ -162,14 +178,16 @@ test("effects that never come to rest are stopped, and reported", () => {
   const { seen } = follow(() => other.value);
   const start = () => effect(() => void (count.value += 1));
   const errors = errorsOf(start);
-  assert.match(errors.at(-1), /changes again and again/);
+  assert.match(String(errors.at(-1)), /changes again and again/);
   other.value = 1;
   assert.deepEqual(seen, [0, 1]);
 });
 
 test("effects end with what they were made in, and before that runs again", () => {
   const [chosen, text] = [signal("a"), signal("x")];
+  /** @type {string[]} */
   const seen = [];
+  /** @type {string[]} */
   const ended = [];
   const end = root((end) => {
     effect(() => {
@@ -188,11 +206,12 @@ test("effects end with what they were made in, and before that runs again", () =
 });
 
 test("an outer effect runs first, so that an inner one never reads what is gone", () => {
-  const chosen = signal({ name: "a" });
+  const chosen = signal(/** @type {{name: string} | null} */ ({ name: "a" }));
   const isBold = signal(false);
+  /** @type {unknown[]} */
   const seen = [];
   effect(() => {
-    if (chosen.value) effect(() => void seen.push([chosen.value.name, isBold.value]));
+    if (chosen.value) effect(() => void seen.push([chosen.value?.name, isBold.value]));
   });
   const errors = errorsOf(() =>
     batch(() => {
@@ -205,6 +224,7 @@ test("an outer effect runs first, so that an inner one never reads what is gone"
 
 test("an effect may end itself", () => {
   const count = signal(0);
+  /** @type {number[]} */
   const seen = [];
   root((end) =>
     effect(() => {
@@ -233,7 +253,9 @@ test("rows are made once for each key, in the order of the list, and follow thei
     { id: 1, text: "a" },
     { id: 2, text: "b" },
   ]);
+  /** @type {number[]} */
   const made = [];
+  /** @type {number[]} */
   const ended = [];
   const rows = each(
     () => list.value,
@@ -269,9 +291,9 @@ test("rows are made once for each key, in the order of the list, and follow thei
 });
 
 test("10 000 rows that were made and removed leave no reader behind", () => {
-  const [shared, list] = [signal(0), signal([])];
+  const [shared, list] = [signal(0), signal(/** @type {number[]} */ ([]))];
   const shown = computed(() => shared.value + 1);
-  const row = (item) => {
+  const row = (/** @type {Readable<number>} */ item) => {
     effect(() => void (item.value + shared.value));
     effect(() => void shown.value);
   };

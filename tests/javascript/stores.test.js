@@ -5,31 +5,54 @@ import * as channel from "../../webviz/page/web/channel.js";
 import { computed, effect } from "../../webviz/page/web/signals.js";
 import { once, store, watch } from "../../webviz/page/web/stores.js";
 
+/** @import {End} from "webviz/types.js" */
+
+/** @typedef {Parameters<typeof channel.open>[0]} Socket */
+
 /** What the page sends, and a function by which the server sends values of a store. */
 function server() {
+  /** @type {{type: string, [field: string]: unknown}[]} */
   const sent = [];
+  /** @type {Socket} */
   const socket = {
+    binaryType: "blob",
     readyState: WebSocket.OPEN,
-    send: (text) => sent.push(JSON.parse(text)),
+    send: (text) => sent.push(JSON.parse(String(text))),
     close() {},
+    onopen: null,
+    onmessage: null,
+    onclose: null,
   };
   channel.open(socket, "key");
-  socket.onopen();
+  socket.onopen?.(new Event("open"));
   return {
     sent,
-    values: (name, set, { all = false, gone = [] } = {}) =>
-      socket.onmessage({ data: JSON.stringify({ type: "Values", store: name, all, set, gone }) }),
+    /**
+     * @param {string} store
+     * @param {Record<string, unknown>} set
+     * @param {{all?: boolean, gone?: string[]}} [more]
+     */
+    values(store, set, { all = false, gone = [] } = {}) {
+      const data = JSON.stringify({ type: "Values", store, all, set, gone });
+      socket.onmessage?.(new MessageEvent("message", { data }));
+    },
   };
 }
 
-/** An effect that keeps what it reads. */
+/**
+ * An effect that keeps what it reads.
+ *
+ * @template T
+ * @param {() => T} read
+ */
 function follow(read) {
+  /** @type {T[]} */
   const seen = [];
   const end = effect(() => void seen.push(read()));
   return { seen, end };
 }
 
-const later = () => new Promise((resolve) => queueMicrotask(resolve));
+const later = () => new Promise((resolve) => queueMicrotask(() => resolve(null)));
 
 test("a store is watched while something reads it, and read by key", async () => {
   const { sent, values } = server();
@@ -98,7 +121,9 @@ test("what is read again at once is not sent anew, and what is read is, on a new
 
 test("a listener gets all values, then what has changed, and makes no effect depend on them", () => {
   const { values } = server();
+  /** @type {string[][][]} */
   const calls = [];
+  /** @type {End[]} */
   const ends = [];
   let runs = 0;
   effect(() => {
@@ -143,6 +168,7 @@ test("values that come when nothing watches a store any more are not kept", asyn
   watch("old", () => {})();
   await later();
   values("old", { a: 1 }, { all: true });
+  /** @type {unknown[]} */
   const seen = [];
   const end = watch("old", (all) => seen.push(all.get("a")));
   values("old", { a: 2 }, { all: true });

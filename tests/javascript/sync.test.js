@@ -4,20 +4,27 @@ import { mock, test } from "node:test";
 import { sync } from "../../webviz/page/web/controls/sync.js";
 import { signal } from "../../webviz/page/web/signals.js";
 
+/** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Outcome} from "webviz/types.js" */
+
 mock.timers.enable({ apis: ["setTimeout"] });
 
 /** A control, what it shows and why it was refused, and how the viewer answers. */
 function control() {
-  const seen = { shown: [], refusals: [], answer: () => {} };
-  const had = signal(undefined);
+  const seen = {
+    shown: /** @type {(number | Mixed)[]} */ ([]),
+    refusals: /** @type {string[]} */ ([]),
+    answer: (/** @type {Outcome} */ _answer) => {},
+  };
+  const had = signal(/** @type {number | undefined} */ (undefined));
   const it = sync({
     value: () => had.value,
-    show: (value) => seen.shown.push(value),
+    show: (/** @type {number | Mixed} */ value) => seen.shown.push(value),
     change: () => new Promise((resolve) => Object.assign(seen, { answer: resolve })),
     refused: (text) => seen.refusals.push(text),
     isFocused: () => true,
   });
-  return { it, seen, has: (value) => (had.value = value) };
+  return { it, seen, has: (/** @type {number} */ value) => (had.value = value) };
 }
 
 /** Lets promises that are settled call what waits for them. */
@@ -58,5 +65,5 @@ test("a viewer that does not answer is reported", async () => {
   it.edit(2);
   mock.timers.tick(8000);
   await turn();
-  assert.match(seen.refusals.at(-1), /does not answer/);
+  assert.match(seen.refusals.at(-1) ?? "", /does not answer/);
 });

@@ -17,6 +17,10 @@ import {
 import { agoText, atMoment, beforeText, behindAt, isNow } from "../../webviz/page/web/moment.js";
 import { savedText } from "../../webviz/page/web/time_text.js";
 import { parseTime } from "../../webviz/features/playback/typed_time.js";
+import { storeOf } from "./values.js";
+
+/** @param {Record<string, unknown>} values */
+const playback = (values) => storeOf("playback", values);
 
 test("a window stays within the recording and keeps its length", () => {
   assert.deepEqual(limited([-5, 15], [0, 100]), [0, 20]);
@@ -46,6 +50,7 @@ test("a window follows the head by whole windows", () => {
 });
 
 test("a timeline shows a whole bag, and of live topics what the memory can hold", () => {
+  /** @param {Record<string, unknown>} values */
   const bounds = (values) => boundsOf(new Map(Object.entries(values)));
   assert.deepEqual(bounds({ is_live: null, duration: 5 }), [0, 5]);
   assert.deepEqual(bounds({ is_live: null, duration: 0 }), [0, 0.01]);
@@ -69,20 +74,31 @@ test("places and times of a timeline belong together", () => {
 });
 
 test("the nearest mark within a few pixels is found, the first of equal ones", () => {
-  const place = ([x]) => x;
+  /** @type {[number, string][]} */
   const marks = [
     [10, "a"],
     [13, "b"],
     [13, "c"],
     [30, "d"],
   ];
-  assert.deepEqual(nearest(marks, place, 14), [13, "b"]);
-  assert.deepEqual(nearest(marks, place, 25), [30, "d"]);
-  assert.equal(nearest(marks, place, 24.9), null);
+  assert.deepEqual(
+    nearest(marks, ([x]) => x, 14),
+    [13, "b"],
+  );
+  assert.deepEqual(
+    nearest(marks, ([x]) => x, 25),
+    [30, "d"],
+  );
+  assert.equal(
+    nearest(marks, ([x]) => x, 24.9),
+    null,
+  );
 });
 
 test("while a value is under way, only the newest of the others is kept", async () => {
+  /** @type {number[]} */
   const sent = [];
+  /** @type {((value?: unknown) => void)[]} */
   const arrived = [];
   const sending = newest((value) => {
     sent.push(value);
@@ -111,7 +127,7 @@ test("typed times are seconds, minutes and hours, or a date", () => {
 });
 
 test("the past of live topics goes on with time", () => {
-  const live = new Map(Object.entries({ start: 1000, ahead: 2, is_live: true, held: 60 }));
+  const live = playback({ start: 1000, ahead: 2, is_live: true, held: 60 });
   const now = atMoment(live, 1102);
   assert.deepEqual(
     [now.get("first"), now.get("duration"), now.get("position"), now.get("ago")],
@@ -120,9 +136,7 @@ test("the past of live topics goes on with time", () => {
   const paused = atMoment(live, 1102, 12.5);
   assert.deepEqual([paused.get("position"), paused.get("duration")], [87.5, 100]);
   assert.equal(atMoment(live, 1102, 500).get("position"), 40, "no longer held");
-  const past = new Map(
-    Object.entries({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 }),
-  );
+  const past = playback({ start: 1000, ahead: 2, is_live: false, first: 40, position: 90 });
   assert.equal(atMoment(past, 1102).get("ago"), 10);
   assert.equal(atMoment(past, 1105.5).get("ago"), 13.5);
   assert.equal(isNow(atMoment(past, 1102), 99.8, 60), true);
@@ -130,15 +144,16 @@ test("the past of live topics goes on with time", () => {
 });
 
 test("a bag is nowhere near now", () => {
-  const bag = atMoment(
-    new Map(Object.entries({ start: 0, is_live: null, duration: 5, position: 5 })),
-    1e9,
-  );
+  const bag = atMoment(playback({ start: 0, is_live: null, duration: 5, position: 5 }), 1e9);
   assert.deepEqual([bag.get("first"), bag.get("ago"), isNow(bag, 5, 5)], [0, 0, false]);
 });
 
 test("a paused scene is as far behind as it stands, a running one is not", () => {
-  const clock = (is_paused, rate) => new Map(Object.entries({ is_paused, pace: [5, 1090, rate] }));
+  /**
+   * @param {boolean} is_paused
+   * @param {number} rate
+   */
+  const clock = (is_paused, rate) => storeOf("clock", { is_paused, pace: [5, 1090, rate] });
   assert.equal(behindAt(clock(true, 0), 1102), 12);
   assert.equal(behindAt(clock(false, 0), 1102), 0, "the clock of a simulation stands");
   assert.equal(behindAt(new Map(), 1102), 0);

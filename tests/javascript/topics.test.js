@@ -4,6 +4,14 @@ import { test } from "node:test";
 import { ageText, factOf } from "../../webviz/page/web/panels/frame_rows.js";
 import { arranged } from "../../webviz/page/web/panels/topics_table.js";
 
+/** @import {Frame} from "webviz/contents.js" */
+/** @import {TopicRow} from "webviz/panels/topics_table.js" */
+
+/**
+ * @param {string} key
+ * @param {Partial<TopicRow>} [more]
+ * @returns {TopicRow}
+ */
 const topic = (key, more) => ({
   key,
   types: [],
@@ -20,6 +28,11 @@ const TOPICS = [
   topic("/fast", { hz: 100 }),
   topic("/a"),
 ];
+/**
+ * @param {string} text
+ * @param {string} column
+ * @param {boolean} isUp
+ */
 const names = (text, column, isUp) =>
   arranged(TOPICS, text, { column, isUp }).map(({ key }) => key);
 
@@ -36,6 +49,10 @@ test("topics are found by words of their names and types in any order", () => {
   assert.deepEqual(names("image /B", "name", true), ["/b"]);
 });
 
+/**
+ * @param {Partial<Frame>} more
+ * @returns {Frame}
+ */
 const frame = (more) => ({
   parent: "map",
   is_static: false,

@@ -3,10 +3,18 @@ import { test } from "node:test";
 
 import { bent, straight } from "../../webviz/page/web/images/undistort.js";
 
+/** @import {Vec2} from "webviz/types.js" */
+
 const [ROWS, COLUMNS] = [37, 49];
 
-/** A warp of a lens with barrel distortion; `sees(x, y)` says where it sees anything. */
+/**
+ * A warp of a lens with barrel distortion; `sees(x, y)` says where it sees anything.
+ *
+ * @param {number} strength
+ * @param {(x: number, y: number) => boolean} sees
+ */
 function warp(strength, sees = () => true) {
+  /** @type {(number | null)[]} */
   const places = [];
   for (let row = 0; row < ROWS; row++) {
     for (let column = 0; column < COLUMNS; column++) {
@@ -22,6 +30,7 @@ test("places of an image are found where the undistorted image shows them", () =
   for (const strength of [0, 0.35, 0.6, -0.3]) {
     const lens = warp(strength);
     for (let i = 1; i < 20; i++) {
+      /** @type {Vec2} */
       const place = [i / 20, ((i * 7) % 20) / 20];
       const share = straight(lens, place);
       if (!share) continue;

@@ -13,14 +13,24 @@ import {
   unit,
 } from "../../webviz/page/web/vectors.js";
 
+/** @import {Vec3} from "webviz/types.js" */
+/** @import {Pose, Ray} from "webviz/vectors.js" */
+
+/** @type {Vec3[]} */
 const [X, Y, Z] = [
   [1, 0, 0],
   [0, 1, 0],
   [0, 0, 1],
 ];
+/** @type {Ray} */
 const DOWN = { origin: [2, 3, 10], direction: [0, 0, -1] };
 
+/**
+ * @param {number[] | null} found
+ * @param {number[]} wanted
+ */
 function near(found, wanted) {
+  assert.ok(found);
   assert.equal(found.length, wanted.length);
   found.forEach((value, i) =>
     assert.ok(Math.abs(value - wanted[i]) < 1e-12, `${found}, not ${wanted}`),
@@ -43,6 +53,7 @@ test("a product of quaternions turns by the second first", () => {
 });
 
 test("poses are composed in the frame of the first", () => {
+  /** @type {Pose} */
   const a = { position: [1, 0, 0], wxyz: about(Z, Math.PI / 2) };
   const { position, wxyz } = compose(a, { position: [2, 0, 0], wxyz: about(Z, Math.PI / 2) });
   near(position, [1, 2, 0]);

@@ -6,7 +6,10 @@
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
+/** @import {BuildOptions, Plugin} from "esbuild" */
+
 const [folder] = process.argv.slice(2);
+/** @type {typeof import("esbuild")} */
 const { build } = await import(pathToFileURL(`${folder}/esbuild/lib/main.js`).href);
 
 /** Made by the server for each page. */
@@ -23,6 +26,7 @@ const entry = [
   `export const modules = { ${names.map((name, i) => `"${name}": m${i}`).join(", ")} };`,
 ].join("\n");
 
+/** @type {Plugin} */
 const page = {
   name: "page",
   setup(build) {
@@ -37,6 +41,7 @@ const page = {
   },
 };
 
+/** @type {BuildOptions & {write: false}} */
 const common = { plugins: [page], format: "esm", target: "es2024", charset: "utf8", write: false };
 const packed = await build({
   ...common,
@@ -74,10 +79,10 @@ const exported = await build({
 });
 
 const [sourceMap, code] = ["packed.js.map", ENTRY].map(
-  (name) => packed.outputFiles.find((file) => path.basename(file.path) === name).text,
+  (name) => packed.outputFiles.find((file) => path.basename(file.path) === name)?.text ?? "",
 );
 const exports = Object.fromEntries(
-  Object.values(exported.metafile.outputs).map(({ entryPoint, exports }) => [
+  Object.values(exported.metafile?.outputs ?? {}).map(({ entryPoint = "", exports }) => [
     entryPoint.replace(/^page:/, ""),
     exports,
   ]),

@@ -5,7 +5,7 @@ import { iconButton } from "webviz/icons.js";
 
 /**
  * @typedef {{
- *   count: number, timer: number, run: (() => unknown) | undefined, element: HTMLElement,
+ *   count: number, timer: ReturnType<typeof setTimeout> | 0, run: (() => unknown) | undefined, element: HTMLElement,
  *   text: HTMLElement, button: HTMLElement, remove: () => void,
  * }} Toast
  */

@@ -30,6 +30,7 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
   let newest;
   let isHeld = false;
   let isRefused = false;
+  /** @type {ReturnType<typeof setTimeout> | 0} */
   let timer = 0;
   let isUnderWay = false;
   /** @type {{value: T} | null} */

@@ -23,7 +23,7 @@ export function lastUpTo(list, of, value) {
 /**
  * The chunk and the frame within it that are shown at a time.
  *
- * @param {ChunkIndex[]} index
+ * @param {Pick<ChunkIndex, "times">[]} index
  * @param {number} at
  * @returns {[chunk: number, frame: number]}
  */
@@ -35,7 +35,7 @@ export function frameAt(index, at) {
 /**
  * Finds the contents of a frame of a chunk.
  *
- * @param {Chunk} chunk
+ * @param {Pick<Chunk, "start" | "frames">} chunk
  * @param {number} frame
  * @returns {Shown}
  */
