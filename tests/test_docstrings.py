@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-WORDS = r"(?:What|Whether|How|Which)\b.*"
+WORDS = r"(?:What|Whether|How|Which|Why|Where|When|Who)\b.*"
 DOCSTRING = re.compile(rf'^[ \t]*r?"""\s*{WORDS}', re.MULTILINE)
 """A text between three quotation marks that begins a line."""
 COMMENT = re.compile(rf"(?:/\*\*[\s*]*|^//)\s*{WORDS}", re.MULTILINE)

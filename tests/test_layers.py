@@ -71,7 +71,7 @@ EDGES = {
     "rosidl_runtime_py": ("webviz.ros", "webviz_sim"),
     "viser": ("webviz.scene", "webviz.server.http"),
 }
-"""Who may know a library."""
+"""Rooms that may import a library."""
 YAML_READER = "webviz.data.plain_yaml"
 """The only module that reads YAML, and so bounds it."""
 YAML_NODES = ("ruamel.yaml.nodes", "ruamel.yaml.representer")

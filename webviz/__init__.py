@@ -183,7 +183,7 @@ _HOMES = {
     "webviz.engine.state": ("PanelTimes", "Row", "State", "Traffic"),
     "webviz.shell.pictures.capture": ("capture",),
 }
-"""Where each name comes from: imported when it is asked for, since all of it takes a while."""
+"""Module of each name: imported when it is asked for, since all of it takes a while."""
 
 
 def __getattr__(name: str) -> object:

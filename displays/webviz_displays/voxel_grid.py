@@ -135,7 +135,7 @@ class VoxelGrid(Display):
 
 
 def _fault_of(message: Any) -> str:
-    """Why a voxel grid cannot be drawn, "" if it can."""
+    """Return why a voxel grid cannot be drawn, "" if it can."""
     shape = message.size_x, message.size_y, message.size_z
     if len(message.data) != message.size_x * message.size_y:
         return (

@@ -30,7 +30,7 @@ class Crowd:
 
     @property
     def circles(self) -> Circles:
-        """Where they are."""
+        """Return where they are."""
         here = [_along(walk, gone) for walk, gone in zip(self._walks, self._gone, strict=True)]
         return np.array([(*point, RADIUS) for point in here]) if here else NONE
 

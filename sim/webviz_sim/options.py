@@ -31,7 +31,7 @@ class Option:
         return float(max(self.low, -sys.float_info.max)), float(min(self.high, sys.float_info.max))
 
     def refusal(self, name: str, value: Any) -> str | None:
-        """Why a value is invalid, in one sentence; None if it is valid."""
+        """Return why a value is invalid, in one sentence; None if it is valid."""
         kind = type(self.default)
         if kind is list:
             # rcl reads an empty list of a file as a parameter without a value.
@@ -148,7 +148,7 @@ def _is_list(value: Any) -> bool:
 
 
 def refusal(values: dict[str, Any]) -> str | None:
-    """Why values are invalid, alone or together, in one sentence; None if they are valid.
+    """Return why values are invalid, alone or together, in one sentence; None if they are valid.
 
     Args:
         values: By name; unknown names are ignored.

@@ -18,7 +18,7 @@ from guest import Connections
 
 @dataclass(frozen=True)
 class At:
-    """Where a viewer listens on this machine."""
+    """Address of a viewer on this machine."""
 
     port: int
 

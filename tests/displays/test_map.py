@@ -66,7 +66,7 @@ def whole_picture(at) -> np.ndarray:
 
 
 def corner_of_cell(pose, x, y):
-    """Where a point of a tile lies in the fixed frame; tiles here turn about z only."""
+    """Return where a point of a tile lies in the fixed frame; tiles here turn about z only."""
     w, _, _, z = pose.wxyz
     yaw = 2 * math.atan2(z, w)
     px, py, pz = pose.position

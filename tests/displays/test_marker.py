@@ -65,7 +65,7 @@ def send(bench: Any, *markers: dict[str, Any]) -> None:
 
 
 def xs(bench: Any) -> list[float]:
-    """Where the cubes are along x, sorted."""
+    """Return where the cubes are along x, sorted."""
     found = [bench.xyz(key)[:, 0] for key in bench.nodes() if key.startswith("box")]
     return sorted(np.concatenate(found).round(6).tolist()) if found else []
 

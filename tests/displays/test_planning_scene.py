@@ -80,7 +80,7 @@ def arm(world: Any) -> Any:
 
 
 def boxes(bench: Any, key: str = "object box") -> list[float]:
-    """Where boxes are along x."""
+    """Return where boxes are along x."""
     for name, node in bench.nodes().items():
         if name.startswith(key):
             x = bench.poses()[name].position[0]

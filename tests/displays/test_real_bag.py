@@ -28,7 +28,7 @@ RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
 BLACK = 90
 """Largest brightness of the cells above its occupied_thresh of 0.65."""
 START = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
-"""Where the robot's odometry began in the map, found by fitting the first scan to the walls."""
+"""Pose in the map at which the odometry began, found by fitting the first scan to the walls."""
 
 pytestmark = pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
 

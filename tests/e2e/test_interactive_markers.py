@@ -88,7 +88,7 @@ def known(page: Page) -> dict[str, Any]:
 
 
 def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
-    """Where a page shows a marker in its frame: position and orientation, w first."""
+    """Return where a page shows a marker in its frame: position and orientation, w first."""
     found = page.tab.evaluate(
         """async (id) => (await import("webviz/handles/poses.js")).poseOf(id)""",
         known(page)[name]["id"],
@@ -97,7 +97,7 @@ def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
 
 
 def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
-    """Where a point of the fixed frame is in the window."""
+    """Return where a point of the fixed frame is in the window."""
     x, y = page.tab.evaluate(
         """async (point) => {
           const { frameNode, projectionOf } = await import("webviz/scene/projection.js");

@@ -39,7 +39,7 @@ def publish(b: Any, x: float) -> None:
 
 
 def drawn(b: Any) -> list[float]:
-    """Where the path begins, if it is drawn."""
+    """Return where the path begins, if it is drawn."""
     b.turn()
     return [float(node.segments[0, 0, 0]) for _, _, node in b.scene.visible()]
 

@@ -58,7 +58,7 @@ def use(b: Any, tool: str = "2D Goal Pose") -> str:
 
 
 def refusals(b: Any) -> dict[str, str]:
-    """Why the tools with one topic cannot be used, by name."""
+    """Return why the tools with one topic cannot be used, by name."""
     names = ("2D Pose Estimate", "2D Goal Pose", "Publish Point")
     tools = (tool for tool in b.do(Refresh()).tools if tool.name in names)
     return {tool.name: tool.refusal for tool in tools if tool.refusal}

@@ -1,4 +1,4 @@
-"""Who drives a vehicle, and how fast it should move."""
+"""Drivers of a vehicle, and how fast it should move."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ class Looking:
         return self.bench.states[-1]
 
     def refused(self, command: Command) -> str:
-        """Why a command is refused."""
+        """Return why a command is refused."""
         before = dict(self.cameras.shown)
         refusal = self.bench.refused(command)
         assert self.cameras.shown == before

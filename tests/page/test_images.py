@@ -447,7 +447,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     )
 
     def dots() -> dict[str, Any]:
-        """Where each colour is in the pane: column, row, and how many pixels; nothing if none."""
+        """Return where each colour is in the pane: column, row, and number of pixels."""
         return other.page.get_by_label("Image /camera/image_raw", exact=True).evaluate(FIND)
 
     def expected(index: int) -> Any:

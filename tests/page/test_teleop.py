@@ -19,7 +19,7 @@ CAMERA = """(() => {
   const { position, target } = JSON.parse(window.__viserMutable.cameraControl.toJSON());
   return [...position, ...target];
 })()"""
-"""Where the camera goes: where it is still follows the last drag, by frames of another test."""
+"""Pose to which the camera goes: its own still follows the last drag, of another test."""
 PAD = """(axes) => { navigator.getGamepads = () => [{connected: true, axes}] }"""
 
 

@@ -27,7 +27,7 @@ def send(seen: Harness, laser: Pose2D = LASER) -> None:
 
 
 def axes() -> Axes:
-    """Where the laser is."""
+    """Return where the laser is."""
     return Axes(reference_frame="laser", length=0.6, radius=0.04)
 
 

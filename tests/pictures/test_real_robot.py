@@ -29,7 +29,7 @@ RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
 OCCUPIED, FREE = 90, 190
 """Grey at most and at least, by occupied_thresh 0.65 and free_thresh 0.25 of its .yaml."""
 ODOM = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
-"""Where its odometry began in the map, found by fitting a scan to the walls."""
+"""Pose in the map at which its odometry began, found by fitting a scan to the walls."""
 SCANS = 60
 
 pytestmark = pytest.mark.skipif(

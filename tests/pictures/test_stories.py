@@ -24,7 +24,7 @@ Stages = Callable[..., Harness]
 
 VIEW = Orbit(distance=11.0, yaw=-1.5708, pitch=1.15, focal_point=(0.0, -0.2, 0.0))
 START = Pose2D(-2.0, 0.0)
-"""Where the robot was switched on: in the corridor."""
+"""Pose at which the robot was switched on: in the corridor."""
 
 
 def displays() -> tuple[Map, RobotModel, LaserScan, TF]:

@@ -47,7 +47,7 @@ def handles(viewer: LiveViewer) -> dict[str, Handle]:
 
 
 def position(viewer: LiveViewer, key: str) -> list[float]:
-    """Where the box of a marker is, nothing while it is hidden; keys count all markers."""
+    """Return where the box of a marker is, nothing while it is hidden; keys count all markers."""
     found = viewer.nodes().get(f"c0/{key}/box")
     return list(found[0].position) if found else []
 

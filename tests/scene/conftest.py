@@ -112,7 +112,7 @@ class View(Page):
         return [tuple(pixels[self.row_column(point)].tolist()) for point in points]
 
     def row_column(self, point: Point) -> tuple[int, int]:
-        """Where a point of the scene (without its origin) is drawn."""
+        """Return where a point of the scene (without its origin) is drawn."""
         column, row = self.pixel_of(*point)
         return int(row), int(column)
 

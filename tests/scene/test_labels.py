@@ -1,4 +1,4 @@
-"""Where texts are and how they look, as a real browser draws them."""
+"""Places and looks of texts, as a real browser draws them."""
 
 from __future__ import annotations
 

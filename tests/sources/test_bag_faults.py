@@ -228,7 +228,7 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
 
 
 def _starts(data: bytes) -> list[int]:
-    """Where some records of chunks or messages begin."""
+    """Return where some records of chunks or messages begin."""
     found = [match.start() for match in re.finditer(rb"[\x05\x06].[\x02-\xff].\0{5}", data, re.S)]
     return found[1:-1:7] if len(found) > 20 else found[1:-1]
 

@@ -36,7 +36,7 @@ def moving(last_s: int) -> Bag:
 
 
 def transforms_read(path: Path, at_s: int) -> list[int]:
-    """When the transforms were recorded that a seek reads, with strings that are placed."""
+    """Return when the transforms were recorded that a seek reads, with strings that are placed."""
     wanted = {
         "/tf": Subscription(TF, Topic("/tf")),
         "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(),), is_placed=True),

@@ -106,7 +106,7 @@ class Bench:
         return answer.result(0)
 
     def refused(self, command: Command) -> str:
-        """Why a command is refused."""
+        """Return why a command is refused."""
         answer = self.viewer.enqueue(command)
         self.until_done(answer)
         return str(answer.exception(0))

@@ -27,7 +27,7 @@ NO_RATES = ".wv-rates { visibility: hidden }"
 """Style that hides rates, as those of a browser without a graphics card say nothing."""
 TROUBLED = "[role=treeitem]:is([data-level=warn], [data-level=error])"
 GOAL = (700, 590), (760, 560)
-"""Where the mouse presses and releases, in the big room in front."""
+"""Points at which the mouse presses and releases, in the big room in front."""
 
 
 def main() -> int:

@@ -16,7 +16,7 @@ from webviz.shell.testing.messages import header
 from webviz_sim.pose import Pose2D
 
 HERE = Pose2D(-2.0, 0.0)
-"""Where the robot is in the simulator's building."""
+"""Pose of the robot in the simulator's building."""
 SCAN = "sensor_msgs/msg/LaserScan"
 
 

@@ -36,7 +36,7 @@ class SlowLink:
         self._thread.start()
 
     def get_port(self) -> int:
-        """Where it listens."""
+        """Return where it listens."""
         return self._listener.getsockname()[1]
 
     def close(self) -> None:

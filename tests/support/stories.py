@@ -16,7 +16,7 @@ from webviz_sim.pose import Pose2D
 Fault = Literal["turned", "misplaced", "obstacle", "none"]
 SECONDS = 6
 HERE = Pose2D(-2.0, 0.0)
-"""Where the robot is."""
+"""Pose of the robot."""
 BOX = 0.6
 """Edge of a box that the planner does not know, in metres."""
 

@@ -208,7 +208,7 @@ def _copy(
 
 
 def _no_geometry(source: etree._Element, copy: etree._Element) -> str:
-    """Why a visual or collision cannot be drawn, "" if it can.
+    """Return why a visual or collision cannot be drawn, "" if it can.
 
     As in urdfdom the first of several geometries counts.
     """

@@ -24,7 +24,7 @@ BAD = 0.4
 
 @dataclass(frozen=True, eq=False)
 class ScanPoints:
-    """Where a sensor hit something.
+    """Points at which a sensor hit something.
 
     Args:
         frame: frame id of the sensor, which is at its origin.
@@ -59,7 +59,7 @@ class OccupiedCells:
 
 @dataclass(frozen=True, eq=False)
 class RobotPath:
-    """Where a robot is about to drive.
+    """Path that a robot is about to drive.
 
     Args:
         frame: frame id of the poses.

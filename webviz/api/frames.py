@@ -165,11 +165,11 @@ class Frames:
         return positions, w_first(rotations), ok
 
     def why_not(self, frame: str, stamp_ns: int = 0) -> str:
-        """Why a frame has no pose, with a remedy; one sentence."""
+        """Return why a frame has no pose, with a remedy; one sentence."""
         return self.explain(frame, stamp_ns).sentence
 
     def explain(self, frame: str, stamp_ns: int = 0) -> Explanation:
-        """Why a frame has no pose, with a remedy."""
+        """Return why a frame has no pose, with a remedy."""
         return explain(self.buffer, self.fixed_frame, frame, stamp_ns, self.now_ns)
 
     def all(self) -> FramePoses:

@@ -55,7 +55,7 @@ class OtherFixedFrame:
 
     @staticmethod
     def of(reason: Explanation) -> OtherFixedFrame | None:
-        """Where a frame without a pose has one, None if the reason names no such frame."""
+        """Return where a frame without a pose has one, None if the reason names no such frame."""
         return OtherFixedFrame(reason.other_frame) if reason.other_frame else None
 
     @property

@@ -35,7 +35,7 @@ def _escape(character: str) -> str:
 
 
 def problem_of(name: str) -> str:
-    """Why a name cannot be given: a sentence, "" if it can."""
+    """Return why a name cannot be given: a sentence, "" if it can."""
     if not name.strip():
         return "The name is empty. Enter one."
     if len(name) > MAX_NAME:
@@ -46,7 +46,7 @@ def problem_of(name: str) -> str:
 
 
 def file_problem_of(name: str) -> str:
-    """Why a file cannot be given a name: a sentence, "" if it can."""
+    """Return why a file cannot be given a name: a sentence, "" if it can."""
     if name.startswith("-"):
         return "The name begins with a dash, which programs take for an option. Remove it."
     if len(name.encode(errors="replace")) > MAX_FILE_BYTES:

@@ -45,7 +45,7 @@ class Pages:
         self._enqueue = enqueue
         self._guard = Guard("The page", strict=False)
         self.journal = Journal(keep)
-        """Who did what."""
+        """Journal of who did what."""
 
         def request(command: Command, sender: Sender) -> Future[str]:
             return enqueue(command, _ranked(channel, sender))

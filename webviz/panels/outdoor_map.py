@@ -43,7 +43,7 @@ class TileShelf:
     def __init__(self, address: str, timeout_s: float) -> None:
         self.address = address
         self.problem = ""
-        """Why the newest tile could not be read, a sentence or ""."""
+        """Reason why the newest tile could not be read, a sentence or ""."""
         self.attribution = ""
         self.timeout_s = timeout_s
         self._lock = threading.Lock()

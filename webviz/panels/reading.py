@@ -38,7 +38,7 @@ class PathReading:
         self.text = text
         self.path: MessagePath | None = None
         self.problem = ""
-        """Why the newest message has no value, a sentence or ""."""
+        """Reason why the newest message has no value, a sentence or ""."""
         self.has_message = False
         self._invalid = ""
         try:
@@ -69,7 +69,7 @@ class PathReading:
         return self.path.value_names(message) if self.path else NO_NAMES
 
     def explanation(self, types: Mapping[str, str]) -> str:
-        """Why there is nothing to show, a sentence or ""."""
+        """Return why there is nothing to show, a sentence or ""."""
         if self._invalid:
             return self._invalid
         if self.topic not in types:

@@ -98,7 +98,7 @@ class Gate:
         return is_live and self._rights.may_publish and bool(self.lasting_refusal(name))
 
     def refusal(self, name: str) -> str:
-        """Why nothing may be sent to a topic, service or action: a sentence; "" if it may.
+        """Return why nothing may be sent to a topic, service or action: a sentence; "" if it may.
 
         Args:
             name: its full name, after remapping.
@@ -106,7 +106,7 @@ class Gate:
         return self.lasting_refusal(name) or self._pause()
 
     def lasting_refusal(self, name: str) -> str:
-        """Why nothing may ever be sent to a name, as far as is known; "" if it may."""
+        """Return why nothing may ever be sent to a name, as far as is known; "" if it may."""
         graph = self._source.graph
         if isinstance(graph, ReadOnly):
             return graph.reason

@@ -53,7 +53,7 @@ class Client(msgspec.Struct):
     sequence: int = 0
     """Number of the last update that was applied."""
     problem: str = ""
-    """Why it had to ask again, or could not, a sentence."""
+    """Reason why it had to ask again, or could not, a sentence."""
     gaps: int = 0
     """Number of gaps in the sequence of updates."""
     _received: ReceivedMessages = msgspec.field(default_factory=ReceivedMessages)

@@ -56,9 +56,9 @@ class ShownMarker:
 
     def __init__(self, assets: Assets) -> None:
         self.lost: str = ""
-        """Why a shape has no transform, a sentence."""
+        """Reason why a shape has no transform, a sentence."""
         self.fault: str = ""
-        """Why a shape cannot be drawn wherever it is, a sentence."""
+        """Reason why a shape cannot be drawn wherever it is, a sentence."""
         self.requests: set[LoadRequest] = set()
         """The files that its shapes name."""
         self.drawn_in = 0

@@ -15,7 +15,7 @@ from webviz.data.messages.markers import ColorRGBA, Marker
 from webviz.data.rotations import matrices
 
 ARROW = 0.5, 0.9
-"""Where an arrow begins and ends, from the middle."""
+"""Distances of both ends of an arrow from the middle."""
 ARROW_SIZE = 0.15, 0.25, 0.2
 """Diameters of its shaft and head, and the length of the head."""
 RING = 0.5, 0.65

@@ -47,7 +47,7 @@ class InteractiveMarkerServer:
         self.version = 0
         """Changes with everything that is drawn."""
         self.ignored: dict[str, str] = {}
-        """Why messages were ignored, by the name of the marker; sentences."""
+        """Reasons why messages were ignored, by the name of the marker; sentences."""
         self.left_out = 0
         """Number of markers and poses beyond a limit, since all markers came."""
         self.undrawn = 0

@@ -38,7 +38,7 @@ class Tracked:
         self.turned: dict[str, float] = {}
         """Angles by which controls have been turned, by name."""
         self.problem = ""
-        """Why the last message for it was ignored, a sentence."""
+        """Reason why the last message for it was ignored, a sentence."""
         self.is_held = False
         self._place = Place(made.frame, made.stamp_ns, made.pose)
         self._later: Place | None = None

@@ -339,7 +339,7 @@ class Map(MapDisplay, Comparable):
     ] = Topic()
 
     def consistency_input(self, samples: Sequence[Sample], ctx: Context) -> OccupiedCells | None:
-        """Where the map has walls; costmaps have what a robot keeps away from."""
+        """Return where the map has walls; costmaps have what a robot keeps away from."""
         grid: TiledGrid | None = samples[-1].message.grid if samples else None
         if grid is None or self.color_scheme != "map" or not self.alpha:
             return None

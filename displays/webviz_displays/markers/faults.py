@@ -1,4 +1,4 @@
-"""Why markers cannot be drawn, or cannot be seen."""
+"""Reasons why markers cannot be drawn, or cannot be seen."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _is_valid(content: Content, scale: NDArray[np.float64], type_: int) -> bool:
 
 
 def faults_of(batch: MarkerBatch) -> Iterator[Fault]:
-    """Why markers cannot be seen, one sentence for each that cannot."""
+    """Return why markers cannot be seen, one sentence for each that cannot."""
     types, scales, alphas = batch.types, batch.scales, batch.colors[:, 3]
     is_known = (types >= 0) & (types < len(TYPES))
     can_fail = (~is_known) | (alphas <= 0.0) | (scales == 0.0).any(axis=1)

@@ -1,4 +1,4 @@
-"""Where the objects of a scene are: in the frame of the scene, once and for all.
+"""Poses of the objects of a scene: in the frame of the scene, once and for all.
 
 An object may be given in any frame: of a link, of another object or one of its subframes, or of a
 transform. As in MoveIt it is placed when it arrives, and does not move with that frame later.

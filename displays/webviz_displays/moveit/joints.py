@@ -97,7 +97,7 @@ def pose_of(position: Iterable[float], wxyz: Iterable[float]) -> Pose | None:
 
 
 class Stance(msgspec.Struct, frozen=True, eq=False):
-    """Where the links of a robot are.
+    """Poses of the links of a robot.
 
     Args:
         poses: by link, in the frame of the joints; those that cannot be drawn are left out.
@@ -149,7 +149,7 @@ class Poser:
         return poses_by_link(self.kinematics, *self.kinematics.places(values, moved, base))
 
     def stance(self, joints: JointValues) -> Stance:
-        """Where the links are, and what is odd about the joints."""
+        """Return where the links are, and what is odd about the joints."""
         robot, known = self.robot, joints.positions
         values = self.values(known)
         assumed = [name for name in self.columns if name not in known]

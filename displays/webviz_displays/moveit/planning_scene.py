@@ -150,5 +150,5 @@ class PlanningScene(Display, ProtocolClient):
 
 
 def no_scene(topic: str, asking: Asking) -> str:
-    """Why there is no scene, with the remedy."""
+    """Return why there is no scene, with the remedy."""
     return joined(f"No planning scene received on {topic}", asking.problem, "Start move_group.")

@@ -21,7 +21,7 @@ KEY = "trail "
 
 
 class PathTrail(msgspec.Struct):
-    """Where the robot was on its path.
+    """Poses of the robot on its path.
 
     Args:
         owners: link of each node by its key.

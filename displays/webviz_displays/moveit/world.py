@@ -153,7 +153,7 @@ class DrawnWorld(msgspec.Struct):
         return self._made[1]
 
     def _posed(self, poser: Poser, interval_s: float, now_ns: int) -> Stance:
-        """Where the links are, computed anew after some time at the earliest."""
+        """Return where the links are, computed anew after some time at the earliest."""
         joints, before = self.scene.joints, self._stance
         if (
             before is not None

@@ -49,7 +49,7 @@ class Covariances(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """Where M copies of a shape go.
+    """Poses of M copies of a shape.
 
     Attributes:
         centers: (M, 3), metres.
@@ -60,7 +60,7 @@ class Placed(NamedTuple):
     frames: F64
 
     def images(self, points: F64) -> F64:
-        """Where points (P, 3) of the shape are in each copy, (M, P, 3)."""
+        """Return where points (P, 3) of the shape are in each copy, (M, P, 3)."""
         return self.centers[:, None] + np.einsum("nij,pj->npi", self.frames, points)
 
 
@@ -143,7 +143,7 @@ def tip_discs(
     offset: float,
     axis: Literal[0, 1, 2],
 ) -> Placed:
-    """Where the tips of one axis of the other poses may be, for a disc of radius 1.
+    """Return where the tips of one axis of the other poses may be, for a disc of radius 1.
 
     A small rotation w moves the tip e of an axis by w x e, which lies in the plane of the other
     two axes u and v: by w_v along u and by -w_u along v. As `wedges`, with `axis` 0, 1 or 2.

@@ -106,7 +106,7 @@ class Cloud:
         return self._view(np.dtype(dtype.byteorder + "u4"), offset)
 
     def positions(self) -> tuple[NDArray[np.float32], Position]:
-        """Where the points are, relative to a round point near them.
+        """Return where the points are, relative to a round point near them.
 
         Returns:
             float32 (N, 3) in metres, and that point, zero if they are near zero already: float32

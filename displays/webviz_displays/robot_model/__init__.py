@@ -270,7 +270,7 @@ class RobotModel(Display):
         return link_details(model.full or model.robot, link, pose, frame, ctx.frames)
 
     def _reasons(self, model: LoadedRobot, lost: list[str], ctx: Context) -> dict[str, Explanation]:
-        """Why the first links are lost; the texts contain times and are renewed every second."""
+        """Return why the first links are lost; texts contain times, so they change every second."""
         state: RobotDrawing = ctx.state
         moment = (lost, ctx.frames.now_ns // SECOND)
         if state.reasons_of != moment:

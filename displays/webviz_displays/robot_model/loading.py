@@ -20,7 +20,7 @@ _disk = DiskThreads(16)
 
 
 class Written(msgspec.Struct, frozen=True):
-    """When a file was last written, as the disk said.
+    """Time at which a file was last written, as the disk said.
 
     Args:
         path: of the file.
@@ -34,7 +34,7 @@ class Written(msgspec.Struct, frozen=True):
 
 
 def last_written(path: str, before: Written, ctx: Context) -> Written:
-    """When a file was last written, from a worker that asks the disk; `before` until it has.
+    """Return when a file was last written, from a worker that asks the disk; `before` until it has.
 
     It is asked anew by every second call, as its answer leads to a call itself.
     """

@@ -1,4 +1,4 @@
-"""Where the links of a robot are: by their transforms, or by the positions of its joints."""
+"""Poses of the links of a robot: by their transforms, or by the positions of its joints."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Placing(Protocol):
         ...
 
     def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
-        """Why links have no pose, unless another status says it: one sentence per cause."""
+        """Return why links have no pose, unless another status says it: one sentence per cause."""
         ...
 
 
@@ -71,7 +71,7 @@ class ByTransforms:
         return ctx.follow(self._prefix + link, keep_last=True, interval_s=interval_s)
 
     def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
-        """Why the links' frames have no transforms, by the first link with each reason."""
+        """Return why the links' frames have no transforms, by the first link with each reason."""
         return distinct(
             lost, lambda link: why_lost(robot, link, frames.explain(self.frame(link))), NAMED
         )
@@ -125,7 +125,7 @@ class ByJoints:
         )
 
     def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
-        """Why the root link has no transform."""
+        """Return why the root link has no transform."""
         return {} if frames.latest(self._root) else {robot.root: frames.explain(self._root)}
 
 

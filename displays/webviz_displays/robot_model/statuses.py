@@ -45,7 +45,7 @@ def report_unknown(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: 
 
 
 def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
-    """Why a link has no pose; the description may give a better reason than `reason`."""
+    """Return why a link has no pose; the description may give a better reason than `reason`."""
     joint = next((joint for joint in robot.joints.values() if joint.child == link), None)
     if reason.kind != Kind.UNKNOWN_FRAME or joint is None:
         return reason

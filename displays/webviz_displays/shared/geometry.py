@@ -1,4 +1,4 @@
-"""Where points are, and whether they can be drawn."""
+"""Coordinates of points, and whether they can be drawn."""
 
 from __future__ import annotations
 

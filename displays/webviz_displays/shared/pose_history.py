@@ -90,7 +90,7 @@ class GrowingTrail:
 
 
 def trail(samples: Sequence[Sample], pose_of: PoseOf) -> PoseTrail:
-    """Where samples were, in the fixed frame."""
+    """Return where samples were, in the fixed frame."""
     table = np.array([_row(sample, pose_of(sample.message)) for sample in samples]).reshape(-1, 14)
     ok = is_drawable(table[:, :3]) & np.isfinite(table[:, 3:7]).all(axis=1)
     table[~ok, :3] = 0.0

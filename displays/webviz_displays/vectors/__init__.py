@@ -58,7 +58,7 @@ class MotionDisplay(VectorDisplay):
         return lengths <= (self.arrow_width if self.hide_small_values else 0.0)
 
     def why_hidden(self) -> tuple[str, Remedy | None]:
-        """Why neither is drawn, and what would show them."""
+        """Return why neither is drawn, and what would show them."""
         if self.hide_small_values:
             text = "Hide Small Values hides arrows that are not longer than Arrow Width."
             return text, Remedy("hide_small_values", False, "Show small values")

@@ -117,7 +117,7 @@ class VectorDisplay(Display):
                 ctx.warn("Vectors", joined(sentence, reason), remedy)
 
     def why_hidden(self) -> tuple[str, Remedy | None]:
-        """Why no vector is drawn, and what would show them."""
+        """Return why no vector is drawn, and what would show them."""
         return "Both are zero, so there is no arrow.", None
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:

@@ -1,4 +1,4 @@
-"""Where a camera stands for a view, and back."""
+"""Poses of a camera for a view, and back."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class CaseFailed(Exception):
 
 @dataclass(frozen=True)
 class Load:
-    """Who watches.
+    """Clients that watch.
 
     Args:
         clients: that read.

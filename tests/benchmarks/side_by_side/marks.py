@@ -16,7 +16,7 @@ PER_METRE = 256
 
 
 class Place(StrEnum):
-    """Where in a picture the marked coordinate is found."""
+    """Place of the marked coordinate in a picture."""
 
     FIRST_POINT = "x of the first point of a scan or a cloud"
     FIRST_VERTEX = "x of the first vertex of a line"

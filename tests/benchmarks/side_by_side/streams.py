@@ -53,7 +53,7 @@ class Stream:
 
     @cached_property
     def stamp_at(self) -> int | None:
-        """Where the first stamp lies in the bytes of a message, None if it has none."""
+        """Return where the first stamp lies in the bytes of a message, None if it has none."""
         stamps = self.templates[0].stamps
         return int(stamps[0, 0]) if len(stamps) else None
 

@@ -78,7 +78,7 @@ def sightings(
 
 
 def _candidates(message: dict[str, Any]) -> Iterable[tuple[Place, Any]]:
-    """Where a mark may lie in a message, and what is there."""
+    """Return where a mark may lie in a message, and what is there."""
     if message["type"] == "SetPositionMessage":
         x, _, z = message["position"]
         if abs(z - FRAME_Z) < EXACT_M:

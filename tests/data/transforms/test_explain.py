@@ -1,4 +1,4 @@
-"""Why a frame has no pose: every reason in words and numbers, and what to do next."""
+"""Reasons why a frame has no pose: every one in words and numbers, and what to do next."""
 
 import math
 from collections.abc import Callable, Iterable

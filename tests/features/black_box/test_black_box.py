@@ -42,7 +42,7 @@ SCAN = WatchRule(display="Scan", status="error", lasting="2s")
 
 
 def fired(watcher: RuleWatcher, levels: dict[float, Level | None]) -> list[float]:
-    """When a rule about the display Scan fires, given its levels by time."""
+    """Return when a rule about the display Scan fires, given its levels by time."""
     found = []
     for at_s, level in levels.items():
         displays = {} if level is None else {"Scan": level}
@@ -196,7 +196,7 @@ def until(bench: Bench, is_reached: Callable[[State], bool]) -> State:
 
 
 def causes(bench: Bench) -> set[str]:
-    """Why something is being saved in the next 5 s of the doctor."""
+    """Return why something is being saved in the next 5 s of the doctor."""
     found = set[str]()
     for _ in range(50):
         shown = bench.do(Refresh()).black_box

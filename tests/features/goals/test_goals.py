@@ -37,7 +37,7 @@ class Robot:
         return self.graph.goals[-1]
 
     def use(self, points: Any, **gesture: Any) -> str:
-        """Why a gesture is refused, "" if it is not."""
+        """Return why a gesture is refused, "" if it is not."""
         command = UseTool("Nav2 Goal", points, 0.5, **gesture, report=self.told.append)
         answer = self.bench.viewer.enqueue(command)
         self.bench.until_done(answer)

@@ -1,4 +1,4 @@
-"""Who gets in, as what, and what happens to those who may not or may no longer."""
+"""Entry: people and their roles, and what happens to those who may not or may no longer."""
 
 from __future__ import annotations
 

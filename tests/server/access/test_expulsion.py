@@ -24,7 +24,7 @@ from webviz.server.access.tokens import make
 
 @pytest.fixture
 def mounted() -> Iterator[threading.Event]:
-    """When a dead mount, on which threads wait, answers."""
+    """Yield an event that lets a dead mount, on which threads wait, answer."""
     mounted = threading.Event()
     yield mounted
     mounted.set()

@@ -145,7 +145,7 @@ def test_a_role_decides_what_an_agent_may_do(
 
 @pytest.fixture
 def over_http(tools: AgentTools) -> Iterator[tuple[str, dict[str, str]]]:
-    """Where agents are served, and the secrets of tokens by their name."""
+    """Return where agents are served, and the secrets of tokens by their name."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

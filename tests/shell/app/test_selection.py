@@ -192,7 +192,7 @@ def test_a_click_on_a_beam_of_a_real_scan_gets_its_index_range_and_intensity(
 
 
 def places_of(scan: Any) -> NDArray[np.float64]:
-    """Where each beam ends, in metres; NaN where it does not."""
+    """Return where each beam ends, in metres; NaN where it does not."""
     angles = scan.angle_min + np.arange(len(scan.ranges)) * scan.angle_increment
     ways = np.stack((np.cos(angles), np.sin(angles)), axis=1)
     places = scan.ranges.astype(np.float64)[:, None] * ways
@@ -333,7 +333,7 @@ def wait_for_titles(page: Page, titles: list[str]) -> None:
 
 
 def on_screen(page: Page, xy: Sequence[float]) -> tuple[float, float]:
-    """Where a point of the ground is in the window."""
+    """Return where a point of the ground is in the window."""
     return page.tab.evaluate(
         """async ([x, y]) => {
           const { onCanvas } = await import("webviz/scene/ground.js");

@@ -1,4 +1,4 @@
-"""Where a sample spends its time on the way to a browser."""
+"""Steps of a sample on its way to a browser, and their times."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def scan(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
 
 
 def column(x: float, distance: float = 20.0) -> float:
-    """Where a point at x is in a picture from straight above."""
+    """Return where a point at x is in a picture from straight above."""
     half = distance * np.tan(np.pi / 8)
     return SIZE[0] / 2 + x / half * SIZE[1] / 2
 

@@ -153,7 +153,7 @@ def _checked(model: CameraModel) -> CameraModel:
 
 
 def calibration_problem(info: Any) -> str:
-    """Why the numbers of a camera info other than P are invalid, "" if they are valid.
+    """Return why the numbers of a camera info other than P are invalid, "" if they are valid.
 
     Args:
         info: a sensor_msgs/CameraInfo.
@@ -179,7 +179,7 @@ def binning(info: Any) -> tuple[int, int]:
 
 
 def optical_problem(frame: str) -> str:
-    """Why a camera's frame is hardly its optical one, "" if it may be."""
+    """Return why a camera's frame is hardly its optical one, "" if it may be."""
     name = frame.rpartition("/")[2].lower()
     if "optical" in name or not name.endswith(("link", "frame", "base")):
         return ""

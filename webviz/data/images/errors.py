@@ -1,4 +1,4 @@
-"""Why an image cannot be shown."""
+"""Reasons why an image cannot be shown."""
 
 from __future__ import annotations
 

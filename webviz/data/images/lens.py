@@ -89,7 +89,7 @@ class Lens(msgspec.Struct, frozen=True):
         )
 
     def project(self, rays: F64) -> F64:
-        """Where rays of the rectified camera meet the sensor: pixels (..., 2).
+        """Return where rays of the rectified camera meet the sensor: pixels (..., 2).
 
         The centre of the first pixel is at 0, 0. Rays that the lens does not see are NaN: beyond
         the angle at which its polynomial turns back.
@@ -132,7 +132,7 @@ class Lens(msgspec.Struct, frozen=True):
             return shares
 
     def _bent(self, rays: F64) -> F64:
-        """Where rays meet a plane 1 m ahead of the camera, behind the lens."""
+        """Return where rays meet a plane 1 m ahead of the camera, behind the lens."""
         x, y, z = np.moveaxis(rays, -1, 0)
         if self.model == "equidistant":
             across = np.hypot(x, y)

@@ -92,7 +92,7 @@ def _pixels(numbers: NDArray[np.int32], count: int) -> NDArray[np.uint16]:
 
 
 def _runs(numbers: NDArray[np.int32], count: int) -> NDArray[np.intp]:
-    """Where runs begin: with the number of zeros, then that of the differences that follow.
+    """Return where runs begin: with the number of zeros, then that of the differences that follow.
 
     Each says where the next one begins. They are followed from block to block, and in a block by
     doubling: who knows the places up to 2^n runs ahead knows those up to 2^(n + 1).

@@ -47,7 +47,7 @@ _UINT = {order: Struct(order + "I").unpack_from for order in "<>"}
 
 
 class _Layout:
-    """Where the fields of a marker are, relative to its first byte.
+    """Offsets of the fields of a marker from its first byte.
 
     Args:
         reader: at the first byte of a marker, which is at a multiple of 4.

@@ -19,7 +19,7 @@ _ARRAYS = 4
 _COUNT = {order: Layout(order + "I").unpack_from for order in "<>"}
 _DURATION = {order: Layout(order + "iI").unpack_from for order in "<>"}
 _Point = tuple[list[int], list[int], int]
-"""Where its numbers start in the message, how many they are, and its time in nanoseconds."""
+"""Offset of its numbers in the message, their count, and its time in nanoseconds."""
 
 
 class JointTrajectoryPoint(Struct, frozen=True, eq=False):

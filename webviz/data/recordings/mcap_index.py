@@ -1,4 +1,4 @@
-"""Where the chunks of an MCAP file are: by its summary, or by all of its records without one."""
+"""Offsets of the chunks of an MCAP file: by its summary, or by all of its records without one."""
 
 from __future__ import annotations
 
@@ -358,7 +358,7 @@ class McapIndex:
         return [replace(chunk, start_ns=first_ns, end_ns=last_ns, counts=found)]
 
     def _next_record(self, at: int) -> int | None:
-        """Where the next plausible record begins that another one follows; None without one."""
+        """Return where the next plausible record begins that another follows, None without one."""
         while at < self._size and self._left_to_search > 0:
             block = self._read(at, 1 << 20)
             self._left_to_search -= len(block)

@@ -328,7 +328,7 @@ class TimeCache:
         return pose, after, float(stamp_ns - start) / float(stamps[i] - start), parent
 
     def refusal(self, stamp_ns: int) -> tuple[type[ExtrapolationException], str]:
-        """Why `at` returned None: tf2's exception and the start of its text."""
+        """Return why `at` returned None: tf2's exception and the start of its text."""
         stamps = self.stamps
         if not stamps:
             return NoDataForExtrapolationException, ""

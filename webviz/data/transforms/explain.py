@@ -1,4 +1,4 @@
-"""Why a frame has no pose at a time, with numbers and a remedy."""
+"""Reasons why a frame has no pose at a time, with numbers and a remedy."""
 
 from __future__ import annotations
 

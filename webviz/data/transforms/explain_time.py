@@ -1,4 +1,4 @@
-"""Why a frame has no pose at one time although it has one at others."""
+"""Reasons why a frame has no pose at one time although it has one at others."""
 
 from __future__ import annotations
 

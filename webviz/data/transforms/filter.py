@@ -143,7 +143,7 @@ class MessageFilter(Generic[P]):
     def explanation(
         self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0
     ) -> Explanation | None:
-        """Why nothing is ready: for the message that waits longest, else the last one given up.
+        """Return why nothing is ready: of the message that waits longest, or was given up last.
 
         None if nothing waits, but what newer data has passed, and nothing was given up since a
         message last became ready.
@@ -212,7 +212,7 @@ class MessageFilter(Generic[P]):
 def _why(
     buffer: TransformBuffer, fixed_frame: str, message: _Waiting[P], now_ns: int
 ) -> Explanation:
-    """Why a message waits: the reason for the first of its stamps without a transform."""
+    """Return why a message waits: the reason for the first of its stamps without a transform."""
     reasons = [explain(buffer, fixed_frame, message.frame, t, now_ns) for t in message.stamps()]
     return next((r for r in reasons if r.kind != Kind.AVAILABLE), reasons[0])
 

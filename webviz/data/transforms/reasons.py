@@ -19,7 +19,7 @@ Simulated time and time since boot start at 0: below a year it cannot be the wal
 
 
 class Kind(StrEnum):
-    """Why a frame has no pose."""
+    """Reason why a frame has no pose."""
 
     AVAILABLE = "available"
     EMPTY_FRAME = "empty frame_id"
@@ -81,7 +81,7 @@ MAX_LISTED = 10
 def distinct(
     frames: Sequence[str], explain: Callable[[str], Explanation], most: int
 ) -> dict[str, Explanation]:
-    """Why frames have no pose: one reason per cause, by its first frame.
+    """Return why frames have no pose: one reason per cause, by its first frame.
 
     Args:
         frames: ids.

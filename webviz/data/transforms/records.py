@@ -51,7 +51,7 @@ RECENT_NS = 5_000_000_000
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """Why the buffer last refused a transform of a child, and how often.
+    """Reason why the buffer last refused a transform of a child, and how often it did.
 
     Attributes:
         reason: tf2's name of it, such as `TF_OLD_DATA`.
@@ -92,7 +92,7 @@ class Surplus:
 
 
 def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -> tuple[str, str]:
-    """Why a transform is refused at any time: tf2's name, and a description."""
+    """Return why a transform is refused at any time: tf2's name, and a description."""
     if child == parent:
         return "TF_SELF_TRANSFORM", "the frame is its own parent"
     if not child:
@@ -105,7 +105,7 @@ def fault_of(parent: str, child: str, translation: tuple[float, float, float]) -
 
 
 def too_old(stamp_ns: int, newest_ns: int) -> tuple[str, str]:
-    """Why a transform older than the history is refused."""
+    """Return why a transform older than the history is refused."""
     return "TF_OLD_DATA", (
         f"its stamp {format_stamp(stamp_ns)} is older than the newest, {format_stamp(newest_ns)}, "
         "by more than the buffer keeps"

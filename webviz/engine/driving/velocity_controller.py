@@ -59,7 +59,7 @@ class VelocityController:
 
     @property
     def deadline(self) -> float:
-        """When it stops unless its driver is heard again."""
+        """Return when it stops unless its driver is heard again."""
         return math.inf if self._wanted == STILL else self._heard + BEAT_S
 
     def driver(self, now: float) -> int | None:

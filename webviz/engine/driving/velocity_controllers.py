@@ -214,7 +214,7 @@ class VelocityControllers:
             )
 
     def _due(self, latest: float) -> float:
-        """When to step next: as soon as a driver is silent for too long."""
+        """Return when to step next: as soon as a driver is silent for too long."""
         with self._lock:
             return min(
                 [latest, *(controller.deadline for controller in self._controllers.values())]

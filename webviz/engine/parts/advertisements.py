@@ -20,7 +20,7 @@ Report = Callable[[Status], None]
 def advertisement_of(
     core: Core, type: str, topic: Topic, depth: int = DEPTH
 ) -> Advertisement | None:
-    """Where messages of a type are published; None if the topic has no valid name."""
+    """Return where messages of a type are published; None if the topic has no valid name."""
     try:
         name = core.player.resolve(topic.name) if topic.name else ""
     except ValueError:

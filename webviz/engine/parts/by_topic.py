@@ -76,5 +76,5 @@ def picks(
 
 
 def no_display(messages: Sequence[str]) -> str:
-    """Why a topic of these message types cannot be shown."""
+    """Return why a topic of these message types cannot be shown."""
     return f"No display for {' or '.join(messages)}." if messages else "No publisher."

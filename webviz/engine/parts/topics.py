@@ -93,7 +93,7 @@ class GraphStore(PageStore, frozen=True):
 
 
 class TopicsPart(Part):
-    """Who publishes what, and how fast it arrives."""
+    """Topics, their publishers, and how fast messages arrive."""
 
     name = "Topics"
 

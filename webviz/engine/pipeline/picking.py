@@ -188,7 +188,7 @@ def _face_at(node: Mesh, point: Position) -> int:
 
 
 def _positions(node: Items) -> NDArray[np.float32]:
-    """Where each item is; a line, in its middle; an arrow, at its tail."""
+    """Return where each item is; a line, in its middle; an arrow, at its tail."""
     if isinstance(node, Points):
         return node.xyz
     if isinstance(node, Lines):

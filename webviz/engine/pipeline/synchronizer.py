@@ -14,7 +14,7 @@ MAX_BYTES = 64 << 20
 
 
 class Gap(msgspec.Struct, frozen=True):
-    """Why the newest message of one input is in no set.
+    """Reason why the newest message of one input is in no set.
 
     Args:
         present: input that has the message.
@@ -84,7 +84,7 @@ class Synchronizer(Generic[P]):
         return {each: self._take(self._queues[each], stamp) for each, stamp in stamps.items()}
 
     def gap(self) -> Gap | None:
-        """Why the newest waiting message is in no set; None if nothing waits."""
+        """Return why the newest waiting message is in no set; None if nothing waits."""
         waiting = {name: max(queue) for name, queue in self._queues.items() if queue}
         if not waiting:
             return None

@@ -191,7 +191,7 @@ class TopicStatistics:
         return self._others[1]
 
     def _refusal(self, offer: Offer | None, publishers: Sequence[Publisher]) -> str:
-        """Why DDS matches none of the publishers with the QoS of this input, though the type fits.
+        """Return why DDS matches no publisher of the right type with the QoS of this input.
 
         Another display may read the topic with a QoS that matches.
         """

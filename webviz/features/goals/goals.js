@@ -35,7 +35,7 @@ export function install() {
   places.append(list);
 }
 
-// Where robots drive to, in the frame in which it was sent.
+// Show the poses to which robots drive, in the frame in which it was sent.
 function showRoutes() {
   const show = makePoses("routes");
   /** @type {ValuesOf<"routes">} */

@@ -62,7 +62,7 @@ function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers
 }
 
 /**
- * When the last of some stages ends.
+ * Return when the last of some stages ends.
  *
  * @param {readonly Stage[]} stages
  */

@@ -1,4 +1,4 @@
-"""When browsers paint what displays have drawn, and what that costs their links."""
+"""Times at which browsers paint what displays have drawn, and its cost on their links."""
 
 from __future__ import annotations
 

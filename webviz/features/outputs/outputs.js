@@ -58,7 +58,7 @@ const commands = (shown) =>
   }));
 
 /**
- * Where a file is, and what one does with it; hidden without one.
+ * Return a card of a file: its place and what one does with it; hidden without one.
  *
  * @param {Signal<Written | null>} shown
  */

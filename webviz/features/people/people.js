@@ -1,4 +1,4 @@
-// Who is connected and what they did, and how the owner invites others.
+// People who are connected, what they did, and invitations of the owner.
 
 import { timeOfDay } from "webviz/time_text.js";
 import { self, why } from "webviz/access.js";

@@ -32,7 +32,7 @@ export const seeks = (changed, isNow = () => false) =>
   newest((time) => (isNow(time) ? returnToLive() : act("Seek", { at_s: time })), changed);
 
 /**
- * Who looks back, if that is another page; "" if it is this one or a program.
+ * Return who looks back, if that is another page; "" if it is this one or a program.
  *
  * @param {ValuesOf<"playback">} values
  */

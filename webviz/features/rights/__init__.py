@@ -279,7 +279,7 @@ class RightsFeature(PageFeature):
         shown.add_done_callback(lambda _: asked.answer(text))
 
     def _excess(self, name: str, link: str) -> str:
-        """Why a request of a link is not passed on, "" if it is."""
+        """Return why a request of a link is not passed on, "" if it is."""
         if not self.core.gate.is_open(name):
             return self.core.gate.lasting_refusal(name) or f"{name} is allowed already."
         now, current = time.monotonic(), self._current()

@@ -184,7 +184,7 @@ class ToolsFeature(PageFeature):
         return self.core.gate.call(name, type, request, timeout_s)
 
     def _refusal(self, tool: Tool) -> str:
-        """Why a tool can send nothing, "" if it can or is not known to send anything."""
+        """Return why a tool can send nothing, "" if it can or is not known to send anything."""
         refusals = [self.core.gate.refusal(name) for name in self._names(tool)]
         return refusals[0] if refusals and all(refusals) else ""
 

@@ -19,7 +19,7 @@ from webviz.data.rotations import matrices
 
 KEY = "m0"
 ARROW_M = 0.5, 0.8
-"""Where an arrow begins and ends, from the middle."""
+"""Distances of both ends of an arrow from the middle."""
 SHAFT_M, HEAD_M, HEAD_LENGTH_M = 0.025, 0.06, 0.12
 RING_M = 0.42, 0.025
 """Radius of a ring, and of its tube."""

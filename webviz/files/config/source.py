@@ -69,7 +69,7 @@ class YamlDocument:
 
 
 class Location(msgspec.Struct, frozen=True):
-    """Where a value stands, for sentences: `lab.yaml:12: displays[2].size`.
+    """Place of a value, for sentences: `lab.yaml:12: displays[2].size`.
 
     Args:
         path: of the value, from the root of the source.

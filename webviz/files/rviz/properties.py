@@ -1,4 +1,4 @@
-"""Where each property of a display or tool stands in RViz's tree of properties."""
+"""Place of each property of a display or tool in RViz's tree of properties."""
 
 from __future__ import annotations
 

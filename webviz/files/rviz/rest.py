@@ -34,7 +34,7 @@ REASONS = {
     "AutowareScreenCapturePanel": "unsupported; save pictures with `webviz screenshot`",
     "AutowareDateTimePanel": "unsupported; the time bar shows ROS time",
 }
-"""Why panels are unsupported, and what to use instead, if there is more to say."""
+"""Reasons why panels are unsupported, and what to use instead, if there is more to say."""
 
 KEPT = "kept for export"
 

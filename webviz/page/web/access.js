@@ -48,7 +48,7 @@ export function decideBy(refusal) {
 }
 
 /**
- * Why a command or message is not allowed here: a sentence, "" if it is.
+ * Return why a command or message is not allowed here: a sentence, "" if it is.
  *
  * @param {string} what
  * @param {object} [fields] of the command

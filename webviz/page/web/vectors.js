@@ -119,7 +119,7 @@ export const compose = (a, b) => ({
 export const angleAbout = (axis, from, to) => Math.atan2(dot(axis, cross(from, to)), dot(from, to));
 
 /**
- * Where a ray `{origin, direction}` meets a plane, or null if that is behind it or very far.
+ * Return where a ray `{origin, direction}` meets a plane, or null if that is behind it or very far.
  *
  * @param {Ray} ray
  * @param {Vec3} point

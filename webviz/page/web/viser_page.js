@@ -162,7 +162,7 @@ export const nodes = () => page().nodeRefFromName;
 export const node = (name) => page().nodeRefFromName[name];
 
 /**
- * Where a node is relative to its parent, also of one that is no object, such as a text.
+ * Return where a node is relative to its parent, also of one that is no object, such as a text.
  *
  * @param {string} name
  * @returns {Vec3 | undefined}

@@ -144,7 +144,7 @@ class Series:
         self.how = how
         self.topic = ""
         self.problem = ""
-        """Why the newest message has no value."""
+        """Reason why the newest message has no value."""
         self.has_stamp = True
         self._types: MessageTypes = KNOWN if before is None else before._types
         """Types that define the type of the newest message."""
@@ -200,7 +200,7 @@ class Series:
         self._over_time = self._path.over_time() if self._path else None
 
     def explanation(self, types: Mapping[str, str]) -> str:
-        """Why the curve has no new values, or what to know of them; a sentence or ""."""
+        """Return why the curve has no new values, or what to know of them; a sentence or ""."""
         if self._invalid:
             return self._invalid
         if self.topic not in types:

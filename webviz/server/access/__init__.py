@@ -1,1 +1,1 @@
-"""Who may use a viewer, and for what: roles, tokens and the rules that are enforced."""
+"""Access to a viewer: roles, tokens and the rules that are enforced."""

@@ -1,4 +1,4 @@
-"""Who sends an HTTP request: by the cookie of the browser, or by a link with a token."""
+"""Sender of an HTTP request: by the cookie of the browser, or by a link with a token."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ Address = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 
 class Caller(msgspec.Struct, frozen=True):
-    """Where a request comes from, and how the browser addressed the server."""
+    """Origin of a request, and the address by which the browser reached the server."""
 
     address: str
     """IP address of the browser, or of the last proxy that is not trusted."""

@@ -63,7 +63,7 @@ def _by_name() -> Mapping[str, Role]:
 
 
 def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
-    """Why a message is refused: a sentence, "" if it is not.
+    """Return why a message is refused: a sentence, "" if it is not.
 
     Args:
         role: of the sender.

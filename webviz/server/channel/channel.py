@@ -181,7 +181,7 @@ class Channel:
         return watched
 
     def visitors(self) -> dict[int, Visitor]:
-        """Who is connected, by viser's id of the browser; from any thread."""
+        """Return who is connected, by viser's id of the browser; from any thread."""
         with self._lock:
             known = list(self._visitors.items())
         return {

@@ -18,7 +18,7 @@ from webviz.engine.feature import features, texts_of
 from webviz.server.channel.packed import pack_of
 
 CHANNEL = "/webviz/channel"
-"""Where the websocket of the channel is, below the page."""
+"""Path of the channel's websocket, below the page."""
 
 _FOLDER = Path(str(resources.files("webviz.page"))) / "web"
 PACK = _FOLDER.parent / "packed.json"

@@ -94,12 +94,12 @@ class ConnectionLimits:
         """Pauses of browsers whose connections were ended for what they sent, likewise."""
 
     def absence(self, newcomer: Newcomer) -> str:
-        """Why a browser has to stay away for a while: a sentence, "" if it may connect."""
+        """Return why a browser has to stay away for a while: a sentence, "" if it may connect."""
         wait_s = self.back_off.wait_s(sender_of(newcomer), asyncio.get_running_loop().time())
         return f"{FLOODED} Try again in {math.ceil(wait_s)} s." if wait_s > 0.0 else ""
 
     def refusal(self, newcomer: Newcomer) -> str:
-        """Why one more browser may not connect: a sentence, "" if it may."""
+        """Return why one more browser may not connect: a sentence, "" if it may."""
         role = newcomer.grant.role
         limits = LIMITS[role]
         browsers = [connection for connection in self._open if not connection.is_channel]
@@ -228,7 +228,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         super().connection_lost(exc)
 
     def get_buffer(self, sizehint: int) -> memoryview:
-        """Where the event loop puts what it reads in one turn."""
+        """Return where the event loop puts what it reads in one turn."""
         return self._read
 
     def buffer_updated(self, nbytes: int) -> None:

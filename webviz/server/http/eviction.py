@@ -1,4 +1,4 @@
-"""Who makes room if there are too many connections: the network that has the most of them."""
+"""Choice of the connection that makes room for another: of the network that has the most."""
 
 from __future__ import annotations
 

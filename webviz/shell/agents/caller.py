@@ -37,7 +37,7 @@ class AgentCaller(msgspec.Struct, frozen=True):
         return Sender(BROWSER, priority=self.role)
 
     def refusal(self, command: type[Command]) -> str:
-        """Why a command is not its to give, by the rules of pages; "" if it is."""
+        """Return why a command is not its to give, by the rules of pages; "" if it is."""
         needed = rules.commands()[command]
         if self.role >= needed:
             return ""

@@ -194,7 +194,7 @@ class Running(PictureControls):
 
         # A proxy on this machine brings others.
         self.access = access_to(host, token or bool(trust_proxies))
-        """Who may connect."""
+        """Rules of who may connect."""
         server = open_server(
             host,
             port,

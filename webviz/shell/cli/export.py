@@ -33,9 +33,9 @@ class ExportOptions(ConfigOptions, GhostOptions):
     output: Annotated[File, Parameter(alias="-o")]
     """HTML file to write; it needs neither a server nor a network."""
     first: Annotated[Time, Parameter(name="--from")] = "start"
-    """Where to begin: seconds from the start, a Unix time, `start` or `end`."""
+    """Beginning: seconds from the start, a Unix time, `start` or `end`."""
     last: Annotated[Time, Parameter(name="--to")] = "end"
-    """Where to end."""
+    """End, in the same ways."""
     at: Time | None = None
     """Moment that the file shows when it is opened (default: that of --from)."""
     rate: Annotated[Seconds, Parameter(metavar="HZ")] = 10.0

@@ -39,7 +39,7 @@ def _check_memory(type_: object, text: str) -> None:
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class ViewingOptions(ConfigOptions):
-    """Where to serve the page, and what to save."""
+    """Address of the page, and what to save."""
 
     template: File | None = None
     """Config to start with if --display-config is not given; saving asks for a name."""

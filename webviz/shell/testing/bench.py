@@ -143,7 +143,7 @@ class DisplayBench:
         return {key: node for key, _, node in self.scene.visible()}
 
     def poses(self) -> dict[str, Pose]:
-        """Where in the fixed frame each of `nodes` is."""
+        """Return where in the fixed frame each of `nodes` is."""
         return {key: pose for key, pose, _ in self.scene.visible()}
 
     def xyz(self, key: str) -> NDArray[np.float64]:

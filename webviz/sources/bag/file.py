@@ -121,7 +121,7 @@ class BagFile:
         self._used = self._recording.used
         self.channels: tuple[BagChannel, ...] = ()
         self.skipped: dict[str, str] = {}
-        """Why the messages of a topic cannot be read, by topic."""
+        """Reasons why messages cannot be read, by topic."""
         self._misfits: dict[str, str] = {}
         """Reason why the last message of a topic that could not be converted was left out, by
         topic."""
@@ -240,7 +240,7 @@ class BagFile:
 
 
 def _obstacle(recorded: RecordedChannel) -> str:
-    """Why the messages of a channel cannot be read whatever their type, "" if they can."""
+    """Return why the messages of a channel cannot be read whatever their type, "" if they can."""
     if is_own(recorded.type, recorded.encoding):
         if len(recorded.topic) > MAX_NAME or name_problem(recorded.topic):
             return "its name is too long, or contains invisible characters"

@@ -349,7 +349,7 @@ class BagHistory:
         return Offer(publishers, qos, problem, channel.type, is_recorded=True, begins=begins)
 
     def _beginning(self, channel: HistoryChannel) -> str:
-        """When a topic begins, in words."""
+        """Return when a topic begins, in words."""
         first_ns = self.first_ns(channel)
         if first_ns is None:
             return NONE

@@ -107,7 +107,7 @@ class Definitions:
         return cdr, known.types
 
     def problem(self, topic: str) -> str:
-        """Why messages of a topic cannot be read, "" if they can or it is not read."""
+        """Return why messages of a topic cannot be read, "" if they can or it is not read."""
         return self._topics.get(topic, TopicTypes()).problem
 
     def forget(self, topic: str) -> None:

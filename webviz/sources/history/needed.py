@@ -130,7 +130,7 @@ class NeededMessages:
     def _spans(
         self, channels: Sequence[HistoryChannel], start_ns: int, recent_ns: int
     ) -> Sequence[tuple[int, int]]:
-        """When the transforms and the clock are needed for the older messages of a topic."""
+        """Return when the transforms and the clock are needed for the older messages of a topic."""
         older = self._read(channels, start_ns, recent_ns)
         stamps = [each.stamp_ns for each in itertools.islice(older, MAX_OLD + 1)]
         if len(stamps) > MAX_OLD:

@@ -1,4 +1,4 @@
-"""When frames have transforms: those that ended are needed long after."""
+"""Spans of time in which frames have transforms: those that ended are needed long after."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ NOT_REMEMBERED = (
     "none of this moment or before is remembered; only displayed topics are, and the oldest "
     "messages go first, large ones before others"
 )
-"""Why a topic has no message in the past."""
+"""Reason why a topic has no message in the past."""
 Numbered = tuple[int, Raw]
 """The place of a message in the order of arrival, and the message."""
 

@@ -40,7 +40,7 @@ export function roomy(low, high) {
 }
 
 /**
- * Where between 0 and 1 a value is in a range.
+ * Return the place of a value in a range, between 0 and 1.
  *
  * @param {number} value
  * @param {Range} range

@@ -91,7 +91,7 @@ export function permission({ name, use }) {
 }
 
 /**
- * Who can allow it, for those who cannot, as a sentence behind another.
+ * Return who can allow it, for those who cannot, as a sentence behind another.
  *
  * @param {{right: ReturnType<typeof rightTo>, name: () => string, isOwner: boolean, isHere: boolean}} options
  */

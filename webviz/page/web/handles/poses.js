@@ -1,4 +1,4 @@
-// Where handles are on this page: what it drags is where the drag puts it, whatever the server
+// Poses of handles on this page: what it drags is where the drag puts it, whatever the server
 // says meanwhile, and controls that face the camera do so in every frame.
 
 import { nodeNamed } from "webviz/scene/picking/things.js";

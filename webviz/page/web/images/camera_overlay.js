@@ -31,7 +31,7 @@ export function paint(context, { image, size, camera, hidden }) {
 }
 
 /**
- * Where the picture is, in pixels of a pane so large.
+ * Return where the picture is, in pixels of a pane so large.
  *
  * @param {PictureCamera | null} camera
  * @param {Vec2} size

@@ -1,4 +1,4 @@
-// Whom to credit for what the scene shows, such as the makers of a map.
+// Credits for what the scene shows, such as to the makers of a map.
 
 import { el, setText } from "webviz/dom.js";
 import { watch } from "webviz/stores.js";

@@ -1,4 +1,4 @@
-// Where the mouse or a resting finger is on the ground, and what it points at; until then, what the
+// Place of the mouse or a resting finger on the ground, and what it points at; until then, what the
 // buttons of the mouse do.
 
 import { act } from "webviz/act.js";

@@ -30,7 +30,7 @@ const COMMANDS = new Set([
 ]);
 
 /**
- * Why a command is not allowed: a sentence, "" if it is. Displays can be switched, but not changed.
+ * Return why a command is not allowed: a sentence, "" if it is. Displays can only be switched.
  *
  * @param {string} what
  * @param {{path?: string}} fields

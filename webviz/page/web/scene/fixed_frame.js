@@ -1,4 +1,4 @@
-// Where the fixed frame is in three.js, whose y points up.
+// Pose of the fixed frame in three.js, whose y points up.
 
 import constants from "webviz/constants.js";
 import * as viser from "webviz/viser_page.js";

@@ -18,7 +18,7 @@ const STEEP = 0.01; // square of the sine of an angle to the vertical
 const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
 
 /**
- * Where a plane z = height is below a point of the window, in metres; null above its horizon.
+ * Return where a plane z = height is below a point of the window, in metres; null above its horizon.
  *
  * @param {Vec2} xy
  * @param {number} height
@@ -90,7 +90,7 @@ export const toFixedFrame = (point) =>
   point.clone().applyMatrix4(toThree().clone().invert()).toArray();
 
 /**
- * Where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera.
+ * Return where a point of the fixed frame is on the canvas, in CSS pixels, or null behind the camera.
  *
  * @param {Vec3} point
  * @returns {Vec2 | null}

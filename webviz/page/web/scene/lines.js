@@ -26,7 +26,7 @@ import * as viser from "webviz/viser_page.js";
 
 const OF_THEME = 256;
 
-// Where the segment leaves a pyramid four times as wide as what is seen.
+// End of the segment in a pyramid four times as wide as what is seen.
 /** @param {string} source */
 const cut = (source) =>
   source.replace(

@@ -105,7 +105,7 @@ const vector = (xyz) => camera.position.clone().fromArray(xyz);
 const matrix = () => camera.matrixWorld.clone().identity();
 const isFlat = () => view !== null && view.view === "TopDownOrtho";
 
-// Where the target frame is: its position, with its rotation or yaw for a view that turns with it;
+// Follow the target frame: its position, with its rotation or yaw for a view that turns with it;
 // and upside down for one whose z axis is inverted.
 function follow() {
   const node = view?.frame && viser.node(view.frame);

@@ -125,7 +125,7 @@ function lift({ start }, before, now) {
 }
 
 /**
- * Where the pointer is at the height of the start, were it not for the other finger.
+ * Return where the pointer is at the height of the start, were it not for the other finger.
  *
  * @param {Preview} current
  * @returns {Vec3 | null}

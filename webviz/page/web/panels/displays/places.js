@@ -1,4 +1,4 @@
-// Where displays can go: `{group, before}`, ids as of the command MoveDisplay.
+// Places to which displays can go: `{group, before}`, ids as of the command MoveDisplay.
 
 import { isWithin, siblings, topmost } from "webviz/panels/displays/model.js";
 

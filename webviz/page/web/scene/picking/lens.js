@@ -63,7 +63,7 @@ export function pixelAt(depth) {
 }
 
 /**
- * Where a point of an object is on the canvas, in CSS pixels, or null behind the camera.
+ * Return where a point of an object is on the canvas, in CSS pixels, or null behind the camera.
  *
  * @param {{m: number[], v: number[], wide: number, tall: number}} lens
  * @param {Vec3} xyz

@@ -74,7 +74,7 @@ export function lineAt(lines, [atX, atY], near) {
 }
 
 /**
- * Where a segment is, `[from, to]`, in the coordinates of the lines.
+ * Return where a segment is, `[from, to]`, in the coordinates of the lines.
  *
  * @param {SceneObject} lines
  * @param {number} number

@@ -165,7 +165,7 @@ export function described(found, caster) {
   return { ...thing, item: null, at, local, point };
 }
 
-// Where a line is next to the pointer.
+// The point of a line next to the pointer.
 /**
  * @param {number} depth
  * @param {Raycaster} caster
@@ -179,7 +179,7 @@ function onRay(depth, caster) {
 }
 
 /**
- * Where an item is in the coordinates of its object; of a mesh, its middle.
+ * Return where an item is in the coordinates of its object; of a mesh, its middle.
  *
  * @param {SceneObject | SceneText} object
  * @param {number | null} number

@@ -79,7 +79,7 @@ export function pointsIn(points, { left, top, right, bottom }, take) {
 }
 
 /**
- * Where a point is in the coordinates of the cloud.
+ * Return where a point is in the coordinates of the cloud.
  *
  * @param {SceneObject} points
  * @param {number} number
