@@ -123,9 +123,9 @@ def test_delete_all_spares_what_comes_after_it(shown: Benches) -> None:
 
 def test_namespaces_are_offered_as_switches_with_their_counts(shown: Benches) -> None:
     bench = shown([cube(1), cube(2), cube(3, ns="b")], namespaces={"a": False})
-    assert bench.runner.offered() == {"namespaces": {"a": 2, "b": 1}}
+    assert bench.runner.report().offered == {"namespaces": {"a": 2, "b": 1}}
     send(bench, cube(3, action=DELETE, ns="b"), cube(4, ns=""))
-    assert bench.runner.offered() == {"namespaces": {"a": 2, "": 1}}
+    assert bench.runner.report().offered == {"namespaces": {"a": 2, "": 1}}
 
 
 def test_delete_all_of_a_namespace_spares_the_others(shown: Benches) -> None:

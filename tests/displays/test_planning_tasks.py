@@ -46,7 +46,7 @@ def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: Any) -> None
     assert said["1 pick"] == ("OK", "2 solutions.")
     assert said["1.1 approach"] == ("OK", "1 solution, 1 failed, 0.50 s.")
     assert said["1.2 grasp"] == ("OK", "0 solutions, 9 failed.")
-    offered = planned.runner.offered()
+    offered = planned.runner.report().offered
     assert offered["stages"] == {"1 pick": 2, "1.1 approach": 1, "1.2 grasp": 0}
     assert offered["solution"] == {"7: pick": 7, "8: pick": 8, "5: approach": 5}
 

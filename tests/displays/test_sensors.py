@@ -97,7 +97,7 @@ def test_a_measurement_colours_a_point_at_its_sensor(
     np.testing.assert_allclose(at.xyz("points"), [(10, 0, 0)], atol=1e-6)
     assert at.nodes()["points"].colors.tolist() == [list(color)]
     assert at.statuses()["Value"] == ("OK", said)
-    scale = at.runner.color_scale()
+    scale = at.runner.report().color_scale
     assert (scale.low, scale.high) == (display().min_intensity, display().max_intensity)
 
 

@@ -22,6 +22,7 @@ from webviz.engine.parts.status_lines import (
     remedy_of,
 )
 from webviz.engine.pipeline import Runner
+from webviz.engine.pipeline.renderer import DrawReport
 from webviz.engine.state import Row
 from webviz.engine.store import PageStore
 from webviz.files.config import Unreadable
@@ -106,13 +107,11 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
         return Row(entry.id, "", None, own.name, status, entry.depth, own.enabled)
     kind = type_name(type(own))
     statuses: Mapping[str, Status] = {}
-    offered: Mapping[str, Mapping[str, int]] = {}
-    scale, attribution = None, ""
+    said = DrawReport()
     if isinstance(content, Runner) and entry.is_enabled:
-        statuses, scale = statuses_of(content), content.color_scale()
-        offered, attribution = content.offered(), content.attribution()
-    common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled, scale)
-    return Row(*common, entry.revision, offered, attribution)
+        statuses, said = statuses_of(content), content.report()
+    common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled)
+    return Row(*common, said.color_scale, entry.revision, said.offered, said.attribution)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:

@@ -29,6 +29,22 @@ Look = tuple[Sample, int]
 """A sample, and a number that changes with everything else that its drawing depends on."""
 
 
+class DrawReport(msgspec.Struct, frozen=True):
+    """Words of a hook on what it has drawn, besides the nodes.
+
+    Args:
+        statuses: by key.
+        color_scale: range of values that colours stand for, None without one.
+        attribution: whom to credit for it, "" if nobody.
+        offered: names for switches by property; see `Context.offered`.
+    """
+
+    statuses: Mapping[str, Status] = {}
+    color_scale: ColorScale | None = None
+    attribution: str = ""
+    offered: Mapping[str, Mapping[str, int]] = {}
+
+
 class _DrawJob(msgspec.Struct, frozen=True):
     """A sample that is drawn in a worker.
 
@@ -66,10 +82,8 @@ class Renderer:
         self._diff = drawn
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
-        self._statuses: dict[str, dict[str, Status]] = {}
-        self._scales: dict[str, ColorScale | None] = {}
-        self._attributions: dict[str, str] = {}
-        self._offered: dict[str, Mapping[str, Mapping[str, int]]] = {}
+        self._reports: dict[str, DrawReport] = {}
+        """The last one of each source; calls with one source replace each other's."""
         self._drawn: dict[str, dict[int, Look | None]] = {}
         """Nodes by input and slot; None for what is outdated."""
         self._version = 0
@@ -134,10 +148,7 @@ class Renderer:
         self._tasks.close()
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
-        self._statuses.clear()
-        self._scales.clear()
-        self._attributions.clear()
-        self._offered.clear()
+        self._reports.clear()
         samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
@@ -164,26 +175,18 @@ class Renderer:
         """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
         return self._draw_job.held.size if self._draw_job else 0
 
-    def statuses(self) -> dict[str, Status]:
-        """Return the statuses of the last call of each hook; the worst per key."""
-        result: dict[str, Status] = {}
-        for said in self._statuses.values():
-            for key, status in said.items():
-                before = result.setdefault(key, status)
-                result[key] = status if status.level >= before.level else before
-        return result
-
-    def color_scale(self) -> ColorScale | None:
-        """Return the colour scale that the hooks reported when they were last called."""
-        return next((scale for scale in self._scales.values() if scale is not None), None)
-
-    def attribution(self) -> str:
-        """Return the credit that the hooks gave when they were last called, "" if none."""
-        return next(filter(None, self._attributions.values()), "")
-
-    def offered(self) -> dict[str, Mapping[str, int]]:
-        """Names for switches by property, as the hooks said when they were last called."""
-        return {path: names for said in self._offered.values() for path, names in said.items()}
+    def report(self) -> DrawReport:
+        """Return the last reports of all hooks as one: of statuses, the worst of each key."""
+        statuses: dict[str, Status] = {}
+        offered: dict[str, Mapping[str, int]] = {}
+        scale, attribution = None, ""
+        for each in self._reports.values():
+            for key, status in each.statuses.items():
+                before = statuses.setdefault(key, status)
+                statuses[key] = status if status.level >= before.level else before
+            offered |= each.offered
+            scale, attribution = scale or each.color_scale, attribution or each.attribution
+        return DrawReport(statuses, scale, attribution, offered)
 
     def context(self, display: Display, guard: Guard, frames: Frames) -> Context | None:
         """Return a context for hooks that do not draw; None without a state."""
@@ -233,10 +236,7 @@ class Renderer:
             elif self._draw_job is None:
                 self._send(name, display, held, look, frames)
         if not samples:
-            self._statuses.pop(_status_source(name), None)
-            self._scales.pop(_status_source(name), None)
-            self._attributions.pop(_status_source(name), None)
-            self._offered.pop(_status_source(name), None)
+            self._reports.pop(_status_source(name), None)
 
     def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
         """Draw a sample in a worker."""
@@ -289,18 +289,14 @@ class Renderer:
         samples: Sequence[Sample] = (),
         source: str = "",
     ) -> None:
-        """Call a hook that draws and update the scene; after a crash the previous nodes stay.
-
-        Calls with one source replace each other's statuses.
-        """
+        """Call a hook that draws and update the scene; after a crash the previous nodes stay."""
         if guard(scope, hook, *args, context) is CRASHED:
             return
         self._is_unfinished |= context.is_unfinished
         self._diff.replace(scope, context, samples)
-        self._statuses[source or scope] = context.statuses
-        self._scales[source or scope] = context.color_scale
-        self._attributions[source or scope] = context.attribution
-        self._offered[source or scope] = context.offered
+        self._reports[source or scope] = DrawReport(
+            context.statuses, context.color_scale, context.attribution, context.offered
+        )
 
 
 def _result(done: Future[None], context: Context) -> None:

@@ -7,7 +7,6 @@ from typing import Any
 
 from webviz.api.capabilities import Comparable, capability
 from webviz.api.consistency import ConsistencyInput
-from webviz.api.context import ColorScale
 from webviz.api.declared import set_property
 from webviz.api.display import Display, inputs, overrides
 from webviz.api.frames import Frames
@@ -21,7 +20,7 @@ from webviz.engine.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.picking import Found
-from webviz.engine.pipeline.renderer import Renderer
+from webviz.engine.pipeline.renderer import DrawReport, Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.scene_diff import SceneDiff
 from webviz.engine.pipeline.services import Services
@@ -180,13 +179,10 @@ class Runner:
             return set()
         return self.drawn.followed() | self._dragging.followed()
 
-    def color_scale(self) -> ColorScale | None:
-        """Return the range of values that colours stand for, None if none is visible."""
-        return None if self.drawn.is_empty() else self._renderer.color_scale()
-
-    def attribution(self) -> str:
-        """Return whom to credit for what is visible, "" if nobody."""
-        return "" if self.drawn.is_empty() else self._renderer.attribution()
+    def report(self) -> DrawReport:
+        """Return what the display says of what it draws; no colours or credits if that is empty."""
+        said = self._renderer.report()
+        return DrawReport(said.statuses, offered=said.offered) if self.drawn.is_empty() else said
 
     def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
@@ -216,10 +212,6 @@ class Runner:
             self._dragging.drag(drag, self._guard, context)
 
     # Selection
-
-    def offered(self) -> Mapping[str, Mapping[str, int]]:
-        """See `Context.offered`."""
-        return self._renderer.offered()
 
     def find(self, picks: Picks) -> dict[int, Found]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
@@ -311,7 +303,7 @@ class Runner:
             result[LOADING] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received
-        return result | self._renderer.statuses()
+        return {**result, **self._renderer.report().statuses}
 
 
 def _sample_source(display: Display) -> tuple[object, ...]:
