@@ -161,7 +161,6 @@ def feed(b: Any) -> None:
     b.clock += 0.3
     b.transform("map", "base", b.source.now)
     b.pose("/pose", "base", b.source.now)
-    b.viewer._next_panel = b.viewer._files._next_look = 0.0
 
 
 @pytest.mark.parametrize("leaves", [False, True], ids=["raises", "exits"])
@@ -178,7 +177,7 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
         feed(b)
         b.viewer.enqueue(Identify(dot))
         b.viewer.enqueue(DragHandle("display1", Drag("m1", 0, "press")))
-        b.turn()
+        b.turn(keep_up=True)
     before = sound.turns
     feed(b)
     level, text = b.statuses(0)["Display"]
@@ -229,7 +228,7 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
         raise Boom
 
     feed(b)
-    b.turn()
+    b.turn(keep_up=True)
     logged = []
     with monkeypatch.context() as patch:
         patch.setattr(owner, name, boom)
@@ -237,7 +236,7 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
         for shade in range(5):
             feed(b)
             answer = b.viewer.enqueue(SetBackground((shade, 0, 0)))
-            b.turn()
+            b.turn(keep_up=True)
             assert answer.done()
             logged.append(len([record for record in caplog.records if record.exc_info]))
         assert calls
@@ -286,7 +285,7 @@ def test_strict_lets_through_what_a_part_raises(
         feed(b)
         b.viewer.enqueue(SetBackground((1, 2, 3)))
         with pytest.raises(Boom):
-            b.turn()
+            b.turn(keep_up=True)
 
 
 def test_a_turn_that_raises_does_not_end_the_loop(

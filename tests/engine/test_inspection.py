@@ -27,8 +27,7 @@ STRING = "std_msgs/msg/String"
 def do(b: Any, *commands: Command) -> State:
     for command in commands:
         b.viewer.enqueue(command)
-    b.viewer._next_panel = 0.0
-    b.turn()
+    b.turn(keep_up=True)
     return b.states[-1]
 
 

@@ -187,11 +187,10 @@ def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
         for kind in part.handles:
             patch.setitem(b.viewer._parts._handlers, kind, boom("handles"))
         for kind in part.handles:
-            b.viewer._next_panel = 0.0
             answer = b.viewer.enqueue(
                 kind(**dict.fromkeys(kind.__struct_fields__))
             )  # never looked into
-            b.turn()
+            b.turn(keep_up=True)
             assert "Boom" in str(answer.exception(0))
         b.source.now -= 10 * SECOND  # everything is reset
         state = b.do(Count(0)) if name != "Counter" else b.do(Refresh())

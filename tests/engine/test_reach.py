@@ -103,6 +103,5 @@ def test_a_view_does_not_follow_a_frame_out_of_reach(bench: Benches) -> None:
     b.transform("a", "b", T, 1e308)
     b.turn()
     assert finite(b)
-    b.viewer._next_panel = 0.0
-    b.turn()
+    b.turn(keep_up=True)
     assert "too far to draw" in b.states[-1].statuses["Target Frame"].text

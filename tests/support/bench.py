@@ -91,8 +91,8 @@ class Bench:
         values = {"header": header(frame, stamp_ns), "pose": pose}
         self.publish(topic, "geometry_msgs/msg/PoseStamped", values)
 
-    def turn(self) -> None:
-        self.viewer.turn()
+    def turn(self, keep_up: bool = False) -> None:
+        self.viewer.turn(keep_up)
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> State:
         """Run a command and return the state that panels show."""
@@ -118,8 +118,7 @@ class Bench:
 
     def statuses(self, index: int = 0) -> dict[str, tuple[str, str]]:
         """Level and sentence by key of one display, as a panel would show them now."""
-        self.viewer._next_panel = 0.0
-        self.turn()
+        self.turn(keep_up=True)
         row = self.states[-1].rows[index]
         return {key: (status.level.name, status.text) for key, status in row.statuses.items()}
 

@@ -142,8 +142,7 @@ def stands(b: Any) -> bool:
 
 
 def advertised(b: Any) -> set[Advertisement]:
-    b.viewer._next_panel = 0.0
-    b.turn()
+    b.turn(keep_up=True)
     return {
         advertisement
         for advertisement in b.source.graph.advertised
@@ -399,8 +398,7 @@ def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(bench: 
 def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
     def readout() -> Driving:
         steer(b, teleop(b), 1, STILL)
-        b.viewer._next_panel = 0.0
-        b.turn()
+        b.turn(keep_up=True)
         return b.states[-1].driving[teleop(b)]
 
     remedy = "Choose another topic of odometry in the panel Tools."

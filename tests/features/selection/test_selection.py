@@ -74,8 +74,7 @@ def pose(b: Any, x: float) -> None:
 
 def told(b: Any, browser: int = 1) -> Any:
     """Return what the panel shows of the only selected item."""
-    b.viewer._next_panel = 0.0
-    b.turn()
+    b.turn(keep_up=True)
     things = {key: each for key, each in b.states[-1].selections[browser].items() if key != "/info"}
     return things.popitem()[1] if len(things) == 1 else things
 

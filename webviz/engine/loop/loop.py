@@ -263,10 +263,10 @@ class FrameLoop:
         self._parts.close()
         self._workers.close()
 
-    def turn(self) -> None:
-        """One turn by hand: its subscriptions are made at once."""
+    def turn(self, keep_up: bool = False) -> None:
+        """One turn by hand, with the housekeeping that is due or asked for, or subscriptions."""
         self._advance()
-        if time.monotonic() >= self._next_panel:
+        if keep_up or time.monotonic() >= self._next_panel:
             self._keep_up()
         else:
             self._subscribe()
