@@ -12,7 +12,7 @@ from webviz.api.rule import Rule, Verdict
 from webviz.engine.parts.part import Core, Part
 from webviz.sources.past_state import Event
 
-SLICE_S = 0.002
+SLICE_S = 0.001
 """Time for checks in one turn; the one that exceeds it still ends."""
 
 

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 LOOK_S = 0.5
 """Time between two looks at the graph, of whose changes rclpy says nothing."""
+STEADY_S = 10.0
+"""Time without a change, after which it is looked at half as often."""
 PENDING_S = 0.05
 """Time to wait while calls are pending."""
 THOROUGH_EVERY = 8
@@ -101,6 +103,7 @@ class RosSource:
         self._offers: dict[str, Offer] = {}
         self._problems: dict[str, str] = {}
         self._looks = 0
+        self._changed_s = time.monotonic()
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="webviz-ros", daemon=True)
         self._thread.start()
@@ -159,7 +162,8 @@ class RosSource:
                 now = time.monotonic()
                 is_new = wanted is not self._wanted
                 if is_new or now >= next_look:
-                    next_look = now + LOOK_S
+                    is_steady = now - self._changed_s > STEADY_S
+                    next_look = now + (2 * LOOK_S if is_steady else LOOK_S)
                     wanted = self._wanted
                     if self._look(wanted) or is_new:
                         self._reconcile(wanted)
@@ -170,7 +174,8 @@ class RosSource:
                 if self.graph.turn():
                     executor.spin_once_until_future_complete(guard, PENDING_S)
                 else:
-                    executor.spin_until_future_complete(guard, LOOK_S)
+                    rest_s = max(0.0, next_look - time.monotonic())
+                    executor.spin_until_future_complete(guard, rest_s)
         finally:
             self.control.close()
             self.graph.close()
@@ -192,7 +197,7 @@ class RosSource:
         }
         if offers == self._offers:
             return False
-        self._offers = offers
+        self._offers, self._changed_s = offers, time.monotonic()
         self.inbox.arrived.set()
         return True
 
