@@ -4,8 +4,10 @@
 import * as channel from "webviz/channel.js";
 import constants from "webviz/constants.js";
 import { el, set } from "webviz/dom.js";
+import { signal, untracked } from "webviz/signals.js";
 import { toast } from "webviz/toasts.js";
 
+/** @import {Signal} from "webviz/signals.js" */
 /** @import {Attribute, Child} from "webviz/types.js" */
 
 const ROLES = ["watcher", "operator", "owner"];
@@ -13,15 +15,14 @@ const FIELDS = "input, select, textarea, button";
 
 /** @type {(() => void)[]} */
 const waiting = []; // what was built before the server has said who this is
-/** @type {{role: string, name: string} | null} */
-let you = null;
-/** @type {((what: string, fields: object) => string) | null} */
-let decide = null;
+const you = signal(/** @type {{role: string, name: string} | null} */ (null));
+/** @type {Signal<(what: string, fields: object) => string>} */
+const rule = signal(byRole);
 
 channel.on("You", ({ role, name }) => {
   // Another link was opened in another tab: what was built for the old role is wrong.
-  if (you && you.role !== role) return location.reload();
-  you = { role, name };
+  if (you.value && you.value.role !== role) return location.reload();
+  you.value = { role, name };
   for (const apply of waiting.splice(0)) apply();
 });
 
@@ -31,12 +32,12 @@ channel.on("You", ({ role, name }) => {
  * @param {() => void} act
  */
 export function onRole(act) {
-  if (you) act();
+  if (untracked(() => you.value)) act();
   else waiting.push(act);
 }
 
 /** The role of this page, and the name of its link: "" if none is needed. */
-export const self = () => you ?? { role: "owner", name: "" };
+export const self = () => untracked(() => you.value) ?? { role: "owner", name: "" };
 
 /**
  * Lets `refusal(what, fields)` decide what is allowed, whatever the role of this page.
@@ -44,7 +45,7 @@ export const self = () => you ?? { role: "owner", name: "" };
  * @param {(what: string, fields: object) => string} refusal a sentence, "" if it is
  */
 export function decideBy(refusal) {
-  decide = refusal;
+  rule.value = refusal;
 }
 
 /**
@@ -53,8 +54,10 @@ export function decideBy(refusal) {
  * @param {string} what
  * @param {object} [fields] of the command
  */
-export function why(what, fields = {}) {
-  if (decide) return decide(what, fields);
+export const why = (what, fields = {}) => untracked(() => rule.value)(what, fields);
+
+/** @param {string} what */
+function byRole(what) {
   const needed = ROLES.indexOf(constants.ROLES[what]);
   const own = ROLES.indexOf(self().role);
   if (own >= needed) return "";

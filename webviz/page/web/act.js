@@ -2,6 +2,7 @@
 
 import { why } from "webviz/access.js";
 import * as channel from "webviz/channel.js";
+import { counter } from "webviz/numbers.js";
 import { toast } from "webviz/toasts.js";
 
 /** @import {Commands, Do, Done} from "webviz/messages.js" */
@@ -14,7 +15,7 @@ const waiting = new Map();
 const listeners = new Map();
 /** @type {Map<string, (fields: any) => Promise<Answer> | null>} */
 const detours = new Map();
-let count = 0;
+const nextNumber = counter();
 
 channel.on("Done", (done) => {
   const { number, level, text, result } = done;
@@ -69,10 +70,10 @@ export function act(
  * @param {Commands[C]} [fields]
  */
 export function send(command, fields, step = 0) {
-  count += 1;
-  const request = { type: "Do", number: count, command, arguments: fields ?? {}, step };
+  const number = nextNumber();
+  const request = { type: "Do", number, command, arguments: fields ?? {}, step };
   channel.send(/** @type {Do} */ (request));
-  return count;
+  return number;
 }
 
 /**
@@ -93,4 +94,4 @@ export const onAnswer = (command, listener) => listeners.set(command, listener);
 export const detour = (command, take) => detours.set(command, take);
 
 /** A number for commands that are undone together. */
-export const newStep = () => (count += 1);
+export const newStep = nextNumber;

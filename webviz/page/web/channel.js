@@ -2,6 +2,8 @@
 
 /** @import {FromPage, ToPage} from "webviz/messages.js" */
 
+import { signal, untracked } from "webviz/signals.js";
+
 const MAX_UNSENT = 100;
 
 /**
@@ -18,14 +20,13 @@ const MAX_UNSENT = 100;
 const listeners = new Map();
 /** @type {(() => void)[]} */
 const openers = [];
-/** @type {(buffer: ArrayBuffer) => void} */
-let takeBytes = () => {};
+/** @type {((buffer: ArrayBuffer) => void)[]} */
+const byteListeners = [];
 /** @type {(() => void)[]} */
 const closers = [];
-/** @type {Socket | null} */
-let socket = null;
+const socket = signal(/** @type {Socket | null} */ (null));
 /** @type {FromPage[]} */
-let unsent = [];
+const unsent = [];
 
 /**
  * Calls `listener` with each message of a type.
@@ -53,7 +54,7 @@ export function onOpen(act) {
  * @param {(buffer: ArrayBuffer) => void} listener
  */
 export function onBytes(listener) {
-  takeBytes = listener;
+  byteListeners.push(listener);
 }
 
 /**
@@ -65,7 +66,9 @@ export function onClose(act) {
   closers.push(act);
 }
 
-export const isOpen = () => socket?.readyState === WebSocket.OPEN;
+const current = () => untracked(() => socket.value);
+
+export const isOpen = () => current()?.readyState === WebSocket.OPEN;
 
 /**
  * Sends a message to the server, as soon as it can be reached.
@@ -73,7 +76,7 @@ export const isOpen = () => socket?.readyState === WebSocket.OPEN;
  * @param {FromPage} message
  */
 export function send(message) {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  if (isOpen()) current()?.send(JSON.stringify(message));
   else if (unsent.length < MAX_UNSENT) unsent.push(message);
 }
 
@@ -84,22 +87,20 @@ export function send(message) {
  * @param {string} key
  */
 export function open(connected, key) {
-  socket?.close();
-  const mine = (socket = connected);
-  mine.onopen = () => {
-    mine.send(JSON.stringify({ type: "Hello", key }));
+  current()?.close();
+  socket.value = connected;
+  connected.onopen = () => {
+    connected.send(JSON.stringify({ type: "Hello", key }));
     for (const act of openers) act();
-    const messages = unsent;
-    unsent = [];
-    messages.forEach(send);
+    unsent.splice(0).forEach(send);
   };
-  mine.onclose = () => {
-    if (socket === mine) for (const act of closers) act();
+  connected.onclose = () => {
+    if (current() === connected) for (const act of closers) act();
   };
   // When it ends, the server ends viser's connection too: that is made anew, and brings a new key.
-  mine.binaryType = "arraybuffer";
-  mine.onmessage = ({ data }) => {
-    if (typeof data !== "string") return takeBytes(data);
+  connected.binaryType = "arraybuffer";
+  connected.onmessage = ({ data }) => {
+    if (typeof data !== "string") return byteListeners.forEach((take) => take(data));
     const message = JSON.parse(data);
     for (const listener of listeners.get(message.type) ?? []) listener(message);
   };

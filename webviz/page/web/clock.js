@@ -2,19 +2,20 @@
 
 import * as channel from "webviz/channel.js";
 import { offsetAfter } from "webviz/clock_offset.js";
+import { signal, untracked } from "webviz/signals.js";
 import { watch } from "webviz/stores.js";
 
 /** @import {ValuesOf} from "webviz/types.js" */
 
-/** @type {number | null} */
-let ahead = null; // of the server's clock over that of this browser, in seconds
+// Of the server's clock over that of this browser, in seconds.
+const ahead = signal(/** @type {number | null} */ (null));
 
 channel.on("Beat", ({ wall }) => {
-  ahead = offsetAfter(ahead, wall - Date.now() / 1000);
+  ahead.value = offsetAfter(ahead.value, wall - Date.now() / 1000);
 });
 
 /** Wall time of the server in seconds. */
-export const wallNow = () => Date.now() / 1000 + (ahead ?? 0);
+export const wallNow = () => Date.now() / 1000 + (untracked(() => ahead.value) ?? 0);
 
 /**
  * ROS time in seconds by the store "clock", a Map.

@@ -1,18 +1,19 @@
 // Elements. Text is always text, never markup.
 
+import { counter } from "webviz/numbers.js";
 import { effect, Source } from "webviz/signals.js";
 
 /** @import {Attribute, Child, Children} from "webviz/types.js" */
 
 const SVG = "http://www.w3.org/2000/svg";
-const ids = { count: 0 };
+const nextId = counter();
 
 /**
  * An id that no other element has.
  *
  * @param {string} name
  */
-export const newId = (name) => `wv-${name}-${(ids.count += 1)}`;
+export const newId = (name) => `wv-${name}-${nextId()}`;
 
 /**
  * An element with attributes and children: strings and elements, null for none.

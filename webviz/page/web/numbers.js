@@ -7,3 +7,9 @@
  * @param {number} digits
  */
 export const fixed = (number, digits) => number.toFixed(digits).replace(/^-(0\.?0*)$/, "$1");
+
+/** Returns a function that counts its calls, from 1. */
+export function counter() {
+  let count = 0;
+  return () => (count += 1);
+}

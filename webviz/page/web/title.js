@@ -1,29 +1,24 @@
 // The title of the tab: the config, and before it what must not be overlooked.
 
-let name = document.title;
-let before = "";
+import { effect, signal } from "webviz/signals.js";
 
-function show() {
-  const title = before + name;
-  if (document.title !== title) document.title = title;
-}
+const name = signal(document.title);
+const prefix = signal("");
+
+effect(() => {
+  document.title = prefix.value + name.value;
+});
 
 /**
  * Names what the page shows.
  *
  * @param {string} next
  */
-export function setTitle(next) {
-  name = next;
-  show();
-}
+export const setTitle = (next) => void (name.value = next);
 
 /**
  * Puts a text before the name, "" for none.
  *
  * @param {string} next
  */
-export function setTitlePrefix(next) {
-  before = next;
-  show();
-}
+export const setTitlePrefix = (next) => void (prefix.value = next);

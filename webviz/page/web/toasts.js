@@ -2,6 +2,7 @@
 
 import { el, set, setText } from "webviz/dom.js";
 import { iconButton } from "webviz/icons.js";
+import { signal, untracked } from "webviz/signals.js";
 
 /**
  * @typedef {{
@@ -16,13 +17,13 @@ const MAX_SHOWN = 3;
 
 /** @type {Map<string, Toast>} */
 const shown = new Map();
-/** @type {HTMLElement | null} */
-let place = null;
+const place = signal(/** @type {HTMLElement | null} */ (null));
 
 /** @param {HTMLElement} scene */
 export function install(scene) {
-  place = el("div", { class: "wv-toasts", role: "status", "aria-live": "polite" });
-  scene.append(place);
+  const element = el("div", { class: "wv-toasts", role: "status", "aria-live": "polite" });
+  scene.append(element);
+  place.value = element;
 }
 
 /**
@@ -36,9 +37,10 @@ export function install(scene) {
  * }} [options]
  */
 export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
-  if (!place) return () => {};
+  const home = untracked(() => place.value);
+  if (!home) return () => {};
   const key = topic || `${level} ${text}`;
-  const one = shown.get(key) ?? make(place, key);
+  const one = shown.get(key) ?? make(home, key);
   one.count += topic ? 0 : 1;
   set(one.element, { "data-level": level });
   setText(one.text, one.count > 1 ? `${text} (${one.count})` : text);

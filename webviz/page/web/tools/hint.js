@@ -1,14 +1,30 @@
 // The line below the toolbar: what to do, where the pointer is, and what came of it.
 
-import { el, set, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
+import { effect, owned, signal, untracked } from "webviz/signals.js";
 
 /** @type {Partial<Record<string, number>>} */
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
 
-export const hint = el("output", { class: "wv-hint wv-card", hidden: true });
+const resting = signal({ level: "hint", text: "" });
+const shown = signal(resting.value);
 
-let timer = 0;
-let resting = "";
+export const hint = el(
+  "output",
+  {
+    class: "wv-hint wv-card",
+    hidden: () => !shown.value.text,
+    "data-level": () => shown.value.level,
+  },
+  () => shown.value.text,
+);
+
+effect(() => {
+  const ms = SHOWN_MS[shown.value.level];
+  if (!ms) return;
+  const timer = setTimeout(() => tellLive(""), ms);
+  owned(() => clearTimeout(timer));
+});
 
 /**
  * Shows a sentence: a "hint" while a tool is active, or "ok", "warn" or "error" for a while.
@@ -17,10 +33,9 @@ let resting = "";
  * @param {string} text
  */
 export function tell(level, text) {
-  clearTimeout(timer);
-  if (level === "hint") resting = text;
-  show(level, text);
-  if (SHOWN_MS[level]) timer = setTimeout(() => show("hint", resting), SHOWN_MS[level]);
+  const said = { level, text };
+  shown.value = said;
+  if (level === "hint") resting.value = said;
 }
 
 /**
@@ -29,16 +44,5 @@ export function tell(level, text) {
  * @param {string} text
  */
 export function tellLive(text) {
-  clearTimeout(timer);
-  show("hint", text || resting);
-}
-
-/**
- * @param {string} level
- * @param {string} text
- */
-function show(level, text) {
-  set(hint, { "data-level": level });
-  setText(hint, text);
-  if (hint.hidden !== (text === "")) hint.hidden = text === "";
+  shown.value = text ? { level: "hint", text } : untracked(() => resting.value);
 }
