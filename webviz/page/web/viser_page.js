@@ -249,14 +249,16 @@ export function afterRender(act) {
 }
 
 /**
- * Calls `act` in each frame; viser places nodes at -1000 and labels at 0.
+ * Calls `act` in each frame, until the function is called that this returns; viser places nodes at
+ * -1000 and labels at 0.
  *
  * @param {number} priority
  * @param {() => unknown} act
+ * @returns {() => void}
  */
 export function eachFrame(priority, act) {
   const { root } = scene().__r3f;
-  root.getState().internal.subscribe({ current: act }, priority, root);
+  return root.getState().internal.subscribe({ current: act }, priority, root);
 }
 
 /**

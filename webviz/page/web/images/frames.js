@@ -2,6 +2,8 @@
 
 import * as channel from "webviz/channel.js";
 import constants from "webviz/constants.js";
+import { signal } from "webviz/signals.js";
+import { debounced, oncePerFrame } from "webviz/timing.js";
 
 /** @import {PictureHeader} from "webviz/messages.js" */
 
@@ -20,9 +22,16 @@ const panes = new Map();
 const taken = new Map(); // by display, the promise of the newest picture
 /** @type {Map<string, number>} */
 const shown = new Map();
-let asked = ""; // each page says once that it has panes, and which it shows
-let timer = 0;
-let isDue = false;
+const asked = signal(""); // each page says once that it has panes, and which it shows
+
+/** Tells the server soon which pictures are shown, and how wide. */
+export const refresh = debounced(ask, SETTLE_MS);
+
+/** Confirms pictures of all panes in one message. */
+const confirm = oncePerFrame(() => {
+  channel.send({ type: "FramesShown", numbers: Object.fromEntries(shown) });
+  shown.clear();
+});
 
 channel.onBytes((buffer) => {
   const length = new DataView(buffer).getUint32(0, true);
@@ -33,12 +42,15 @@ channel.onBytes((buffer) => {
   // One after another: a later one that is decoded sooner must not be drawn first. Also without a
   // pane, which may come back before the server hears that it was gone.
   const take = () => panes.get(display)?.take(header, data);
-  const done = () => confirm(display, number);
+  const done = () => {
+    shown.set(display, number);
+    confirm();
+  };
   taken.set(display, (taken.get(display) ?? Promise.resolve()).then(take).then(done, done));
 });
 
 channel.onOpen(() => {
-  asked = "";
+  asked.value = "";
   ask();
 });
 document.addEventListener("visibilitychange", ask);
@@ -62,12 +74,6 @@ export function close(display) {
   refresh();
 }
 
-/** Tells the server soon which pictures are shown, and how wide. */
-export function refresh() {
-  clearTimeout(timer);
-  timer = setTimeout(ask, SETTLE_MS);
-}
-
 function ask() {
   const all = document.hidden ? [] : [...panes];
   const shown = all.map(([display, pane]) => ({ display, width: pane.width() }));
@@ -79,24 +85,7 @@ function ask() {
     ]),
   );
   const wanted = JSON.stringify(widths);
-  if (wanted === asked) return;
-  asked = wanted;
+  if (wanted === asked.value) return;
+  asked.value = wanted;
   if (channel.isOpen()) channel.send({ type: "ShowPictures", widths });
-}
-
-/**
- * All panes in one message per frame that the browser draws.
- *
- * @param {string} display
- * @param {number} number
- */
-function confirm(display, number) {
-  shown.set(display, number);
-  if (isDue) return;
-  isDue = true;
-  requestAnimationFrame(() => {
-    isDue = false;
-    channel.send({ type: "FramesShown", numbers: Object.fromEntries(shown) });
-    shown.clear();
-  });
 }

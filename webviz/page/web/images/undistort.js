@@ -1,6 +1,8 @@
 // Images without lens distortion: a grid of triangles, whose
 // corners the server computes.
 
+import { computed } from "webviz/signals.js";
+
 /** @import {PictureWarp} from "webviz/messages.js" */
 /** @import {Vec2} from "webviz/types.js" */
 
@@ -23,8 +25,7 @@ const FRAGMENT = `
     gl_FragColor = texture2D(image, place);
   }`;
 
-/** @type {Bench | null} */
-let bench = null; // one for all images: browsers have few contexts
+const bench = computed(makeBench); // one for all images: browsers have few contexts
 
 /**
  * Draws `image` undistorted by `warp` into a 2D context, over all of its canvas.
@@ -34,10 +35,9 @@ let bench = null; // one for all images: browsers have few contexts
  * @param {CanvasRenderingContext2D} context
  */
 export function undistort(image, warp, context) {
-  bench ??= makeBench();
   const { width, height } = context.canvas;
   context.clearRect(0, 0, width, height);
-  context.drawImage(bench(image, warp, width, height), 0, 0);
+  context.drawImage(bench.value(image, warp, width, height), 0, 0);
 }
 
 /** @returns {Bench} */

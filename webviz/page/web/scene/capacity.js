@@ -3,6 +3,7 @@
 import { why } from "webviz/access.js";
 import * as channel from "webviz/channel.js";
 import constants from "webviz/constants.js";
+import { signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 import { whenDrawn } from "webviz/scene/graphics.js";
 
@@ -15,15 +16,15 @@ const USED = 0.7; // of the points held, for a fast frame to say that there is r
 const FRAMES = 5;
 const PATIENCE_MS = 1500; // of a slow browser, fewer frames are enough
 
-let held = POINTS_HELD;
-let isMeasured = false;
+const held = signal(POINTS_HELD);
 
-/** The number of points to draw at once. */
-export const points = () => held;
+/** The number of points to draw at once; read in effects. */
+export const points = () => held.value;
 
 export function install() {
   let began = 0;
   let isMeasuring = false;
+  let isMeasured = false;
   /** @type {{ms: number, drawn: number}[]} */
   let frames = [];
 
@@ -41,24 +42,29 @@ export function install() {
       frames.push({ ms, drawn });
       const all = frames.reduce((sum, frame) => sum + frame.ms, 0);
       if (frames.length < FRAMES && all < PATIENCE_MS) return;
-      decide(frames);
+      const count = countAfter(frames);
       frames = [];
+      if (count === held.value && isMeasured) return;
+      held.value = count;
+      isMeasured = true;
+      report();
+      viser.requestRender();
     });
   });
 }
 
-/** @param {{ms: number, drawn: number}[]} frames */
-function decide(frames) {
+/**
+ * The number of points to draw from now on.
+ *
+ * @param {{ms: number, drawn: number}[]} frames
+ */
+function countAfter(frames) {
   const times = frames.map(({ ms }) => ms).sort((a, b) => a - b);
   const ms = times[times.length >> 1];
   const drawn = Math.max(...frames.map((frame) => frame.drawn));
-  const before = held;
-  if (ms > SLOW_MS) held = stepBelow((Math.min(drawn, held) * GOAL_MS) / ms);
-  else if (ms < FAST_MS && drawn > USED * held) held = stepBelow(2 * held);
-  if (held === before && isMeasured) return;
-  isMeasured = true;
-  report();
-  viser.requestRender();
+  const before = held.value;
+  if (ms > SLOW_MS) return stepBelow((Math.min(drawn, before) * GOAL_MS) / ms);
+  return ms < FAST_MS && drawn > USED * before ? stepBelow(2 * before) : before;
 }
 
 /** @param {number} count */
@@ -68,7 +74,8 @@ function stepBelow(count) {
 }
 
 // Reports of watchers would change what others see.
-const report = () => why("PointCapacity") || channel.send({ type: "PointCapacity", points: held });
+const report = () =>
+  why("PointCapacity") || channel.send({ type: "PointCapacity", points: held.value });
 
 // Pages that only take pictures draw on request; those must not depend on how fast that is.
 const isHeld = () => viser.canvas().style.visibility === "hidden";

@@ -4,18 +4,21 @@ import * as viser from "webviz/viser_page.js";
 
 const LOOK_MS = 2;
 
-let named = "";
+/** @type {WeakMap<object, string>} */
+const names = new WeakMap(); // by context
 
 /** Returns true if this browser can draw a scene at all. */
 export const hasWebGL = () => Boolean(document.createElement("canvas").getContext("webgl2"));
 
 /** The name of what draws, as the browser tells it. */
 export function renderer() {
-  if (named) return named;
   const context = viser.gl().getContext();
+  const known = names.get(context);
+  if (known) return known;
   const info = context.getExtension("WEBGL_debug_renderer_info");
-  named = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
-  return named;
+  const name = context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  names.set(context, String(name));
+  return String(name);
 }
 
 /** Returns true if the processor draws instead of a graphics card. */

@@ -8,6 +8,7 @@
 // stands for that of the theme.
 
 import constants from "webviz/constants.js";
+import { signal } from "webviz/signals.js";
 import { scheme } from "webviz/scene/scheme.js";
 import * as viser from "webviz/viser_page.js";
 
@@ -52,21 +53,20 @@ const OUTLINED = `
     gl_FragColor = vec4(mix(around, vColor, smoothstep(-soft, soft, inside)), alpha);
   }`;
 
-/** @type {SceneObject | null} */
-let group = null;
+const group = signal(/** @type {SceneObject | null} */ (null));
 const ofTheme = { value: [1, 1, 1] };
 
 /** The boxes behind the letters, one of a mesh for each text: where the texts are, and how large. */
 export const boxes = () =>
-  group ? group.children.filter(({ renderOrder }) => renderOrder === BOXES) : [];
+  group.value ? group.value.children.filter(({ renderOrder }) => renderOrder === BOXES) : [];
 
 export function install() {
   viser.beforeEveryRender((gl, scene) => {
-    if (!group || !group.parent) {
-      scene.traverse((object) => object.renderOrder === BOXES && (group = object.parent));
+    if (!group.value?.parent) {
+      scene.traverse((object) => object.renderOrder === BOXES && (group.value = object.parent));
     }
     ofTheme.value = scheme().text.map((byte) => byte / 255);
-    for (const mesh of group ? group.children : []) {
+    for (const mesh of group.value?.children ?? []) {
       if (mesh.renderOrder === BOXES) mesh.visible = false;
       if (mesh.renderOrder !== LETTERS || mesh.webviz) continue;
       mesh.webviz = true;

@@ -31,12 +31,9 @@ shortcuts("Scene", [
 export const isLocked = () => Boolean(views.options().lock_camera);
 /** True for views that move over the ground. */
 export const slides = () => ["XYOrbit", "ThirdPersonFollower"].includes(views.type());
-/** @type {Vec2 | null} */
-let mouse = null;
-let isSliding = false;
 
 /** @param {MouseEvent} [event] */
-export function arm(event) {
+function arm(event) {
   const controls = viser.controls();
   const ACTION = viser.actions();
   const buttons = controls.mouseButtons;
@@ -44,7 +41,6 @@ export function arm(event) {
   buttons.left = event && event.shiftKey ? move : ACTION.ROTATE;
   buttons.middle = move;
   buttons.right = buttons.wheel = ACTION.NONE;
-  isSliding = slides() && (event?.button === 1 || (event?.button === 0 && event.shiftKey));
   controls.enabled = !isLocked();
   // RViz turns a view by 5 mrad/px, and moves FPS by 1 cm/px.
   const tall = viser.canvas().clientHeight;
@@ -173,7 +169,15 @@ export function focus(point) {
 
 export function install() {
   const events = viser.canvas().parentElement;
-  window.addEventListener("pointerdown", arm, true);
+  /** @type {Vec2 | null} */
+  let mouse = null;
+  let isSliding = false;
+  /** @param {MouseEvent} [event] */
+  const begin = (event) => {
+    arm(event);
+    isSliding = slides() && (event?.button === 1 || (event?.button === 0 && event.shiftKey));
+  };
+  window.addEventListener("pointerdown", begin, true);
   events.addEventListener(
     "wheel",
     (event) => {
@@ -206,6 +210,6 @@ export function install() {
       if (point) focus(point);
     },
   });
-  views.onShow(() => arm());
-  arm();
+  views.onShow(() => begin());
+  begin();
 }

@@ -5,6 +5,7 @@ import constants from "webviz/constants.js";
 import { pathOf } from "webviz/scene/projection.js";
 import { toThree } from "webviz/scene/fixed_frame.js";
 import { scheme } from "webviz/scene/scheme.js";
+import { computed } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 
 /** @import {PerspectiveCamera, WebGLRenderer} from "three" */
@@ -24,10 +25,7 @@ const NEAR = 0.01; // metres, as RViz
  * @typedef {PerspectiveCamera & Pick<Sight, "edges"> & {flat: number}} Eye
  */
 
-/** @type {Eye | null} */
-let eye = null;
-/** @type {Set<() => void> | null} */
-let drawings = null;
+const ownEye = computed(makeEye);
 
 /**
  * Calls `draw` before each frame of the page, until the function is called that this returns.
@@ -35,14 +33,7 @@ let drawings = null;
  * @param {() => void} draw
  * @returns {() => void}
  */
-export function eachPicture(draw) {
-  if (!drawings) {
-    const all = (drawings = new Set());
-    viser.eachFrame(0, () => all.forEach((each) => each()));
-  }
-  const own = drawings.add(draw);
-  return () => own.delete(draw);
-}
+export const eachPicture = (draw) => viser.eachFrame(0, draw);
 
 /**
  * Fills a 2D context with what is behind the scene: the colour of the config, or that of the theme.
@@ -73,7 +64,7 @@ export function drawSecond(context, width, height, sight) {
   const shrink = Math.min(1, canvas.width / width, canvas.height / height);
   const [wide, tall] = [Math.floor(width * shrink), Math.floor(height * shrink)];
   if (!wide || !tall) return;
-  eye ??= makeEye();
+  const eye = ownEye.value;
   place(eye, position, wxyz);
   Object.assign(eye, { edges, far, flat });
   eye.updateProjectionMatrix();

@@ -2,6 +2,7 @@
 //
 // The parts of a robot often have the same pictures, and each model brings its own.
 
+import { signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 
 /** @import {TextureSource} from "three" */
@@ -17,7 +18,7 @@ const gone = new FinalizationRegistry((content) => decoded.delete(content));
 const sources = new WeakMap(); // by picture, what three.js uploads
 /** @type {WeakSet<object>} */
 const shared = new WeakSet(); // materials
-let isShared = false;
+const isShared = signal(false);
 
 export function install() {
   const decode = window.createImageBitmap.bind(window);
@@ -29,7 +30,7 @@ export function install() {
       : Reflect.apply(decode, window, [image, ...rest]);
   };
   window.createImageBitmap = shareOrDecode;
-  viser.beforeEveryRender((gl, scene) => isShared && scene.traverse(share));
+  viser.beforeEveryRender((gl, scene) => isShared.value && scene.traverse(share));
 }
 
 /**
@@ -40,7 +41,7 @@ export function install() {
 async function once(image, options, decode) {
   const content = `${await hash(image)} ${image.type} ${JSON.stringify(options)}`;
   const known = (await decoded.get(content))?.deref();
-  isShared ||= Boolean(known);
+  isShared.value ||= Boolean(known);
   if (known) return known;
   const made = decode(image, options);
   const kept = made.then((bitmap) => new WeakRef(bitmap)).catch(() => void decoded.delete(content));

@@ -13,7 +13,7 @@ const MAX_NAME = 200;
 const MAX_S = 86_400;
 
 /** @type {{number: number, began: number}[]} */
-let probes = [];
+const probes = [];
 
 /**
  * Sends a `HasPainted` once the frame with everything before this call is on the screen.
@@ -37,10 +37,9 @@ export function install() {
 
   viser.beforeRender(() => (began = performance.now()));
   viser.afterRender(() => {
-    const painted = probes;
     const isDue = began - measured >= FRAME_EVERY_MS;
-    if (!painted.length && !isDue) return;
-    probes = [];
+    if (!probes.length && !isDue) return;
+    const painted = probes.splice(0);
     const from = (measured = began);
     whenDrawn((isDrawn) => {
       if (!isDrawn) return;
