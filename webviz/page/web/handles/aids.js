@@ -1,6 +1,7 @@
 // The axis along which, or about which, a handle is dragged.
 
 import { set, svgElement } from "webviz/dom.js";
+import { computed, effect, owned, signal } from "webviz/signals.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { beforeRender } from "webviz/viser_page.js";
 import { projectionOf } from "webviz/scene/projection.js";
@@ -15,15 +16,25 @@ import { add, scaled } from "webviz/vectors.js";
 const REACH_PX = 4000; // to either side
 const STEPS = 40; // to find where it goes behind the camera
 
-/** @type {Line | null} */
-let shown = null;
-/** @type {ReturnType<typeof makeLayer> | null} */
-let layer = null;
-/** @type {SVGLineElement | null} */
-let drawing = null;
+const shown = signal(/** @type {Line | null} */ (null));
 
 export function install() {
-  beforeRender(draw);
+  const isShown = computed(() => shown.value !== null);
+  /** @type {ReturnType<typeof makeAxis> | null} */
+  let axis = null;
+  effect(() => {
+    const made = isShown.value ? makeAxis() : null;
+    axis = made;
+    owned(() => made?.layer.element.remove());
+  });
+  beforeRender(() => {
+    if (axis && shown.value) draw(axis, shown.value);
+  });
+}
+
+function makeAxis() {
+  const line = svgElement("line", { class: "wv-handle-axis" });
+  return { line, layer: makeLayer("axis", svgElement("svg", {}, line)) };
 }
 
 /**
@@ -39,24 +50,22 @@ export const isAbout = (mode) => ["move_axis", "move_rotate", "rotate_axis"].inc
  * @param {Line | null} line
  */
 export function show(line) {
-  shown = line;
-  if (line) return;
-  layer?.element.remove();
-  layer = null;
+  shown.value = line;
 }
 
-function draw() {
-  if (!shown) return;
-  drawing ??= svgElement("line", { class: "wv-handle-axis" });
-  layer ??= makeLayer("axis", svgElement("svg", {}, drawing));
+/**
+ * @param {ReturnType<typeof makeAxis>} axis
+ * @param {Line} shown
+ */
+function draw({ line, layer }, shown) {
   layer.place();
   const projection = projectionOf(shown.object);
   const [from, to] = [end(projection, shown, -1), end(projection, shown, 1)];
   const { left, top } = layer.element.getBoundingClientRect();
-  if (!from || !to) return set(drawing, { visibility: "hidden" });
+  if (!from || !to) return set(line, { visibility: "hidden" });
   const [start, stop] = [from, to].map(([x, y]) => [x - left, y - top]);
   const place = { x1: start[0], y1: start[1], x2: stop[0], y2: stop[1] };
-  set(drawing, { visibility: "visible", ...place });
+  set(line, { visibility: "visible", ...place });
 }
 
 /**

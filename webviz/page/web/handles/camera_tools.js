@@ -1,25 +1,32 @@
 // The tools that leave the pointer to the camera, and the one that aims the camera.
 
-import { leave, pointer } from "webviz/handles/gesture.js";
+import { HandleGestures } from "webviz/handles/gesture.js";
 import { focusOn } from "webviz/scene/mouse.js";
 import { clicks } from "webviz/tools/clicks.js";
 import { select } from "webviz/tools/registry.js";
 
 /** @import {Tool} from "webviz/types.js" */
 
-/** @type {Tool} */
-export const interact = {
-  id: "interact",
-  name: "Interact",
-  shortcut: "i",
-  icon: "hand",
-  order: 0,
-  isLean: true,
-  tooltip: "Interact with objects, and move the camera elsewhere.",
-  hint: "",
-  pointer,
-  leave,
-};
+/**
+ * The tool that moves handles.
+ *
+ * @returns {Tool}
+ */
+export function interact() {
+  const gestures = new HandleGestures();
+  return {
+    id: "interact",
+    name: "Interact",
+    shortcut: "i",
+    icon: "hand",
+    order: 0,
+    isLean: true,
+    tooltip: "Interact with objects, and move the camera elsewhere.",
+    hint: "",
+    pointer: (event) => gestures.pointer(event),
+    leave: () => gestures.leave(),
+  };
+}
 
 /** @type {Tool} */
 export const moveCamera = {

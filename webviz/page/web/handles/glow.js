@@ -1,6 +1,7 @@
 // Brightens the control under the pointer, and hides controls that cannot be used now.
 
 import { active, isDefault, onChange } from "webviz/tools/registry.js";
+import { effect, owned, signal, untracked } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 import * as known from "webviz/handles/known.js";
 
@@ -11,16 +12,20 @@ import * as known from "webviz/handles/known.js";
 const SHINE = { over: 0.12, pressed: 0.28 }; // added in linear light; RViz adds 0.3 and 0.5
 const AFTER_PLACING = -998;
 
-/** @type {Map<MeshStandardMaterial, {emissive?: Color, color?: Color}>} */
-const shining = new Map(); // materials, and what they were
-/** @type {string | null} */
-let lit = null;
-/** @type {string | null} */
-let held = null; // the handle that is dragged
+/** @typedef {Part & {level: keyof typeof SHINE}} Lit */
+
+const lit = signal(/** @type {Lit | null} */ (null));
+/** The handle that is dragged. */
+const held = signal(/** @type {string | null} */ (null));
 
 export function install() {
   viser.eachFrame(AFTER_PLACING, hide);
   onChange(() => viser.requestRender());
+  effect(() => {
+    const part = lit.value;
+    if (part) owned(untracked(() => shine(part)));
+    viser.requestRender();
+  });
 }
 
 /**
@@ -30,21 +35,12 @@ export function install() {
  * @param {keyof typeof SHINE} [level]
  */
 export function light(part, level = "over") {
-  const name = part && `${part.id} ${part.control} ${level}`;
-  if (name === lit) return;
-  lit = name;
-  for (const [material, { emissive, color }] of shining) {
-    if (emissive) material.emissive.copy(emissive);
-    if (color) material.color.copy(color);
-  }
-  shining.clear();
-  for (const path of part ? (known.nodesOf(part.id).parts.get(part.control) ?? []) : []) {
-    viser.node(path)?.traverse(({ material }) => {
-      for (const each of [material].flat()) if (each) shine(each, SHINE[level]);
-    });
-  }
-  viser.requestRender();
+  const next = part && { id: part.id, control: part.control, level };
+  if (keyOf(next) !== keyOf(lit.value)) lit.value = next;
 }
+
+/** @param {Lit | null} lit */
+const keyOf = (lit) => lit && `${lit.id} ${lit.control} ${lit.level}`;
 
 /**
  * Hides all other handles while one is dragged; null ends that.
@@ -52,30 +48,48 @@ export function light(part, level = "over") {
  * @param {string | null} id
  */
 export function dim(id) {
-  held = id;
+  held.value = id;
   viser.requestRender();
 }
 
 /**
- * @param {MeshStandardMaterial} material or another, which lacks some of its properties
- * @param {number} amount
+ * Brightens the materials of a control; returns what ends it.
+ *
+ * @param {Lit} lit
  */
-function shine(material, amount) {
-  if (shining.has(material)) return;
-  if (material.emissive) {
-    shining.set(material, { emissive: material.emissive.clone() });
-    material.emissive.addScalar(amount);
-  } else if (material.color) {
-    shining.set(material, { color: material.color.clone() });
-    material.color.multiplyScalar(1 + 2 * amount);
+function shine({ id, control, level }) {
+  /** @type {Map<MeshStandardMaterial, {emissive?: Color, color?: Color}>} */
+  const before = new Map();
+  for (const path of known.nodesOf(id).parts.get(control) ?? []) {
+    viser.node(path)?.traverse(({ material }) => {
+      for (const each of [material].flat()) if (each) brighten(each);
+    });
+  }
+  return () => {
+    for (const [material, { emissive, color }] of before) {
+      if (emissive) material.emissive.copy(emissive);
+      if (color) material.color.copy(color);
+    }
+  };
+
+  /** @param {MeshStandardMaterial} material or another, which lacks some of its properties */
+  function brighten(material) {
+    if (before.has(material)) return;
+    if (material.emissive) {
+      before.set(material, { emissive: material.emissive.clone() });
+      material.emissive.addScalar(SHINE[level]);
+    } else if (material.color) {
+      before.set(material, { color: material.color.clone() });
+      material.color.multiplyScalar(1 + 2 * SHINE[level]);
+    }
   }
 }
 
 function hide() {
-  if (!active() || (isDefault() && held === null)) return;
+  if (!active() || (isDefault() && held.value === null)) return;
   for (const [id, { controls }] of known.all()) {
     for (const [number, paths] of known.nodesOf(id).parts) {
-      const isShown = controls[number]?.always || (isDefault() && id === held);
+      const isShown = controls[number]?.always || (isDefault() && id === held.value);
       for (const path of paths) {
         const object = viser.node(path);
         if (object && !isShown) object.visible = false;

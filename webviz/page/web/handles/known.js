@@ -5,7 +5,8 @@ import { listeners } from "webviz/listeners.js";
 import { depthOf } from "webviz/scene/picking/lens.js";
 import { pickAt } from "webviz/scene/picking/pick.js";
 import { nodeNamed } from "webviz/scene/picking/things.js";
-import { watch } from "webviz/stores.js";
+import { computed, signal } from "webviz/signals.js";
+import { store, watch } from "webviz/stores.js";
 import * as viser from "webviz/viser_page.js";
 import { pathOf } from "webviz/scene/projection.js";
 
@@ -20,22 +21,21 @@ const GROUP = /\|(m\d+)(?:\.([^|]*))?$/;
 const PART = /^c(\d+)\//;
 
 const changes = listeners();
-/** @type {ValuesOf<"handles">} */
-let handles = new Map();
-/** @type {Map<string, HandleNodes> | null} */
-let index = null; // what there is in the scene of each handle
-let indexed = 0;
+const handles = store("handles");
+const nodeCount = signal(0);
+/** What there is in the scene of each handle, found anew when handles or the number of nodes change. */
+const index = computed(() => indexOf(all() && nodeCount.value ? Object.keys(viser.nodes()) : []));
 
 export function install() {
-  watch("handles", (values) => {
-    handles = values;
-    index = null;
-    changes.tell();
-  });
+  watch("handles", changes.tell);
 }
 
-/** All handles by id, those of the store `handles`. */
-export const all = () => handles;
+/**
+ * All handles by id.
+ *
+ * @returns {ValuesOf<"handles">}
+ */
+export const all = () => handles.all();
 
 /** Calls a listener when handles change. */
 export const onChange = changes.on;
@@ -49,7 +49,7 @@ export const onChange = changes.on;
 export function partOf({ group, key }) {
   const id = groupOf(group)?.id;
   const part = PART.exec(key);
-  return id && handles.has(id) && part ? { id, control: Number(part[1]) } : null;
+  return id && all().has(id) && part ? { id, control: Number(part[1]) } : null;
 }
 
 /**
@@ -72,7 +72,7 @@ export function groupOf(group) {
  * @returns {(Part & {point: Vector3}) | null}
  */
 export function controlAt(xy) {
-  if (!handles.size) return null;
+  if (!all().size) return null;
   const found = pickAt(xy, isUsable);
   if (!found) return null;
   // Only now, since it looks at every point of the scene.
@@ -95,7 +95,7 @@ function isUsable({ node }) {
  *
  * @param {Part} part
  */
-export const controlOf = ({ id, control }) => handles.get(id)?.controls[control] ?? null;
+export const controlOf = ({ id, control }) => all().get(id)?.controls[control] ?? null;
 
 /**
  * The names of viser's nodes of a handle: `{groups, parts}`, its groups by what follows the key,
@@ -105,12 +105,8 @@ export const controlOf = ({ id, control }) => handles.get(id)?.controls[control]
  * @returns {HandleNodes}
  */
 export function nodesOf(id) {
-  const count = Object.keys(viser.nodes()).length;
-  if (index === null || count !== indexed) {
-    index = indexOf(Object.keys(viser.nodes()));
-    indexed = count;
-  }
-  return index.get(id) ?? { groups: new Map(), parts: new Map() };
+  nodeCount.value = Object.keys(viser.nodes()).length;
+  return index.value.get(id) ?? { groups: new Map(), parts: new Map() };
 }
 
 /** @param {string[]} names */

@@ -2,6 +2,7 @@
 // says meanwhile, and controls that face the camera do so in every frame.
 
 import { nodeNamed } from "webviz/scene/picking/things.js";
+import { computed, signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 import * as known from "webviz/handles/known.js";
 import { frameNode } from "webviz/scene/projection.js";
@@ -31,14 +32,18 @@ const FROM_CAMERA = [0.5, -0.5, 0.5, 0.5]; // from right, up and back to forward
 const dragged = new Map(); // poses by id of the handle
 /** @type {Map<string, {object: SceneObject, base: Pose}>} */
 const covered = new Map(); // by path of a group, where viser has placed it under a drag
-/** @type {string[]} */
-let facing = [];
-let counted = -1;
 
 export function install() {
   viser.eachFrame(BEFORE_PLACING, uncover);
   viser.eachFrame(AFTER_PLACING, place);
-  viser.beforeRender(face);
+  const nodeCount = signal(0);
+  const facing = computed(() =>
+    nodeCount.value ? Object.keys(viser.nodes()).filter(isFacing) : [],
+  );
+  viser.beforeRender(() => {
+    nodeCount.value = Object.keys(viser.nodes()).length;
+    face(facing.value);
+  });
 }
 
 /**
@@ -129,14 +134,13 @@ function putOver(id, { frame, controls }, { control, pose, turned }) {
   }
 }
 
-// Turns groups that face the camera: their x axis points away from it, their z axis up.
-function face() {
-  const names = Object.keys(viser.nodes());
-  if (names.length !== counted) {
-    counted = names.length;
-    facing = names.filter(isFacing);
-  }
-  for (const path of facing) {
+/**
+ * Turns groups towards the camera: their x axis points away from it, their z axis up.
+ *
+ * @param {string[]} paths
+ */
+function face(paths) {
+  for (const path of paths) {
     const object = viser.node(path);
     if (!object?.parent) continue;
     const before = localOf(object);

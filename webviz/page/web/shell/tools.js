@@ -1,7 +1,6 @@
 // The tools in the toolbar: their buttons and keys, and the pointer while one is active.
 
 import { el } from "webviz/dom.js";
-import * as gesture from "webviz/handles/gesture.js";
 import * as glow from "webviz/handles/glow.js";
 import { icon } from "webviz/icons.js";
 import { focusCamera, interact, moveCamera } from "webviz/handles/camera_tools.js";
@@ -45,9 +44,9 @@ const EVENTS = /** @type {const} */ ([
 ]);
 
 export function install() {
-  registry.setDefault(interact);
-  registry.provide("page", [interact, moveCamera, focusCamera, measure]);
-  gesture.install();
+  const first = interact();
+  registry.setDefault(first);
+  registry.provide("page", [first, moveCamera, focusCamera, measure]);
   glow.install();
   selection.install();
   provide(() =>
