@@ -8,21 +8,20 @@ import { makeLayer } from "webviz/tools/layer.js";
 import * as selection from "webviz/tools/selection.js";
 
 /** @import {Vector3} from "three" */
-/** @import {Outline, Vec2} from "webviz/types.js" */
+/** @import {Outline, Selected, Vec2} from "webviz/types.js" */
 
 const POINT_PX = 5; // half of the square around a point
 const OLD_MS = 10_000; // how long something is marked that is not drawn any more
 
-/** @type {ReturnType<typeof makeLayer> | null} */
-let layer = null;
-/** @type {HTMLCanvasElement | null} */
-let drawing = null;
-let isEmpty = true;
-let timer = 0;
-
 export function install() {
+  const draw = drawing();
+  let isEmpty = true;
   selection.onChange(() => viser.requestRender());
-  viser.beforeRender(draw);
+  viser.beforeRender(() => {
+    const picks = [...selection.all().values()];
+    if (picks.length || !isEmpty) draw(picks);
+    isEmpty = !picks.length;
+  });
 }
 
 /** The middle of all that is marked, in three.js' coordinates, or null. */
@@ -36,41 +35,62 @@ export function middle() {
   return sum.divideScalar(points.length);
 }
 
-function draw() {
-  const picks = [...selection.all().values()];
-  if (!picks.length && isEmpty) return;
-  isEmpty = !picks.length;
-  drawing ??= el("canvas", { class: "wv-highlight" });
-  layer ??= makeLayer("highlight", drawing);
-  layer.place();
-  const { clientWidth: wide, clientHeight: tall } = viser.canvas();
-  const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
-  if (drawing.width !== width || drawing.height !== height)
-    Object.assign(drawing, { width, height });
-  const pen = contextOf(drawing);
-  pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-  pen.clearRect(0, 0, wide, tall);
+/** Returns what marks picks, in a layer that is there from the first on. */
+function drawing() {
+  /** @type {ReturnType<typeof makeSheet> | null} */
+  let sheet = null;
+  let timer = 0;
+  const drawAgain = () => {
+    timer = 0;
+    viser.requestRender();
+  };
+  return (/** @type {Selected[]} */ picks) => {
+    sheet ??= makeSheet();
+    const pen = sheet.clear();
+    const { now, old } = outlinesOf(picks);
+    if (old.length) timer ||= setTimeout(drawAgain, OLD_MS);
+    stroke(pen, now, []);
+    stroke(pen, old, [2, 3]);
+  };
+}
+
+/** A canvas as large as the scene; `clear()` returns its pen. */
+function makeSheet() {
+  const canvas = el("canvas", { class: "wv-highlight" });
+  const layer = makeLayer("highlight", canvas);
+  return {
+    clear() {
+      layer.place();
+      const { clientWidth: wide, clientHeight: tall } = viser.canvas();
+      const [width, height] = [wide, tall].map((size) => Math.round(size * devicePixelRatio));
+      if (canvas.width !== width || canvas.height !== height)
+        Object.assign(canvas, { width, height });
+      const pen = contextOf(canvas);
+      pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+      pen.clearRect(0, 0, wide, tall);
+      return pen;
+    },
+  };
+}
+
+/**
+ * The outlines of what is drawn now, and of what is not drawn any more.
+ *
+ * @param {Selected[]} picks
+ */
+function outlinesOf(picks) {
   const find = finder();
-  /** @type {Outline[]} */
-  const now = [];
-  /** @type {Outline[]} */
-  const old = [];
+  /** @type {{now: Outline[], old: Outline[]}} */
+  const found = { now: [], old: [] };
   for (const pick of picks) {
     const outline = outlineOf(pick, find, selection.moves(pick));
     if (!outline) continue;
     const oldSince = outline.isOld ? (pick.oldSince ?? performance.now()) : null;
     pick.oldSince = oldSince;
-    if (oldSince === null) now.push(outline);
-    else if (performance.now() - oldSince < OLD_MS) old.push(outline);
+    if (oldSince === null) found.now.push(outline);
+    else if (performance.now() - oldSince < OLD_MS) found.old.push(outline);
   }
-  if (old.length) timer ||= setTimeout(drawAgain, OLD_MS);
-  stroke(pen, now, []);
-  stroke(pen, old, [2, 3]);
-}
-
-function drawAgain() {
-  timer = 0;
-  viser.requestRender();
+  return found;
 }
 
 /**

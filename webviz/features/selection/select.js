@@ -8,7 +8,8 @@ import { outlineOf } from "webviz/scene/picking/outline.js";
 import { pickAt, pickIn } from "webviz/scene/picking/pick.js";
 import { finder } from "webviz/scene/picking/things.js";
 import { openPanel } from "webviz/docks/layout.js";
-import { watch } from "webviz/stores.js";
+import { computed, effect, owned, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 import { canvas } from "webviz/viser_page.js";
 import { install as installHighlight, middle } from "webviz/features/selection/highlight.js";
 import { tell } from "webviz/tools/hint.js";
@@ -16,18 +17,14 @@ import { makeLayer } from "webviz/tools/layer.js";
 import { active, provide } from "webviz/tools/registry.js";
 import * as selection from "webviz/tools/selection.js";
 
-/** @import {Box, SceneEvent, SceneThing, Tool, ValuesOf, Vec2} from "webviz/types.js" */
+/** @import {Box, SceneEvent, SceneThing, Tool, Vec2} from "webviz/types.js" */
 
 const CLICK_PX = 4;
 const HINT = "Click or drag a box. Shift adds, Ctrl removes, Alt moves the camera.";
 
-/** @type {{pointer: number, from: Vec2, isBox: boolean} | null} */
-let drag = null;
-/** @type {ReturnType<typeof makeBox> | null} */
-let box = null;
-let endPicking = () => {};
-/** @type {ValuesOf<"picking">} */
-let unselectable = new Map(); // by the ids of displays
+const picking = store("picking"); // displays that cannot be selected, by their ids
+/** A gesture; `to` once it is a box. */
+const drag = signal(/** @type {{pointer: number, from: Vec2, to: Vec2 | null} | null} */ (null));
 
 /** @type {Tool} */
 export const select = {
@@ -41,14 +38,7 @@ export const select = {
   tooltip: "Select points, links, frames and cells to see their values.",
   cursor: "default",
   pointer: follow,
-  select() {
-    // Meanwhile the server knows for a moment what it has replaced.
-    endPicking = watch("picking", (values) => (unselectable = values));
-  },
-  leave() {
-    endPicking();
-    cancel();
-  },
+  leave: cancel,
 };
 
 export function install() {
@@ -63,6 +53,28 @@ export function install() {
     run: lookAtSelection,
   });
   installHighlight();
+  // Meanwhile the server knows for a moment what it has replaced.
+  effect(() => {
+    if (active() === select) picking.all();
+  });
+  const isBox = computed(() => Boolean(drag.value?.to));
+  effect(() => {
+    if (isBox.value) showBox();
+  });
+}
+
+/** Shows the box of the gesture, until there is none. */
+function showBox() {
+  const element = el("div", { class: "wv-select-box" });
+  const layer = makeLayer("select", element);
+  owned(() => layer.element.remove());
+  effect(() => {
+    if (!drag.value?.to) return;
+    layer.place();
+    const { left, top, right, bottom } = boxBetween(drag.value.from, drag.value.to);
+    const { left: x0, top: y0 } = canvas().getBoundingClientRect();
+    element.style.cssText = `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
+  });
 }
 
 /** Looks at the middle of what is selected. */
@@ -79,14 +91,15 @@ function follow(event) {
   if ("deltaY" in event) return false;
   const { type, pointerId, clientX, clientY } = event;
   if (type === "pointerdown") {
-    if (drag !== null || event.button !== 0 || event.altKey) return drag !== null;
+    const isOther = drag.value !== null;
+    if (isOther || event.button !== 0 || event.altKey) return isOther;
     event.preventDefault();
-    drag = { pointer: pointerId, from: [clientX, clientY], isBox: false };
+    drag.value = { pointer: pointerId, from: [clientX, clientY], to: null };
     canvas().setPointerCapture(pointerId);
     return true;
   }
-  if (drag === null) return false;
-  if (pointerId !== drag.pointer) return true;
+  if (drag.value === null) return false;
+  if (pointerId !== drag.value.pointer) return true;
   if (type === "pointermove") move(clientX, clientY);
   else if (type === "pointerup") finish(event);
   else if (type === "pointercancel") cancel();
@@ -98,14 +111,10 @@ function follow(event) {
  * @param {number} y
  */
 function move(x, y) {
-  if (!drag) return;
-  drag.isBox ||= Math.hypot(x - drag.from[0], y - drag.from[1]) >= CLICK_PX;
-  if (!drag.isBox) return;
-  box ??= makeBox();
-  box.layer.place();
-  const { left, top, right, bottom } = boxBetween(drag.from, [x, y]);
-  const { left: x0, top: y0 } = canvas().getBoundingClientRect();
-  box.element.style.cssText = `left: ${left - x0}px; top: ${top - y0}px; width: ${right - left}px; height: ${bottom - top}px`;
+  if (!drag.value) return;
+  const { from, to } = drag.value;
+  if (to || Math.hypot(x - from[0], y - from[1]) >= CLICK_PX)
+    drag.value = { ...drag.value, to: [x, y] };
 }
 
 /**
@@ -122,17 +131,12 @@ function boxBetween([fromX, fromY], [x, y]) {
   };
 }
 
-function makeBox() {
-  const element = el("div", { class: "wv-select-box" });
-  return { element, layer: makeLayer("select", element) };
-}
-
 /** @param {PointerEvent} event */
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
   /** @type {Vec2} */
   const at = [clientX, clientY];
-  const found = drag?.isBox
-    ? pickIn(boxBetween(drag.from, at), selection.MAX_SELECTED, isSelectable)
+  const found = drag.value?.to
+    ? pickIn(boxBetween(drag.value.from, at), selection.MAX_SELECTED, isSelectable)
     : picked(at);
   // At once: a moment later there may be another message.
   const find = finder();
@@ -162,12 +166,11 @@ function picked(xy) {
  *
  * @param {SceneThing} thing
  */
-const isSelectable = ({ node }) => !unselectable.has(node.group.split("/", 1)[0]);
+const isSelectable = ({ node }) => !picking.has(node.group.split("/", 1)[0]);
 
 function cancel() {
-  if (drag && canvas().hasPointerCapture(drag.pointer))
-    canvas().releasePointerCapture(drag.pointer);
-  drag = null;
-  box?.layer.element.remove();
-  box = null;
+  const pointer = drag.value?.pointer;
+  if (pointer !== undefined && canvas().hasPointerCapture(pointer))
+    canvas().releasePointerCapture(pointer);
+  drag.value = null;
 }

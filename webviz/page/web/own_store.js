@@ -12,7 +12,7 @@ channel.onOpen(() => (browser.value = window.webviz.browser));
 /**
  * A store of this page to read from in effects; see `store`.
  *
- * @template {"selection" | "view" | "view_type"} N
+ * @template {"selected" | "selection" | "view" | "view_type"} N
  * @param {N} name
  * @returns {Pick<StoreReader<Named<N>>, "get"> & {all(): ValuesOf<N> | undefined}}
  */

@@ -46,7 +46,7 @@ const EVENTS = /** @type {const} */ ([
 export function install() {
   const first = interact();
   registry.setDefault(first);
-  registry.provide("page", [first, moveCamera, focusCamera, measure]);
+  registry.provide("page", [first, moveCamera, focusCamera, measure()]);
   glow.install();
   selection.install();
   provide(() =>

@@ -4,9 +4,9 @@
 import { NOT_COPIED, copy } from "webviz/clipboard.js";
 import { el, set, setText, svgElement } from "webviz/dom.js";
 import { onCanvas, surfaceAt } from "webviz/scene/ground.js";
-import { watch } from "webviz/stores.js";
 import * as viser from "webviz/viser_page.js";
 import { clicks } from "webviz/tools/clicks.js";
+import { onFrameChange } from "webviz/tools/frame_change.js";
 import { tell, tellLive } from "webviz/tools/hint.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { fixed } from "webviz/numbers.js";
@@ -24,107 +24,136 @@ const MAX_LINES = 50;
 const MAX_WAIT_MS = 250; // between looks at what is below the pointer
 const HINT = "Click on two points. Right click clears, Esc leaves.";
 
-/** @type {Line[]} */
-const lines = [];
-/** @type {Line | null} */
-let open = null; // the line that has no end yet
-/** @type {ReturnType<typeof makeLayer> | null} */
-let layer = null;
-/** @type {SVGSVGElement | null} */
-let drawing = null;
-/** @type {Vec2 | null} */
-let pointer = null;
-let isWaiting = false;
-/** @type {string | null} */
-let frame = null;
-
-/** @type {Tool} */
-export const measure = {
-  id: "measure",
-  name: "Measure",
-  shortcut: "n",
-  icon: "ruler",
-  order: 4,
-  isLean: true,
-  hint: HINT,
-  tooltip: "Measure between points.",
-  cursor: "crosshair",
-  pointer: clicks(press, clear, move),
-  select: install,
-  leave() {
-    pointer = null;
-    if (open) remove(open);
-  },
-};
-
-function install() {
-  if (layer) return;
-  drawing = svgElement("svg");
-  layer = makeLayer("measure", drawing);
-  viser.beforeRender(draw);
-  // Numbers of another frame would be elsewhere.
-  watch("settings", (settings) => {
-    const now = settings.get("fixed_frame");
-    if (frame !== null && now !== frame) removeAll();
-    frame = now;
-  });
-}
-
 /**
- * @param {PointerEvent} event
- * @returns {void}
- */
-function press(event) {
-  const point = surfaceAt([event.clientX, event.clientY]);
-  if (point === null) return tell("warn", "Nothing is there. Click on a surface or on the ground.");
-  if (open) {
-    open.to = point;
-    finish(open);
-  } else {
-    if (lines.length >= MAX_LINES) remove(lines[0]);
-    open = makeLine(point);
-  }
-  viser.requestRender();
-}
-
-/** @param {Line} line */
-function finish(line) {
-  set(line.label, { "data-live": null, tabindex: 0 });
-  open = null;
-  tellLive("");
-}
-
-// A right click gives up the line that has no end, or clears all.
-function clear() {
-  if (open) remove(open);
-  else removeAll();
-  tellLive("");
-}
-
-/**
- * A ray through a large cloud takes long: the next one waits as long as four of them.
+ * The tool.
  *
- * @param {PointerEvent} event
+ * @returns {Tool}
  */
-function move(event) {
-  pointer = [event.clientX, event.clientY];
-  if (open && !isWaiting) requestAnimationFrame(look);
-  isWaiting ||= open !== null;
+export function measure() {
+  /** @type {Ruler | null} */
+  let ruler = null;
+  return {
+    id: "measure",
+    name: "Measure",
+    shortcut: "n",
+    icon: "ruler",
+    order: 4,
+    isLean: true,
+    hint: HINT,
+    tooltip: "Measure between points.",
+    cursor: "crosshair",
+    pointer: clicks(
+      (event) => ruler?.press(event),
+      () => ruler?.clear(),
+      (event) => ruler?.move(event),
+    ),
+    select: () => void (ruler ??= new Ruler()),
+    leave: () => ruler?.leave(),
+  };
 }
 
-function look() {
-  const [before, at, line] = [performance.now(), pointer, open];
-  const point = line && at && surfaceAt(at);
-  if (point) {
-    line.to = point;
-    tellLive(words(line));
-    draw();
+/** All lines of a page, from when this is made. */
+class Ruler {
+  /** @type {Line[]} */
+  #lines = [];
+  /** @type {Line | null} */
+  #open = null; // the line that has no end yet
+  #drawing = svgElement("svg");
+  #layer = makeLayer("measure", this.#drawing);
+  /** @type {Vec2 | null} */
+  #pointer = null;
+  #isWaiting = false;
+
+  constructor() {
+    viser.beforeRender(() => this.#draw());
+    onFrameChange(() => this.#removeAll());
   }
-  const next = () => {
-    isWaiting = open !== null && pointer !== at;
-    if (isWaiting) requestAnimationFrame(look);
-  };
-  setTimeout(next, Math.min(4 * (performance.now() - before), MAX_WAIT_MS));
+
+  leave() {
+    this.#pointer = null;
+    if (this.#open) this.#remove(this.#open);
+  }
+
+  /** @param {PointerEvent} event */
+  press(event) {
+    const point = surfaceAt([event.clientX, event.clientY]);
+    if (point === null)
+      return tell("warn", "Nothing is there. Click on a surface or on the ground.");
+    if (this.#open) {
+      this.#open.to = point;
+      this.#finish(this.#open);
+    } else {
+      if (this.#lines.length >= MAX_LINES) this.#remove(this.#lines[0]);
+      this.#open = this.#begin(point);
+    }
+    viser.requestRender();
+  }
+
+  /** A right click gives up the line that has no end, or clears all. */
+  clear() {
+    if (this.#open) this.#remove(this.#open);
+    else this.#removeAll();
+    tellLive("");
+  }
+
+  /**
+   * A ray through a large cloud takes long: the next one waits as long as four of them.
+   *
+   * @param {PointerEvent} event
+   */
+  move(event) {
+    this.#pointer = [event.clientX, event.clientY];
+    if (this.#open && !this.#isWaiting) requestAnimationFrame(() => this.#look());
+    this.#isWaiting ||= this.#open !== null;
+  }
+
+  #look() {
+    const [before, at, line] = [performance.now(), this.#pointer, this.#open];
+    const point = line && at && surfaceAt(at);
+    if (point) {
+      line.to = point;
+      tellLive(words(line));
+      this.#draw();
+    }
+    const next = () => {
+      this.#isWaiting = this.#open !== null && this.#pointer !== at;
+      if (this.#isWaiting) requestAnimationFrame(() => this.#look());
+    };
+    setTimeout(next, Math.min(4 * (performance.now() - before), MAX_WAIT_MS));
+  }
+
+  /** @param {Vec3} from */
+  #begin(from) {
+    const line = makeLine(from);
+    this.#lines.push(line);
+    this.#drawing.append(...line.parts, ...line.ends);
+    this.#layer.element.append(line.label);
+    return line;
+  }
+
+  /** @param {Line} line */
+  #finish(line) {
+    set(line.label, { "data-live": null, tabindex: 0 });
+    this.#open = null;
+    tellLive("");
+  }
+
+  /** @param {Line} line */
+  #remove(line) {
+    if (line === this.#open) this.#open = null;
+    this.#lines.splice(this.#lines.indexOf(line), 1);
+    for (const part of [...line.parts, ...line.ends, line.label]) part.remove();
+  }
+
+  #removeAll() {
+    while (this.#lines.length) this.#remove(this.#lines[0]);
+  }
+
+  #draw() {
+    if (!this.#lines.length) return;
+    this.#layer.place();
+    for (const line of this.#lines) drawLine(line);
+  }
 }
 
 /** @param {Vec3} from */
@@ -152,21 +181,7 @@ function makeLine(from) {
     length,
     steps,
   };
-  lines.push(line);
-  drawing?.append(...line.parts, ...line.ends);
-  layer?.element.append(line.label);
   return line;
-}
-
-/** @param {Line} line */
-function remove(line) {
-  if (line === open) open = null;
-  lines.splice(lines.indexOf(line), 1);
-  for (const part of [...line.parts, ...line.ends, line.label]) part.remove();
-}
-
-function removeAll() {
-  while (lines.length) remove(lines[0]);
 }
 
 /** @param {Line} line */
@@ -189,12 +204,6 @@ function parts({ from, to }) {
 function words(line) {
   const [length, steps] = parts(line);
   return `${length} (${steps})`;
-}
-
-function draw() {
-  if (!lines.length) return;
-  layer?.place();
-  for (const line of lines) drawLine(line);
 }
 
 /** @param {Line} line */

@@ -1,6 +1,7 @@
 // Follows the gesture of a tool and draws its preview, without asking the server.
 
 import { set, svgElement } from "webviz/dom.js";
+import { signal } from "webviz/signals.js";
 import { arrowAt } from "webviz/tools/arrow.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { sendCard } from "webviz/tools/send_card.js";
@@ -16,11 +17,12 @@ import { heightAt, onCanvas, planeAt, surfaceAt } from "webviz/scene/ground.js";
  *   tool: ToolFacts, start: Vec3, yaw: number, at: Vec2, from: Vec2, pointer: number | null,
  *   isTurned: boolean, isLifting: boolean, finger: {pointerId: number, y: number} | null,
  *   raised: number, made: MadeGesture | null, card: ReturnType<typeof sendCard> | null,
+ *   drawing: ReturnType<typeof makeDrawing>,
  * }} Preview
  */
 
 const CLICK_PX = 4;
-/** @type {Omit<Preview, "tool" | "start" | keyof Listener>} */
+/** @type {Omit<Preview, "tool" | "start" | "drawing" | keyof Listener>} */
 const AT_REST = {
   yaw: 0,
   at: [0, 0],
@@ -34,10 +36,7 @@ const AT_REST = {
   card: null,
 };
 
-/** @type {ReturnType<typeof makeDrawing> | null} */
-let drawing = null;
-/** @type {Preview | null} */
-let current = null;
+const shown = signal(/** @type {Preview | null} */ (null));
 
 /**
  * Begins to follow a pointer, instead of what still waits to be sent. `done` gets the points, the
@@ -53,18 +52,29 @@ export function begin(event, tool, { done, live }) {
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
-  cancel();
-  current = { ...AT_REST, tool, done, live, start, at, from: at, pointer: event.pointerId };
+  show({ tool, done, live, start, at, from: at, pointer: event.pointerId });
   canvas().setPointerCapture(event.pointerId);
   follow(event);
-  redraw(current);
   return true;
 }
 
-export const isGoing = () => current !== null && !current.made;
-export const isWaiting = () => Boolean(current?.made);
+/**
+ * Shows a preview in place of another one.
+ *
+ * @param {Listener & Pick<Preview, "tool" | "start"> & Partial<Preview>} preview
+ */
+function show(preview) {
+  cancel();
+  const made = { ...AT_REST, ...preview, drawing: makeDrawing() };
+  shown.value = made;
+  redraw(made);
+  return made;
+}
+
+export const isGoing = () => shown.value !== null && !shown.value.made;
+export const isWaiting = () => Boolean(shown.value?.made);
 /** @param {PointerEvent} event */
-export const follows = (event) => isGoing() && current?.pointer === event.pointerId;
+export const follows = (event) => isGoing() && shown.value?.pointer === event.pointerId;
 
 /**
  * Takes up where the pointer is; with Ctrl it lifts, else it turns.
@@ -72,6 +82,7 @@ export const follows = (event) => isGoing() && current?.pointer === event.pointe
  * @param {PointerEvent} event
  */
 export function follow(event) {
+  const current = shown.value;
   if (!current) return;
   const before = current.at;
   current.at = [event.clientX, event.clientY];
@@ -96,6 +107,7 @@ export function follow(event) {
  * @param {PointerEvent} event
  */
 export function followSecond({ type, pointerId, pointerType, clientY }) {
+  const current = shown.value;
   if (current?.tool.gesture !== "pose" || pointerType !== "touch") return;
   if (type === "pointerdown") current.finger ??= { pointerId, y: clientY };
   if (current.finger?.pointerId !== pointerId) return;
@@ -151,6 +163,7 @@ function turn(current) {
  * @param {boolean} asks
  */
 export function end(event, asks) {
+  const current = shown.value;
   if (!current) return;
   follow(event);
   const { start, yaw, isTurned } = current;
@@ -171,37 +184,33 @@ export function end(event, asks) {
  * @param {Listener} listener
  */
 export function propose(tool, made, { done, live }) {
-  cancel();
-  current = { ...AT_REST, tool, done, live, start: made.points[0], yaw: made.yaw, made };
-  redraw(current);
-  wait(current);
+  wait(show({ tool, done, live, start: made.points[0], yaw: made.yaw, made }));
 }
 
 /** @param {Preview} current */
 function wait(current) {
   current.live(`${words(current)} · Enter sends, Esc cancels.`);
   current.card = sendCard(send, cancel);
-  drawing?.layer.element.append(current.card.element);
+  current.drawing.layer.element.append(current.card.element);
   current.card.focus();
 }
 
 /** Sends what waits for that. */
 export function send() {
-  if (!current?.made) return;
-  const { done, made } = current;
+  if (!shown.value?.made) return;
+  const { done, made } = shown.value;
   cancel();
   done(made);
 }
 
 export function cancel() {
-  if (current === null) return;
-  const { pointer } = current;
+  if (shown.value === null) return;
+  const { pointer, live, drawing } = shown.value;
   if (pointer !== null && canvas().hasPointerCapture(pointer))
     canvas().releasePointerCapture(pointer);
-  current.live("");
-  current = null;
-  drawing?.layer.element.remove();
-  drawing = null;
+  live("");
+  shown.value = null;
+  drawing.layer.element.remove();
 }
 
 /** @param {Preview} current */
@@ -211,12 +220,11 @@ function words({ tool, start, yaw }) {
   return `x ${x} y ${y} z ${z} m${heading}`;
 }
 
-/** @param {Preview} shown */
-function redraw(shown) {
-  if (current !== shown) return;
-  requestAnimationFrame(() => redraw(shown)); // the view may follow a frame that moves
-  drawing ??= makeDrawing();
-  const { layer, stem, arrow, dot } = drawing;
+/** @param {Preview} current */
+function redraw(current) {
+  if (shown.value !== current) return;
+  requestAnimationFrame(() => redraw(current)); // the view may follow a frame that moves
+  const { layer, stem, arrow, dot } = current.drawing;
   const { tool, start, yaw } = current;
   const isPose = tool.gesture === "pose";
   layer.place();

@@ -4,28 +4,28 @@
 import { act } from "webviz/act.js";
 import * as channel from "webviz/channel.js";
 import { listeners } from "webviz/listeners.js";
-import { watch } from "webviz/stores.js";
+import { counter } from "webviz/numbers.js";
+import { ownStore } from "webviz/own_store.js";
+import { effect, signal, untracked } from "webviz/signals.js";
 
-/** @import {Picked, Selected, ValuesOf} from "webviz/types.js" */
+/** @import {Picked, Selected} from "webviz/types.js" */
 /** @import {Commands} from "webviz/messages.js" */
 
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
 
 const changes = listeners();
-/** @type {Map<number, Selected>} */
-let things = new Map(); // by id
-let total = 0;
-let count = 0;
-/** @type {ValuesOf<"selected">} */
-let known = new Map();
-/** @type {() => void} */
-let end = () => {};
+const nextId = counter();
+/** By id. */
+const things = signal(/** @type {Map<number, Selected>} */ (new Map()));
+const total = signal(0);
+/** What the server knows of them. */
+const known = ownStore("selected");
 
 /** All things by id: what `pickAt` made of each. */
-export const all = () => things;
+export const all = () => things.value;
 /** The number of things that there were to select. */
-export const totalCount = () => total;
+export const totalCount = () => total.value;
 
 /**
  * True if a thing moves and stays what it is, such as a frame; messages do not.
@@ -37,17 +37,14 @@ export const moves = ({ id }) => known.get(String(id))?.[1] ?? false;
 /** Calls a listener whenever something else is selected; returns what ends it. */
 export const onChange = changes.on;
 
-// A server that comes back knows nothing of this page, which gets another id.
 export function install() {
+  effect(() => {
+    if (known.all()) untracked(dropUnknown);
+  });
+  // A server that comes back knows nothing of this page, which gets another id.
   channel.onOpen(() => {
-    things = new Map();
-    total = 0;
-    known = new Map();
-    end();
-    end = watch(`selected:${window.webviz.browser}`, (values) => {
-      known = values;
-      dropUnknown();
-    });
+    things.value = new Map();
+    total.value = 0;
     changes.tell();
   });
 }
@@ -83,8 +80,8 @@ export function sendable(picks) {
  * @param {number} [found]
  */
 export async function change(way, picks, found = picks.length) {
-  const old = new Map([...things].map(([id, thing]) => [keyOf(thing), id]));
-  const keep = way === "replace" ? [] : [...things.keys()];
+  const old = new Map([...all()].map(([id, thing]) => [keyOf(thing), id]));
+  const keep = way === "replace" ? [] : [...all().keys()];
   const fresh = new Map();
   if (way === "remove") {
     const gone = new Set(picks.map((pick) => old.get(keyOf(pick))));
@@ -97,8 +94,8 @@ export async function change(way, picks, found = picks.length) {
   for (const pick of picks) {
     if (way === "add" && old.has(keyOf(pick))) continue;
     if (keep.length + fresh.size >= MAX_SELECTED) break;
-    count += 1;
-    fresh.set(count, { ...pick, id: count });
+    const id = nextId();
+    fresh.set(id, { ...pick, id });
   }
   return put(keep, fresh, keep.length + Math.max(found, fresh.size));
 }
@@ -109,10 +106,10 @@ export async function change(way, picks, found = picks.length) {
  * @param {number} wanted
  */
 async function put(keep, fresh, wanted) {
-  things = new Map([...[...things].filter(([id]) => keep.includes(id)), ...fresh]);
-  total = Math.max(wanted, things.size);
+  things.value = new Map([...[...all()].filter(([id]) => keep.includes(id)), ...fresh]);
+  total.value = Math.max(wanted, all().size);
   changes.tell();
-  const fields = { picks: sendable(fresh.values()), keep, total };
+  const fields = { picks: sendable(fresh.values()), keep, total: total.value };
   const { level, text } = await act("Select", fields, { quiet: true, errors: "caller" });
   // What the server tells of the selection comes before its answer.
   for (const thing of fresh.values()) thing.isKnown = true;
@@ -123,13 +120,15 @@ async function put(keep, fresh, wanted) {
 
 function dropUnknown() {
   drop(
-    [...things].filter(([id, { isKnown }]) => isKnown && !known.has(String(id))).map(([id]) => id),
+    [...all()].filter(([id, { isKnown }]) => isKnown && !known.get(String(id))).map(([id]) => id),
   );
 }
 
 /** @param {number[]} ids */
 function drop(ids) {
-  const gone = ids.filter((id) => things.delete(id));
-  total -= gone.length;
-  if (gone.length) changes.tell();
+  const gone = ids.filter((id) => all().has(id));
+  if (!gone.length) return;
+  things.value = new Map([...all()].filter(([id]) => !gone.includes(id)));
+  total.value -= gone.length;
+  changes.tell();
 }
