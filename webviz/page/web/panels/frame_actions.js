@@ -1,5 +1,7 @@
 // Actions on the frame that is marked in the panel "TF"; features add to them.
 
+import { signal } from "webviz/signals.js";
+
 /** @import {Frame} from "webviz/contents.js" */
 
 /**
@@ -15,19 +17,18 @@ export const frameActions = [];
 /** @param {FrameAction} action */
 export const frameAction = (action) => frameActions.push(action);
 
-/** @type {string | null} */
-let wanted = null;
+const wanted = signal(/** @type {string | null} */ (null));
 
 /**
  * Marks a frame when the panel is shown.
  *
  * @param {string} name
  */
-export const showFrame = (name) => (wanted = name);
+export const showFrame = (name) => void (wanted.value = name);
 
-/** That frame, once. */
+/** That frame, once; read in effects. */
 export function wantedFrame() {
-  const name = wanted;
-  wanted = null;
+  const name = wanted.value;
+  wanted.value = null;
   return name;
 }

@@ -2,6 +2,7 @@
 
 import * as channel from "webviz/channel.js";
 import { recall, remember } from "webviz/remember.js";
+import { signal, untracked } from "webviz/signals.js";
 
 /** @import {Item} from "webviz/panels/displays/types.js" */
 
@@ -10,41 +11,42 @@ const MAX_REMEMBERED = 100;
 
 /** @type {Set<string>} */
 const selected = new Set();
-/** @type {string | null} */
-let current = null;
-/** @type {string | null} */
-let anchor = null; // where Shift extends from
-/** @type {Set<string>} */
-let restored = new Set(recall(KEY, [])); // paths that are yet to be selected
-/** @type {string | null} */
-let added = null; // the id of a display that this page has made
-let saved = JSON.stringify([...restored]);
-/** @type {string | null} */
-let successor = null; // what follows displays that this page removes
-/** @type {Set<string>} */
-let gone = new Set(); // what was selected when it went, until something else is selected
+const current = signal(/** @type {string | null} */ (null));
+const anchor = signal(/** @type {string | null} */ (null)); // where Shift extends from
+/** Paths that are yet to be selected. */
+const restored = signal(recalled());
+const saved = signal(JSON.stringify([...restored.value]));
+/** The id of a display that this page has made, until there is a row of it. */
+const awaited = signal(/** @type {string | null} */ (null));
+/** What follows displays that this page removes. */
+const successor = signal(/** @type {string | null} */ (null));
+/** What was selected when it went, until something else is selected. */
+const gone = signal(/** @type {Set<string>} */ (new Set()));
+/** Whether each click adds or removes, as with Ctrl: fingers have no keys. */
+const isSeveral = signal(false);
+const place = signal(0); // of the current row, should it go
 
-let isSeveral = false; // each click adds or removes, as with Ctrl: fingers have no keys
-/** @type {() => void} */
-let tell = () => {};
-let place = 0; // of the current row, should it go
+/** @returns {Set<string>} */
+function recalled() {
+  return new Set(recall(KEY, []));
+}
 
 /**
  * Selects a display as soon as there is a row of it, and shows it.
  *
  * @param {string} id
  */
-export function reveal(id) {
-  added = id;
-  tell();
-}
+export const reveal = (id) => void (awaited.value = id);
+
+/** The id of that display, null for none; read in effects. */
+export const added = () => awaited.value;
 
 // The row of what was added is there before the answer, or comes after it.
 channel.on("Done", ({ result }) => result.display && reveal(result.display));
 channel.onOpen(() => {
-  restored = new Set(recall(KEY, []));
+  restored.value = recalled();
   selected.clear();
-  gone = new Set();
+  gone.value = new Set();
 });
 
 export const ids = () => selected;
@@ -52,21 +54,14 @@ export const ids = () => selected;
 export const isSelected = (id) => selected.has(id);
 
 /** The id of the row that keys are about; null before the first. */
-export const active = () => current;
-
-/**
- * Calls `listener` when this page has added a display; the newest one is called.
- *
- * @param {() => void} listener
- */
-export const onAdded = (listener) => (tell = listener);
+export const active = () => untracked(() => current.value); // rows follow the list
 
 /**
  * Makes a row the one that keys are about.
  *
  * @param {string | null} id
  */
-export const activate = (id) => (current = id);
+export const activate = (id) => void (current.value = id);
 
 /**
  * Selects one row and no other; null for none.
@@ -74,10 +69,10 @@ export const activate = (id) => (current = id);
  * @param {string | null} id
  */
 export function choose(id) {
-  gone = new Set();
+  gone.value = new Set();
   selected.clear();
   if (id !== null) selected.add(id);
-  current = anchor = id;
+  current.value = anchor.value = id;
 }
 
 /**
@@ -86,18 +81,18 @@ export function choose(id) {
  * @param {string} id
  */
 export function toggle(id) {
-  gone = new Set();
+  gone.value = new Set();
   if (!selected.delete(id)) selected.add(id);
-  current = anchor = id;
+  current.value = anchor.value = id;
 }
 
-export const severalAtOnce = () => isSeveral;
+export const severalAtOnce = () => isSeveral.value;
 /**
  * True if each click adds a row, or takes it away.
  *
  * @param {boolean} wanted
  */
-export const selectSeveral = (wanted) => (isSeveral = wanted);
+export const selectSeveral = (wanted) => void (isSeveral.value = wanted);
 
 /**
  * Selects from where the selection began to a row.
@@ -106,13 +101,13 @@ export const selectSeveral = (wanted) => (isSeveral = wanted);
  * @param {Item[]} rows
  */
 export function extend(id, rows) {
-  gone = new Set();
+  gone.value = new Set();
   const order = rows.map((row) => row.id);
-  const from = Math.max(order.indexOf(anchor ?? ""), 0);
+  const from = Math.max(order.indexOf(anchor.value ?? ""), 0);
   const to = order.indexOf(id);
   selected.clear();
   for (const each of order.slice(Math.min(from, to), Math.max(from, to) + 1)) selected.add(each);
-  current = id;
+  current.value = id;
 }
 
 /**
@@ -120,7 +115,7 @@ export function extend(id, rows) {
  *
  * @param {string | null} id
  */
-export const leaveTo = (id) => (successor = id);
+export const leaveTo = (id) => void (successor.value = id);
 
 /**
  * Deselects what is gone, and selects what this page has added; returns the id of that, or null.
@@ -129,34 +124,42 @@ export const leaveTo = (id) => (successor = id);
  */
 export function follow(items) {
   const there = new Map(items.map((item) => [item.id, item]));
-  if (restored.size && items.length > 1) {
-    for (const { id, path } of items) if (restored.has(path)) selected.add(id);
-    current = anchor = selected.values().next().value ?? null;
-    restored.clear();
-  }
+  restore(items);
   comeBack(there);
   const went = [...selected].filter((id) => !there.has(id));
   for (const id of went) selected.delete(id);
-  const remembered = gone; // `choose` forgets it, which is not meant here
-  if (added !== null && there.has(added)) {
-    const id = added;
-    added = null;
+  const remembered = gone.value; // `choose` forgets it, which is not meant here
+  const id = awaited.value;
+  if (id !== null && there.has(id)) {
+    awaited.value = null;
     choose(id);
     return id;
   }
-  if (current === null || !there.has(current)) {
-    const next = successor !== null && there.has(successor) ? successor : null;
+  if (current.value === null || !there.has(current.value)) {
+    const { value: after } = successor;
+    const next = after !== null && there.has(after) ? after : null;
     if (next && !selected.size) choose(next);
-    else current = next ?? items[Math.min(place, items.length - 1)]?.id ?? null;
-    successor = null;
+    else current.value = next ?? items[Math.min(place.value, items.length - 1)]?.id ?? null;
+    successor.value = null;
   }
-  for (const id of went) remembered.add(id);
-  gone = items.length > 1 ? remembered : new Set(); // of another config
-  place = Math.max(
-    items.findIndex(({ id }) => id === current),
-    0,
-  );
+  const isOther = items.length <= 1; // another config
+  gone.value = new Set(isOther ? [] : [...remembered, ...went]);
+  const at = items.findIndex(({ id }) => id === current.value);
+  place.value = Math.max(at, 0);
   return null;
+}
+
+/**
+ * Selects what was selected when this page was open before, once it is there.
+ *
+ * @param {Item[]} items
+ */
+function restore(items) {
+  const { value: paths } = restored;
+  if (!paths.size || items.length <= 1) return;
+  for (const { id, path } of items) if (paths.has(path)) selected.add(id);
+  current.value = anchor.value = selected.values().next().value ?? null;
+  restored.value = new Set();
 }
 
 /**
@@ -165,7 +168,7 @@ export function follow(items) {
  * @param {Map<string, Item>} there
  */
 function comeBack(there) {
-  const back = [...gone].filter((id) => there.has(id));
+  const back = [...gone.value].filter((id) => there.has(id));
   if (!back.length) return;
   choose(back[0]);
   for (const id of back) selected.add(id);
@@ -177,10 +180,10 @@ function comeBack(there) {
  * @param {Item[]} items
  */
 export function save(items) {
-  if (restored.size) return;
+  if (restored.value.size) return;
   const paths = items.filter(({ id }) => selected.has(id)).map(({ path }) => path);
   const text = JSON.stringify(paths.slice(0, MAX_REMEMBERED));
-  if (text === saved) return;
-  saved = text;
+  if (text === saved.value) return;
+  saved.value = text;
   remember(KEY, JSON.parse(text));
 }

@@ -3,6 +3,7 @@
 import { el, showText } from "webviz/dom.js";
 import { touchable } from "webviz/controls/rows.js";
 import { VirtualList } from "webviz/controls/virtual.js";
+import { effect, untracked } from "webviz/signals.js";
 import { watch } from "webviz/stores.js";
 import { recall, remember } from "webviz/remember.js";
 import * as actions from "webviz/panels/displays/actions.js";
@@ -195,9 +196,10 @@ export function buildTree({ after, changed }) {
   });
   const pointer = listenToPointer(canvas, tree);
   listenToKeys(canvas, tree);
-  selection.onAdded(update);
   const ends = [
-    () => selection.onAdded(() => {}),
+    effect(() => {
+      if (selection.added() && isKnown) untracked(update);
+    }),
     pointer.end,
     listenToDrags(canvas, tree),
     watch("settings", (settings) => {
