@@ -3,7 +3,7 @@ import { afterEach, test } from "node:test";
 
 import { bent, straight } from "../../webviz/page/web/images/undistort.js";
 import { clicks } from "../../webviz/page/web/tools/clicks.js";
-import { disarm, share } from "../../webviz/features/driving/teleop_gamepad.js";
+import { makeGamepad } from "../../webviz/features/driving/teleop_gamepad.js";
 
 /** @import {SceneEvent, Vec2} from "webviz/types.js" */
 
@@ -60,12 +60,10 @@ function plug(...pads) {
   Object.defineProperty(navigator, "getGamepads", { value: () => pads, configurable: true });
 }
 
-afterEach(() => {
-  disarm();
-  Reflect.deleteProperty(navigator, "getGamepads");
-});
+afterEach(() => Reflect.deleteProperty(navigator, "getGamepads"));
 
 test("a gamepad drives once its sticks have been in their middle", () => {
+  const { disarm, share } = makeGamepad();
   plug({ connected: true, axes: [0, -1, 0] });
   assert.deepEqual(share(), [0, 0, 0]);
   plug({ connected: true, axes: [0.1, -0.14, 0] });
@@ -77,6 +75,7 @@ test("a gamepad drives once its sticks have been in their middle", () => {
 });
 
 test("without a gamepad, or with one of a single axis, nothing is held", () => {
+  const { share } = makeGamepad();
   assert.deepEqual(share().map(Math.abs), [0, 0, 0]);
   plug({ connected: true, axes: [1] });
   assert.deepEqual(share().map(Math.abs), [0, 0, 0]);

@@ -7,11 +7,12 @@ import * as channel from "webviz/channel.js";
 import { isTyping, takeKeys } from "webviz/commands.js";
 import { shortcuts } from "webviz/keys.js";
 import { places } from "webviz/shell/shell.js";
+import { signal } from "webviz/signals.js";
 import { watch } from "webviz/stores.js";
 import { gesture } from "webviz/tools/gestures.js";
 import * as registry from "webviz/tools/registry.js";
 import { added, makeCard } from "webviz/features/driving/teleop_card.js";
-import * as gamepad from "webviz/features/driving/teleop_gamepad.js";
+import { makeGamepad } from "webviz/features/driving/teleop_gamepad.js";
 import * as keys from "webviz/features/driving/teleop_keys.js";
 
 /** @import {DrivingReport} from "webviz/messages.js" */
@@ -20,7 +21,7 @@ import * as keys from "webviz/features/driving/teleop_keys.js";
 
 /**
  * @typedef {{
- *   id: string, card: ReturnType<typeof makeCard>, beat: number, beats: number, sent: number,
+ *   id: string, card: ReturnType<typeof makeCard>, gamepad: ReturnType<typeof makeGamepad>, beat: number, beats: number, sent: number,
  *   heard: number, held: Shares, driver: number | null, canGoSideways: boolean,
  *   ends: (() => void)[], timer: number,
  * }} Driven
@@ -36,9 +37,8 @@ const HINT = matchMedia("(pointer: coarse)").matches
   ? "Drag the stick."
   : "Hold W A S D, the arrow keys, or the stick. Esc leaves.";
 
-/** @type {Driven | null} */
-let driven = null; // what is open while a tool that drives is active
-let isHere = true;
+const open = signal(/** @type {Driven | null} */ (null)); // while a tool that drives is active
+const isHere = signal(true);
 
 /**
  * The gesture of a tool that drives.
@@ -61,6 +61,7 @@ export function install() {
   gesture("drive", tool);
   registry.onChange(follow);
   takeKeys((/** @type {KeyboardEvent} */ event) => {
+    const driven = open.value;
     if (!driven || document.querySelector("dialog[open]")) return false;
     const isTaken = keys.press(event, driven.canGoSideways);
     update();
@@ -68,8 +69,8 @@ export function install() {
   });
   window.addEventListener("keyup", (event) => keys.lift(event) && update(), true);
   window.addEventListener("blur", () => away());
-  window.addEventListener("focus", () => (isHere = true));
-  window.addEventListener("pointerdown", () => (isHere = true), true);
+  window.addEventListener("focus", () => (isHere.value = true));
+  window.addEventListener("pointerdown", () => (isHere.value = true), true);
   window.addEventListener("pagehide", () => away());
   document.addEventListener("visibilitychange", () => document.hidden && away());
   document.addEventListener("focusin", (event) => {
@@ -77,31 +78,32 @@ export function install() {
   });
   channel.on("DrivingReport", hear);
   channel.onOpen(() => {
-    if (driven) driven.beat = 0;
+    if (open.value) open.value.beat = 0;
     release();
   });
 }
 
 /** The robot that is driven, and by whom; null while no tool that drives is active. */
-export const state = () => driven;
+export const state = () => open.value;
 
 // The card is there while the tool is active, however it became so.
 function follow() {
   const active = registry.active();
   const id = active?.gesture === "drive" ? active.id : null;
-  if (id === (driven?.id ?? null)) return;
-  close();
-  if (id !== null) open(id);
+  if (id === (open.value?.id ?? null)) return;
+  end();
+  if (id !== null) begin(id);
 }
 
 /** @param {string} id */
-function open(id) {
+function begin(id) {
   const card = makeCard(update);
   places.legend.append(card.element);
-  gamepad.disarm();
-  driven = {
+  /** @type {Driven} */
+  const driven = {
     id,
     card,
+    gamepad: makeGamepad(),
     beat: 0,
     beats: 0,
     sent: 0,
@@ -109,45 +111,49 @@ function open(id) {
     held: STILL,
     driver: null,
     canGoSideways: false,
-    ends: [
-      watch(`driving:${id}`, (values) => card.showRobot(values)),
-      watch(`tool:${id}`, (values) => {
-        if (driven) driven.canGoSideways = Number(values.get("value.lateral")) > 0;
-        card.showTool(values);
-      }),
-    ],
+    ends: [],
     timer: setInterval(tick, BEAT_MS),
   };
+  open.value = driven;
+  driven.ends.push(
+    watch(`driving:${id}`, (values) => card.showRobot(values)),
+    watch(`tool:${id}`, (values) => {
+      driven.canGoSideways = Number(values.get("value.lateral")) > 0;
+      card.showTool(values);
+    }),
+  );
   card.showRobot(null);
   card.showNote("");
   card.focus();
   send();
 }
 
-function close() {
+function end() {
   release();
+  const driven = open.value;
   if (!driven) return;
   clearInterval(driven.timer);
   for (const end of driven.ends) end();
   driven.card.element.remove();
-  driven = null;
+  open.value = null;
 }
 
 function away() {
-  isHere = false;
-  gamepad.disarm();
+  isHere.value = false;
+  open.value?.gamepad.disarm();
   release();
 }
 
 // Everything is let go, whatever fingers do.
 function release() {
   keys.release();
-  driven?.card.release();
+  open.value?.card.release();
   update();
 }
 
 function tick() {
   update();
+  const driven = open.value;
   if (!driven) return;
   driven.beats += 1;
   const isHeld = driven.held !== STILL;
@@ -158,8 +164,10 @@ function tick() {
 
 /** Takes up what is held now, and sends it if that is something else. */
 function update() {
+  const driven = open.value;
   if (!driven) return;
-  const shares = [keys.share(), driven.card.share(), isHere ? gamepad.share() : STILL];
+  const sticks = isHere.value ? driven.gamepad.share() : STILL;
+  const shares = [keys.share(), driven.card.share(), sticks];
   const sums = shares.reduce(added);
   const held = sums.map((part) => Math.max(-1, Math.min(1, part)));
   const isStill = held.every((part) => part === 0);
@@ -172,6 +180,7 @@ function update() {
 }
 
 function send() {
+  const driven = open.value;
   if (!driven || !channel.isOpen() || document.hidden) return;
   const { id, beat, held } = driven;
   const [linear, lateral, angular] = held;
@@ -181,6 +190,7 @@ function send() {
 
 /** @param {DrivingReport} report */
 function hear({ tool: id, beat, driver, problem }) {
+  const driven = open.value;
   if (id !== driven?.id) return;
   driven.heard = performance.now();
   Object.assign(driven, { beat, driver });

@@ -3,18 +3,25 @@
 const DEAD = 0.15; // of a stick that does not quite come back to its middle
 const [LEFT_X, LEFT_Y, RIGHT_X] = [0, 1, 2];
 
-let isArmed = false;
+/** The sticks: each counts once all have been in their middle, so that nothing drives off by itself. */
+export function makeGamepad() {
+  let isArmed = false;
+  return {
+    /** Lets the sticks count only once they have been in their middle again. */
+    disarm: () => void (isArmed = false),
+    /** The held sticks, as `share` of teleop_keys.js. */
+    share() {
+      const held = sticks();
+      isArmed ||= held.every((part) => part === 0);
+      return isArmed ? held : [0, 0, 0];
+    },
+  };
+}
 
-/** A stick counts once it has been in its middle, so that nothing drives off by itself. */
-export const disarm = () => (isArmed = false);
-
-/** The held sticks, as `share` of teleop_keys.js. */
-export function share() {
+function sticks() {
   const pads = [...(navigator.getGamepads?.() ?? [])];
   const axes = pads.find((pad) => pad?.connected && pad.axes.length > LEFT_Y)?.axes ?? [];
-  const held = [LEFT_Y, RIGHT_X, LEFT_X].map((axis) => alive(-(axes[axis] ?? 0)));
-  isArmed ||= held.every((part) => part === 0);
-  return isArmed ? held : [0, 0, 0];
+  return [LEFT_Y, RIGHT_X, LEFT_X].map((axis) => alive(-(axes[axis] ?? 0)));
 }
 
 /** @param {number} value */

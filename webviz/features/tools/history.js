@@ -1,8 +1,8 @@
 // History of what this page has sent by tools, with the results: the newest first.
 
 import * as act from "webviz/act.js";
-import { signal } from "webviz/signals.js";
-import { watch } from "webviz/stores.js";
+import { effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 
 /** @import {MadeGesture, ToolFacts} from "webviz/types.js" */
 /** @import {Published} from "webviz/messages.js" */
@@ -19,15 +19,19 @@ import { watch } from "webviz/stores.js";
 const MAX_KEPT = 20;
 
 const sent = signal(/** @type {SentGesture[]} */ ([]));
-let frame = "";
+const settings = store("settings");
 
 export function install() {
-  watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
+  effect(fixedFrame); // which is there whenever something is sent
 }
 
 /** All entries; read in effects. */
 export const all = () => sent.value;
-export const fixedFrame = () => frame;
+
+/** The fixed frame of now. */
+export function fixedFrame() {
+  return settings.get("fixed_frame") ?? "";
+}
 
 /**
  * Sends a finished gesture of a tool, `{id, name, gesture}`, or poses that were collected.
@@ -39,7 +43,7 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   const gesture = { points, yaw, keys, yaws, several };
   const result = { level: "", text: "", messages: [] };
   const number = act.send("UseTool", { tool: tool.id, ...gesture });
-  const entry = { number, tool, ...gesture, frame, time: new Date(), ...result };
+  const entry = { number, tool, ...gesture, frame: fixedFrame(), time: new Date(), ...result };
   sent.value = [entry, ...sent.value].slice(0, MAX_KEPT);
 }
 

@@ -1,8 +1,9 @@
 // Collects poses of a tool that takes several, and sends them together.
 
-import { el, set, setChildren, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { icon, iconButton, textButton } from "webviz/icons.js";
-import { watch } from "webviz/stores.js";
+import { batch, each, effect, signal } from "webviz/signals.js";
+import { onFrameChange } from "webviz/tools/frame_change.js";
 import { tell } from "webviz/tools/hint.js";
 import * as history from "webviz/features/tools/history.js";
 import { makePoses } from "webviz/tools/poses.js";
@@ -12,15 +13,10 @@ import * as registry from "webviz/tools/registry.js";
 
 const MAX_POSES = 100;
 
-const show = makePoses("waypoints");
-/** @type {ToolFacts | null} */
-let tool = null; // whose poses these are
-/** @type {{point: Vec3, yaw: number}[]} */
-let poses = [];
-let isCollecting = false;
-/** @type {string | null} */
-let frame = null;
-let update = () => {};
+/** The tool whose poses these are. */
+const tool = signal(/** @type {ToolFacts | null} */ (null));
+const poses = signal(/** @type {{point: Vec3, yaw: number}[]} */ ([]));
+const isCollecting = signal(false);
 
 /**
  * True if a gesture of a tool is collected: Shift begins that.
@@ -29,7 +25,7 @@ let update = () => {};
  * @param {boolean} isShifted
  */
 export const collects = (of, isShifted) =>
-  Boolean(of.several?.length) && (isCollecting || isShifted);
+  Boolean(of.several?.length) && (isCollecting.value || isShifted);
 
 /**
  * Takes a finished gesture as a waypoint; whether it did.
@@ -39,110 +35,88 @@ export const collects = (of, isShifted) =>
  */
 export function collect(of, { points, yaw, keys }) {
   if (!collects(of, keys.includes("shift"))) return false;
-  if (poses.length >= MAX_POSES) {
+  if (poses.value.length >= MAX_POSES) {
     tell("warn", `There are ${MAX_POSES} waypoints. Send them before you add others.`);
     return true;
   }
-  if (tool?.id !== of.id) poses = [];
-  tool = of;
-  isCollecting = true;
-  put([...poses, { point: points[0], yaw }]);
+  const before = tool.value?.id === of.id ? poses.value : [];
+  batch(() => {
+    tool.value = of;
+    isCollecting.value = true;
+    poses.value = [...before, { point: points[0], yaw }];
+  });
   return true;
 }
 
 /** The card with what can be done with the waypoints. */
 export function install() {
+  const show = makePoses("waypoints");
+  effect(() => show(poses.value.map((pose, index) => ({ ...pose, number: String(index + 1) }))));
+  onFrameChange(() => {
+    if (!poses.value.length) return;
+    poses.value = [];
+    tell("warn", "Removed the waypoints: the fixed frame has changed.");
+  });
+  return card();
+}
+
+function card() {
+  const several = () => (poses.value.length ? tool.value : registry.active())?.several ?? [];
+  const hidden = () => !poses.value.length;
+  const none = () => (isCollecting.value ? "Drag on the ground for each." : "");
   const mode = el(
     "button",
     {
       type: "button",
       class: "wv-button wv-waypoint-mode",
+      "aria-pressed": () => String(isCollecting.value),
       onclick: toggle,
       "data-tip": "Collect poses and send them together",
     },
     icon("path"),
     el("span", {}, "Waypoints"),
   );
-  const count = el("span", { class: "wv-quiet" });
-  const back = iconButton("arrow-back", "Remove the last waypoint", () => put(poses.slice(0, -1)));
-  const clear = iconButton("trash", "Remove all waypoints", () => put([]));
-  const sends = el("div", { class: "wv-waypoint-sends" });
-  const head = el("div", { class: "wv-waypoint-head" }, mode, count, back, clear);
-  const card = el(
+  const count = el("span", { class: "wv-quiet" }, () => String(poses.value.length || none()));
+  const dropLast = () => (poses.value = poses.value.slice(0, -1));
+  const back = iconButton("arrow-back", "Remove the last waypoint", dropLast, { hidden });
+  const clear = iconButton("trash", "Remove all waypoints", () => (poses.value = []), { hidden });
+  return el(
     "div",
     {
       class: "wv-card wv-waypoints",
       role: "group",
       "aria-label": "Waypoints",
-      hidden: true,
+      hidden: () => !several().length,
     },
-    head,
-    sends,
+    el("div", { class: "wv-waypoint-head" }, mode, count, back, clear),
+    el("div", { class: "wv-waypoint-sends", hidden }, each(several, String, sendButton)),
   );
-  /** @type {Map<string, HTMLButtonElement>} */
-  const buttons = new Map();
-
-  update = () => {
-    const active = registry.active();
-    const several = (poses.length ? tool : active)?.several ?? [];
-    const isHidden = !several.length;
-    if (card.hidden !== isHidden) card.hidden = isHidden;
-    set(mode, { "aria-pressed": String(isCollecting) });
-    const none = isCollecting ? "Drag on the ground for each." : "";
-    setText(count, poses.length ? String(poses.length) : none);
-    for (const part of [back, clear, sends]) {
-      if (part.hidden !== !poses.length) part.hidden = !poses.length;
-    }
-    setChildren(
-      sends,
-      several.map((label) => {
-        const button = buttons.get(label) ?? sendButton(label);
-        buttons.set(label, button);
-        return button;
-      }),
-    );
-  };
-  registry.onChange(update);
-  // Numbers of another frame would be elsewhere.
-  watch("settings", (settings) => {
-    const now = settings.get("fixed_frame");
-    if (frame !== null && now !== frame && poses.length) {
-      put([]);
-      tell("warn", "Removed the waypoints: the fixed frame has changed.");
-    }
-    frame = now;
-  });
-  return card;
 }
 
-/** @param {string} label */
-const sendButton = (label) =>
+/**
+ * @param {unknown} _
+ * @param {string} label
+ */
+const sendButton = (_, label) =>
   textButton(label, () => send(label), { class: "wv-button wv-primary" });
 
 function toggle() {
-  isCollecting = !isCollecting;
-  put(isCollecting ? poses : []);
+  isCollecting.value = !isCollecting.value;
+  if (!isCollecting.value) poses.value = [];
 }
 
 /** @param {string} several */
 function send(several) {
-  const sent = poses;
-  isCollecting = false;
-  put([]);
-  if (!tool) return;
-  if (registry.active()?.id === tool.id && !tool.stays) registry.select(null);
-  history.send(tool, {
+  const [sent, of] = [poses.value, tool.value];
+  isCollecting.value = false;
+  poses.value = [];
+  if (!of) return;
+  if (registry.active()?.id === of.id && !of.stays) registry.select(null);
+  history.send(of, {
     points: sent.map(({ point }) => point),
     yaws: sent.map(({ yaw }) => yaw),
     yaw: sent[0].yaw,
     keys: [],
     several,
   });
-}
-
-/** @param {{point: Vec3, yaw: number}[]} wanted */
-function put(wanted) {
-  poses = wanted;
-  show(poses.map((pose, index) => ({ ...pose, number: String(index + 1) })));
-  update();
 }

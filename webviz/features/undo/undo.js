@@ -20,13 +20,9 @@ const MAX_LISTED = 30;
 const history = store("history");
 /** @param {Way} way */
 const steps = (way) => history.get(way) ?? [];
-/** @type {number | null} */
-let newest = null;
 
 export function install() {
-  // Steps of a viewer that was started anew have other numbers.
-  channel.onOpen(() => (newest = null));
-  watch("history", tell);
+  tellOfSteps();
   const undone = step("undo", UNDO);
   headButton(undone);
   headButton(step("redo", REDO));
@@ -122,13 +118,23 @@ function openSteps(button) {
   openMenuBelow(button, all.length ? all : [{ label: "Nothing to undo", disabled: true }]);
 }
 
-// Steps have numbers that grow, also when they are taken back.
-function tell() {
-  const [last] = [...steps("undo"), ...steps("redo")].toSorted((a, b) => b.number - a.number);
-  const before = newest;
-  newest = Math.max(newest ?? -1, last?.number ?? -1);
-  if (before === null) return tellRestored(steps("undo")[0]);
-  if (newest === before || !last) return;
+/** Says what is new among the steps, whose numbers grow, also when they are taken back. */
+function tellOfSteps() {
+  /** @type {number | null} */
+  let newest = null;
+  // Steps of a viewer that was started anew have other numbers.
+  channel.onOpen(() => (newest = null));
+  watch("history", () => {
+    const [last] = [...steps("undo"), ...steps("redo")].toSorted((a, b) => b.number - a.number);
+    const before = newest;
+    newest = Math.max(newest ?? -1, last?.number ?? -1);
+    if (before === null) tellRestored(steps("undo")[0]);
+    else if (newest !== before && last) tell(last);
+  });
+}
+
+/** @param {HistoryStep} last the newest of all */
+function tell(last) {
   const isUndone = steps("redo").includes(last);
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;

@@ -1,17 +1,20 @@
 // Tooltips: what `data-tip` or `title` says, after a moment under the mouse or a finger, and on focus.
 
 import { listenToLongPresses } from "webviz/controls/long_press.js";
-import { el, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { keyText } from "webviz/keys.js";
+import { effect, owned, signal } from "webviz/signals.js";
 
 const WAIT_MS = 500;
 const GAP = 6;
 const TIPPED = "[data-why], [data-tip], [title]";
 
-/** @type {HTMLElement | null} */
-let shown = null;
 const tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
-let timer = 0;
+
+/** What has its tooltip shown. */
+const shown = signal(/** @type {HTMLElement | null} */ (null));
+/** What will have it shown in a while. */
+const due = signal(/** @type {{owner: HTMLElement, ms: number} | null} */ (null));
 
 /**
  * The element around a target that has a tooltip.
@@ -24,12 +27,21 @@ const ownerOf = (target) => (target instanceof Element ? target.closest(TIPPED) 
 /** @param {HTMLElement} page */
 export function install(page) {
   page.append(tip);
+  effect(() => {
+    if (!due.value) return;
+    const { owner, ms } = due.value;
+    const timer = setTimeout(() => show(owner), ms);
+    owned(() => clearTimeout(timer));
+  });
+  effect(() => {
+    if (shown.value) place(shown.value);
+  });
   page.addEventListener("pointerover", ({ target, pointerType }) => {
     const owner = ownerOf(target);
     if (owner) adopt(owner);
-    if (owner === shown) return;
+    if (owner === shown.value) return;
     hide();
-    if (owner && pointerType !== "touch") timer = setTimeout(() => show(owner), WAIT_MS);
+    if (owner && pointerType !== "touch") due.value = { owner, ms: WAIT_MS };
   });
   page.addEventListener("pointerleave", ({ pointerType }) => {
     if (pointerType !== "touch") hide(); // that of a finger is read once it is lifted
@@ -37,14 +49,14 @@ export function install(page) {
   listenToLongPresses(page, ({ target }) => {
     const owner = ownerOf(target);
     if (owner) show(owner);
-    return owner !== null && owner === shown;
+    return owner !== null && owner === shown.value;
   });
   page.addEventListener("focusin", ({ target }) => {
     const owner = ownerOf(target);
     const focused = /** @type {Element} */ (target);
     if (!owner || !focused.matches(":focus-visible") || focused.matches("input, textarea")) return;
     adopt(owner);
-    timer = setTimeout(() => show(owner)); // not while a dialog or a menu is just being opened
+    due.value = { owner, ms: 0 }; // not while a dialog or a menu is just being opened
   });
   page.addEventListener("focusout", hide);
   for (const name of ["pointerdown", "keydown", "scroll"])
@@ -68,7 +80,20 @@ function adopt(owner) {
 function show(owner) {
   if (!owner.isConnected || !(owner.dataset.why || owner.dataset.tip)) return;
   hide();
-  shown = owner;
+  shown.value = owner;
+}
+
+function hide() {
+  due.value = null;
+  shown.value = null;
+}
+
+/**
+ * Shows the tooltip of an element, until another one is shown.
+ *
+ * @param {HTMLElement} owner
+ */
+function place(owner) {
   // Why something is not allowed comes before what it would do.
   const { why, tip: about, key } = owner.dataset;
   const text = why || about || "";
@@ -85,14 +110,10 @@ function show(owner) {
   const top = below + height > innerHeight ? box.top - GAP - height : below;
   tip.style.left = `${Math.max(GAP, Math.min(left, innerWidth - width - GAP))}px`;
   tip.style.top = `${Math.max(GAP, top)}px`;
-}
-
-function hide() {
-  clearTimeout(timer);
-  if (!shown) return;
-  if (shown.getAttribute("aria-describedby") === "wv-tip")
-    shown.removeAttribute("aria-describedby");
-  shown = null;
-  if (tip.matches(":popover-open")) tip.hidePopover();
-  setText(tip, "");
+  owned(() => {
+    if (owner.getAttribute("aria-describedby") === "wv-tip")
+      owner.removeAttribute("aria-describedby");
+    if (tip.matches(":popover-open")) tip.hidePopover();
+    tip.replaceChildren();
+  });
 }

@@ -1,8 +1,8 @@
 // Records what the scene shows as a video file of the browser.
 
-import { el, set, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { icon } from "webviz/icons.js";
-import { listeners } from "webviz/listeners.js";
+import { signal } from "webviz/signals.js";
 import { canvas } from "webviz/viser_page.js";
 import { duration } from "webviz/time_text.js";
 import { toast } from "webviz/toasts.js";
@@ -13,48 +13,38 @@ const PART_MS = 1000;
 const MAX_BYTES = 1 << 30;
 const MAX_S = 3600;
 
-/** @type {{recorder: MediaRecorder, parts: Blob[], bytes: number, began: number} | null} */
-let running = null;
-const changes = listeners();
+const running = signal(/** @type {MediaRecorder | null} */ (null));
+/** How long and how much has been recorded. */
+const size = signal({ seconds: 0, bytes: 0 });
 
 /** While a video is recorded: for how long and how much, and a button that stops it. */
-export function videoButton() {
-  const label = el("span", { class: "wv-number" });
-  const button = el(
+export const videoButton = () =>
+  el(
     "button",
     {
       type: "button",
       class: "wv-button wv-record wv-video",
+      hidden: () => !running.value,
       "data-recording": true,
+      "aria-label": "Stop recording the video",
+      "data-tip": "Stop and save the video",
       onclick: toggle,
     },
     icon("record", 12),
-    label,
+    el("span", { class: "wv-number" }, () =>
+      running.value ? `Recording a video: ${sizeText(size.value)}` : "",
+    ),
   );
-  const show = () => {
-    button.hidden = running === null;
-    const text = running ? `Recording a video: ${sizeText(running)}` : "";
-    setText(label, text);
-    set(button, {
-      "aria-label": "Stop recording the video",
-      "data-tip": "Stop and save the video",
-    });
-  };
-  changes.on(show);
-  show();
-  return button;
-}
 
-/** @param {{began: number, bytes: number}} of */
-function sizeText({ began, bytes }) {
-  const seconds = (performance.now() - began) / 1000;
+/** @param {{seconds: number, bytes: number}} of */
+function sizeText({ seconds, bytes }) {
   const size = bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   return `${duration(seconds, 0)} · ${size}`;
 }
 
 /** Starts a video, or stops and saves it. */
 export function toggle() {
-  if (running) running.recorder.stop();
+  if (running.value) running.value.stop();
   else start();
 }
 
@@ -65,29 +55,33 @@ function start() {
     return toast("This browser cannot record videos. Use another one.", { level: "error" });
   const stream = canvas().captureStream(FPS);
   const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 8_000_000 });
-  const made = { recorder, parts: /** @type {Blob[]} */ ([]), bytes: 0, began: performance.now() };
+  /** @type {Blob[]} */
+  const parts = [];
+  const began = performance.now();
+  const measure = () => {
+    const bytes = parts.reduce((sum, part) => sum + part.size, 0);
+    size.value = { seconds: (performance.now() - began) / 1000, bytes };
+  };
   recorder.addEventListener("dataavailable", ({ data }) => {
-    made.parts.push(data);
-    made.bytes += data.size;
-    const isLong = made.bytes > MAX_BYTES || performance.now() - made.began > MAX_S * 1000;
+    parts.push(data);
+    measure();
+    const isLong = size.value.bytes > MAX_BYTES || size.value.seconds > MAX_S;
     if (isLong && recorder.state === "recording") recorder.stop();
-    changes.tell();
   });
   recorder.addEventListener("error", () =>
     toast("The browser has stopped recording the video.", { level: "error" }),
   );
-  const ticking = setInterval(changes.tell, PART_MS); // a scene at rest gives no data
+  const ticking = setInterval(measure, PART_MS); // a scene at rest gives no data
   recorder.addEventListener("stop", () => {
     clearInterval(ticking);
     for (const track of stream.getTracks()) track.stop();
-    running = null;
-    changes.tell();
-    save(new Blob(made.parts, { type }), type);
+    running.value = null;
+    save(new Blob(parts, { type }), type);
   });
-  running = made;
+  measure();
+  running.value = recorder;
   recorder.start(PART_MS);
   toast("Recording the scene without panels. Stop to save the video.");
-  changes.tell();
 }
 
 /**
