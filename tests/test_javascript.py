@@ -30,3 +30,13 @@ def test_one_module_listens_to_the_keys_of_the_whole_page() -> None:
     page = ROOT / "webviz"
     found = {path.name for path in page.rglob("*.js") if listens.search(path.read_text("utf-8"))}
     assert found == {"commands.js"}
+
+
+def test_no_module_of_the_page_has_state_at_its_top() -> None:
+    """State belongs to what is mounted, and values that modules share are signals."""
+    state = re.compile(r"^(?:export )?(?:let|var) .*", re.MULTILINE)
+    modules = [*(ROOT / "webviz").rglob("*.js"), *(ROOT / "displays").rglob("*.js")]
+    found = {
+        path.name: lines for path in modules if (lines := state.findall(path.read_text("utf-8")))
+    }
+    assert not found

@@ -11,6 +11,7 @@ import * as channel from "webviz/channel.js";
 import constants from "webviz/constants.js";
 import { toThree } from "webviz/scene/fixed_frame.js";
 import { surviveReload } from "webviz/remember.js";
+import { signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
 
 /** @import {PlaceCamera, StartView} from "webviz/messages.js" */
@@ -22,26 +23,16 @@ const SENT_MS = 100; // after which viser has reported the camera
 
 /** @type {(() => void)[]} */
 const listeners = [];
-/** @type {PerspectiveCamera} */
-let camera;
-/** @type {HTMLCanvasElement} */
-let canvas;
-/** @type {SceneObject | undefined} */
-let cross;
-/** @type {PlaceCamera | StartView | null} */
-let view = null;
-/** @type {StartView | null} */
-let before = null; // the page was loaded again
-/** @type {Matrix4 | null} */
-let rig = null;
-let height = 0;
-/** @type {Vector3 | null} */
-let focal = null;
-/** @type {Vector3} */
-let aimed;
+const shown = signal(/** @type {PlaceCamera | StartView | null} */ (null));
+/** What is before the camera's own pose, null for a view that follows nothing. */
+const rig = signal(/** @type {Matrix4 | null} */ (null));
+/** The height of the canvas that the view is shown for. */
+const height = signal(0);
+/** The focal point of a view that looks at another one, and the point that the camera was aimed at. */
+const focus = signal(/** @type {{focal: Vector3, aimed: Vector3} | null} */ (null));
 
 /** The type of the view, "" before there is one. */
-export const type = () => (view === null ? "" : view.view);
+export const type = () => shown.value?.view ?? "";
 /** True for views that look around from a position, without a focal point. */
 export const isFPS = () => type() === "FPS" || type() === "FrameAligned";
 /** The target frame of the view. */
@@ -51,9 +42,9 @@ export const targetFrame = () => options().target_frame ?? "";
  *
  * @returns {Record<string, any>}
  */
-export const options = () => view?.options ?? {};
+export const options = () => shown.value?.options ?? {};
 /** The transform before the camera's own pose. */
-export const followed = () => (rig === null ? matrix() : rig);
+export const followed = () => rig.value ?? matrix();
 /** The offset of the point that the camera looks at from the focal point of the view. */
 export const raised = () => (isRaised() ? raise() : vector([0, 0, 0]));
 /**
@@ -77,7 +68,7 @@ export function lookFrom(xyz) {
  * @returns {Vec3[]}
  */
 export function axes() {
-  const toCamera = camera.matrixWorldInverse.clone().multiply(toThree());
+  const toCamera = viser.camera().matrixWorldInverse.clone().multiply(toThree());
   /** @type {Vec3[]} */
   const units = [
     [1, 0, 0],
@@ -88,7 +79,8 @@ export function axes() {
 }
 /** The size of a pixel where the camera looks at, in metres. */
 export const metersPerPixel = () =>
-  (2 * viser.controls().distance * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
+  (2 * viser.controls().distance * Math.tan((viser.camera().fov * Math.PI) / 360)) /
+  viser.canvas().clientHeight;
 /**
  * Calls `listener` whenever another view is shown.
  *
@@ -100,29 +92,30 @@ export const onShow = (listener) => listeners.push(listener);
  * @param {Vec3} xyz
  * @returns {Vector3}
  */
-const vector = (xyz) => camera.position.clone().fromArray(xyz);
+const vector = (xyz) => viser.camera().position.clone().fromArray(xyz);
 /** @returns {Matrix4} */
-const matrix = () => camera.matrixWorld.clone().identity();
-const isFlat = () => view !== null && view.view === "TopDownOrtho";
+const matrix = () => viser.camera().matrixWorld.clone().identity();
+const isFlat = () => type() === "TopDownOrtho";
 
 // Follow the target frame: its position, with its rotation or yaw for a view that turns with it;
 // and upside down for one whose z axis is inverted.
 function follow() {
+  const view = shown.value;
   const node = view?.frame && viser.node(view.frame);
   const isInverted = options().invert_z_axis;
   if (view === null || (view.frame ? !node : !isInverted)) return;
   const up = toThree();
   const down = up.clone().invert();
-  rig = matrix();
+  const next = matrix();
   if (node) {
     const pose = down.clone().multiply(node.matrixWorld);
     const m = pose.elements;
-    if (view.view === "FrameAligned") rig.extractRotation(pose);
-    if (view.view === "ThirdPersonFollower") rig.makeRotationZ(Math.atan2(m[1], m[0]));
-    rig.setPosition(m[12], m[13], m[14]);
+    if (view.view === "FrameAligned") next.extractRotation(pose);
+    if (view.view === "ThirdPersonFollower") next.makeRotationZ(Math.atan2(m[1], m[0]));
+    next.setPosition(m[12], m[13], m[14]);
   }
-  if (isInverted) rig.multiply(matrix().makeRotationX(Math.PI));
-  rig.premultiply(up).multiply(down);
+  if (isInverted) next.multiply(matrix().makeRotationX(Math.PI));
+  rig.value = next.premultiply(up).multiply(down);
 }
 
 // A parallel projection as large as the camera's own is where it looks at.
@@ -155,16 +148,19 @@ function adopt(camera) {
   };
   camera.updateMatrixWorld = function (/** @type {boolean} */ force) {
     updateMatrixWorld.call(this, force);
-    if (rig === null) return;
-    this.matrixWorld.premultiply(rig);
+    if (rig.value === null) return;
+    this.matrixWorld.premultiply(rig.value);
     this.matrixWorldInverse.copy(this.matrixWorld).invert();
   };
 }
 
 // Adjust what viser keeps before the camera, and the cross where it turns about, without knowing rigs.
-/** @param {PerspectiveCamera} camera */
-function adjust(camera) {
-  if (cross) cross.visible = rig === null;
+/**
+ * @param {PerspectiveCamera} camera
+ * @param {SceneObject | undefined} cross
+ */
+function adjust(camera, cross) {
+  if (cross) cross.visible = rig.value === null;
   for (const child of viser.scene().children) {
     if (child.material && child.material === viser.backgroundMaterial()) {
       const depth = isFlat() ? viser.controls().distance : 1;
@@ -179,8 +175,7 @@ function adjust(camera) {
 
 // XYOrbit looks at a point that is as far from its focal point, along the camera's own up, as the
 // camera is far away. Turning and zooming leave the focal point, moving moves it on the ground.
-const isRaised = () =>
-  view !== null && (view.view === "XYOrbit" || view.view === "ThirdPersonFollower");
+const isRaised = () => ["XYOrbit", "ThirdPersonFollower"].includes(type());
 function raise() {
   const { azimuthAngle, polarAngle, distance } = viser.controls();
   const back = -Math.cos(polarAngle);
@@ -191,41 +186,43 @@ function raise() {
   ]).multiplyScalar(RAISED * distance);
 }
 function settle() {
-  if (!isRaised() || focal === null) return;
+  if (!isRaised() || focus.value === null) return;
+  const { focal, aimed } = focus.value;
   const controls = viser.controls();
   const target = controls.getTarget(vector([0, 0, 0]));
   focal.add(target).sub(aimed).setY(0);
   const wanted = focal.clone().add(raise());
-  aimed = target;
-  if (target.distanceTo(wanted) < 1e-9 * (1 + wanted.length())) return;
-  controls.moveTo(wanted.x, wanted.y, wanted.z, false);
-  aimed = wanted;
+  const isThere = target.distanceTo(wanted) < 1e-9 * (1 + wanted.length());
+  if (!isThere) controls.moveTo(wanted.x, wanted.y, wanted.z, false);
+  focus.value = { focal, aimed: isThere ? target : wanted };
 }
 
 function report() {
+  const view = shown.value;
   if (view === null) return;
   channel.send({
     type: "ViewReport",
     number: view.number,
     view: view.view,
     options: view.options,
-    width: canvas.clientWidth,
-    height: canvas.clientHeight,
+    width: viser.canvas().clientWidth,
+    height: viser.canvas().clientHeight,
   });
 }
 
 /** @param {PlaceCamera | StartView} wanted */
 function show(wanted) {
-  if (view?.frame !== wanted.frame || !wanted.frame) rig = null;
-  view = wanted;
+  if (shown.value?.frame !== wanted.frame || !wanted.frame) rig.value = null;
+  shown.value = wanted;
   follow();
-  height = canvas.clientHeight;
+  height.value = viser.canvas().clientHeight;
+  const camera = viser.camera();
   const controls = viser.controls();
   const up = toThree();
   const target = vector(/** @type {Vec3} */ (wanted.look_at));
   const offset = vector(/** @type {Vec3} */ (wanted.position)).sub(target);
   const fov = isFlat() ? FLAT_FIELD_OF_VIEW : FIELD_OF_VIEW;
-  if (isFlat()) offset.setLength(height / Number(wanted.scale) / 2 / Math.tan(fov / 2));
+  if (isFlat()) offset.setLength(height.value / Number(wanted.scale) / 2 / Math.tan(fov / 2));
   const position = target.clone().add(offset).applyMatrix4(up);
   target.applyMatrix4(up);
   controls.minDistance = isFPS() ? EYE : 0.01;
@@ -237,8 +234,8 @@ function show(wanted) {
   adopt(camera);
   controls.setLookAt(...position.toArray(), ...target.toArray(), false);
   controls.update(0);
-  aimed = controls.getTarget(vector([0, 0, 0]));
-  focal = isRaised() ? aimed.clone().sub(raise()) : null;
+  const aimed = controls.getTarget(vector([0, 0, 0]));
+  focus.value = isRaised() ? { focal: aimed.clone().sub(raise()), aimed } : null;
   if (isFlat()) controls.minPolarAngle = controls.maxPolarAngle = controls.polarAngle;
   camera.updateProjectionMatrix();
   for (const listener of listeners) listener();
@@ -253,6 +250,7 @@ function show(wanted) {
  * @returns {StartView | null}
  */
 function placement() {
+  const view = shown.value;
   if (view === null) return null;
   const down = toThree().clone().invert();
   const controls = viser.controls();
@@ -268,29 +266,43 @@ function placement() {
       .getTarget(vector([0, 0, 0]))
       .applyMatrix4(down)
       .toArray(),
-    scale: isFlat() ? height / wide : null,
+    scale: isFlat() ? height.value / wide : null,
   };
 }
 
-/** @param {StartView} start */
-function join(start) {
+/**
+ * @param {StartView} start
+ * @param {StartView | null} before what this page showed before it was loaded again
+ */
+function join(start, before) {
   viser.reveal(); // also of a scene without a page around it
-  if (view === null) return show({ ...start, ...before, number: start.number });
+  if (shown.value === null) return show({ ...start, ...before, number: start.number });
   // A lost connection is back: the camera has not moved, but the server does not know it.
   viser.sendCamera();
   setTimeout(report, SENT_MS);
 }
 
-export function install() {
-  camera = viser.camera();
-  canvas = viser.canvas();
-  height = canvas.clientHeight;
-  before = surviveReload("view", placement);
-  cross = viser.scene().children.find((child) => {
+/** The cross where the camera turns about, which viser shows. */
+const findCross = () =>
+  viser.scene().children.find((child) => {
     let found = false;
     child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
     return found;
   });
+
+/** Keeps a view without perspective as large as it is when the canvas changes its height. */
+function resize() {
+  const [tall, before] = [viser.canvas().clientHeight, height.value];
+  if (shown.value === null || tall === 0 || tall === before) return;
+  if (isFlat()) viser.controls().dollyTo((viser.controls().distance * tall) / before, false);
+  height.value = tall;
+  setTimeout(report, SENT_MS);
+}
+
+export function install() {
+  height.value = viser.canvas().clientHeight;
+  const before = surviveReload("view", placement);
+  const cross = findCross();
 
   const rays = viser.Raycaster().prototype;
   const fromCamera = rays.setFromCamera;
@@ -305,25 +317,18 @@ export function install() {
 
   // Labels stand where their parents were in the frame before, unless that is brought up to date
   // between viser's placing of nodes and of labels.
-  viser.eachFrame(-900, () => rig !== null && viser.scene().updateMatrixWorld());
+  viser.eachFrame(-900, () => rig.value !== null && viser.scene().updateMatrixWorld());
 
   viser.beforeRender((gl, scene, camera) => {
     adopt(camera);
     if (isFlat()) flatten(camera);
     follow();
     camera.updateMatrixWorld();
-    adjust(camera);
+    adjust(camera, cross);
     settle();
   });
 
-  new ResizeObserver(() => {
-    const tall = canvas.clientHeight;
-    if (view === null || tall === 0 || tall === height) return;
-    if (isFlat()) viser.controls().dollyTo((viser.controls().distance * tall) / height, false);
-    height = tall;
-    setTimeout(report, SENT_MS);
-  }).observe(canvas);
-
+  new ResizeObserver(resize).observe(viser.canvas());
   channel.on("PlaceCamera", show);
-  channel.on("StartView", join);
+  channel.on("StartView", (start) => join(start, before));
 }
