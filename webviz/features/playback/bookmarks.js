@@ -4,24 +4,30 @@ import { act } from "webviz/act.js";
 import { iconButton } from "webviz/icons.js";
 import { askName } from "webviz/controls/dialog.js";
 import { openMenu } from "webviz/controls/menu.js";
+import { store } from "webviz/stores.js";
 import { duration } from "webviz/time_text.js";
 
 /** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
 /** @typedef {ReturnType<typeof bookmarks>} Bookmarks */
 
+const known = store("bookmarks");
+/** Names and times; the timeline reads them while it is there. */
+const pairs = () => known.get("all") ?? [];
+
 /**
- * Returns `{element, show(all), add()}`; `all` are pairs of name and time, `position()` is the time.
+ * Returns `{element, add()}`; `position()` is the time, and `hidden()` is read in effects.
  *
  * @param {Seeks} seek
  * @param {() => number} position
+ * @param {() => boolean} hidden
  */
-export function bookmarks(seek, position) {
-  /** @type {[string, number][]} */
-  let all = [];
-  const button = iconButton("flag", "Bookmarks", open, { tip: "Bookmarks: moments with names" });
+export function bookmarks(seek, position, hidden) {
+  const tip = "Bookmarks: moments with names";
+  const button = iconButton("flag", "Bookmarks", open, { tip, hidden });
 
   function open() {
+    const all = pairs();
     const { left, top } = button.getBoundingClientRect();
     /**
      * @param {[string, number]} bookmark
@@ -51,15 +57,10 @@ export function bookmarks(seek, position) {
     const name = await askName("bookmark", {
       title: `Bookmark at ${duration(at)}`,
       confirm: "Add",
-      taken: all.map(([each]) => each),
+      taken: pairs().map(([each]) => each),
     });
     if (name !== null) act("SaveBookmark", { name, at_s: at });
   }
 
-  return {
-    element: button,
-    /** @param {[string, number][]} next */
-    show: (next) => (all = next),
-    add,
-  };
+  return { element: button, add };
 }

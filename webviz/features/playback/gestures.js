@@ -3,11 +3,13 @@
 import { why } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { el, set, setText } from "webviz/dom.js";
+import { signal } from "webviz/signals.js";
 import { sanitized } from "webviz/sanitize.js";
 import { toast } from "webviz/toasts.js";
 import { eventText } from "webviz/features/playback/events.js";
 import { nearest, placeOf, shareAt, timeAt, zoomed } from "webviz/features/playback/range.js";
 
+/** @import {Signal} from "webviz/signals.js" */
 /** @import {LoggedEvent, Range} from "webviz/types.js" */
 /** @import {Seeks} from "webviz/features/playback/rewound.js" */
 
@@ -20,108 +22,129 @@ const WHEEL = 1.25;
 const MIN_SPAN_PX = 4;
 
 /**
- * Listens to the canvas of a track; `redraw` is called when something else is pointed at or selected.
- * Returns `{label, hover(), drag()}`: the element of the label, the time under the pointer, and
- * `{isSpan, span}` of a drag, each null for none.
+ * The state of a track; `first` is the earliest time that can be shown.
+ *
+ * @typedef {{
+ *   isThere: () => boolean, range: Signal<Range>, bounds: () => Range, first: () => number,
+ *   marks: () => Marks, textOf: (time: number, digits: number) => string,
+ * }} TrackState
+ */
+
+/** @typedef {{pointer: number, x: number, from: number, isSpan: boolean, span: Range | null}} TrackDrag */
+
+/**
+ * Listens to the canvas of a track. Returns `{label, hover(), drag()}`: the element of the label, the
+ * time under the pointer, and `{isSpan, span}` of a drag, each null for none; they are read in effects.
  *
  * @param {HTMLCanvasElement} canvas
  * @param {Seeks} seek
- * @param {{
- *   isThere: () => boolean, range: () => Range, setRange: (range: Range) => void,
- *   bounds: () => Range, first: () => number, marks: () => Marks,
- *   textOf: (time: number, digits: number) => string, redraw: () => void,
- * }} track `first` is the earliest time that can be shown
+ * @param {TrackState} track
  */
 export function listenToTrack(canvas, seek, track) {
-  /** @type {number | null} */
-  let hover = null;
-  /** @type {{pointer: number, x: number, from: number, isSpan: boolean, span: Range | null} | null} */
-  let drag = null;
+  const hover = signal(/** @type {number | null} */ (null));
+  const drag = signal(/** @type {TrackDrag | null} */ (null));
   const label = makeLabel();
-
-  /** @param {MouseEvent} event */
-  function placeAt({ clientX }) {
-    const { left, width } = canvas.getBoundingClientRect();
-    return { x: clientX - left, width };
-  }
-
-  /** @param {MouseEvent} event */
-  function pointed(event) {
-    const { x, width } = placeAt(event);
-    return Math.min(Math.max(timeAt(x, track.range(), width), track.first()), track.bounds()[1]);
-  }
-
-  // The bookmark, or else the warning or error, at a pointer.
-  /**
-   * @param {MouseEvent} event
-   * @returns {{time: number, text: string} | null}
-   */
-  function markAt(event) {
-    const { x, width } = placeAt(event);
-    /** @param {number} time */
-    const place = (time) => placeOf(time, track.range(), width);
-    const { bookmarks, events } = track.marks();
-    const bookmark = nearest(bookmarks, ([, time]) => place(time), x);
-    if (bookmark) return { time: bookmark[1], text: bookmark[0] };
-    const found = nearest(events, ([time]) => place(time), x);
-    return found && { time: found[0], text: eventText(found) };
-  }
 
   /** @param {PointerEvent | null} event */
   function point(event) {
-    hover = event && track.isThere() ? pointed(event) : null;
-    if (!event || hover === null) label.show("");
-    else {
-      const { x, width } = placeAt(event);
-      const [first, last] = track.range();
-      const text = markAt(event)?.text ?? track.textOf(hover, last - first < 10 ? 3 : 1);
-      label.show(text, x, width);
-    }
-    track.redraw();
+    hover.value = event && track.isThere() ? timeUnder(event, track) : null;
+    if (!event || hover.value === null) return label.show("");
+    const { x, width } = placeIn(event);
+    const [first, last] = track.range.value;
+    const time = track.textOf(hover.value, last - first < 10 ? 3 : 1);
+    label.show(markUnder(event, track)?.text ?? time, x, width);
   }
 
   /** @param {PointerEvent} event */
-  function release(event) {
-    if (drag?.pointer !== event.pointerId) return;
-    const { isSpan, span } = drag;
-    drag = null;
-    // A click with Shift selects the whole recording again.
-    if (isSpan) act("SelectSpan", { first_s: span?.[0] ?? null, last_s: span?.[1] ?? null });
-    track.redraw();
-  }
-
-  canvas.addEventListener("pointerdown", (event) => {
+  function press(event) {
     if (event.button !== 0 || !track.isThere()) return;
     const reason = why(event.shiftKey ? "SelectSpan" : "Seek");
     if (reason) return toast(reason, { level: "warn", topic: "access" });
     canvas.setPointerCapture(event.pointerId);
-    const from = markAt(event)?.time ?? pointed(event);
-    drag = { pointer: event.pointerId, x: event.clientX, from, isSpan: event.shiftKey, span: null };
-    if (!drag.isSpan) seek.to(from);
-  });
-  canvas.addEventListener("pointermove", (event) => {
+    const from = markUnder(event, track)?.time ?? timeUnder(event, track);
+    const { pointerId: pointer, clientX: x, shiftKey: isSpan } = event;
+    drag.value = { pointer, x, from, isSpan, span: null };
+    if (!isSpan) seek.to(from);
+  }
+
+  /** @param {PointerEvent} event */
+  function move(event) {
     point(event);
-    if (drag?.pointer !== event.pointerId) return;
-    const time = pointed(event);
-    if (!drag.isSpan) seek.to(time);
-    else if (Math.abs(event.clientX - drag.x) >= MIN_SPAN_PX)
-      drag.span = [Math.min(drag.from, time), Math.max(drag.from, time)];
-  });
+    if (drag.value?.pointer !== event.pointerId) return;
+    const time = timeUnder(event, track);
+    const { isSpan, x, from } = drag.value;
+    if (!isSpan) seek.to(time);
+    else if (Math.abs(event.clientX - x) >= MIN_SPAN_PX)
+      drag.value = { ...drag.value, span: [Math.min(from, time), Math.max(from, time)] };
+  }
+
+  /** @param {PointerEvent} event */
+  function release(event) {
+    if (drag.value?.pointer !== event.pointerId) return;
+    const { isSpan, span } = drag.value;
+    drag.value = null;
+    // A click with Shift selects the whole recording again.
+    if (isSpan) act("SelectSpan", { first_s: span?.[0] ?? null, last_s: span?.[1] ?? null });
+  }
+
+  canvas.addEventListener("pointerdown", press);
+  canvas.addEventListener("pointermove", move);
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("pointerleave", () => point(null));
-  canvas.addEventListener("dblclick", () => track.setRange(track.bounds()));
-  canvas.addEventListener("wheel", (event) => {
-    if (!track.isThere()) return;
-    event.preventDefault();
-    const { x, width } = placeAt(event);
-    const around = Math.min(Math.max(shareAt(x, width), 0), 1);
-    const isMove = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
-    const sign = Math.sign(event.deltaY || event.deltaX);
-    const change = isMove ? { move: 0.1 * sign } : { around, by: WHEEL ** sign };
-    track.setRange(zoomed(track.range(), change, track.bounds()));
-  });
-  return { label: label.element, hover: () => hover, drag: () => drag };
+  canvas.addEventListener("dblclick", () => (track.range.value = track.bounds()));
+  canvas.addEventListener("wheel", (event) => zoom(event, track));
+  return { label: label.element, hover: () => hover.value, drag: () => drag.value };
+}
+
+/** @param {MouseEvent} event on the canvas of a track */
+function placeIn({ clientX, currentTarget }) {
+  const { left, width } = /** @type {Element} */ (currentTarget).getBoundingClientRect();
+  return { x: clientX - left, width };
+}
+
+/**
+ * @param {MouseEvent} event
+ * @param {TrackState} track
+ */
+function timeUnder(event, track) {
+  const { x, width } = placeIn(event);
+  return Math.min(Math.max(timeAt(x, track.range.value, width), track.first()), track.bounds()[1]);
+}
+
+/**
+ * The bookmark, or else the warning or error, under the pointer.
+ *
+ * @param {MouseEvent} event
+ * @param {TrackState} track
+ * @returns {{time: number, text: string} | null}
+ */
+function markUnder(event, track) {
+  const { x, width } = placeIn(event);
+  /** @param {number} time */
+  const place = (time) => placeOf(time, track.range.value, width);
+  const { bookmarks, events } = track.marks();
+  const bookmark = nearest(bookmarks, ([, time]) => place(time), x);
+  if (bookmark) return { time: bookmark[1], text: bookmark[0] };
+  const found = nearest(events, ([time]) => place(time), x);
+  return found && { time: found[0], text: eventText(found) };
+}
+
+/**
+ * The wheel zooms around the pointer, and moves with Shift or sideways.
+ *
+ * @param {WheelEvent} event
+ * @param {TrackState} track
+ */
+function zoom(event, track) {
+  if (!track.isThere()) return;
+  event.preventDefault();
+  const { x, width } = placeIn(event);
+  const around = Math.min(Math.max(shareAt(x, width), 0), 1);
+  const isMove = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+  const sign = Math.sign(event.deltaY || event.deltaX);
+  const change = isMove ? { move: 0.1 * sign } : { around, by: WHEEL ** sign };
+  track.range.value = zoomed(track.range.value, change, track.bounds());
 }
 
 /** A label of the pointer over a track; `show(text, x, width)` puts it at a place of a track as wide as that, `show("")` hides it. */

@@ -4,19 +4,22 @@
 import { why } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { wallNow } from "webviz/clock.js";
-import { el, set, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { sanitized } from "webviz/sanitize.js";
 import { command } from "webviz/commands.js";
 import { newest } from "webviz/newest.js";
 import { setTitlePrefix } from "webviz/title.js";
-import { store, watch } from "webviz/stores.js";
+import { computed, effect, owned, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { every } from "webviz/timing.js";
 import { agoText, atMoment, isOpened, isRewound } from "webviz/moment.js";
 import { savedText } from "webviz/time_text.js";
 
-/** @import {ValuesOf} from "webviz/types.js" */
-
 const TICK_MS = 100;
 const COARSE = matchMedia("(pointer: coarse)");
+
+const playback = store("playback");
+const people = store("people");
 
 export const returnToLive = () => act("ReturnToLive");
 
@@ -25,71 +28,37 @@ export const returnToLive = () => act("ReturnToLive");
 /**
  * Returns `{to(time), wanted()}`, as of `newest.js`: `to` shows a time of the recording.
  *
- * @param {() => void} changed
  * @param {(time: number) => boolean} isNow whether a time is that of live topics
  */
-export const seeks = (changed, isNow = () => false) =>
-  newest((time) => (isNow(time) ? returnToLive() : act("Seek", { at_s: time })), changed);
+export const seeks = (isNow) =>
+  newest((time) => (isNow(time) ? returnToLive() : act("Seek", { at_s: time })));
 
-/**
- * Return who looks back, if that is another page; "" if it is this one or a program.
- *
- * @param {ValuesOf<"playback">} values
- */
-function leaderText(values) {
-  const leader = values.get("leader") ?? null;
+/** Return who looks back, if that is another page; "" if it is this one or a program. */
+function leaderText() {
+  const leader = playback.get("leader") ?? null;
   if (leader === null || leader === window.webviz.browser) return "";
-  const name = store("people").get(String(leader))?.name;
+  const name = people.get(String(leader))?.name;
   return `${sanitized(name || "Another page")} looks back · `;
 }
 
 /** The banner; hidden while topics are live. */
 export function banner() {
-  /** @type {ValuesOf<"playback"> | null} */
-  let values = null;
-  let timer = 0;
-  const ago = el("span", { class: "wv-number" });
-  const how = el("span");
-  const element = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-rewound-banner",
-      hidden: true,
-      "aria-live": "polite",
-      onclick: returnToLive,
-    },
-    ago,
-    how,
+  const isPast = computed(() => isRewound(playback) || isOpened(playback));
+  const ticks = signal(0);
+  const ago = computed(() =>
+    isPast.value && !isOpened(playback) && ticks.value >= 0
+      ? Number(atMoment(playback.all(), wallNow()).get("ago"))
+      : 0,
   );
-
-  function tick() {
-    if (!values) return;
-    if (isOpened(values)) {
-      setText(
-        ago,
-        `Recording ${sanitized((values.get("names") ?? []).map(savedText).join(", "))} · not live`,
-      );
-      setTitlePrefix("Recording · ");
-      return;
-    }
-    const shown = atMoment(values, wallNow());
-    setText(ago, `${leaderText(values)}${agoText(shown.get("ago"))} · not live`);
-    setTitlePrefix(`${shown.get("ago").toFixed(0)} s ago · `);
-  }
-
-  watch("playback", (next) => {
-    values = next;
-    const isPast = isRewound(next) || isOpened(next);
-    const wasPast = !element.hidden;
-    clearInterval(timer);
-    document.body.classList.toggle("wv-rewound", isPast);
-    set(element, { hidden: !isPast });
-    if (wasPast && !isPast) setTitlePrefix("");
-    if (!isPast) return;
-    setText(how, why("ReturnToLive") ? "" : ` · ${COARSE.matches ? "tap" : "press L"} to return`);
-    tick();
-    timer = setInterval(tick, TICK_MS);
+  effect(() => {
+    document.body.classList.toggle("wv-rewound", isPast.value);
+    if (!isPast.value) return;
+    every(TICK_MS, () => (ticks.value += 1));
+    owned(() => setTitlePrefix(""));
+  });
+  effect(() => {
+    if (!isPast.value) return;
+    setTitlePrefix(isOpened(playback) ? "Recording · " : `${ago.value.toFixed(0)} s ago · `);
   });
   command({
     name: "Return to live",
@@ -97,8 +66,24 @@ export function banner() {
     key: "l",
     group: "Time",
     needs: "ReturnToLive",
-    isThere: () => isRewound(values) || isOpened(values),
+    isThere: () => isPast.value,
     run: returnToLive,
   });
-  return element;
+  const names = () => sanitized((playback.get("names") ?? []).map(savedText).join(", "));
+  const text = () =>
+    isOpened(playback) ? `Recording ${names()}` : `${leaderText()}${agoText(ago.value)}`;
+  const how = () =>
+    why("ReturnToLive") ? "" : ` · ${COARSE.matches ? "tap" : "press L"} to return`;
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-rewound-banner",
+      hidden: () => !isPast.value,
+      "aria-live": "polite",
+      onclick: returnToLive,
+    },
+    el("span", { class: "wv-number" }, () => (isPast.value ? `${text()} · not live` : "")),
+    el("span", {}, () => (isPast.value ? how() : "")),
+  );
 }

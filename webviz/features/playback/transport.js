@@ -3,19 +3,31 @@
 import { needs } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { textField } from "webviz/controls/fields.js";
-import { el, set, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { iconButton, textButton } from "webviz/icons.js";
 import { openMenu } from "webviz/controls/menu.js";
+import { effect } from "webviz/signals.js";
 import { duration } from "webviz/time_text.js";
 import { toast } from "webviz/toasts.js";
 import { beforeText, isOpened, isRewound } from "webviz/moment.js";
 import { returnToLive } from "webviz/features/playback/rewound.js";
+import { stepMessage } from "webviz/features/playback/step.js";
 import { isDate, parseTime } from "webviz/features/playback/typed_time.js";
 
+/** @import {Readable, Signal} from "webviz/signals.js" */
 /** @import {Moment} from "webviz/types.js" */
 /** @import {Bookmarks} from "webviz/features/playback/bookmarks.js" */
 /** @import {Seeks} from "webviz/features/playback/rewound.js" */
 /** @import {Topics} from "webviz/features/playback/topics.js" */
+
+/**
+ * What buttons are about; the others are of the modules of these names.
+ *
+ * @typedef {{
+ *   seek: Seeks, recording: Readable<Moment>, position: () => number, topic: Signal<string>,
+ *   topics: Topics, bookmarks: Bookmarks,
+ * }} Transport
+ */
 
 const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
 const FULL = 0; // as fast as possible
@@ -26,126 +38,131 @@ const AGO_HELP = "Seconds ago, or a date with the time of day";
 /** @param {number} rate */
 const rateText = (rate) => (rate === FULL ? "max" : `${rate}×`);
 
-/**
- * Returns `{element, show(recording, position)}`; the others are of the modules of these names.
- *
- * @param {Seeks} seek
- * @param {{topic(): string, run(isForward: boolean): unknown}} step
- * @param {Topics} topics
- * @param {Bookmarks} bookmarks
- */
-export function transport(seek, step, topics, bookmarks) {
-  /** @type {Moment} */
-  let recording = new Map();
+/** @param {Moment} recording */
+const isBag = (recording) => recording.get("is_live") === null;
 
-  /**
-   * @param {string} label
-   * @param {string} name
-   * @param {string} tip
-   * @param {() => unknown} onclick
-   */
-  const button = (name, label, tip, onclick) => iconButton(name, label, onclick, { tip });
-  const before = button("step-back", "Previous message", "", () => step.run(false));
-  const after = button("step", "Next message", "", () => step.run(true));
-  const rate = el("button", {
-    type: "button",
-    class: "wv-button wv-rate",
-    "aria-label": "Rate",
-    "data-tip": "How fast to play",
-    onclick: chooseRate,
-  });
-  const loop = button("loop", "Loop", "Start over at the end of what is selected", () =>
-    act("SetLoop", { loop: !recording.get("loop") }),
+/** @param {Transport} of */
+export function transport(of) {
+  const { recording, topic, topics, bookmarks } = of;
+  const stays = () => isBag(recording.value);
+  const steps = () => (topic.value ? `of ${topic.value}` : "of any displayed topic");
+  const loop = iconButton(
+    "loop",
+    "Loop",
+    () => act("SetLoop", { loop: !recording.value.get("loop") }),
+    {
+      tip: "Start over at the end of what is selected",
+      hidden: () => !stays(),
+      "aria-pressed": () => String(recording.value.get("loop")),
+    },
   );
-  const list = button("list", "Topics", "When each topic has messages", topics.toggle);
+  const list = iconButton("list", "Topics", topics.toggle, {
+    tip: "When each topic has messages",
+    "aria-pressed": () => String(topics.isOpen()),
+  });
+  const total = () => (stays() ? `/ ${duration(recording.value.get("duration"))}` : "");
+  const live = textButton("Live (L)", returnToLive, {
+    class: "wv-button wv-primary wv-live",
+    hidden: () => !isRewound(recording.value) && !isOpened(recording.value),
+    tip: "Return to live (L)",
+  });
+  /**
+   * @param {string} icon
+   * @param {string} label
+   * @param {boolean} isForward
+   * @param {() => string} tip
+   */
+  const step = (icon, label, isForward, tip) =>
+    iconButton(icon, label, () => stepMessage(topic.value, isForward), { "data-tip": tip });
+  return el(
+    "div",
+    { class: "wv-transport" },
+    ...[
+      step("step-back", "Previous message", false, () => `Previous message ${steps()} (←)`),
+      step("step", "Next message", true, () => `Next message ${steps()} (→)`),
+    ].map((button) => needs("StepMessage", button)),
+    needs("SetRate", rateButton(recording)),
+    needs("SetLoop", loop),
+    list,
+    bookmarks.element,
+    needs("Seek", el("span", { class: "wv-go" }, timeField(of))),
+    el("span", { class: "wv-quiet wv-number" }, total),
+    needs("ReturnToLive", live),
+  );
+}
+
+/** @param {Readable<Moment>} recording */
+function rateButton(recording) {
+  const rate = () => recording.value.get("rate") ?? 1;
+  const choose = () => {
+    const { left, top } = button.getBoundingClientRect();
+    const items = [...RATES, FULL].map((value) => ({
+      label: value === FULL ? "As fast as possible" : rateText(value),
+      checked: rate() === value,
+      run: () => act("SetRate", { rate: value }),
+    }));
+    openMenu(left, top, items);
+  };
+  /** @type {HTMLButtonElement} */
+  const button = el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button wv-rate",
+      "aria-label": "Rate",
+      "data-tip": "How fast to play",
+      onclick: choose,
+    },
+    () => rateText(rate()),
+  );
+  return button;
+}
+
+/**
+ * The position, which can be typed, too.
+ *
+ * @param {Transport} of
+ */
+function timeField({ seek, recording, position }) {
+  const help = () => (isBag(recording.value) ? HELP : AGO_HELP);
+  const text = () =>
+    isBag(recording.value)
+      ? duration(position(), 3)
+      : beforeText(position() - recording.value.get("duration"));
+  const write = () => {
+    const now = text();
+    if (field.value !== now) field.value = now;
+  };
+  const go = () => {
+    const typed = field.value.trim().replace(/^[-−]|\s*s$/g, "");
+    const time = parseTime(typed, recording.value.get("start"));
+    const isFromStart = isBag(recording.value) || isDate(typed);
+    if (time !== null) seek.to(isFromStart ? time : recording.value.get("duration") - time);
+    else {
+      const wrong = `${field.value || "Nothing"} is not a time.`;
+      toast(`${wrong} Type ${help().toLowerCase()}.`, { level: "warn" });
+    }
+    field.blur();
+  };
   const field = textField("Go to time", {
     class: "wv-field wv-position wv-number",
     autocomplete: "off",
     spellcheck: "false",
-    "data-tip": HELP,
+    "data-tip": help,
     onchange: go,
-    onblur: () => recording.size > 0 && write(),
+    onblur: () => recording.value.size > 0 && write(),
     onfocus: (/** @type {FocusEvent & {target: HTMLInputElement}} */ { target }) => target.select(),
-    onkeydown: key,
+    onkeydown(/** @type {KeyboardEvent} */ event) {
+      if (event.key === "Escape") {
+        write();
+        field.blur();
+      } else if (event.key !== "Enter") return;
+      event.stopPropagation();
+    },
   });
-  const length = el("span", { class: "wv-quiet wv-number" });
-  const live = textButton("Live (L)", returnToLive, {
-    class: "wv-button wv-primary wv-live",
-    hidden: true,
-    tip: "Return to live (L)",
+  effect(() => {
+    const now = recording.value.size ? text() : "";
+    if (document.activeElement !== field && field.value !== now) field.value = now;
   });
-  const element = el(
-    "div",
-    { class: "wv-transport" },
-    needs("StepMessage", before),
-    needs("StepMessage", after),
-    needs("SetRate", rate),
-    needs("SetLoop", loop),
-    list,
-    bookmarks.element,
-    needs("Seek", el("span", { class: "wv-go" }, field)),
-    length,
-    needs("ReturnToLive", live),
-  );
-  let shown = 0;
-  const isBag = () => recording.get("is_live") === null;
-
-  function chooseRate() {
-    const { left, top } = rate.getBoundingClientRect();
-    const items = [...RATES, FULL].map((value) => ({
-      label: value === FULL ? "As fast as possible" : rateText(value),
-      checked: recording.get("rate") === value,
-      run: () => act("SetRate", { rate: value }),
-    }));
-    openMenu(left, top, items);
-  }
-
-  /** @param {KeyboardEvent} event */
-  function key(event) {
-    if (event.key === "Escape") {
-      write();
-      field.blur();
-    } else if (event.key !== "Enter") return;
-    event.stopPropagation();
-  }
-
-  function go() {
-    const text = field.value.trim().replace(/^[-−]|\s*s$/g, "");
-    const time = parseTime(text, recording.get("start"));
-    const help = isBag() ? HELP : AGO_HELP;
-    if (time === null)
-      toast(`${field.value || "Nothing"} is not a time. Type ${help.toLowerCase()}.`, {
-        level: "warn",
-      });
-    else seek.to(isBag() || isDate(text) ? time : recording.get("duration") - time);
-    field.blur();
-  }
-
-  const write = () => {
-    const text = isBag() ? duration(shown, 3) : beforeText(shown - recording.get("duration"));
-    if (field.value !== text) field.value = text;
-  };
-
-  /**
-   * @param {Moment} next
-   * @param {number} position
-   */
-  function show(next, position) {
-    recording = next;
-    shown = position;
-    if (document.activeElement !== field) write();
-    setText(length, isBag() ? `/ ${duration(recording.get("duration"))}` : "");
-    set(field, { "data-tip": isBag() ? HELP : AGO_HELP });
-    set(loop, { hidden: !isBag() });
-    set(bookmarks.element, { hidden: !isBag() && !isRewound(recording) });
-    set(live, { hidden: !isRewound(recording) && !isOpened(recording) });
-    setText(rate, rateText(recording.get("rate")));
-    set(loop, { "aria-pressed": String(recording.get("loop")) });
-    set(list, { "aria-pressed": String(topics.isOpen()) });
-    const of = step.topic() ? `of ${step.topic()}` : "of any displayed topic";
-    set(before, { "data-tip": `Previous message ${of} (←)` });
-    set(after, { "data-tip": `Next message ${of} (→)` });
-  }
-
-  return { element, show };
+  return field;
 }

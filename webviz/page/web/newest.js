@@ -1,30 +1,29 @@
 // Sending one value at a time: while one is under way, only the newest of the others is kept.
 
+import { signal, untracked } from "webviz/signals.js";
+
 /**
  * Returns `{to(value), wanted()}`: `to` sends a value, `wanted` is the one that was asked for last, null
- * once it has arrived. `changed()` is called when that changes.
+ * once it has arrived; it is read in effects.
  *
  * @param {(value: number) => unknown} send
- * @param {() => void} [changed]
  */
-export function newest(send, changed = () => {}) {
-  /** @type {number | null} */
-  let wanted = null;
+export function newest(send) {
+  const wanted = signal(/** @type {number | null} */ (null));
+  const current = () => untracked(() => wanted.value);
 
   /** @param {number} value */
   async function to(value) {
-    const isUnderway = wanted !== null;
-    wanted = value;
-    changed();
+    const isUnderway = current() !== null;
+    wanted.value = value;
     if (isUnderway) return;
-    let sent;
-    while (sent !== wanted) {
-      sent = wanted;
-      await send(sent);
+    let sent = null;
+    for (let next = current(); next !== null && next !== sent; next = current()) {
+      sent = next;
+      await send(next);
     }
-    wanted = null;
-    changed();
+    wanted.value = null;
   }
 
-  return { to, wanted: () => wanted };
+  return { to, wanted: () => wanted.value };
 }

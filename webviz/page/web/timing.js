@@ -1,4 +1,6 @@
-// Calls that wait for others: for the last of several, or for the next frame.
+// Calls that wait: for the last of several, for the next frame, or for a time.
+
+import { owned } from "webviz/signals.js";
 
 /**
  * Returns a function that calls `run` once it has not been called itself for some time.
@@ -28,4 +30,15 @@ export function oncePerFrame(run) {
       run();
     });
   };
+}
+
+/**
+ * Calls `run` every so many milliseconds, until what this is called in ends.
+ *
+ * @param {number} ms
+ * @param {() => unknown} run
+ */
+export function every(ms, run) {
+  const timer = setInterval(run, ms);
+  owned(() => clearInterval(timer));
 }
