@@ -17,97 +17,105 @@ function isFree() {
 }
 
 /**
- * Returns `{ofRecordings, ofBags, ofLive, ofAll}`: commands of a recording or a past that is shown, of bags
- * only, of live topics while they arrive, and of all of these.
+ * What commands are about, and what they do.
  *
- * @param {{
+ * @typedef {{
  *   recording: () => Moment, seek: Seeks, position: () => number, events: () => LoggedEvent[],
  *   play: () => unknown, step: (isForward: boolean) => unknown, addBookmark: () => unknown,
  *   copyLink: () => unknown, showTopics: () => unknown,
- * }} timeline
+ * }} TimelineActions
+ */
+
+/**
+ * Returns `{ofRecordings, ofBags, ofLive, ofAll}`: commands of a recording or a past that is shown, of bags
+ * only, of live topics while they arrive, and of all of these.
+ *
+ * @param {TimelineActions} timeline
  */
 export function timeCommands(timeline) {
-  const { recording, seek, position, events, step } = timeline;
-  /** @param {number} seconds */
-  const jump = (seconds) =>
-    seek.to(
-      Math.max(
-        recording().get("first"),
-        Math.min(position() + seconds, recording().get("duration")),
-      ),
-    );
-  const among = { all: events, seek, position };
-  const back = {
-    name: `${JUMP_S} s back`,
-    key: "Shift+ArrowLeft",
-    needs: "Seek",
-    run: () => jump(-JUMP_S),
-    repeats: true,
-  };
+  const among = { all: timeline.events, seek: timeline.seek, position: timeline.position };
+  const [back, ...others] = seekCommands(timeline);
   const previous = eventCommand(false, among);
-  const ofRecordings = [
-    {
-      name: "Play or pause the recording",
-      icon: "play",
-      key: " ",
-      needs: "Pause",
-      run: timeline.play,
-    },
-    {
-      name: "Next message",
-      icon: "step",
-      key: "ArrowRight",
-      needs: "StepMessage",
-      run: () => step(true),
-      repeats: true,
-    },
-    {
-      name: "Previous message",
-      icon: "step-back",
-      key: "ArrowLeft",
-      needs: "StepMessage",
-      run: () => step(false),
-      repeats: true,
-    },
-    {
-      name: `${JUMP_S} s on`,
-      key: "Shift+ArrowRight",
-      needs: "Seek",
-      run: () => jump(JUMP_S),
-      repeats: true,
-    },
-    back,
-    {
-      name: "Start of the recording",
-      key: "Home",
-      needs: "Seek",
-      run: () => seek.to(recording().get("first")),
-    },
-    {
-      name: "End of the recording",
-      key: "End",
-      needs: "Seek",
-      run: () => seek.to(recording().get("duration")),
-    },
-    eventCommand(true, among),
-    previous,
-    {
-      name: "Add bookmark…",
-      icon: "flag",
-      key: "b",
-      needs: "SaveBookmark",
-      run: timeline.addBookmark,
-    },
-  ];
+  const play = {
+    name: "Play or pause the recording",
+    icon: "play",
+    key: " ",
+    needs: "Pause",
+    run: timeline.play,
+  };
+  const mark = {
+    name: "Add bookmark…",
+    icon: "flag",
+    key: "b",
+    needs: "SaveBookmark",
+    run: timeline.addBookmark,
+  };
+  const steps = stepCommands(timeline);
+  const link = { name: "Copy link to this moment", icon: "copy", run: timeline.copyLink };
+  const topics = { name: "Topics of the timeline", icon: "list", run: timeline.showTopics };
   /**
    * @template T
    * @param {T} one
    */
   const about = (one) => ({ ...one, group: "Time", isKeyHere: isFree });
   return {
-    ofRecordings: ofRecordings.map(about),
-    ofBags: [{ name: "Copy link to this moment", icon: "copy", run: timeline.copyLink }].map(about),
-    ofLive: [back, previous].map(about),
-    ofAll: [{ name: "Topics of the timeline", icon: "list", run: timeline.showTopics }].map(about),
+    ofRecordings: [
+      ...[play, ...steps, back, ...others].map(about),
+      ...[eventCommand(true, among), previous, mark].map(about),
+    ],
+    ofBags: [about(link)],
+    ofLive: [about(back), about(previous)],
+    ofAll: [about(topics)],
   };
+}
+
+/** @param {TimelineActions} timeline */
+const stepCommands = ({ step }) => [
+  {
+    name: "Next message",
+    icon: "step",
+    key: "ArrowRight",
+    needs: "StepMessage",
+    run: () => step(true),
+    repeats: true,
+  },
+  {
+    name: "Previous message",
+    icon: "step-back",
+    key: "ArrowLeft",
+    needs: "StepMessage",
+    run: () => step(false),
+    repeats: true,
+  },
+];
+
+/**
+ * Jumps, the one back first, and the ends of the recording.
+ *
+ * @param {TimelineActions} timeline
+ */
+function seekCommands({ recording, seek, position }) {
+  const first = () => recording().get("first");
+  const last = () => recording().get("duration");
+  /** @param {number} seconds */
+  const jump = (seconds) => seek.to(Math.max(first(), Math.min(position() + seconds, last())));
+  const needs = "Seek";
+  return [
+    {
+      name: `${JUMP_S} s back`,
+      key: "Shift+ArrowLeft",
+      needs,
+      run: () => jump(-JUMP_S),
+      repeats: true,
+    },
+    {
+      name: `${JUMP_S} s on`,
+      key: "Shift+ArrowRight",
+      needs,
+      run: () => jump(JUMP_S),
+      repeats: true,
+    },
+    { name: "Start of the recording", key: "Home", needs, run: () => seek.to(first()) },
+    { name: "End of the recording", key: "End", needs, run: () => seek.to(last()) },
+  ];
 }

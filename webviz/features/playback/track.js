@@ -37,40 +37,28 @@ export function track(seek, recording, marks) {
     textOf: (time, digits) =>
       isBag() ? duration(time, digits) : beforeText(time - recording.value.get("duration"), digits),
   };
-  const canvas = el("canvas", {
-    class: "wv-track",
-    role: "slider",
-    tabindex: 0,
-    "aria-label": "Time of the recording",
-    "aria-description": "Click or drag to seek, Shift+drag to select what is played, wheel to zoom",
-    "aria-valuemin": () => bounds.value[0],
-    "aria-valuemax": () => bounds.value[1],
-    "aria-valuenow": position,
-    "aria-valuetext": () => (state.isThere() ? state.textOf(position(), 1) : null),
-  });
+  const canvas = slider(state, position);
   const gestures = listenToTrack(canvas, seek, state);
 
-  // The window stays within the recording, and goes on with what is played.
+  const isPlaying = () => recording.value.get("is_playing") && !gestures.drag();
   effect(() => {
-    const moment = recording.value;
     if (!state.isThere()) return;
-    const [at, isDragged, window] = [position(), gestures.drag(), untracked(() => range.value)];
-    const before = untracked(() => bounds.value);
-    const now = boundsOf(moment);
-    const kept = rebounded(window, before, now, isBag());
-    const next = moment.get("is_playing") && !isDragged ? following(kept, at, now) : kept;
-    bounds.value = now;
-    if (!isSame(next, window)) range.value = next;
+    const [now, followed] = [boundsOf(recording.value), isPlaying() ? position() : null];
+    untracked(() => {
+      const kept = rebounded(range.value, bounds.value, now, isBag());
+      const next = followed === null ? kept : following(kept, followed, now);
+      bounds.value = now;
+      if (!isSame(next, range.value)) range.value = next;
+    });
   });
 
   const picture = computed(() => {
-    const [drag, moment] = [gestures.drag(), recording.value];
-    const [first, now, gap] = ["first", "duration", "gap"].map((key) => moment.get(key));
+    const drag = gestures.drag();
     return {
       ...marks.value,
       range: range.value,
-      selected: drag?.isSpan ? drag.span : moment.get("selected"),
-      past: isBag() ? null : { first, now, gap },
+      selected: drag?.isSpan ? drag.span : recording.value.get("selected"),
+      past: isBag() ? null : pastOf(recording.value),
       position: position(),
       hover: gestures.hover(),
     };
@@ -89,3 +77,31 @@ export function track(seek, recording, marks) {
     length: () => range.value[1] - range.value[0],
   };
 }
+
+/**
+ * @param {TrackState} track
+ * @param {() => number} position
+ */
+const slider = (track, position) =>
+  el("canvas", {
+    class: "wv-track",
+    role: "slider",
+    tabindex: 0,
+    "aria-label": "Time of the recording",
+    "aria-description": "Click or drag to seek, Shift+drag to select what is played, wheel to zoom",
+    "aria-valuemin": () => track.bounds()[0],
+    "aria-valuemax": () => track.bounds()[1],
+    "aria-valuenow": position,
+    "aria-valuetext": () => (track.isThere() ? track.textOf(position(), 1) : null),
+  });
+
+/**
+ * What is remembered of live topics.
+ *
+ * @param {Moment} recording
+ */
+const pastOf = (recording) => ({
+  first: recording.get("first"),
+  now: recording.get("duration"),
+  gap: recording.get("gap"),
+});

@@ -31,27 +31,78 @@ const GAP = 4;
  * @returns {() => void}
  */
 export function openMenu(x, y, items, outer = null) {
-  const before = /** @type {HTMLElement | null} */ (document.activeElement);
-  const menu = el(
-    "div",
-    { class: "wv-menu", role: "menu", popover: "auto", tabindex: -1 },
-    items.map((item) =>
-      item ? entry(item) : el("div", { class: "wv-menu-line", role: "separator" }),
-    ),
-  );
-  const entries = [
-    .../** @type {NodeListOf<HTMLElement>} */ (
-      menu.querySelectorAll(".wv-menu-item:not([aria-disabled])")
-    ),
-  ];
+  const menu = new Menu(items, outer);
+  menu.open(x, y);
+  return () => menu.close();
+}
+
+class Menu {
+  #before = /** @type {HTMLElement | null} */ (document.activeElement);
+  #outer;
   /** @type {{element: HTMLElement, close: () => void} | null} */
-  let inner = null; // the entry whose submenu is open, and what closes that
+  #inner = null; // the entry whose submenu is open, and what closes that
+
+  /**
+   * @param {(MenuItem | null)[]} items
+   * @param {HTMLElement | null} outer
+   */
+  constructor(items, outer) {
+    this.#outer = outer;
+    this.element = el(
+      "div",
+      {
+        class: "wv-menu",
+        role: "menu",
+        popover: "auto",
+        tabindex: -1,
+        onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event),
+        oncontextmenu: (/** @type {Event} */ event) => event.preventDefault(),
+        ontoggle: (/** @type {ToggleEvent} */ { newState }) => newState === "open" || this.#end(),
+      },
+      items.map((item) =>
+        item ? this.#entry(item) : el("div", { class: "wv-menu-line", role: "separator" }),
+      ),
+    );
+    this.entries = /** @type {HTMLElement[]} */ ([
+      ...this.element.querySelectorAll(".wv-menu-item:not([aria-disabled])"),
+    ]);
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
+  open(x, y) {
+    const before = this.#before;
+    const menu = this.element;
+    // In a dialog, what is outside of it cannot be clicked; a submenu leaves the outer one open.
+    const home = before?.closest("dialog") ?? document.getElementById("webviz");
+    (this.#outer ?? home)?.append(menu);
+    menu.showPopover();
+    const { width, height } = menu.getBoundingClientRect();
+    menu.style.left = `${Math.max(GAP, Math.min(x, innerWidth - width - GAP))}px`;
+    menu.style.top = `${Math.max(GAP, Math.min(y, innerHeight - height - GAP))}px`;
+    // Who opened it by a key goes on by keys.
+    const [first] = this.entries;
+    (before?.matches?.(":focus-visible") && first ? first : menu).focus();
+  }
+
+  close() {
+    if (this.element.matches(":popover-open")) this.element.hidePopover();
+  }
+
+  #end() {
+    // The focus is nowhere when its entry is gone; it stays where a click has put it.
+    const focused = document.activeElement;
+    if (this.element.contains(focused) || focused === document.body) this.#before?.focus();
+    this.element.remove();
+  }
 
   /**
    * @param {MenuItem} item
    * @returns {HTMLElement}
    */
-  function entry(item) {
+  #entry(item) {
     const { label, icon: name, key, run, danger, checked, needs, tip, items: below } = item;
     const reason = needs ? why(needs) : "";
     const disabled = item.disabled || reason !== "";
@@ -68,8 +119,8 @@ export function openMenu(x, y, items, outer = null) {
         "data-why": reason || null,
         "aria-haspopup": below ? "menu" : null,
         "data-tip": tip || null,
-        onclick: () => disabled || (below ? hover(element, below) : choose(run)),
-        onpointermove: () => hover(element, disabled ? null : below),
+        onclick: () => disabled || (below ? this.#hover(element, below) : this.#choose(run)),
+        onpointermove: () => this.#hover(element, disabled ? null : below),
       },
       el("span", { class: "wv-menu-icon" }, checked ? icon("check") : name ? icon(name) : null),
       el("span", { class: "wv-menu-label" }, label),
@@ -83,82 +134,60 @@ export function openMenu(x, y, items, outer = null) {
    * @param {HTMLElement} element
    * @param {MenuItem["items"] | null} [below]
    */
-  function hover(element, below) {
-    if (inner?.element === element && menu.querySelector(":popover-open")) return;
+  #hover(element, below) {
+    if (this.#inner?.element === element && this.element.querySelector(":popover-open")) return;
     element.focus({ preventScroll: true });
-    inner?.close();
-    inner = null;
-    if (below) openBeside(element, below);
+    this.#inner?.close();
+    this.#inner = below ? { element, close: this.#openBeside(element, below) } : null;
   }
 
   /**
    * @param {HTMLElement} element
    * @param {(MenuItem | null)[]} below
    */
-  function openBeside(element, below) {
+  #openBeside(element, below) {
     const { right, top } = element.getBoundingClientRect();
-    element.focus({ preventScroll: true });
-    const wrapped = below.map((item) => item && { ...item, run: () => choose(item.run) });
-    inner = { element, close: openMenu(right, top, wrapped, menu) };
-  }
-
-  function close() {
-    if (menu.matches(":popover-open")) menu.hidePopover();
+    const wrapped = below.map((item) => item && { ...item, run: () => this.#choose(item.run) });
+    return openMenu(right, top, wrapped, this.element);
   }
 
   /** @param {MenuItem["run"]} [run] */
-  function choose(run) {
-    close();
+  #choose(run) {
+    this.close();
     run?.();
   }
 
   /** @param {KeyboardEvent} event */
-  function onKey(event) {
+  #press(event) {
+    const { entries } = this;
     const at = entries.findIndex((entry) => entry === document.activeElement);
     const step = { ArrowDown: at + 1, ArrowUp: at < 0 ? -1 : at - 1, Home: 0, End: -1 }[event.key];
     const isMore = document.activeElement?.getAttribute("aria-haspopup") === "menu";
-    if (event.key === "Escape" || event.key === "Tab") close();
-    else if (event.key === "ArrowLeft" && outer) close();
+    if (event.key === "Escape" || event.key === "Tab") this.close();
+    else if (event.key === "ArrowLeft" && this.#outer) this.close();
     else if (event.key === "ArrowRight" && isMore) entries[at]?.click();
     else if (event.key === "Enter" || event.key === " ") entries[at]?.click();
     else if (step !== undefined) entries.at(step % entries.length)?.focus();
-    else startingWith(event.key, at)?.focus();
+    else startingWith(event.key, [...entries.slice(at + 1), ...entries])?.focus();
     if (!event.ctrlKey && !event.metaKey) event.preventDefault();
     event.stopPropagation();
   }
+}
 
-  /**
-   * @param {string} letter
-   * @param {number} at
-   */
-  function startingWith(letter, at) {
-    /** @param {HTMLElement} entry */
-    const starts = (entry) =>
-      entry
-        .querySelector(".wv-menu-label")
-        ?.textContent.toLowerCase()
-        .startsWith(letter.toLowerCase());
-    return letter.length === 1 ? [...entries.slice(at + 1), ...entries].find(starts) : undefined;
-  }
-
-  menu.addEventListener("keydown", onKey);
-  menu.addEventListener("contextmenu", (event) => event.preventDefault());
-  menu.addEventListener("toggle", ({ newState }) => {
-    if (newState === "open") return;
-    // The focus is nowhere when its entry is gone; it stays where a click has put it.
-    if (menu.contains(document.activeElement) || document.activeElement === document.body)
-      before?.focus();
-    menu.remove();
-  });
-  // In a dialog, what is outside of it cannot be clicked; a submenu leaves the outer one open.
-  (outer ?? before?.closest("dialog") ?? document.getElementById("webviz"))?.append(menu);
-  menu.showPopover();
-  const { width, height } = menu.getBoundingClientRect();
-  menu.style.left = `${Math.max(GAP, Math.min(x, innerWidth - width - GAP))}px`;
-  menu.style.top = `${Math.max(GAP, Math.min(y, innerHeight - height - GAP))}px`;
-  // Who opened it by a key goes on by keys.
-  (before?.matches?.(":focus-visible") && entries[0] ? entries[0] : menu).focus();
-  return close;
+/**
+ * The first entry whose label starts with a letter.
+ *
+ * @param {string} letter
+ * @param {HTMLElement[]} entries
+ */
+function startingWith(letter, entries) {
+  /** @param {HTMLElement} entry */
+  const starts = (entry) =>
+    entry
+      .querySelector(".wv-menu-label")
+      ?.textContent.toLowerCase()
+      .startsWith(letter.toLowerCase());
+  return letter.length === 1 ? entries.find(starts) : undefined;
 }
 
 /**

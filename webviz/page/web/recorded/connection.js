@@ -8,10 +8,12 @@ import { frameAt } from "webviz/recorded/moments.js";
 import { selection } from "webviz/recorded/selection.js";
 import { views } from "webviz/recorded/views.js";
 
-/** @import {Do, FromPage, ToPage} from "webviz/messages.js" */
+/** @import {Do, Done, FromPage, ToPage} from "webviz/messages.js" */
 /** @import {Socket} from "webviz/channel.js" */
 /** @import {ViserMessage} from "webviz/types.js" */
 /** @import {About} from "webviz/recorded/types.js" */
+
+/** @typedef {Record<string, (fields: any) => unknown>} Acts what commands do, by name */
 
 const MAX_IN_FLIGHT = 2;
 /** Stores of what a page asks for: they are too many to record. */
@@ -49,209 +51,51 @@ export function refusal(what, { path }) {
  * @param {(error: unknown) => void} fail called when a part of the file cannot be shown
  */
 export function connection(about, feed, fail) {
-  /** @type {Set<string>} */
-  const own = new Set(); // names of watched stores that are made here
-  /** @type {Map<string, {waiting: number[], next: (() => ArrayBuffer)[] | null}>} */
-  const panes = new Map(); // that are shown
-  /** @type {Promise<void>} */
-  let applied = Promise.resolve();
-
-  /** @type {Socket} */
-  const socket = {
-    readyState: WebSocket.OPEN,
-    binaryType: "arraybuffer",
-    onopen: null,
-    onclose: null,
-    onmessage: null,
-    close() {},
-    send: (text) => hear(JSON.parse(text)),
-  };
-
+  const socket = makeSocket((message) => answer(message));
   /** @param {ToPage} message */
   const tell = (message) => socket.onmessage?.({ data: JSON.stringify(message) });
-
+  const panes = pictureSender((data) => socket.onmessage?.({ data }));
+  /** @type {Promise<void>} */
+  let applied = Promise.resolve();
   const run = player(about, {
     scene: (messages) => (applied = feed(messages)),
     store: (store, all, set, gone) => tell({ type: "Values", store, all, set, gone }),
-    pictures(display, makers) {
-      const pane = panes.get(display);
-      if (!pane) return;
-      pane.next = makers;
-      sendPictures(display);
-    },
+    pictures: panes.offer,
   });
-  const time = clock(about.duration, show, tellTime);
-  const view = views(about, tell, tellView);
-  const picked = selection(
-    (display) => run.value("displays", display),
-    (display, node) => run.read(`values:${display}`, node),
-    () => `${run.ros().toFixed(3)} s`,
-  );
-
   /** @param {number} at */
-  async function show(at) {
+  const show = async (at) => {
     try {
       await run.show(at);
       await applied;
     } catch (error) {
       fail(error); // and other times can still be shown
     }
-  }
-
-  /** @param {string} display */
-  function sendPictures(display) {
-    const pane = panes.get(display);
-    if (!pane?.next || pane.waiting.length >= MAX_IN_FLIGHT) return;
-    const makers = pane.next;
-    pane.next = null;
-    for (const make of makers) {
-      pane.waiting.push(0);
-      socket.onmessage?.({ data: make() });
-    }
-  }
-
-  /** @type {Record<string, () => Record<string, unknown>>} */
-  const MAKERS = {
-    clock() {
-      const { isPlaying, rate } = time.state();
-      const wall = Date.now() / 1000;
-      return {
-        pace: [run.ros(), wall, isPlaying ? rate : 0],
-        began: [0, wall],
-        is_known: run.ros() !== 0,
-        is_paused: !isPlaying,
-        is_simulated: true,
-        hz: 0,
-      };
-    },
-    playback() {
-      const { position, isPlaying, rate, loop, selected } = time.state();
-      const { names, start, duration } = about;
-      const recording = { names, start, duration, rate, loop, selected, is_live: null };
-      return { ...recording, is_playing: isPlaying, position: Math.round(position * 1e3) / 1e3 };
-    },
   };
-
-  // Of this page alone, whose number is 0.
-  /** @type {Record<string, () => Record<string, unknown>>} */
-  const PERSONAL = {
+  const time = clock(about.duration, show, () => own.tell(["clock", "playback"]));
+  const view = views(about, tell, () => own.tell(["view:0", "view_type:0"]));
+  const picked = selection(
+    (display) => run.value("displays", display),
+    (display, node) => run.read(`values:${display}`, node),
+    () => `${run.ros().toFixed(3)} s`,
+  );
+  const own = ownStores(about, tell, {
+    clock: () => clockValues(run.ros(), time.state()),
+    playback: () => playbackValues(about, time.state()),
+    // Of this page alone, whose number is 0.
     "selected:0": picked.selected,
     "selection:0": picked.selection,
     "view:0": view.view,
     "view_type:0": view.type,
-  };
-
-  function tellView() {
-    tellAll(["view:0", "view_type:0"]);
-  }
-
-  /** @param {string[]} names */
-  function tellAll(names) {
-    for (const name of names) if (own.has(name)) tellOwn(name);
-  }
-
-  /** @param {string} name */
-  function tellOwn(name) {
-    const make = MAKERS[name] ?? PERSONAL[name];
-    const set = make ? make() : about.stores[name];
-    tell({ type: "Values", store: name, all: true, set: set ?? {}, gone: [] });
-  }
-
-  function tellTime() {
-    tellAll(Object.keys(MAKERS));
-  }
-
-  /** @param {string} name */
-  function watch(name) {
-    if (name in MAKERS || name in PERSONAL || name in about.stores) {
-      own.add(name);
-      tellOwn(name);
-    } else if (NOT_RECORDED.test(name)) {
-      tell({ type: "Values", store: name, all: true, set: { problem: NO_VALUES }, gone: [] });
-    } else run.watch(name);
-  }
-
-  /** @type {Record<string, (fields: any) => unknown>} */
-  const ACTS = {
-    Pause: ({ paused = true }) => time.pause(paused),
-    Play: () => time.pause(false),
-    Seek: ({ at_s }) => time.seek(at_s),
-    SetRate: ({ rate }) => time.set({ rate }),
-    SetLoop: ({ loop = true }) => time.set({ loop }),
-    SelectSpan({ first_s, last_s }) {
-      const selected = [first_s ?? 0, Math.min(last_s ?? about.duration, about.duration)];
-      const isAll = first_s === null && last_s === null;
-      time.set({ selected: isAll ? null : /** @type {[number, number]} */ (selected) });
-    },
-    StepMessage({ is_forward = true }) {
-      time.pause(true);
-      const at = neighbour(is_forward);
-      if (at === undefined) throw new Error(NEVER);
-      return time.seek(at);
-    },
+  });
+  const acts = {
+    ...timeActs(about, time),
     ...view.acts,
-    FocusDisplay({ display }) {
-      const box = boxOf(run.within(display));
-      if (!box) throw new Error("This display draws nothing to focus on. Check its statuses.");
-      view.lookAt(box);
-    },
-    SaveImage: ({ name = "" }) => tell({ type: "SaveCanvas", name }),
-    SetProperty: ({ display, value }) => run.enable(display, value),
-    Identify: () => {},
-    async Select(fields) {
-      await picked.select(fields);
-      tellAll(["selected:0", "selection:0"]);
-    },
+    ...sceneActs(run, view, tell),
+    Select: (/** @type {any} */ fields) =>
+      picked.select(fields).then(() => own.tell(["selected:0", "selection:0"])),
   };
 
-  /** @param {boolean} isForward */
-  function neighbour(isForward) {
-    const { index } = about;
-    const [chunk, frame] = frameAt(index, time.state().position);
-    const { times } = index[chunk];
-    if (isForward) return times[frame + 1] ?? index[chunk + 1]?.times[0];
-    return times[frame - 1] ?? index[chunk - 1]?.times.at(-1);
-  }
-
-  /** @param {Do} request */
-  async function carryOut({ number, command, arguments: fields }) {
-    let [level, text] = ["ok", ""];
-    try {
-      const act = ACTS[command];
-      if (!act) throw new Error(REASON);
-      await act(fields);
-    } catch (error) {
-      [level, text] = ["error", error instanceof Error ? error.message : String(error)];
-    }
-    tell({ type: "Done", number, command, level, text, result: {} });
-  }
-
-  /** @param {Record<string, number>} widths */
-  function showPictures(widths) {
-    for (const display of panes.keys()) if (!(display in widths)) panes.delete(display);
-    for (const display of Object.keys(widths)) {
-      if (panes.has(display)) continue;
-      panes.set(display, { waiting: [], next: null });
-      run.repeat(display);
-    }
-  }
-
-  /** @param {FromPage} message */
-  function hear(message) {
-    if (message.type === "Watch") watch(message.store);
-    else if (message.type === "Unwatch") {
-      own.delete(message.store);
-      run.unwatch(message.store);
-    } else if (message.type === "Do") carryOut(message);
-    else if (message.type === "ShowPictures") showPictures(message.widths);
-    else if (message.type === "FramesShown") {
-      for (const display of Object.keys(message.numbers)) {
-        panes.get(display)?.waiting.splice(0);
-        sendPictures(display);
-      }
-    } else if (message.type === "Ping") tell({ type: "Pong" });
-  }
-
+  const answer = answers({ own, run, acts, panes, tell });
   const begun = time.seek(about.at);
   return {
     socket,
@@ -263,4 +107,235 @@ export function connection(about, feed, fail) {
       for (const message of about.greeting) tell(message);
     },
   };
+}
+
+/**
+ * @param {(message: FromPage) => void} hear
+ * @returns {Socket}
+ */
+const makeSocket = (hear) => ({
+  readyState: WebSocket.OPEN,
+  binaryType: "arraybuffer",
+  onopen: null,
+  onclose: null,
+  onmessage: null,
+  close() {},
+  send: (text) => hear(JSON.parse(text)),
+});
+
+/**
+ * Answers what a page sends.
+ *
+ * @param {{
+ *   own: ReturnType<typeof ownStores>, run: ReturnType<typeof player>, acts: Acts,
+ *   panes: ReturnType<typeof pictureSender>, tell: (message: ToPage) => void,
+ * }} viewer
+ * @returns {(message: FromPage) => void}
+ */
+const answers = ({ own, run, acts, panes, tell }) =>
+  function answer(message) {
+    if (message.type === "Watch") {
+      if (!own.watch(message.store)) run.watch(message.store);
+    } else if (message.type === "Unwatch") {
+      own.unwatch(message.store);
+      run.unwatch(message.store);
+    } else if (message.type === "Do") carryOut(acts, message).then(tell);
+    else if (message.type === "ShowPictures") panes.show(Object.keys(message.widths), run.repeat);
+    else if (message.type === "FramesShown") panes.confirm(Object.keys(message.numbers));
+    else if (message.type === "Ping") tell({ type: "Pong" });
+  };
+
+/**
+ * Sends the pictures of the panes that are shown, as many at a time as a viewer would.
+ *
+ * @param {(data: ArrayBuffer) => void} send
+ */
+function pictureSender(send) {
+  /** @type {Map<string, {underway: number, next: (() => ArrayBuffer)[] | null}>} */
+  const panes = new Map();
+
+  /** @param {string} display */
+  function sendNext(display) {
+    const pane = panes.get(display);
+    if (!pane?.next || pane.underway >= MAX_IN_FLIGHT) return;
+    const makers = pane.next;
+    pane.next = null;
+    for (const make of makers) {
+      pane.underway += 1;
+      send(make());
+    }
+  }
+
+  return {
+    /**
+     * The pictures of a display have come, in place of those that were not sent yet.
+     *
+     * @param {string} display
+     * @param {(() => ArrayBuffer)[]} makers
+     */
+    offer(display, makers) {
+      const pane = panes.get(display);
+      if (!pane) return;
+      pane.next = makers;
+      sendNext(display);
+    },
+    /**
+     * Shows these displays and no others; `repeat` offers what a new one has now.
+     *
+     * @param {string[]} displays
+     * @param {(display: string) => unknown} repeat
+     */
+    show(displays, repeat) {
+      for (const display of panes.keys()) if (!displays.includes(display)) panes.delete(display);
+      for (const display of displays) {
+        if (panes.has(display)) continue;
+        panes.set(display, { underway: 0, next: null });
+        repeat(display);
+      }
+    },
+    /** @param {string[]} displays whose pictures the page has shown */
+    confirm(displays) {
+      for (const display of displays) {
+        const pane = panes.get(display);
+        if (pane) pane.underway = 0;
+        sendNext(display);
+      }
+    },
+  };
+}
+
+/**
+ * The stores that are made here, and those that do not change.
+ *
+ * @param {About} about
+ * @param {(message: ToPage) => void} tell
+ * @param {Record<string, () => Record<string, unknown>>} makers
+ */
+function ownStores(about, tell, makers) {
+  /** @type {Set<string>} */
+  const watched = new Set();
+  /**
+   * @param {string} store
+   * @param {Record<string, unknown>} set
+   */
+  const send = (store, set) => tell({ type: "Values", store, all: true, set, gone: [] });
+  /** @param {string} name */
+  const tellOne = (name) => send(name, makers[name]?.() ?? about.stores[name] ?? {});
+  return {
+    /** @param {string[]} names */
+    tell(names) {
+      for (const name of names) if (watched.has(name)) tellOne(name);
+    },
+    /**
+     * Sends a store, and when it changes; false for one that the run has.
+     *
+     * @param {string} name
+     */
+    watch(name) {
+      if (name in makers || name in about.stores) {
+        watched.add(name);
+        tellOne(name);
+      } else if (NOT_RECORDED.test(name)) send(name, { problem: NO_VALUES });
+      else return false;
+      return true;
+    },
+    unwatch: (/** @type {string} */ name) => watched.delete(name),
+  };
+}
+
+/**
+ * @param {number} ros
+ * @param {ReturnType<ReturnType<typeof clock>["state"]>} state
+ */
+function clockValues(ros, { isPlaying, rate }) {
+  const wall = Date.now() / 1000;
+  return {
+    pace: [ros, wall, isPlaying ? rate : 0],
+    began: [0, wall],
+    is_known: ros !== 0,
+    is_paused: !isPlaying,
+    is_simulated: true,
+    hz: 0,
+  };
+}
+
+/**
+ * @param {About} about
+ * @param {ReturnType<ReturnType<typeof clock>["state"]>} state
+ */
+function playbackValues({ names, start, duration }, { position, isPlaying, rate, loop, selected }) {
+  const recording = { names, start, duration, rate, loop, selected, is_live: null };
+  return { ...recording, is_playing: isPlaying, position: Math.round(position * 1e3) / 1e3 };
+}
+
+/**
+ * @param {About} about
+ * @param {ReturnType<typeof clock>} time
+ * @returns {Acts}
+ */
+const timeActs = ({ duration, index }, time) => ({
+  Pause: ({ paused = true }) => time.pause(paused),
+  Play: () => time.pause(false),
+  Seek: ({ at_s }) => time.seek(at_s),
+  SetRate: ({ rate }) => time.set({ rate }),
+  SetLoop: ({ loop = true }) => time.set({ loop }),
+  SelectSpan({ first_s, last_s }) {
+    const selected = [first_s ?? 0, Math.min(last_s ?? duration, duration)];
+    const isAll = first_s === null && last_s === null;
+    time.set({ selected: isAll ? null : /** @type {[number, number]} */ (selected) });
+  },
+  StepMessage({ is_forward = true }) {
+    time.pause(true);
+    const at = neighbour(index, time.state().position, is_forward);
+    if (at === undefined) throw new Error(NEVER);
+    return time.seek(at);
+  },
+});
+
+/**
+ * @param {ReturnType<typeof player>} run
+ * @param {ReturnType<typeof views>} view
+ * @param {(message: ToPage) => void} tell
+ * @returns {Acts}
+ */
+const sceneActs = (run, view, tell) => ({
+  FocusDisplay({ display }) {
+    const box = boxOf(run.within(display));
+    if (!box) throw new Error("This display draws nothing to focus on. Check its statuses.");
+    view.lookAt(box);
+  },
+  SaveImage: ({ name = "" }) => tell({ type: "SaveCanvas", name }),
+  SetProperty: ({ display, value }) => run.enable(display, value),
+  Identify: () => {},
+});
+
+/**
+ * The time of the frame before or after a time; undefined for none.
+ *
+ * @param {About["index"]} index
+ * @param {number} position
+ * @param {boolean} isForward
+ */
+function neighbour(index, position, isForward) {
+  const [chunk, frame] = frameAt(index, position);
+  const { times } = index[chunk];
+  if (isForward) return times[frame + 1] ?? index[chunk + 1]?.times[0];
+  return times[frame - 1] ?? index[chunk - 1]?.times.at(-1);
+}
+
+/**
+ * @param {Acts} acts
+ * @param {Do} request
+ * @returns {Promise<Done>}
+ */
+async function carryOut(acts, { number, command, arguments: fields }) {
+  let [level, text] = ["ok", ""];
+  try {
+    const act = acts[command];
+    if (!act) throw new Error(REASON);
+    await act(fields);
+  } catch (error) {
+    [level, text] = ["error", error instanceof Error ? error.message : String(error)];
+  }
+  return { type: "Done", number, command, level, text, result: {} };
 }

@@ -2,10 +2,13 @@
 
 import { needs } from "webviz/access.js";
 import { act } from "webviz/act.js";
-import { rosNow, wallNow, watchTime } from "webviz/clock.js";
-import { el, set, setText } from "webviz/dom.js";
+import { rosNow, wallNow } from "webviz/clock.js";
+import { el } from "webviz/dom.js";
 import { icon, iconButton } from "webviz/icons.js";
 import { recall, remember } from "webviz/remember.js";
+import { effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { every } from "webviz/timing.js";
 import { command, provide } from "webviz/commands.js";
 import { duration, timeOfDay } from "webviz/time_text.js";
 
@@ -41,106 +44,145 @@ export const timeBarTimeline = (make) => timelines.push(make);
 /** @type {Timeline} */
 const NO_TIMELINE = { isThere: () => false, isPast: () => false, names: () => null };
 
+const clock = store("clock");
+
 /**
  * Fills the footer.
  *
  * @param {HTMLElement} place
  */
 export function build(place) {
-  let isPaused = false;
-  let inSeconds = recall("time-in-seconds", false);
-  /** @type {ValuesOf<"clock"> | null} */
-  let shown = null;
-
-  const pause = el("button", {
-    type: "button",
-    class: "wv-icon",
-    onclick: toggle,
-  });
-  const reset = iconButton("reset", "Reset", () => act("Reset"), { tip: RESET_HINT });
-  const ros = el("button", { type: "button", class: "wv-ros-time", onclick: swap });
-  const badge = el("span", { class: "wv-badge" });
-  const elapsed = part("Elapsed", "ROS time since the viewer started or was reset");
-  const wall = part("Wall", "Wall time of the machine that webviz runs on");
-  const wallElapsed = part("Wall elapsed", "Wall time since the viewer started or was reset");
+  const isPaused = () => clock.get("is_paused") ?? false;
+  const toggle = () => act("Pause", { paused: !isPaused() });
   const track = el("div", { class: "wv-track-row" });
   const buttons = el("div", { class: "wv-transport-place" });
+  const [recording = NO_TIMELINE] = timelines.map((make) => make({ track, buttons, toggle }));
+  const times = timesNow(recording);
   place.append(
     track,
-    needs("Pause", pause),
-    needs("Reset", reset),
+    needs("Pause", pauseButton(recording, isPaused, toggle)),
+    needs(
+      "Reset",
+      iconButton("reset", "Reset", () => act("Reset"), { tip: RESET_HINT }),
+    ),
     buttons,
-    ros,
-    badge,
-    elapsed.element,
+    times.ros,
+    badge(recording),
+    part("Elapsed", "ROS time since the viewer started or was reset", times.elapsed),
     el("div", { class: "wv-space" }),
     ...buttonsOfFeatures,
-    wall.element,
-    wallElapsed.element,
+    part("Wall", "Wall time of the machine that webviz runs on", times.wall),
+    part("Wall elapsed", "Wall time since the viewer started or was reset", times.wallElapsed),
   );
-  const [recording = NO_TIMELINE] = timelines.map((make) => make({ track, buttons, toggle }));
   place.setAttribute("aria-label", "Time");
-
-  function toggle() {
-    return act("Pause", { paused: !isPaused });
-  }
-
-  function swap() {
-    inSeconds = !inSeconds;
-    remember("time-in-seconds", inSeconds);
-    if (shown) show(shown);
-  }
-
-  /** @param {ValuesOf<"clock">} clock */
-  function show(clock) {
-    shown = clock;
-    showPause(clock.get("is_paused"));
-    const isKnown = clock.get("is_known");
-    const isSimulated = clock.get("is_simulated");
-    const now = rosNow(clock);
-    const isRunning = clock.get("pace")[2] !== 0;
-    const format = inSeconds
-      ? (/** @type {number} */ time) => time.toFixed(isRunning ? 1 : 3)
-      : timeOfDay;
-    setText(ros, isKnown ? format(now, !isRunning) : "No time yet");
-    set(ros, { "data-tip": hintOf(isKnown, isSimulated, inSeconds) });
-    const past = recording.isPast() ? "past" : "bag";
-    setText(badge, recording.isThere() ? past : badgeOf(isSimulated, clock.get("hz")));
-    set(badge, { "data-tip": recording.names() ?? null });
-    set(badge, { "data-simulated": isSimulated });
-    const [beganRos, beganWall] = clock.get("began");
-    // A recording has its own position; there the wall's time means nothing.
-    elapsed.show(isKnown && !recording.isThere() ? duration(now - beganRos) : "");
-    // Of a viewer without simulated time both are the same; while paused nothing may tick.
-    const hasWall = isSimulated && !isPaused && !recording.isThere();
-    wall.show(hasWall ? (inSeconds ? wallNow().toFixed(1) : timeOfDay(wallNow())) : "");
-    wallElapsed.show(hasWall ? duration(wallNow() - beganWall) : "");
-  }
-
-  /** @param {boolean} paused */
-  function showPause(paused) {
-    isPaused = paused;
-    const [name, tip] = recording.isThere()
-      ? [
-          paused ? "Play" : "Pause",
-          `${paused ? "Play" : "Pause"} the ${recording.isPast() ? "past" : "recording"} in all browsers (Space)`,
-        ]
-      : [nameOf(paused), `${nameOf(paused)} the scene in all browsers; messages wait meanwhile`];
-    if (pause.ariaLabel === name) return;
-    const isPressed = recording.isThere() ? null : String(paused);
-    set(pause, { "aria-label": name, "aria-pressed": isPressed, "data-tip": tip });
-    pause.replaceChildren(icon(paused ? "play" : "pause"));
-    place.classList.toggle("wv-paused", paused && !recording.isThere());
-  }
-
-  showPause(false);
+  effect(() => place.classList.toggle("wv-paused", isPaused() && !recording.isThere()));
   command({ name: "Reset", icon: "reset", key: "r", group: "Time", run: () => act("Reset") });
   provide(() =>
     recording.isThere()
       ? []
-      : [{ name: nameOf(isPaused), icon: isPaused ? "play" : "pause", group: "Time", run: toggle }],
+      : [
+          {
+            name: nameOf(isPaused()),
+            icon: isPaused() ? "play" : "pause",
+            group: "Time",
+            run: toggle,
+          },
+        ],
   );
-  return watchTime(TICK_MS, show);
+}
+
+/**
+ * @param {Timeline} recording
+ * @param {() => boolean} isPaused
+ * @param {() => unknown} toggle
+ */
+function pauseButton(recording, isPaused, toggle) {
+  const name = () => (recording.isThere() ? (isPaused() ? "Play" : "Pause") : nameOf(isPaused()));
+  const tip = () =>
+    recording.isThere()
+      ? `${name()} the ${recording.isPast() ? "past" : "recording"} in all browsers (Space)`
+      : `${name()} the scene in all browsers; messages wait meanwhile`;
+  return el(
+    "button",
+    {
+      type: "button",
+      class: "wv-icon",
+      "aria-label": name,
+      "aria-pressed": () => (recording.isThere() ? null : String(isPaused())),
+      "data-tip": tip,
+      onclick: toggle,
+    },
+    () => icon(isPaused() ? "play" : "pause"),
+  );
+}
+
+/** Where the time comes from. @param {Timeline} recording */
+const badge = (recording) =>
+  el(
+    "span",
+    {
+      class: "wv-badge",
+      "data-tip": () => recording.names(),
+      "data-simulated": () => clock.get("is_simulated"),
+    },
+    () => {
+      if (!clock.isThere()) return "";
+      if (recording.isThere()) return recording.isPast() ? "past" : "bag";
+      return badgeOf(clock.get("is_simulated") ?? false, clock.get("hz") ?? 0);
+    },
+  );
+
+/**
+ * The button with the ROS time, and the other times as texts, "" for none; they are read in effects.
+ *
+ * @param {Timeline} recording
+ */
+function timesNow(recording) {
+  const inSeconds = signal(recall("time-in-seconds", false));
+  const ticks = signal(0);
+  every(TICK_MS, () => document.hidden || (ticks.value += 1));
+  /**
+   * A text that goes on with time, "" until the clock is known.
+   *
+   * @param {(values: ValuesOf<"clock">) => string} read
+   */
+  const ticking = (read) => () => (clock.isThere() && ticks.value >= 0 ? read(clock.all()) : "");
+  // Of a viewer without simulated time both are the same; while paused nothing may tick.
+  const hasWall = () =>
+    clock.get("is_simulated") && !clock.get("is_paused") && !recording.isThere();
+  const swap = () => {
+    inSeconds.value = !inSeconds.value;
+    remember("time-in-seconds", inSeconds.value);
+  };
+  const ros = ticking((values) => {
+    if (!values.get("is_known")) return "No time yet";
+    const isRunning = values.get("pace")[2] !== 0;
+    const now = rosNow(values);
+    return inSeconds.value ? now.toFixed(isRunning ? 1 : 3) : timeOfDay(now, !isRunning);
+  });
+  const tip = ticking((values) =>
+    hintOf(values.get("is_known"), values.get("is_simulated"), inSeconds.value),
+  );
+  return {
+    ros: el(
+      "button",
+      { type: "button", class: "wv-ros-time", "data-tip": tip, onclick: swap },
+      ros,
+    ),
+    // A recording has its own position; there the wall's time means nothing.
+    elapsed: ticking((values) =>
+      values.get("is_known") && !recording.isThere()
+        ? duration(rosNow(values) - values.get("began")[0])
+        : "",
+    ),
+    wall: ticking(() => {
+      if (!hasWall()) return "";
+      return inSeconds.value ? wallNow().toFixed(1) : timeOfDay(wallNow());
+    }),
+    wallElapsed: ticking((values) =>
+      hasWall() ? duration(wallNow() - values.get("began")[1]) : "",
+    ),
+  };
 }
 
 /** @param {boolean} isPaused */
@@ -151,22 +193,15 @@ const nameOf = (isPaused) => (isPaused ? "Resume" : "Pause");
  *
  * @param {string} label
  * @param {string} title
+ * @param {() => string} time
  */
-function part(label, title) {
-  const time = el("span", { class: "wv-number" });
-  const element = el(
+const part = (label, title, time) =>
+  el(
     "span",
-    { class: "wv-time-part", title, hidden: true },
+    { class: "wv-time-part", title, hidden: () => !time() },
     el("span", { class: "wv-quiet" }, label),
-    time,
+    el("span", { class: "wv-number" }, time),
   );
-  /** @param {string} text */
-  const show = (text) => {
-    setText(time, text);
-    set(element, { hidden: text === "" });
-  };
-  return { element, show };
-}
 
 /**
  * @param {boolean} isKnown
