@@ -4,11 +4,12 @@ import { copyAndTell } from "webviz/clipboard.js";
 import { combobox } from "webviz/controls/combobox.js";
 import { searchField } from "webviz/controls/fields.js";
 import { rowList, touchable } from "webviz/controls/rows.js";
-import { el, set, setText, showText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { iconButton } from "webviz/icons.js";
-import { signal } from "webviz/signals.js";
+import { batch, computed, effect, owned, signal, untracked } from "webviz/signals.js";
 import { timeOfDay } from "webviz/time_text.js";
 
+/** @import {Readable, Signal} from "../page/web/signals.js" */
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -18,6 +19,7 @@ import { timeOfDay } from "webviz/time_text.js";
  * @typedef {{key: string, stamp: number, level: number, name: string, text: string, place: string}} Line
  * @typedef {{chunks: [number, number], problem: string, total: number, beginnings: number,
  *   level: string, nodes: string, text: string}} Values
+ * @typedef {(chunk: Chunk, i: number) => boolean} Matches
  */
 
 const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
@@ -40,205 +42,257 @@ const textOf = ({ stamp, level, name, text }) =>
 
 /** @param {Page} page */
 export default function install({ widget }) {
-  widget("log", (_, send) => {
-    /** @type {{level: string, nodes: string, text: string}} */
-    let initial = { level: "", nodes: "", text: "" };
-    /** @type {WeakMap<Chunk, Line[]>} */
-    let filtered = new WeakMap();
-    /** @type {Line[]} */
-    let shown = [];
-    /** @type {(() => Line[])} */
-    let collect = () => [];
-    let isFollowing = true;
-    let problem = "";
-    let total = 0;
-    let beginnings = 0;
+  widget("log", (_, send) => log(send));
+}
 
-    const level = signal(LEVELS[0]);
-    const lowest = combobox({
-      label: "Lowest level",
-      value: () => level.value,
-      options: () => LEVELS.map((value) => ({ value })),
-      change(value) {
-        level.value = value;
-        filter();
-      },
-      free: false,
+/** @param {(place: [number, number]) => unknown} send */
+function log(send) {
+  /** @type {{values: Partial<Values>, part: (key: string) => Chunk | undefined}} */
+  const nothing = { values: {}, part: () => undefined };
+  const given = signal(nothing);
+  const filter = filters();
+  const linesOf = computed(() => linesBy(filter.matches()));
+  const lines = computed(() => {
+    const { values, part } = given.value;
+    const [first, end] = values.chunks ?? [0, 0];
+    const numbers = Array.from({ length: end - first }, (_, i) => first + i);
+    return numbers.flatMap((number) => {
+      const chunk = part(String(number));
+      return chunk ? linesOf.value(chunk, number) : [];
     });
-    const nodes = searchField("Node", filter);
-    const text = searchField("Text", filter);
-    const follow = iconButton("follow", "Follow the newest line", () => setFollowing(!isFollowing));
-    const all = iconButton("copy", "Copy the visible lines", () =>
-      copyAndTell(shown.map(textOf).join("\n")),
-    );
-    const count = el("span", { class: "wv-quiet wv-number" });
-    const empty = el("div", { class: "wv-empty", role: "status" });
-    const detail = el("div", { class: "wv-plugin-detail wv-log-detail", hidden: true });
-    const list = rowList({
-      label: "Log",
-      height: touchable(ROW_PX),
-      make: () =>
-        el(
-          "div",
-          { class: "wv-log-row" },
-          el("span"),
-          el("span", { class: "wv-number" }),
-          el("span", { class: "wv-ellipsis" }),
-          el("span", { class: "wv-ellipsis" }),
-        ),
-      update(row, line) {
-        const [one, time, name, said] = row.children;
-        setText(one, nameOf(line.level));
-        set(row, { "data-level": stateOf(line.level) });
-        setText(time, timeOfDay(line.stamp, true).split(" ").pop() ?? "");
-        setText(name, line.name);
-        setText(said, line.text.split("\n", 1)[0]);
-      },
-      choose: open,
-    });
-    const canvas = list.element.firstElementChild ?? list.element;
-    const sizes = new ResizeObserver(() => {
-      const isNarrow = list.element.clientWidth < NARROW_PX;
-      set(canvas, { "data-narrow": isNarrow });
-      list.resize(touchable(isNarrow ? TALL_PX : ROW_PX));
-      toEnd();
-    });
-    sizes.observe(list.element);
-    let top = 0;
-    list.element.addEventListener("scroll", () => {
-      const { scrollTop, scrollHeight, clientHeight } = list.element;
-      const isUp = scrollTop < top;
-      // A list that became shorter is scrolled up by the browser, which leaves it at its end.
-      if (scrollHeight - scrollTop - clientHeight < (isUp ? 1 : ROW_PX)) mark(true);
-      else if (isUp) mark(false);
-      top = scrollTop;
-    });
-
-    function toEnd() {
-      if (!isFollowing) return;
-      list.element.scrollTop = list.element.scrollHeight;
-      top = list.element.scrollTop; // the browser takes less
-    }
-
-    /** @param {Line} line */
-    function open(line) {
-      const [chunk, place] = line.key.split("/").map(Number);
-      detail.replaceChildren(
-        el(
-          "div",
-          { class: "wv-plugin-bar" },
-          el("b", { class: "wv-ellipsis" }, `${nameOf(line.level)} of ${line.name}`),
-          iconButton("clock", "Go to this time", () => send([chunk, place])),
-          iconButton("copy", "Copy this line", () =>
-            copyAndTell(`${textOf(line)}${line.place ? ` (${line.place})` : ""}`),
-          ),
-          iconButton("close", "Close", () => set(detail, { hidden: true })),
-        ),
-        el("div", { class: "wv-quiet" }, timeOfDay(line.stamp, true)),
-        el("pre", {}, line.text),
-        el("div", { class: "wv-quiet" }, line.place || "No file and line."),
-      );
-      set(detail, { hidden: false });
-      mark(false);
-    }
-
-    /** @param {boolean} now */
-    function mark(now) {
-      isFollowing = now;
-      set(follow, { "aria-pressed": String(now) });
-    }
-
-    /** @param {boolean} now */
-    function setFollowing(now) {
-      mark(now);
-      toEnd();
-    }
-
-    function filter() {
-      filtered = new WeakMap();
-      draw();
-    }
-
-    function draw() {
-      shown = collect();
-      list.show(shown);
-      const number = shown.length.toLocaleString("en").replaceAll(",", " ");
-      setText(count, `${number} line${shown.length === 1 ? "" : "s"}`);
-      const sentence =
-        problem || (shown.length ? "" : total ? "No line matches these filters." : "No line yet.");
-      showText(empty, sentence);
-      toEnd();
-      requestAnimationFrame(toEnd); // the list may have no height yet
-    }
-
-    /**
-     * The lines of a chunk that the filters leave.
-     *
-     * @param {Chunk} chunk
-     * @param {number} number
-     */
-    function linesOf(chunk, number) {
-      const known = filtered.get(chunk);
-      if (known) return known;
-      const least = (LEVELS.indexOf(level.value) + 1) * 10;
-      const [node, part] = [nodes.value.toLowerCase(), text.value.toLowerCase()];
-      /** @type {Line[]} */
-      const found = [];
-      chunk.levels.forEach((each, i) => {
-        if (each < least) return;
-        if (node && !chunk.names[i].toLowerCase().includes(node)) return;
-        if (part && !chunk.texts[i].toLowerCase().includes(part)) return;
-        found.push({
-          key: `${number}/${i}`,
-          stamp: chunk.stamps[i],
-          level: each,
-          name: chunk.names[i],
-          text: chunk.texts[i],
-          place: chunk.places[i],
-        });
-      });
-      filtered.set(chunk, found);
-      return found;
-    }
-
+  });
+  const opened = signal(/** @type {Line | null} */ (null));
+  const list = rowList({
+    label: "Log",
+    height: touchable(ROW_PX),
+    row: rowOf,
+    choose(line) {
+      opened.value = line;
+      isFollowing.value = false;
+    },
+  });
+  const { isFollowing, toEnd } = follower(list.element);
+  whenNarrow(list, toEnd);
+  effect(() => {
+    list.show(lines.value);
+    toEnd();
+    requestAnimationFrame(toEnd); // the list may have no height yet
+  });
+  const beginnings = computed(() => given.value.values.beginnings);
+  effect(() => {
+    if (beginnings.value !== undefined) isFollowing.value = true; // those of another time
+  });
+  const sentence = () => {
+    const { problem, total } = given.value.values;
+    if (problem || lines.value.length) return problem ?? "";
+    return total ? "No line matches these filters." : "No line yet.";
+  };
+  return {
+    element: el(
+      "div",
+      { class: "wv-plugin-fill" },
+      el("div", { class: "wv-empty", role: "status", hidden: () => !sentence() }, sentence),
+      list.element,
+      detail(opened, send),
+    ),
+    head: el("span", { class: "wv-panel-tools" }, filter.fields, tools(lines, isFollowing, toEnd)),
     /**
      * @param {Values} values
      * @param {(key: string) => Chunk | undefined} part
      */
-    function update(values, part) {
-      const own = { level: values.level, nodes: values.nodes, text: values.text };
-      if (own.level && JSON.stringify(own) !== JSON.stringify(initial)) {
-        initial = own;
-        [level.value, nodes.value, text.value] = [own.level, own.nodes, own.text];
-        filtered = new WeakMap();
-      }
-      const [first, end] = values.chunks ?? [0, 0];
-      collect = () => {
-        const found = [];
-        for (let number = first; number < end; number++) {
-          const chunk = part(String(number));
-          if (chunk) found.push(linesOf(chunk, number));
-        }
-        return found.flat();
-      };
-      problem = values.problem ?? "";
-      total = values.total ?? 0;
-      if (values.beginnings !== beginnings) mark(true); // those of another time
-      beginnings = values.beginnings;
-      draw();
-    }
+    update: (values, part) =>
+      batch(() => {
+        filter.begin(values);
+        given.value = { values, part };
+      }),
+  };
+}
 
-    mark(true);
-    const element = el("div", { class: "wv-plugin-fill" }, empty, list.element, detail);
-    function close() {
-      sizes.disconnect();
-      list.close();
-    }
-    const head = el(
-      "span",
-      { class: "wv-panel-tools" },
-      ...[lowest.element, nodes, text, count, follow, all],
-    );
-    return { element, head, update, close };
+/**
+ * The number of lines, and buttons for all of them.
+ *
+ * @param {Readable<Line[]>} lines
+ * @param {Signal<boolean>} isFollowing
+ * @param {() => void} toEnd
+ */
+function tools(lines, isFollowing, toEnd) {
+  const count = () => {
+    const number = lines.value.length;
+    const text = number.toLocaleString("en").replaceAll(",", " ");
+    return `${text} line${number === 1 ? "" : "s"}`;
+  };
+  const follow = () => {
+    isFollowing.value = !isFollowing.value;
+    toEnd();
+  };
+  const copy = () => copyAndTell(lines.value.map(textOf).join("\n"));
+  return [
+    el("span", { class: "wv-quiet wv-number" }, count),
+    iconButton("follow", "Follow the newest line", follow, {
+      "aria-pressed": () => String(isFollowing.value),
+    }),
+    iconButton("copy", "Copy the visible lines", copy),
+  ];
+}
+
+/** @param {() => Line} line */
+const rowOf = (line) =>
+  el(
+    "div",
+    { class: "wv-log-row", "data-level": () => stateOf(line().level) },
+    el("span", {}, () => nameOf(line().level)),
+    el("span", { class: "wv-number" }, () => timeOfDay(line().stamp, true).split(" ").pop() ?? ""),
+    el("span", { class: "wv-ellipsis" }, () => line().name),
+    el("span", { class: "wv-ellipsis" }, () => line().text.split("\n", 1)[0]),
+  );
+
+/**
+ * The fields of the filters; `matches()` is read in effects, and `begin(values)` takes filters of the
+ * panel once they are others.
+ */
+function filters() {
+  const level = signal(LEVELS[0]);
+  const lowest = combobox({
+    label: "Lowest level",
+    value: () => level.value,
+    options: () => LEVELS.map((value) => ({ value })),
+    change: (value) => (level.value = value),
+    free: false,
   });
+  const [nodes, text] = [textFilter("Node"), textFilter("Text")];
+  let initial = "";
+  return {
+    fields: [lowest.element, nodes.field, text.field],
+    /** @returns {Matches} */
+    matches() {
+      const least = (LEVELS.indexOf(level.value) + 1) * 10;
+      const [node, part] = [nodes.text.value.toLowerCase(), text.text.value.toLowerCase()];
+      return ({ levels, names, texts }, i) =>
+        levels[i] >= least &&
+        names[i].toLowerCase().includes(node) &&
+        texts[i].toLowerCase().includes(part);
+    },
+    /** @param {Values} values */
+    begin(values) {
+      const own = JSON.stringify([values.level, values.nodes, values.text]);
+      if (!values.level || own === initial) return;
+      initial = own;
+      level.value = values.level;
+      nodes.put(values.nodes);
+      text.put(values.text);
+    },
+  };
+}
+
+/** @param {string} label */
+function textFilter(label) {
+  const text = signal("");
+  /** @type {HTMLInputElement} */
+  const field = searchField(label, () => (text.value = field.value));
+  /** @param {string} value */
+  const put = (value) => (text.value = field.value = value);
+  return { field, text, put };
+}
+
+/**
+ * A function of the lines of a chunk that match, which finds them once.
+ *
+ * @param {Matches} matches
+ */
+function linesBy(matches) {
+  /** @type {WeakMap<Chunk, Line[]>} */
+  const known = new WeakMap();
+  /**
+   * @param {Chunk} chunk
+   * @param {number} number
+   */
+  return (chunk, number) => {
+    const found = known.get(chunk) ?? linesIn(chunk, number, matches);
+    known.set(chunk, found);
+    return found;
+  };
+}
+
+/**
+ * @param {Chunk} chunk
+ * @param {number} number
+ * @param {Matches} matches
+ */
+const linesIn = (chunk, number, matches) =>
+  chunk.levels.flatMap((level, i) => {
+    if (!matches(chunk, i)) return [];
+    const [stamp, name] = [chunk.stamps[i], chunk.names[i]];
+    const [text, place] = [chunk.texts[i], chunk.places[i]];
+    return [{ key: `${number}/${i}`, stamp, level, name, text, place }];
+  });
+
+/**
+ * Keeps a list at its end until somebody scrolls up, and again once they are back there.
+ *
+ * @param {HTMLElement} list
+ */
+function follower(list) {
+  const isFollowing = signal(true);
+  let top = 0;
+  const toEnd = () => {
+    if (!untracked(() => isFollowing.value)) return;
+    list.scrollTop = list.scrollHeight;
+    top = list.scrollTop; // the browser takes less
+  };
+  list.addEventListener("scroll", () => {
+    const { scrollTop, scrollHeight, clientHeight } = list;
+    const isUp = scrollTop < top;
+    // A list that became shorter is scrolled up by the browser, which leaves it at its end.
+    if (scrollHeight - scrollTop - clientHeight < (isUp ? 1 : ROW_PX)) isFollowing.value = true;
+    else if (isUp) isFollowing.value = false;
+    top = scrollTop;
+  });
+  return { isFollowing, toEnd };
+}
+
+/**
+ * Gives rows the height of two lines where there is no room for one, and calls `resized` after that.
+ *
+ * @param {Pick<ReturnType<typeof rowList>, "element" | "resize">} list
+ * @param {() => void} resized
+ */
+function whenNarrow({ element, resize }, resized) {
+  const sizes = new ResizeObserver(() => {
+    const isNarrow = element.clientWidth < NARROW_PX;
+    (element.firstElementChild ?? element).toggleAttribute("data-narrow", isNarrow);
+    resize(touchable(isNarrow ? TALL_PX : ROW_PX));
+    resized();
+  });
+  sizes.observe(element);
+  owned(() => sizes.disconnect());
+}
+
+/**
+ * All that is known of one line.
+ *
+ * @param {Signal<Line | null>} opened
+ * @param {(place: [number, number]) => unknown} send
+ */
+function detail(opened, send) {
+  /** @param {Line} line */
+  const parts = (line) => {
+    const [chunk, place] = line.key.split("/").map(Number);
+    const whole = `${textOf(line)}${line.place ? ` (${line.place})` : ""}`;
+    return [
+      el(
+        "div",
+        { class: "wv-plugin-bar" },
+        el("b", { class: "wv-ellipsis" }, `${nameOf(line.level)} of ${line.name}`),
+        iconButton("clock", "Go to this time", () => send([chunk, place])),
+        iconButton("copy", "Copy this line", () => copyAndTell(whole)),
+        iconButton("close", "Close", () => (opened.value = null)),
+      ),
+      el("div", { class: "wv-quiet" }, timeOfDay(line.stamp, true)),
+      el("pre", {}, line.text),
+      el("div", { class: "wv-quiet" }, line.place || "No file and line."),
+    ];
+  };
+  return el("div", { class: "wv-plugin-detail wv-log-detail", hidden: () => !opened.value }, () =>
+    opened.value ? parts(opened.value) : [],
+  );
 }
