@@ -19,78 +19,118 @@ const SMALLEST_RATE = 0.55;
  * }} options
  */
 export function draw(context, { boxes, links }, options) {
-  const { look, width, height, isFound, chosen, rateOf } = options;
-  const color = remembered(options.color);
+  const { look, width, height } = options;
   const { x, y, scale } = look;
   context.scale(scale, scale);
   context.translate(-x, -y);
-  const [right, bottom] = [x + width / scale, y + height / scale];
-  const about = boxes.get(chosen);
+  const sight = { scale, left: x, top: y, right: x + width / scale, bottom: y + height / scale };
+  const pen = { ...options, context, sight, color: remembered(options.color) };
+  const groups = linkGroups(pen, links, boxes.get(options.chosen));
+  for (const group of groups) strokeLinks(pen, group);
+  if (scale >= SMALLEST_RATE) writeRates(pen, groups);
+  for (const box of boxes.values()) drawBox(pen, box);
+  context.globalAlpha = 1;
+  context.setLineDash([]);
+}
+
+/**
+ * @typedef {Omit<Parameters<typeof draw>[2], "look" | "width" | "height"> & {
+ *   context: CanvasRenderingContext2D,
+ *   sight: {scale: number, left: number, top: number, right: number, bottom: number},
+ * }} Pen
+ * @typedef {{color: string, links: Link[], size: number}} LinkGroup
+ */
+
+/**
+ * The links that are in sight: most, those of the chosen box, and those that do not match.
+ *
+ * @param {Pen} pen
+ * @param {Link[]} links
+ * @param {Box | undefined} chosen
+ */
+function linkGroups({ color, sight }, links, chosen) {
+  /** @type {LinkGroup[]} */
   const groups = [
-    { color: color("line"), links: /** @type {Link[]} */ ([]), size: 1.2 },
-    { color: color("accent"), links: /** @type {Link[]} */ ([]), size: 2 },
-    { color: color("error"), links: /** @type {Link[]} */ ([]), size: 2 },
+    { color: color("line"), links: [], size: 1.2 },
+    { color: color("accent"), links: [], size: 2 },
+    { color: color("error"), links: [], size: 2 },
   ];
   for (const link of links) {
     const [x1, y1, x2, y2] = ends(link);
-    if (Math.max(y1, y2) < y || Math.min(y1, y2) > bottom) continue;
-    if (Math.max(x1, x2) + GAP < x || Math.min(x1, x2) - GAP > right) continue;
-    groups[link.why ? 2 : about && (link.from === about || link.to === about) ? 1 : 0].links.push(
-      link,
-    );
+    if (Math.max(y1, y2) < sight.top || Math.min(y1, y2) > sight.bottom) continue;
+    if (Math.max(x1, x2) + GAP < sight.left || Math.min(x1, x2) - GAP > sight.right) continue;
+    const isOfChosen = chosen && (link.from === chosen || link.to === chosen);
+    groups[link.why ? 2 : isOfChosen ? 1 : 0].links.push(link);
   }
-  for (const group of groups) {
-    context.strokeStyle = group.color;
-    context.lineWidth = Math.max(group.size, 0.7 / scale);
-    context.beginPath();
-    for (const link of group.links) {
-      const [x1, y1, x2, y2, bend] = ends(link);
-      context.moveTo(x1, y1);
-      if (scale < SMALLEST_TEXT) context.lineTo(x2, y2);
-      else context.bezierCurveTo(x1 + bend, y1, x2 - bend, y2, x2, y2);
+  return groups;
+}
+
+/**
+ * @param {Pen} pen
+ * @param {LinkGroup} group
+ */
+function strokeLinks({ context, sight: { scale } }, { color, links, size }) {
+  context.strokeStyle = color;
+  context.lineWidth = Math.max(size, 0.7 / scale);
+  context.beginPath();
+  for (const link of links) {
+    const [x1, y1, x2, y2, bend] = ends(link);
+    context.moveTo(x1, y1);
+    if (scale < SMALLEST_TEXT) context.lineTo(x2, y2);
+    else context.bezierCurveTo(x1 + bend, y1, x2 - bend, y2, x2, y2);
+  }
+  context.stroke();
+}
+
+/**
+ * @param {Pen} pen
+ * @param {LinkGroup[]} groups
+ */
+function writeRates({ context, color, rateOf }, groups) {
+  context.font = "11px system-ui, sans-serif";
+  context.textAlign = "center";
+  for (const { links, color: own } of groups) {
+    context.fillStyle = own === color("line") ? color("quiet") : own;
+    for (const link of links) {
+      const [x1, y1, x2, y2] = ends(link);
+      const text = [rateOf(link.topics), link.why ? "QoS" : ""].filter(Boolean).join(" · ");
+      if (text) context.fillText(text, (x1 + x2) / 2, (y1 + y2) / 2 - 3);
     }
-    context.stroke();
   }
-  if (scale >= SMALLEST_RATE) {
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "center";
-    for (const { links: some, color: own } of groups) {
-      context.fillStyle = own === color("line") ? color("quiet") : own;
-      for (const link of some) {
-        const [x1, y1, x2, y2] = ends(link);
-        const text = [rateOf(link.topics), link.why ? "QoS" : ""].filter(Boolean).join(" · ");
-        if (text) context.fillText(text, (x1 + x2) / 2, (y1 + y2) / 2 - 3);
-      }
-    }
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Box} box
+ */
+function drawBox({ context, color, sight, isFound, chosen }, box) {
+  const { scale, left, top, right, bottom } = sight;
+  if (box.x > right || box.x + box.width < left) return;
+  if (box.y > bottom || box.y + HEIGHT < top) return;
+  const isHit = isFound?.(box);
+  const isChosen = box.key === chosen;
+  context.globalAlpha = isFound && !isHit ? 0.3 : 1;
+  context.fillStyle = isChosen || isHit ? color("chosen") : color("raised");
+  context.strokeStyle = isHit || isChosen ? color("accent") : color("quiet");
+  context.lineWidth = Math.max(isChosen ? 2.5 : 1, 0.7 / scale);
+  if (scale < SMALLEST_TEXT) {
+    context.fillRect(box.x, box.y, box.width, HEIGHT);
+    context.strokeRect(box.x, box.y, box.width, HEIGHT);
+    return;
   }
+  context.setLineDash(box.kind === "group" ? [6, 3] : []);
+  context.beginPath();
+  context.roundRect(box.x, box.y, box.width, HEIGHT, box.kind === "node" ? HEIGHT / 2 : 4);
+  context.fill();
+  context.stroke();
+  const room = box.width - 16;
   context.textAlign = "left";
-  for (const box of boxes.values()) {
-    if (box.x > right || box.x + box.width < x || box.y > bottom || box.y + HEIGHT < y) continue;
-    const isHit = isFound?.(box);
-    context.globalAlpha = isFound && !isHit ? 0.3 : 1;
-    context.fillStyle = box.key === chosen || isHit ? color("chosen") : color("raised");
-    context.strokeStyle = isHit || box.key === chosen ? color("accent") : color("quiet");
-    context.lineWidth = Math.max(box.key === chosen ? 2.5 : 1, 0.7 / scale);
-    if (scale < SMALLEST_TEXT) {
-      context.fillRect(box.x, box.y, box.width, HEIGHT);
-      context.strokeRect(box.x, box.y, box.width, HEIGHT);
-      continue;
-    }
-    context.setLineDash(box.kind === "group" ? [6, 3] : []);
-    context.beginPath();
-    context.roundRect(box.x, box.y, box.width, HEIGHT, box.kind === "node" ? HEIGHT / 2 : 4);
-    context.fill();
-    context.stroke();
-    const room = box.width - 16;
-    context.fillStyle = color("text");
-    context.font = "600 12px system-ui, sans-serif";
-    context.fillText(short(box.name), box.x + 10, box.y + 15, room);
-    context.fillStyle = color("quiet");
-    context.font = "11px system-ui, sans-serif";
-    context.fillText(short(box.about), box.x + 10, box.y + 29, room);
-  }
-  context.globalAlpha = 1;
-  context.setLineDash([]);
+  context.fillStyle = color("text");
+  context.font = "600 12px system-ui, sans-serif";
+  context.fillText(short(box.name), box.x + 10, box.y + 15, room);
+  context.fillStyle = color("quiet");
+  context.font = "11px system-ui, sans-serif";
+  context.fillText(short(box.about), box.x + 10, box.y + 29, room);
 }
 
 /**

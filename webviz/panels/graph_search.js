@@ -1,34 +1,37 @@
 // The field that finds boxes of a graph; Enter goes from one to the next.
 
 import { searchField } from "webviz/controls/fields.js";
+import { computed, signal } from "webviz/signals.js";
 import { finder } from "./graph_view.js";
 
 /** @import {Box} from "./graph_layout.js" */
 
 /**
- * Returns `{element, isFound()}`: `isFound` is as of `finder`.
+ * Returns `{element, isFound()}`: `isFound` is as of `finder`, and is read in effects.
  *
- * @param {{boxes: () => Iterable<Box>, changed: () => void, goTo: (box: Box) => void}} graph
+ * @param {{boxes: () => Iterable<Box>, goTo: (box: Box) => void}} graph
  */
-export function makeSearch({ boxes, changed, goTo }) {
+export function makeSearch({ boxes, goTo }) {
+  const text = signal("");
+  const isFound = computed(() => finder(text.value));
   let hit = -1; // of those that are found
-  const isFound = () => finder(element.value);
 
   function onInput() {
     hit = -1;
-    changed();
+    text.value = element.value;
   }
 
   /** @param {KeyboardEvent} event */
   function onKey(event) {
     if (event.key !== "Enter") return;
     event.preventDefault();
-    const found = [...boxes()].filter(isFound() ?? (() => false));
+    const found = [...boxes()].filter(isFound.value ?? (() => false));
     if (!found.length) return;
     hit = (hit + (event.shiftKey ? -1 : 1) + found.length) % found.length;
     goTo(found[hit]);
   }
 
+  /** @type {HTMLInputElement} */
   const element = searchField("Find nodes and topics", onInput, { onkeydown: onKey });
-  return { element, isFound };
+  return { element, isFound: () => isFound.value };
 }
