@@ -2,11 +2,13 @@
 
 import { searchField } from "webviz/controls/fields.js";
 import { indent, rowList, touchable } from "webviz/controls/rows.js";
-import { el, set, setText, showText, svgElement } from "webviz/dom.js";
+import { el, svgElement } from "webviz/dom.js";
 import { icon, iconButton } from "webviz/icons.js";
 import { foldByKey } from "webviz/panels/folds.js";
+import { computed, effect, signal } from "webviz/signals.js";
 import { timeOfDay } from "webviz/time_text.js";
 
+/** @import {Signal} from "../page/web/signals.js" */
 /** @import {Page} from "../page/web/extensions.js" */
 
 /**
@@ -30,168 +32,215 @@ const NUMBER = /^\s*-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?/;
 
 /** @param {Page} page */
 export default function install({ widget }) {
-  /** @type {Map<string, {at: number, values: number[]}>} */
-  const history = new Map(); // by status and value, while this page is open
+  const curves = sparklines(); // while this page is open
+  widget("diagnostics", () => diagnostics(curves));
+}
 
-  /** @param {Status[]} statuses */
-  function remember(statuses) {
-    for (const { path, values, at } of statuses) {
-      for (const [key, text] of values) {
-        const number = NUMBER.test(text) ? Number.parseFloat(text) : NaN;
-        if (!Number.isFinite(number)) continue;
-        const name = [...path, key].join("\n");
-        const known = history.get(name);
-        if (!known) {
-          if (history.size < MAX_CURVES) history.set(name, { at, values: [number] });
-        } else if (known.at !== at) {
-          if (at < known.at) known.values = [];
-          known.at = at;
-          known.values.push(number);
-          if (known.values.length > KEPT) known.values.shift();
-        }
-      }
-    }
-  }
-
-  /** @param {string} name */
-  function sparkline(name) {
-    const values = history.get(name)?.values ?? [];
-    if (values.length < 2) return null;
-    const low = Math.min(...values);
-    const size = Math.max(...values) / 2 - low / 2; // the difference of large values overflows
-    const points = values.map((value, i) => {
-      const y = size > 0 ? (value / 2 - low / 2) / size : 0.5;
-      return `${((i * 88) / (values.length - 1) + 1).toFixed(1)},${(16 - 14 * y).toFixed(1)}`;
-    });
-    const line = svgElement("polyline", { points: points.join(" ") });
-    const label = `${values.length} values`;
-    return svgElement("svg", { viewBox: "0 0 90 18", role: "img", "aria-label": label }, line);
-  }
-
-  widget("diagnostics", () => {
-    /** @type {Status[]} */
-    let statuses = [];
-    /** @type {Map<string, boolean>} */
-    const folds = new Map();
-    /** @type {string | null} */
-    let opened = null;
-    const empty = el("div", { class: "wv-empty", role: "status" });
-    const summary = el("span", { class: "wv-quiet" });
-    const search = searchField("Filter diagnostics", draw, { placeholder: "Filter" });
-    const detail = el("div", { class: "wv-plugin-detail wv-diagnostic-detail", hidden: true });
-    const list = rowList({
-      label: "Diagnostics",
-      role: "tree",
-      rowRole: "treeitem",
-      height: touchable(ROW_PX),
-      make: () =>
-        el(
-          "div",
-          { class: "wv-diagnostic" },
-          el("span", { class: "wv-fold-mark" }, icon("chevron", 12)),
-          el("span"),
-          el("span", { class: "wv-ellipsis" }),
-          el("span", { class: "wv-ellipsis" }),
-        ),
-      update(element, /** @type {Row} */ row) {
-        const [fold, , name, text] = element.children;
-        const { isOpen } = row;
-        set(fold, { "data-open": isOpen ? "" : null, "data-none": isOpen === null ? "" : null });
-        setText(name, row.name);
-        setText(text, row.text);
-        set(text, { "data-tip": row.text || null });
-        set(element, {
-          "data-level": LEVELS[row.level],
-          "aria-level": row.depth + 1,
-          "aria-expanded": isOpen === null ? null : String(isOpen),
-        });
-        indent(element, row.depth);
-      },
-      choose(row) {
-        if (row.isOpen === null) show(row.key);
-        else toggle(row);
-      },
-      onKey,
-    });
-
-    /**
-     * @param {KeyboardEvent} event
-     * @param {Row} row
-     * @returns {boolean}
-     */
-    function onKey({ key }, row) {
-      return foldByKey(key, row, toggle, list);
-    }
-
-    /** @param {Row} row */
-    function toggle(row) {
-      if (row.isOpen === null) return;
-      folds.set(row.key, !row.isOpen);
-      draw();
-    }
-
-    /** @param {string | null} key */
-    function show(key) {
-      opened = key;
-      const status = statuses.find(({ path }) => path.join("/") === key);
-      set(detail, { hidden: !status });
-      if (!status) return;
-      const rows = status.values.map(([name, text]) =>
-        el(
-          "tr",
-          {},
-          el("td", { class: "wv-quiet" }, name),
-          el("td", {}, text),
-          el("td", {}, sparkline([...status.path, name].join("\n"))),
-        ),
-      );
-      const name = status.path.slice(1).join(" / ");
-      const facts = [WORDS[status.level], status.hardware, timeOfDay(status.at)].filter(Boolean);
-      detail.replaceChildren(
-        el(
-          "div",
-          { class: "wv-plugin-bar" },
-          el("b", { class: "wv-ellipsis" }, name),
-          iconButton("close", "Close", () => show(null)),
-        ),
-        el("div", {}, status.message || "Without a message."),
-        el("div", { class: "wv-quiet" }, facts.join(" · ")),
-        el("table", {}, el("tbody", {}, rows)),
-      );
-    }
-
-    function draw() {
-      const part = search.value.toLowerCase();
-      const found = statuses.filter(
-        ({ path, message }) => !part || `${path.join("/")} ${message}`.toLowerCase().includes(part),
-      );
-      const topics = new Set(found.map(({ path }) => path[0]));
-      const root = treeOf(found, topics.size < 2 ? 1 : 0);
-      list.show(rowsOf(root, folds, part !== ""));
-      const counts = WORDS.map((word, level) => [
-        word,
-        found.filter((each) => each.level === level).length,
-      ]);
-      const texts = [2, 1, 3, 0].filter((i) => counts[i][1]).map((i) => counts[i].join(" "));
-      setText(summary, texts.join(" · "));
-      show(opened);
-    }
-
+/** @param {ReturnType<typeof sparklines>} curves */
+function diagnostics(curves) {
+  const statuses = signal(/** @type {Status[]} */ ([]));
+  const problem = signal("");
+  const part = signal("");
+  const folds = signal(/** @type {Map<string, boolean>} */ (new Map()));
+  const opened = signal(/** @type {string | null} */ (null));
+  const found = computed(() =>
+    statuses.value.filter(({ path, message }) =>
+      `${path.join("/")} ${message}`.toLowerCase().includes(part.value),
+    ),
+  );
+  const chosen = computed(
+    () => statuses.value.find(({ path }) => path.join("/") === opened.value) ?? null,
+  );
+  /** @type {HTMLInputElement} */
+  const search = searchField(
+    "Filter diagnostics",
+    () => (part.value = search.value.toLowerCase()),
+    { placeholder: "Filter" },
+  );
+  const list = tree(folds, (key) => (opened.value = key));
+  effect(() => {
+    const topics = new Set(found.value.map(({ path }) => path[0]));
+    const root = treeOf(found.value, topics.size < 2 ? 1 : 0);
+    list.show(rowsOf(root, folds.value, part.value !== ""));
+  });
+  const empty = { class: "wv-empty", role: "status", hidden: () => !problem.value };
+  const detail = { class: "wv-plugin-detail wv-diagnostic-detail", hidden: () => !chosen.value };
+  const close = () => (opened.value = null);
+  return {
+    element: el(
+      "div",
+      { class: "wv-plugin-fill" },
+      el("div", empty, problem),
+      list.element,
+      el("div", detail, () => (chosen.value ? factsOf(chosen.value, curves, close) : [])),
+    ),
+    head: el(
+      "span",
+      { class: "wv-panel-tools" },
+      el("span", { class: "wv-quiet" }, () => summaryOf(found.value)),
+      search,
+    ),
     /**
      * @param {{parts: number, problem: string}} values
      * @param {(key: string) => {statuses: Status[]} | undefined} part
      */
-    function update({ parts = 0, problem = "" }, part) {
-      statuses = Array.from({ length: parts }, (_, i) => part(String(i))?.statuses ?? []).flat();
-      remember(statuses);
-      showText(empty, problem);
-      draw();
-    }
+    update(values, part) {
+      const numbers = Array.from({ length: values.parts ?? 0 }, (_, i) => String(i));
+      const now = numbers.flatMap((number) => part(number)?.statuses ?? []);
+      curves.add(now);
+      problem.value = values.problem ?? "";
+      statuses.value = now;
+    },
+  };
+}
 
-    const head = el("span", { class: "wv-panel-tools" }, summary, search);
-    const element = el("div", { class: "wv-plugin-fill" }, empty, list.element, detail);
-    return { element, head, update, close: list.close };
+/**
+ * How many statuses have each level, the worst first.
+ *
+ * @param {Status[]} statuses
+ */
+const summaryOf = (statuses) =>
+  [2, 1, 3, 0]
+    .map((level) => ({ level, count: statuses.filter((each) => each.level === level).length }))
+    .filter(({ count }) => count)
+    .map(({ level, count }) => `${WORDS[level]} ${count}`)
+    .join(" · ");
+
+/**
+ * The statuses as a tree, whose leaves are opened.
+ *
+ * @param {Signal<Map<string, boolean>>} folds
+ * @param {(key: string) => unknown} open
+ */
+function tree(folds, open) {
+  /** @param {Row} row */
+  const toggle = ({ key, isOpen }) => {
+    if (isOpen !== null) folds.value = new Map(folds.value).set(key, !isOpen);
+  };
+  /** @type {ReturnType<typeof rowList<Row>>} */
+  const list = rowList({
+    label: "Diagnostics",
+    role: "tree",
+    rowRole: "treeitem",
+    height: touchable(ROW_PX),
+    row: rowOf,
+    choose: (row) => (row.isOpen === null ? open(row.key) : toggle(row)),
+    onKey: ({ key }, row) => foldByKey(key, row, toggle, list),
   });
+  return list;
+}
+
+/** @param {() => Row} row */
+function rowOf(row) {
+  const isOpen = () => row().isOpen;
+  const element = el(
+    "div",
+    {
+      class: "wv-diagnostic",
+      "data-level": () => LEVELS[row().level],
+      "aria-level": () => row().depth + 1,
+      "aria-expanded": () => (isOpen() === null ? null : String(isOpen())),
+    },
+    el(
+      "span",
+      {
+        class: "wv-fold-mark",
+        "data-open": () => Boolean(isOpen()),
+        "data-none": () => isOpen() === null,
+      },
+      icon("chevron", 12),
+    ),
+    el("span"),
+    el("span", { class: "wv-ellipsis" }, () => row().name),
+    el("span", { class: "wv-ellipsis", "data-tip": () => row().text || null }, () => row().text),
+  );
+  effect(() => indent(element, row().depth));
+  return element;
+}
+
+/**
+ * All that is known of a status.
+ *
+ * @param {Status} status
+ * @param {ReturnType<typeof sparklines>} curves
+ * @param {() => void} close
+ */
+function factsOf({ path, level, message, hardware, values, at }, curves, close) {
+  const rows = values.map(([name, text]) =>
+    el(
+      "tr",
+      {},
+      el("td", { class: "wv-quiet" }, name),
+      el("td", {}, text),
+      el("td", {}, curves.draw([...path, name].join("\n"))),
+    ),
+  );
+  const name = path.slice(1).join(" / ");
+  const facts = [WORDS[level], hardware, timeOfDay(at)].filter(Boolean);
+  return [
+    el(
+      "div",
+      { class: "wv-plugin-bar" },
+      el("b", { class: "wv-ellipsis" }, name),
+      iconButton("close", "Close", close),
+    ),
+    el("div", {}, message || "Without a message."),
+    el("div", { class: "wv-quiet" }, facts.join(" · ")),
+    el("table", {}, el("tbody", {}, rows)),
+  ];
+}
+
+/** The latest numbers of statuses: `{add(statuses), draw(name)}`, by path and key, one a line. */
+function sparklines() {
+  /** @type {Map<string, {at: number, values: number[]}>} */
+  const history = new Map();
+
+  /**
+   * @param {string} name
+   * @param {number} at
+   * @param {number} number
+   */
+  function note(name, at, number) {
+    const known = history.get(name);
+    if (!known) {
+      if (history.size < MAX_CURVES) history.set(name, { at, values: [number] });
+    } else if (known.at !== at) {
+      if (at < known.at) known.values = [];
+      known.at = at;
+      known.values.push(number);
+      if (known.values.length > KEPT) known.values.shift();
+    }
+  }
+
+  return {
+    /** @param {Status[]} statuses */
+    add(statuses) {
+      for (const { path, values, at } of statuses) {
+        for (const [key, text] of values) {
+          const number = NUMBER.test(text) ? Number.parseFloat(text) : NaN;
+          if (Number.isFinite(number)) note([...path, key].join("\n"), at, number);
+        }
+      }
+    },
+    /** @param {string} name */
+    draw(name) {
+      const values = history.get(name)?.values ?? [];
+      return values.length < 2 ? null : sparkline(values);
+    },
+  };
+}
+
+/** @param {number[]} values */
+function sparkline(values) {
+  const low = Math.min(...values);
+  const size = Math.max(...values) / 2 - low / 2; // the difference of large values overflows
+  const points = values.map((value, i) => {
+    const y = size > 0 ? (value / 2 - low / 2) / size : 0.5;
+    return `${((i * 88) / (values.length - 1) + 1).toFixed(1)},${(16 - 14 * y).toFixed(1)}`;
+  });
+  const line = svgElement("polyline", { points: points.join(" ") });
+  const label = `${values.length} values`;
+  return svgElement("svg", { viewBox: "0 0 90 18", role: "img", "aria-label": label }, line);
 }
 
 /**
