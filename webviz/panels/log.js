@@ -26,6 +26,8 @@ const LEVELS = ["Debug", "Info", "Warn", "Error", "Fatal"];
 const ROW_PX = 20;
 const TALL_PX = 36; // with the text below the rest
 const NARROW_PX = 480;
+/** @type {{values: Partial<Values>, part: (key: string) => Chunk | undefined}} */
+const NOTHING = { values: {}, part: () => undefined };
 
 /** @param {number} level */
 const nameOf = (level) => LEVELS[Math.min(4, Math.max(0, Math.floor(level / 10) - 1))];
@@ -47,9 +49,7 @@ export default function install({ widget }) {
 
 /** @param {(place: [number, number]) => unknown} send */
 function log(send) {
-  /** @type {{values: Partial<Values>, part: (key: string) => Chunk | undefined}} */
-  const nothing = { values: {}, part: () => undefined };
-  const given = signal(nothing);
+  const given = signal(NOTHING);
   const filter = filters();
   const linesOf = computed(() => linesBy(filter.matches()));
   const lines = computed(() => {

@@ -18,7 +18,6 @@ import { isHiddenTopic } from "webviz/words.js";
 import { arranged, tableHead, topicRow } from "webviz/panels/topics_table.js";
 
 /** @import {Field} from "webviz/panels/field_drag.js" */
-/** @import {Readable, Signal} from "webviz/signals.js" */
 /** @import {Panel} from "webviz/types.js" */
 /** @import {Sort} from "webviz/panels/topics_table.js" */
 
@@ -40,58 +39,28 @@ const topics = {
   title: "Topics",
   order: 30,
   open(element) {
-    const sort = signal(
-      /** @type {Sort} */ (recall("topics-sort", { column: "name", isUp: true })),
-    );
-    effect(() => remember("topics-sort", sort.value));
-    const text = signal("");
+    const topics = listed();
     const inspected = signal("");
-    const all = computed(() => {
-      const known = traffic.all();
-      return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...known.get(key) }));
-    });
-    const hasHidden = computed(() => all.value.some(({ key }) => isHiddenTopic(key)));
-    const isAll = signal(recall("topics-hidden", false));
-    effect(() => remember("topics-hidden", isAll.value));
-    const offered = computed(() =>
-      all.value.filter(({ key }) => isAll.value || !isHiddenTopic(key)),
-    );
-    const found = computed(() => arranged(offered.value, text.value, sort.value));
-    const table = el(
-      "div",
-      { class: "wv-topics-table", "aria-rowcount": () => found.value.length + 1 },
-      tableHead(sort),
-    );
-    const list = rowList({
-      host: table,
-      label: "Topics",
-      role: "grid",
-      rowRole: "row",
-      height: HEIGHTS.narrow,
-      row: topicRow,
-      choose: ({ key }) => (inspected.value = key),
-    });
-    effect(() => list.show(found.value));
-    table.append(list.element);
+    const { table, list } = grid(topics, (name) => (inspected.value = name));
     const dismiss = () => {
       inspected.value = "";
       table.focus();
     };
     /** @param {string} name */
     const inspect = (name) => {
-      const topic = () => all.value.find(({ key }) => key === name);
+      const topic = () => topics.all.value.find(({ key }) => key === name);
       return untracked(() => inspector(name, topic, dismiss));
     };
-    const isEmpty = () => facts.isThere() && !found.value.length;
+    const isEmpty = () => facts.isThere() && !topics.found.value.length;
     /** @type {HTMLInputElement} */
-    const search = searchField("Filter topics", () => (text.value = search.value));
+    const search = searchField("Filter topics", () => (topics.text.value = search.value));
     const panel = el(
       "div",
       { class: "wv-topics" },
-      el("div", { class: "wv-search" }, icon("search"), search, hiddenSwitch(isAll, hasHidden)),
+      el("div", { class: "wv-search" }, icon("search"), search, hiddenSwitch(topics)),
       table,
       el("div", { class: "wv-empty", role: "status", hidden: () => !isEmpty() }, () =>
-        all.value.length ? "No matching topics." : NOTHING,
+        topics.all.value.length ? "No matching topics." : NOTHING,
       ),
       el("div", { class: "wv-topics-message" }, () =>
         inspected.value ? inspect(inspected.value) : null,
@@ -108,17 +77,59 @@ const topics = {
   },
 };
 
+/** Signals: all topics, and those that are found, by the text, the order and whether hidden ones count. */
+function listed() {
+  const sort = signal(/** @type {Sort} */ (recall("topics-sort", { column: "name", isUp: true })));
+  effect(() => remember("topics-sort", sort.value));
+  const isAll = signal(recall("topics-hidden", false));
+  effect(() => remember("topics-hidden", isAll.value));
+  const text = signal("");
+  const all = computed(() => {
+    const known = traffic.all();
+    return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...known.get(key) }));
+  });
+  const hasHidden = computed(() => all.value.some(({ key }) => isHiddenTopic(key)));
+  const offered = computed(() => all.value.filter(({ key }) => isAll.value || !isHiddenTopic(key)));
+  const found = computed(() => arranged(offered.value, text.value, sort.value));
+  return { sort, isAll, text, all, hasHidden, found };
+}
+
+/**
+ * The table of topics.
+ *
+ * @param {ReturnType<typeof listed>} topics
+ * @param {(name: string) => unknown} choose
+ */
+function grid({ sort, found }, choose) {
+  const table = el(
+    "div",
+    { class: "wv-topics-table", "aria-rowcount": () => found.value.length + 1 },
+    tableHead(sort),
+  );
+  const list = rowList({
+    host: table,
+    label: "Topics",
+    role: "grid",
+    rowRole: "row",
+    height: HEIGHTS.narrow,
+    row: topicRow,
+    choose: ({ key }) => choose(key),
+  });
+  effect(() => list.show(found.value));
+  table.append(list.element);
+  return { table, list };
+}
+
 /**
  * A button that lists hidden topics, too, where there are some.
  *
- * @param {Signal<boolean>} isOn
- * @param {Readable<boolean>} isThere
+ * @param {Pick<ReturnType<typeof listed>, "isAll" | "hasHidden">} topics
  */
-const hiddenSwitch = (isOn, isThere) =>
-  iconButton("eye", "Hidden topics", () => (isOn.value = !isOn.value), {
+const hiddenSwitch = ({ isAll, hasHidden }) =>
+  iconButton("eye", "Hidden topics", () => (isAll.value = !isAll.value), {
     tip: "Hidden topics, such as those of actions",
-    "aria-pressed": () => String(isOn.value),
-    hidden: () => !isThere.value,
+    "aria-pressed": () => String(isAll.value),
+    hidden: () => !hasHidden.value,
   });
 
 /**

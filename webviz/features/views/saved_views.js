@@ -8,6 +8,7 @@ import { icon, iconButton, textButton } from "webviz/icons.js";
 import { each, signal } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 
+/** @import {Signal} from "webviz/signals.js" */
 /** @import {SavedView} from "webviz/contents.js" */
 
 const NAME = "View"; // of a view without a name, before its number
@@ -66,29 +67,7 @@ export function savedViews() {
  */
 function line(name, view) {
   const isRenamed = signal(false);
-  const show = el(
-    "button",
-    {
-      type: "button",
-      class: "wv-saved-show",
-      "aria-label": name,
-      title: `Show ${name}`,
-      hidden: isRenamed,
-      onclick: () => act("ShowView", { view: name }),
-      onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
-    },
-    el("span", { class: "wv-saved-name" }, name),
-    el("span", { class: "wv-quiet" }, () => view().type),
-    el(
-      "span",
-      {
-        class: "wv-saved-start",
-        title: "Browsers begin with it",
-        hidden: () => !view().is_start,
-      },
-      icon("flag", 12),
-    ),
-  );
+  const show = showButton(name, view, isRenamed, rename);
   const field = textField(`New name of ${name}`, {
     hidden: () => !isRenamed.value,
     onblur: take,
@@ -128,6 +107,37 @@ function line(name, view) {
     needs("RemoveView", tool("trash", `Remove ${name}`, remove)),
   );
 }
+
+/**
+ * @param {string} name
+ * @param {() => SavedView} view
+ * @param {Signal<boolean>} hidden
+ * @param {() => void} rename
+ */
+const showButton = (name, view, hidden, rename) =>
+  el(
+    "button",
+    {
+      type: "button",
+      class: "wv-saved-show",
+      "aria-label": name,
+      title: `Show ${name}`,
+      hidden,
+      onclick: () => act("ShowView", { view: name }),
+      onkeydown: ({ key }) => key === "F2" && !why("RenameView") && rename(),
+    },
+    el("span", { class: "wv-saved-name" }, name),
+    el("span", { class: "wv-quiet" }, () => view().type),
+    el(
+      "span",
+      {
+        class: "wv-saved-start",
+        title: "Browsers begin with it",
+        hidden: () => !view().is_start,
+      },
+      icon("flag", 12),
+    ),
+  );
 
 /**
  * @param {string} iconName

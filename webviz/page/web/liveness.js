@@ -37,63 +37,69 @@ export function install() {
   // Not a clock: of a page that was busy or asleep itself, the time does not count.
   let ticks = 0;
   let heard = 0; // when, in ms; 0 before the page has joined
+  const banner = lostBanner();
   function hear() {
     [ticks, heard] = [0, Date.now()];
-    hide();
+    banner.hide();
   }
   channel.on("Beat", hear);
-  // viser's page would connect again, so it has to go.
-  channel.on("Dismissed", ({ text }) => {
-    const notice = new Blob(
-      [`<!doctype html><meta charset="utf-8"><title>webviz</title><p>${text}`],
-      {
-        type: "text/html",
-      },
-    );
-    location.replace(URL.createObjectURL(notice));
-  });
+  channel.on("Dismissed", ({ text }) => leave(text));
   viser.filterMessages((messages) => {
     hear();
     return messages;
   });
-
   // viser's page looks for its server only while it has the focus; on a second screen it has not.
   document.hasFocus = () => true;
-
-  const banner = notice();
-  banner.id = "webviz-contact";
-
-  function age() {
-    const seconds = Math.round((Date.now() - heard) / 1000);
-    if (seconds < 120) return `${seconds} s`;
-    return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
-  }
-
-  function hide() {
-    if (!banner.isConnected) return;
-    banner.remove();
-    document.body.classList.remove("wv-lost");
-  }
-
-  // Its token may have been revoked; the server then says so instead of this page.
-  async function askAgain() {
-    const answer = await fetch("./", { method: "HEAD" }).catch(() => null);
-    if (answer?.status === 403 || answer?.status === 404) location.reload();
-  }
-
-  function tick() {
+  setInterval(() => {
     if (!heard) return;
     ticks += 1;
     if (ticks < LOST_TICKS) return;
     if (ticks % LOST_TICKS === 0) askAgain();
-    banner.textContent =
-      `Connection to webviz lost. The picture is ${age()} old. ` +
-      "Check that webviz is running; this page reconnects by itself.";
-    if (banner.isConnected) return;
-    document.body.append(banner);
-    document.body.classList.add("wv-lost");
-  }
-
-  setInterval(tick, TICK_MS);
+    banner.show(Date.now() - heard);
+  }, TICK_MS);
   channel.onClose(askAgain);
+}
+
+/**
+ * Shows a text in place of the page: viser's would connect again, so it has to go.
+ *
+ * @param {string} text as HTML
+ */
+function leave(text) {
+  const page = `<!doctype html><meta charset="utf-8"><title>webviz</title><p>${text}`;
+  location.replace(URL.createObjectURL(new Blob([page], { type: "text/html" })));
+}
+
+/** The server may have revoked the token of this page; it then says so instead of this page. */
+async function askAgain() {
+  const answer = await fetch("./", { method: "HEAD" }).catch(() => null);
+  if (answer?.status === 403 || answer?.status === 404) location.reload();
+}
+
+function lostBanner() {
+  const banner = notice();
+  banner.id = "webviz-contact";
+  return {
+    hide() {
+      if (!banner.isConnected) return;
+      banner.remove();
+      document.body.classList.remove("wv-lost");
+    },
+    /** @param {number} ms since the server was heard */
+    show(ms) {
+      banner.textContent =
+        `Connection to webviz lost. The picture is ${ageText(ms / 1000)} old. ` +
+        "Check that webviz is running; this page reconnects by itself.";
+      if (banner.isConnected) return;
+      document.body.append(banner);
+      document.body.classList.add("wv-lost");
+    },
+  };
+}
+
+/** @param {number} age in seconds */
+function ageText(age) {
+  const seconds = Math.round(age);
+  if (seconds < 120) return `${seconds} s`;
+  return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
 }
