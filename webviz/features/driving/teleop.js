@@ -7,8 +7,8 @@ import * as channel from "webviz/channel.js";
 import { isTyping, takeKeys } from "webviz/commands.js";
 import { shortcuts } from "webviz/keys.js";
 import { places } from "webviz/shell/shell.js";
-import { signal } from "webviz/signals.js";
-import { watch } from "webviz/stores.js";
+import { owned, root, signal } from "webviz/signals.js";
+import { every } from "webviz/timing.js";
 import { gesture } from "webviz/tools/gestures.js";
 import * as registry from "webviz/tools/registry.js";
 import { added, makeCard } from "webviz/features/driving/teleop_card.js";
@@ -21,9 +21,9 @@ import * as keys from "webviz/features/driving/teleop_keys.js";
 
 /**
  * @typedef {{
- *   id: string, card: ReturnType<typeof makeCard>, gamepad: ReturnType<typeof makeGamepad>, beat: number, beats: number, sent: number,
- *   heard: number, held: Shares, driver: number | null, canGoSideways: boolean,
- *   ends: (() => void)[], timer: number,
+ *   id: string, card: ReturnType<typeof makeCard>, gamepad: ReturnType<typeof makeGamepad>,
+ *   beat: number, beats: number, sent: number, heard: number, held: Shares, driver: number | null,
+ *   end: () => void,
  * }} Driven
  */
 
@@ -63,7 +63,7 @@ export function install() {
   takeKeys((/** @type {KeyboardEvent} */ event) => {
     const driven = open.value;
     if (!driven || document.querySelector("dialog[open]")) return false;
-    const isTaken = keys.press(event, driven.canGoSideways);
+    const isTaken = keys.press(event, driven.card.canGoSideways());
     update();
     return isTaken;
   });
@@ -97,44 +97,31 @@ function follow() {
 
 /** @param {string} id */
 function begin(id) {
-  const card = makeCard(update);
-  places.legend.append(card.element);
-  /** @type {Driven} */
-  const driven = {
-    id,
-    card,
-    gamepad: makeGamepad(),
-    beat: 0,
-    beats: 0,
-    sent: 0,
-    heard: performance.now(),
-    held: STILL,
-    driver: null,
-    canGoSideways: false,
-    ends: [],
-    timer: setInterval(tick, BEAT_MS),
-  };
-  open.value = driven;
-  driven.ends.push(
-    watch(`driving:${id}`, (values) => card.showRobot(values)),
-    watch(`tool:${id}`, (values) => {
-      driven.canGoSideways = Number(values.get("value.lateral")) > 0;
-      card.showTool(values);
-    }),
-  );
-  card.showRobot(null);
-  card.showNote("");
-  card.focus();
+  root((end) => {
+    const card = makeCard(id, update);
+    places.legend.append(card.element);
+    owned(() => card.element.remove());
+    every(BEAT_MS, tick);
+    open.value = {
+      id,
+      card,
+      end,
+      gamepad: makeGamepad(),
+      beat: 0,
+      beats: 0,
+      sent: 0,
+      heard: performance.now(),
+      held: STILL,
+      driver: null,
+    };
+    card.focus();
+  });
   send();
 }
 
 function end() {
   release();
-  const driven = open.value;
-  if (!driven) return;
-  clearInterval(driven.timer);
-  for (const end of driven.ends) end();
-  driven.card.element.remove();
+  open.value?.end();
   open.value = null;
 }
 

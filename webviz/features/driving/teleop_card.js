@@ -1,50 +1,56 @@
 // The card over the scene while one drives: the stick, and what the robot does.
 
-import { el, set, setText } from "webviz/dom.js";
-import { makeStick } from "webviz/features/driving/teleop_stick.js";
+import { el, set } from "webviz/dom.js";
+import { signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { Stick } from "webviz/features/driving/teleop_stick.js";
 
 /** @import {Shares} from "webviz/features/driving/teleop_keys.js" */
-/** @import {ValuesOf} from "webviz/types.js" */
 
 /**
- * Makes the card; `change()` is called when its controls are held or let go.
+ * Makes the card of a tool; `change()` is called when its controls are held or let go.
  *
+ * @param {string} id
  * @param {() => void} change
  */
-export function makeCard(change) {
-  const stick = makeStick(change);
+export function makeCard(id, change) {
+  const facts = store(`tool:${id}`);
+  const note = signal({ text: "", isRefused: false });
+  const stick = new Stick(change);
   const sideways = [
     makeHold("Q", "Drive to the left", 1, change),
     makeHold("E", "Drive to the right", -1, change),
   ];
-  const speed = el("b");
-  const turnRate = el("b");
-  const topic = el("span", { class: "wv-teleop-topic" });
-  const note = el("p", { class: "wv-teleop-note", role: "status" });
-  const [left, right] = sideways.map(({ element }) => element);
-  const readout = el(
-    "dl",
-    { class: "wv-teleop-readout" },
-    el("dt", {}, "Speed"),
-    el("dd", {}, speed, el("span", {}, "m/s")),
-    el("dt", {}, "Turn rate"),
-    el("dd", {}, turnRate, el("span", {}, "rad/s")),
-    topic,
-  );
-  const element = el(
-    "section",
-    { class: "wv-teleop wv-card", "aria-label": "Teleop" },
-    el(
-      "div",
-      { class: "wv-teleop-row" },
-      readout,
-      el("div", { class: "wv-teleop-stick" }, stick.element, left, right),
-    ),
-    note,
-  );
   const parts = [stick, ...sideways];
+  const canGoSideways = () => Boolean(facts.get("value.lateral"));
+  for (const { element } of sideways) set(element, { hidden: () => !canGoSideways() });
   return {
-    element,
+    element: el(
+      "section",
+      { class: "wv-teleop wv-card", "aria-label": "Teleop" },
+      el(
+        "div",
+        { class: "wv-teleop-row" },
+        readout(id, () => String(facts.get("value.topic.name") ?? "")),
+        el(
+          "div",
+          { class: "wv-teleop-stick" },
+          parts.map(({ element }) => element),
+        ),
+      ),
+      el(
+        "p",
+        {
+          class: "wv-teleop-note",
+          role: "status",
+          "data-level": () => (note.value.isRefused ? "warn" : null),
+          hidden: () => !note.value.text,
+        },
+        () => note.value.text,
+      ),
+    ),
+    /** Whether the robot can, by the tool; read in effects. */
+    canGoSideways: () => Number(facts.get("value.lateral")) > 0,
     /** Puts the focus where arrow keys drive. */
     focus: () => stick.element.focus({ preventScroll: true }),
     release() {
@@ -52,35 +58,35 @@ export function makeCard(change) {
     },
     /** The held direction, as `share` of teleop_keys.js. */
     share: () => parts.map((part) => /** @type {Shares} */ (part.share())).reduce(added),
-    showHeld: stick.show,
-    /** @param {ValuesOf<"driving"> | null} values null while nothing is known */
-    showRobot(values) {
-      /** @type {[HTMLElement, "speed" | "turn_rate"][]} */
-      const shown = [
-        [speed, "speed"],
-        [turnRate, "turn_rate"],
-      ];
-      for (const [output, key] of shown) {
-        setText(output, values?.get(key)?.toFixed(2).replace("-", "−") ?? "–");
-      }
-      const problem = values?.get("problem") || null;
-      set(readout, { "data-tip": problem });
-    },
-    /** @param {ValuesOf<"tool">} values */
-    showTool(values) {
-      setText(topic, String(values.get("value.topic.name") ?? ""));
-      for (const button of [left, right]) button.hidden = !values.get("value.lateral");
-    },
+    /** @param {Shares} held */
+    showHeld: (held) => stick.show(held),
     /**
      * @param {string} text
      * @param {boolean} [isRefused]
      */
-    showNote(text, isRefused) {
-      setText(note, text);
-      set(note, { "data-level": isRefused ? "warn" : null });
-      if (note.hidden !== (text === "")) note.hidden = text === "";
-    },
+    showNote: (text, isRefused = false) => void (note.value = { text, isRefused }),
   };
+}
+
+/**
+ * What the robot does, and where it is told.
+ *
+ * @param {string} id of the tool
+ * @param {() => string} topic
+ */
+function readout(id, topic) {
+  const robot = store(`driving:${id}`);
+  /** @param {"speed" | "turn_rate"} key */
+  const number = (key) => () => robot.get(key)?.toFixed(2).replace("-", "−") ?? "–";
+  return el(
+    "dl",
+    { class: "wv-teleop-readout", "data-tip": () => robot.get("problem") || null },
+    el("dt", {}, "Speed"),
+    el("dd", {}, el("b", {}, number("speed")), el("span", {}, "m/s")),
+    el("dt", {}, "Turn rate"),
+    el("dd", {}, el("b", {}, number("turn_rate")), el("span", {}, "rad/s")),
+    el("span", { class: "wv-teleop-topic" }, topic),
+  );
 }
 
 /**

@@ -7,85 +7,88 @@ import { el, set } from "webviz/dom.js";
 
 const DEAD = 0.08;
 
-/**
- * Makes a stick; `change()` is called when it moves.
- *
- * @param {() => void} change
- */
-export function makeStick(change) {
-  const knob = el("div", { class: "wv-stick-knob" });
-  const element = el(
-    "div",
-    {
-      class: "wv-stick",
-      role: "application",
-      tabindex: 0,
-      "aria-label": "Drive: hold W A S D or arrow keys, or drag",
-      onpointerdown: press,
-      onpointermove: move,
-      onpointerup: lift,
-      onpointercancel: lift,
-      onlostpointercapture: lift,
-      oncontextmenu: (event) => event.preventDefault(),
-    },
-    knob,
-  );
+/** A stick, which calls `change()` when it moves. */
+export class Stick {
+  #change;
+  #knob = el("div", { class: "wv-stick-knob" });
   /** @type {number | null} */
-  let pointer = null;
+  #pointer = null;
   /** @type {Vec2} */
-  let at = [0, 0]; // to the right and up, within a circle of radius 1
+  #at = [0, 0]; // to the right and up, within a circle of radius 1
 
-  /** @param {PointerEvent} event */
-  function press(event) {
-    if (pointer !== null || event.button !== 0) return;
-    event.preventDefault();
-    element.focus({ preventScroll: true });
-    element.setPointerCapture(event.pointerId);
-    pointer = event.pointerId;
-    move(event);
+  /** @param {() => void} change */
+  constructor(change) {
+    this.#change = change;
+    const lift = (/** @type {PointerEvent} */ event) => this.#lift(event);
+    this.element = el(
+      "div",
+      {
+        class: "wv-stick",
+        role: "application",
+        tabindex: 0,
+        "aria-label": "Drive: hold W A S D or arrow keys, or drag",
+        onpointerdown: (event) => this.#press(event),
+        onpointermove: (event) => this.#move(event),
+        onpointerup: lift,
+        onpointercancel: lift,
+        onlostpointercapture: lift,
+        oncontextmenu: (event) => event.preventDefault(),
+      },
+      this.#knob,
+    );
   }
 
   /** @param {PointerEvent} event */
-  function move(event) {
-    if (event.pointerId !== pointer) return;
-    const { left, top, width, height } = element.getBoundingClientRect();
-    const reach = (width - knob.offsetWidth) / 2;
+  #press(event) {
+    if (this.#pointer !== null || event.button !== 0) return;
+    event.preventDefault();
+    this.element.focus({ preventScroll: true });
+    this.element.setPointerCapture(event.pointerId);
+    this.#pointer = event.pointerId;
+    this.#move(event);
+  }
+
+  /** @param {PointerEvent} event */
+  #move(event) {
+    if (event.pointerId !== this.#pointer) return;
+    const { left, top, width, height } = this.element.getBoundingClientRect();
+    const reach = (width - this.#knob.offsetWidth) / 2;
     const [x, y] = [event.clientX - left - width / 2, top + height / 2 - event.clientY];
     const far = Math.hypot(x, y) / reach;
     const size = Math.min(1, far) < DEAD ? 0 : Math.min(1, 1 / far) / reach;
-    at = [x * size, y * size];
-    change();
+    this.#at = [x * size, y * size];
+    this.#change();
   }
 
   /** @param {PointerEvent} event */
-  function lift(event) {
-    if (event.pointerId !== pointer) return;
-    release();
-    change();
+  #lift(event) {
+    if (event.pointerId !== this.#pointer) return;
+    this.release();
+    this.#change();
   }
 
-  function release() {
-    pointer = null;
-    at = [0, 0];
+  release() {
+    this.#pointer = null;
+    this.#at = [0, 0];
   }
 
-  return {
-    element,
-    release,
-    /** The held stick, as `share` of teleop_keys.js. */
-    share: () => [at[1], 0, -at[0]],
-    /**
-     * Shows what is held, by whatever.
-     *
-     * @param {Shares} held
-     */
-    show([linear, , angular]) {
-      const size = 1 / Math.max(1, Math.hypot(linear, angular));
-      for (const [name, part] of Object.entries({ "--wv-x": -angular, "--wv-y": -linear })) {
-        const place = (part * size).toFixed(3);
-        if (knob.style.getPropertyValue(name) !== place) knob.style.setProperty(name, place);
-      }
-      set(element, { "data-held": linear !== 0 || angular !== 0 });
-    },
-  };
+  /** The held stick, as `share` of teleop_keys.js. */
+  share() {
+    return [this.#at[1], 0, -this.#at[0]];
+  }
+
+  /**
+   * Shows what is held, by whatever.
+   *
+   * @param {Shares} held
+   */
+  show([linear, , angular]) {
+    const size = 1 / Math.max(1, Math.hypot(linear, angular));
+    for (const [name, part] of Object.entries({ "--wv-x": -angular, "--wv-y": -linear })) {
+      const place = (part * size).toFixed(3);
+      const { style } = this.#knob;
+      if (style.getPropertyValue(name) !== place) style.setProperty(name, place);
+    }
+    set(this.element, { "data-held": linear !== 0 || angular !== 0 });
+  }
 }

@@ -1,5 +1,6 @@
 // Draws the tree of frames on a canvas: boxes in columns, and curves from parents to children.
 
+import { contextOf } from "webviz/dom.js";
 import { ageText, factOf } from "webviz/panels/frame_rows.js";
 
 /** @import {ValuesOf} from "webviz/types.js" */
@@ -23,6 +24,7 @@ const WIDEST = 260;
 const LINE = 14;
 const BOLD = "600 13px ";
 const PLAIN = "12px ";
+const THINNEST_PX = 0.7;
 const SMALLEST_TEXT = 0.3; // of the scale; below it, texts would be noise
 const FONT = "system-ui, sans-serif";
 
@@ -91,67 +93,98 @@ function factsOf(frame) {
  * @param {string} chosen
  */
 export function draw(canvas, drawing, { x, y, scale }, isFound, chosen) {
-  const ratio = devicePixelRatio || 1;
   const { clientWidth, clientHeight } = canvas;
-  const [w, h] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+  const sight = { x, y, scale, right: x + clientWidth / scale, bottom: y + clientHeight / scale };
+  const pen = { context: clear(canvas, sight), sight, color: colorsOf(canvas) };
+  for (const link of drawing.links) drawLink(pen, link);
+  pen.context.setLineDash([]);
+  for (const box of drawing.boxes.values()) {
+    const isHit = isFound?.(box.name) ?? false;
+    pen.context.globalAlpha = isFound && !isHit ? 0.35 : 1;
+    drawBox(pen, box, { isHit, isChosen: box.name === chosen });
+  }
+  pen.context.globalAlpha = 1;
+}
+
+/**
+ * @typedef {Look & {right: number, bottom: number}} Sight
+ * @typedef {{context: CanvasRenderingContext2D, sight: Sight, color: (name: string) => string}} Pen
+ */
+
+/**
+ * Clears a canvas that is as large as it is shown; the context has the coordinates of the drawing.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {Look} look
+ */
+function clear(canvas, { x, y, scale }) {
+  const ratio = devicePixelRatio || 1;
+  const [w, h] = [canvas.clientWidth, canvas.clientHeight].map((each) => Math.round(each * ratio));
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  const context = contextOf(canvas);
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.clearRect(0, 0, w, h);
   const size = ratio * scale;
-  const thinnest = 0.7 / scale;
   context.setTransform(size, 0, 0, size, -x * size, -y * size);
+  return context;
+}
+
+/**
+ * The colours of the theme by name, each asked for once.
+ *
+ * @param {Element} canvas
+ */
+function colorsOf(canvas) {
   const style = getComputedStyle(canvas);
-  /** @param {string} name */
-  const color = (name) => style.getPropertyValue(`--wv-${name}`);
-  const colors = {
-    accent: color("accent"),
-    error: color("error"),
-    line: color("line"),
-    quiet: color("quiet"),
-    raised: color("raised"),
-    chosen: color("chosen"),
-    text: color("text"),
-  };
-  const [right, bottom] = [x + clientWidth / scale, y + clientHeight / scale];
-  for (const { from, to, isStatic, isFaulty } of drawing.links) {
-    const [x1, y1] = [from.x + from.width, from.y + HEIGHT / 2];
-    const [x2, y2] = [to.x, to.y + HEIGHT / 2];
-    const isBelow = Math.min(y1, y2) > bottom || Math.max(y1, y2) < y;
-    if (isBelow || Math.min(x1, x2) - GAP > right || Math.max(x1, x2) + GAP < x) continue;
-    const bend = x2 > x1 ? GAP / 2 : GAP;
-    context.strokeStyle = isFaulty ? colors.error : isStatic ? colors.quiet : colors.accent;
-    context.lineWidth = Math.max(isFaulty ? 2 : 1.5, thinnest);
-    context.setLineDash(isStatic ? [5, 4] : []);
-    context.beginPath();
-    context.moveTo(x1, y1);
-    context.bezierCurveTo(x1 + bend, y1, x2 - bend, y2, x2, y2);
-    context.stroke();
-  }
-  context.setLineDash([]);
-  for (const box of drawing.boxes.values()) {
-    if (box.x > right || box.x + box.width < x || box.y > bottom || box.y + HEIGHT < y) continue;
-    const isHit = isFound?.(box.name);
-    context.globalAlpha = isFound && !isHit ? 0.35 : 1;
-    context.fillStyle = box.name === chosen || isHit ? colors.chosen : colors.raised;
-    context.strokeStyle = box.isFaulty ? colors.error : isHit ? colors.accent : colors.line;
-    context.lineWidth = Math.max(box.isFaulty || box.name === chosen ? 2 : 1, thinnest);
-    context.beginPath();
-    context.roundRect(box.x, box.y, box.width, HEIGHT, 5);
-    context.fill();
-    context.stroke();
-    if (scale < SMALLEST_TEXT) continue;
-    context.font = BOLD + FONT;
-    context.fillStyle = colors.text;
-    const room = box.width - 2 * PADDING;
-    context.fillText(short(box.name), box.x + PADDING, box.y + 17, room);
-    context.font = PLAIN + FONT;
-    box.lines.forEach((line, index) => {
-      context.fillStyle = box.isFaulty && !index ? colors.error : colors.quiet;
-      context.fillText(short(line), box.x + PADDING, box.y + 31 + LINE * index, room);
-    });
-  }
-  context.globalAlpha = 1;
+  const names = ["accent", "error", "line", "quiet", "raised", "chosen", "text"];
+  const colors = new Map(names.map((name) => [name, style.getPropertyValue(`--wv-${name}`)]));
+  return (/** @type {string} */ name) => colors.get(name) ?? "";
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Link} link
+ */
+function drawLink({ context, sight, color }, { from, to, isStatic, isFaulty }) {
+  const [x1, y1] = [from.x + from.width, from.y + HEIGHT / 2];
+  const [x2, y2] = [to.x, to.y + HEIGHT / 2];
+  if (Math.min(y1, y2) > sight.bottom || Math.max(y1, y2) < sight.y) return;
+  if (Math.min(x1, x2) - GAP > sight.right || Math.max(x1, x2) + GAP < sight.x) return;
+  const bend = x2 > x1 ? GAP / 2 : GAP;
+  context.strokeStyle = color(isFaulty ? "error" : isStatic ? "quiet" : "accent");
+  context.lineWidth = Math.max(isFaulty ? 2 : 1.5, THINNEST_PX / sight.scale);
+  context.setLineDash(isStatic ? [5, 4] : []);
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.bezierCurveTo(x1 + bend, y1, x2 - bend, y2, x2, y2);
+  context.stroke();
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Box} box
+ * @param {{isHit: boolean, isChosen: boolean}} state
+ */
+function drawBox({ context, sight, color }, box, { isHit, isChosen }) {
+  if (box.x > sight.right || box.x + box.width < sight.x) return;
+  if (box.y > sight.bottom || box.y + HEIGHT < sight.y) return;
+  context.fillStyle = color(isChosen || isHit ? "chosen" : "raised");
+  context.strokeStyle = color(box.isFaulty ? "error" : isHit ? "accent" : "line");
+  context.lineWidth = Math.max(box.isFaulty || isChosen ? 2 : 1, THINNEST_PX / sight.scale);
+  context.beginPath();
+  context.roundRect(box.x, box.y, box.width, HEIGHT, 5);
+  context.fill();
+  context.stroke();
+  if (sight.scale < SMALLEST_TEXT) return;
+  context.font = BOLD + FONT;
+  context.fillStyle = color("text");
+  const room = box.width - 2 * PADDING;
+  context.fillText(short(box.name), box.x + PADDING, box.y + 17, room);
+  context.font = PLAIN + FONT;
+  box.lines.forEach((line, index) => {
+    context.fillStyle = color(box.isFaulty && !index ? "error" : "quiet");
+    context.fillText(short(line), box.x + PADDING, box.y + 31 + LINE * index, room);
+  });
 }
 
 /**

@@ -1,6 +1,6 @@
 // The axes of the fixed frame as the camera sees them; a click on an end looks from there.
 
-import { svgElement } from "webviz/dom.js";
+import { set, svgElement } from "webviz/dom.js";
 import * as views from "webviz/scene/view.js";
 import * as viser from "webviz/viser_page.js";
 
@@ -19,50 +19,19 @@ const ENDS = [
 ];
 
 export function build() {
-  const drawing = svgElement("svg", {
-    class: "wv-gizmo",
-    viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`,
-    width: SIZE,
-    height: SIZE,
-    role: "group",
-    "aria-label": "Axes of the fixed frame",
-  });
-  const ends = ENDS.map(([label, axis, sign]) => {
-    /** @type {Vec3} */
-    const xyz = [0, 0, 0];
-    xyz[axis] = sign;
-    const look = () =>
-      views.type() !== "TopDownOrtho" && !views.options().lock_camera && views.lookFrom(xyz);
-    /** @param {KeyboardEvent} event */
-    const onKey = (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
-      event.preventDefault();
-      look();
-    };
-    const line = svgElement("line", { class: "wv-gizmo-line" });
-    const ball = svgElement("circle", { r: sign > 0 ? 9 : 6 });
-    const name = svgElement("text", {}, sign > 0 ? label : "");
-    const title = svgElement("title", {}, `Look from ${label}`);
-    const group = svgElement(
-      "g",
-      {
-        "data-axis": "xyz"[axis],
-        "data-side": sign > 0 ? "front" : "back",
-        role: "button",
-        tabindex: 0,
-        "aria-label": `Look from ${label}`,
-        onclick: look,
-        onkeydown: onKey,
-      },
-      line,
-      ball,
-      name,
-      title,
-    );
-    return { group, line, ball, name, axis, sign };
-  });
-  drawing.append(...ends.map(({ group }) => group));
-
+  const ends = ENDS.map(([label, axis, sign]) => makeEnd(label, axis, sign));
+  const drawing = svgElement(
+    "svg",
+    {
+      class: "wv-gizmo",
+      viewBox: `${-SIZE / 2} ${-SIZE / 2} ${SIZE} ${SIZE}`,
+      width: SIZE,
+      height: SIZE,
+      role: "group",
+      "aria-label": "Axes of the fixed frame",
+    },
+    ...ends.map(({ group }) => group),
+  );
   let shown = "";
   viser.beforeRender(() => {
     const axes = views.axes();
@@ -74,19 +43,65 @@ export function build() {
     shown = now;
     const order = ends.map((end) => ({ end, depth: end.sign * axes[end.axis][2] }));
     order.sort((a, b) => a.depth - b.depth);
-    for (const { end, depth } of order) {
-      const [x, y] = axes[end.axis].map((number) => number * REACH * end.sign);
-      const place = { x2: x.toFixed(1), y2: (-y).toFixed(1) };
-      for (const [key, value] of Object.entries(place)) end.line.setAttribute(key, value);
-      end.ball.setAttribute("cx", place.x2);
-      end.ball.setAttribute("cy", place.y2);
-      end.name.setAttribute("x", place.x2);
-      end.name.setAttribute("y", place.y2);
-      end.group.style.opacity = depth < -0.3 ? "0.55" : "1";
-    }
+    for (const { end, depth } of order) place(end, axes[end.axis], depth);
     // In the order of their depth; not under the mouse, where it would lose a click.
     if (drawing.matches(":hover") || drawing.contains(document.activeElement)) return;
     drawing.append(...order.map(({ end }) => end.group));
   });
   return drawing;
+}
+
+/**
+ * An end of an axis, a button that looks from there.
+ *
+ * @param {string} label
+ * @param {number} axis
+ * @param {number} sign
+ */
+function makeEnd(label, axis, sign) {
+  /** @type {Vec3} */
+  const xyz = [0, 0, 0];
+  xyz[axis] = sign;
+  const look = () =>
+    views.type() !== "TopDownOrtho" && !views.options().lock_camera && views.lookFrom(xyz);
+  /** @param {KeyboardEvent} event */
+  const onKey = (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    look();
+  };
+  const line = svgElement("line", { class: "wv-gizmo-line" });
+  const ball = svgElement("circle", { r: sign > 0 ? 9 : 6 });
+  const name = svgElement("text", {}, sign > 0 ? label : "");
+  const group = svgElement(
+    "g",
+    {
+      "data-axis": "xyz"[axis],
+      "data-side": sign > 0 ? "front" : "back",
+      role: "button",
+      tabindex: 0,
+      "aria-label": `Look from ${label}`,
+      onclick: look,
+      onkeydown: onKey,
+    },
+    line,
+    ball,
+    name,
+    svgElement("title", {}, `Look from ${label}`),
+  );
+  return { group, line, ball, name, axis, sign };
+}
+
+/**
+ * @param {ReturnType<typeof makeEnd>} end
+ * @param {Vec3} direction of the axis as the camera sees it
+ * @param {number} depth towards the camera
+ */
+function place({ group, line, ball, name, sign }, direction, depth) {
+  const [x, y] = direction.map((number) => number * REACH * sign);
+  const [across, down] = [x.toFixed(1), (-y).toFixed(1)];
+  set(line, { x2: across, y2: down });
+  set(ball, { cx: across, cy: down });
+  set(name, { x: across, y: down });
+  group.style.opacity = depth < -0.3 ? "0.55" : "1";
 }
