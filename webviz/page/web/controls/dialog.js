@@ -53,6 +53,7 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
   }
 
   const primary = buttons.find((button) => button.primary);
+  const children = typeof content === "function" ? content(close) : content;
   const dialog = el(
     "dialog",
     { class: `wv-dialog ${className}`, "aria-labelledby": id },
@@ -66,37 +67,65 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
           if (primary) choose(primary);
         },
       },
-      el(
-        "header",
-        { class: "wv-dialog-head" },
-        el("h2", { id }, title),
-        iconButton("close", "Close", () => close(), { tip: null }),
-      ),
-      el(
-        "div",
-        { class: "wv-dialog-content", tabindex: -1 },
-        typeof content === "function" ? content(close) : content,
-      ),
-      buttons.length
-        ? el(
-            "footer",
-            { class: "wv-dialog-buttons" },
-            buttons.map((button) =>
-              el(
-                "button",
-                {
-                  type: button.primary ? "submit" : "button",
-                  autofocus: button.focused,
-                  class: classOf(button),
-                  onclick: button.primary ? null : () => choose(button),
-                },
-                button.label,
-              ),
-            ),
-          )
-        : null,
+      header(id, title, close),
+      el("div", { class: "wv-dialog-content", tabindex: -1 }, children),
+      footer(buttons, choose),
     ),
   );
+  endBy(dialog, isLight, close);
+  /** @type {HTMLElement} */ (document.getElementById("webviz")).append(dialog);
+  dialog.showModal();
+  focusFirst(dialog);
+  return new Promise((resolve) => {
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(answer);
+    });
+  });
+}
+
+/**
+ * @param {string} id
+ * @param {string} title
+ * @param {Close} close
+ */
+const header = (id, title, close) =>
+  el(
+    "header",
+    { class: "wv-dialog-head" },
+    el("h2", { id }, title),
+    iconButton("close", "Close", () => close(), { tip: null }),
+  );
+
+/**
+ * @param {DialogButton[]} buttons
+ * @param {(button: DialogButton) => unknown} choose
+ */
+function footer(buttons, choose) {
+  if (!buttons.length) return null;
+  const all = buttons.map((button) =>
+    el(
+      "button",
+      {
+        type: button.primary ? "submit" : "button",
+        autofocus: button.focused,
+        class: classOf(button),
+        onclick: button.primary ? null : () => choose(button),
+      },
+      button.label,
+    ),
+  );
+  return el("footer", { class: "wv-dialog-buttons" }, all);
+}
+
+/**
+ * Closes a dialog on Escape, and a light one on a click beside it.
+ *
+ * @param {HTMLElement} dialog
+ * @param {boolean} isLight
+ * @param {Close} close
+ */
+function endBy(dialog, isLight, close) {
   // viser's page and the commands have keys that are letters.
   dialog.addEventListener("keydown", (event) => {
     event.stopPropagation();
@@ -104,26 +133,24 @@ export function openDialog({ title, content, buttons = [], isLight = false, clas
     event.preventDefault();
     close();
   });
-  if (isLight) {
-    dialog.addEventListener("pointerdown", (event) => {
-      if (event.target === dialog) close();
-    });
-  }
-  /** @type {HTMLElement} */ (document.getElementById("webviz")).append(dialog);
-  dialog.showModal();
-  // Not the button that closes it, which the browser takes.
+  if (!isLight) return;
+  dialog.addEventListener("pointerdown", (event) => {
+    if (event.target === dialog) close();
+  });
+}
+
+/**
+ * Not the button that closes it, which the browser takes.
+ *
+ * @param {HTMLElement} dialog
+ */
+function focusFirst(dialog) {
   const body = /** @type {HTMLElement} */ (dialog.querySelector(".wv-dialog-content"));
   /** @type {HTMLElement | null} */
   const first = body.querySelector("input:not([hidden]), textarea, select, button:not(:disabled)");
   /** @type {HTMLElement | null} */
   const chosen = dialog.querySelector("[autofocus]");
   (chosen ?? first ?? body).focus();
-  return new Promise((resolve) => {
-    dialog.addEventListener("close", () => {
-      dialog.remove();
-      resolve(answer);
-    });
-  });
 }
 
 /** @param {DialogButton} button */

@@ -43,17 +43,9 @@ export function makeVideo(draw, fail) {
     close();
     failure = null;
     codec = wanted;
-    if (!window.VideoDecoder) {
-      throw new Error("Browsers decode video on pages from localhost or by https only.");
-    }
-    const config = { codec: CODECS[wanted], optimizeForLatency: true };
-    const { supported } = await VideoDecoder.isConfigSupported(config);
-    if (!supported) throw new Error(`This browser has no decoder for ${NAMES[wanted]} video.`);
+    const config = await configFor(wanted);
     decoder = new VideoDecoder({
-      output(frame) {
-        draw(frame);
-        frame.close();
-      },
+      output: closing(draw),
       error(error) {
         failure = error;
         goOn();
@@ -72,23 +64,54 @@ export function makeVideo(draw, fail) {
     async take({ video = "", sizes = [], starts = false }, data) {
       if (failure && !starts) return; // until the next key frame
       if (video !== codec || (starts && (failure || !decoder))) await open(video);
-      if (!decoder) throw new Error(`This browser has no decoder for ${NAMES[video]} video.`);
+      if (!decoder) throw new Error(noDecoder(video));
       let at = 0;
       for (const [index, size] of sizes.entries()) {
         const type = starts && index === 0 ? "key" : "delta";
-        decoder.decode(
-          new EncodedVideoChunk({ type, timestamp: time++, data: data.subarray(at, at + size) }),
-        );
-        at += size;
+        const packet = { type, timestamp: time++, data: data.subarray(at, (at += size)) };
+        decoder.decode(new EncodedVideoChunk(/** @type {EncodedVideoChunkInit} */ (packet)));
       }
       // A decoder that falls behind makes the server wait, too.
-      while (decoder?.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED) {
-        await new Promise((resolve) => {
-          goOn = () => resolve(undefined);
-          decoder?.addEventListener("dequeue", goOn, { once: true });
-        });
-      }
+      while (decoder?.state === "configured" && decoder.decodeQueueSize > MAX_QUEUED)
+        await dequeued(decoder, (end) => (goOn = end));
     },
     close,
   };
 }
+
+/** @param {(frame: VideoFrame) => void} draw */
+const closing = (draw) => (/** @type {VideoFrame} */ frame) => {
+  draw(frame);
+  frame.close();
+};
+
+/**
+ * Resolves when a decoder has taken a packet from its queue, or when what `begin` gets is called.
+ *
+ * @param {VideoDecoder} decoder
+ * @param {(end: () => void) => void} begin
+ */
+const dequeued = (decoder, begin) =>
+  new Promise((resolve) => {
+    const end = () => resolve(undefined);
+    begin(end);
+    decoder.addEventListener("dequeue", end, { once: true });
+  });
+
+/**
+ * The settings of a decoder.
+ *
+ * @param {string} codec
+ */
+async function configFor(codec) {
+  if (!window.VideoDecoder) {
+    throw new Error("Browsers decode video on pages from localhost or by https only.");
+  }
+  const config = { codec: CODECS[codec], optimizeForLatency: true };
+  const { supported } = await VideoDecoder.isConfigSupported(config);
+  if (!supported) throw new Error(noDecoder(codec));
+  return config;
+}
+
+/** @param {string} codec */
+const noDecoder = (codec) => `This browser has no decoder for ${NAMES[codec]} video.`;

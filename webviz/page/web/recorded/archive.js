@@ -21,13 +21,12 @@ function valueIn({ values: { first, items, places, shared } }, number) {
 }
 
 /**
- * Returns `{chunk(number), prepare(number), facts(numbers), messages(numbers), values(numbers), pictures(numbers)}`.
+ * A function that resolves with what finds the chunk of each of some messages, values or pictures.
  *
  * @param {ChunkIndex[]} index
+ * @param {(place: number) => Promise<Chunk>} chunk
  */
-export function archive(index) {
-  const chunk = chunks();
-
+function homesIn(index, chunk) {
   /**
    * The number of the chunk that has a message, value or picture.
    *
@@ -37,19 +36,27 @@ export function archive(index) {
   const home = (kind, number) => lastUpTo(index, (each) => each[kind], number);
 
   /**
-   * The chunks that have all of some messages, values or pictures.
-   *
    * @param {Kind} kind
    * @param {number[]} numbers
    * @returns {Promise<(number: number) => Chunk>}
    */
-  async function homes(kind, numbers) {
+  return async (kind, numbers) => {
     /** @type {Map<number, Chunk>} */
     const found = new Map();
     for (const place of new Set(numbers.map((number) => home(kind, number))))
       found.set(place, await chunk(place));
     return (number) => /** @type {Chunk} */ (found.get(home(kind, number)));
-  }
+  };
+}
+
+/**
+ * Returns `{chunk(number), prepare(number), facts(numbers), messages(numbers), values(numbers), pictures(numbers)}`.
+ *
+ * @param {ChunkIndex[]} index
+ */
+export function archive(index) {
+  const chunk = chunks();
+  const homes = homesIn(index, chunk);
 
   return {
     chunk,

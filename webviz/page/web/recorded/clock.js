@@ -15,8 +15,7 @@ const TELL_MS = 100;
 export function clock(duration, show, tell) {
   /** @type {Playing} */
   const state = { position: 0, isPlaying: false, rate: 1, loop: false, selected: null };
-  let last = 0;
-  let told = 0;
+  let [last, told] = [0, 0]; // when it was looked, and when `tell` was called, in ms
   /** @type {Promise<void>} */
   let showing = Promise.resolve();
 
@@ -33,12 +32,9 @@ export function clock(duration, show, tell) {
     const now = performance.now();
     const passed = Math.min((now - last) / 1000, 0.25); // slower where drawing is slow
     last = now;
-    const [first, end] = span();
-    if (state.position >= end) {
-      if (!state.loop || first >= end) return pause(true);
-      state.position = first;
-    } else state.position = Math.min(state.position + passed * (state.rate || 20), end);
-    await showNext(state.position);
+    const position = positionAfter(state, passed, span());
+    if (position === null) return pause(true);
+    await showNext((state.position = position));
     if (now - told >= TELL_MS) {
       told = now;
       tell();
@@ -51,8 +47,7 @@ export function clock(duration, show, tell) {
     if (state.isPlaying === !isPaused) return;
     state.isPlaying = !isPaused;
     if (state.isPlaying) {
-      const [first, end] = span();
-      if (state.position < first || state.position >= end) state.position = first;
+      if (!isWithin(state.position, span())) [state.position] = span();
       last = performance.now();
       requestAnimationFrame(tick);
     }
@@ -76,4 +71,22 @@ export function clock(duration, show, tell) {
       tell();
     },
   };
+}
+
+/**
+ * @param {number} position
+ * @param {number[]} span
+ */
+const isWithin = (position, [first, end]) => position >= first && position < end;
+
+/**
+ * The position after some seconds of playing; null at the end.
+ *
+ * @param {Playing} state
+ * @param {number} passed
+ * @param {number[]} span
+ */
+function positionAfter({ position, loop, rate }, passed, [first, end]) {
+  if (position < end) return Math.min(position + passed * (rate || 20), end);
+  return loop && first < end ? first : null;
 }

@@ -6,6 +6,7 @@ import constants from "webviz/constants.js";
 /** @import {ViserMessage} from "webviz/types.js" */
 /** @import {Known} from "webviz/recorded/types.js" */
 
+const WAS_OFF = "was off when this file was made, so the file does not contain it.";
 const VISIBILITY = "SetSceneNodeVisibilityMessage";
 
 /** @typedef {Map<string, any>} Content */
@@ -39,39 +40,11 @@ export function switches() {
   /** @type {Content} */
   let recorded = new Map(); // the store "displays"
 
-  function follow() {
-    hidden = new Set();
-    /** @type {number | null} */
-    let off = null;
-    for (const id of recorded.get("order") ?? []) {
-      /** @type {DisplayRow} */
-      const row = recorded.get(id);
-      if (off !== null && row.depth <= off) off = null;
-      if (off === null && wanted.get(id) === false) off = row.depth;
-      if (off !== null) hidden.add(id);
-    }
-  }
-
   /** @param {Content} content */
   function rows(content) {
     recorded = content;
-    follow();
-    const all = [...content].map(([id, row]) =>
-      wanted.has(id) ? [id, { ...row, enabled: row.enabled && wanted.get(id) }] : [id, row],
-    );
-    return new Map(/** @type {[string, any][]} */ (all));
-  }
-
-  /** @param {Content} content */
-  function without(content) {
-    const shown = new Map([...content].filter(([id]) => !hidden.has(id)));
-    const order = content.get("order");
-    if (order)
-      shown.set(
-        "order",
-        order.filter((/** @type {string} */ id) => !hidden.has(id)),
-      );
-    return shown;
+    hidden = hiddenBy(wanted, recorded);
+    return new Map([...content].map(([id, row]) => [id, switched(row, wanted.get(id))]));
   }
 
   return {
@@ -84,11 +57,10 @@ export function switches() {
     set(id, enabled) {
       /** @type {DisplayRow | undefined} */
       const row = recorded.get(id);
-      if (enabled && row && !row.enabled)
-        return `${row.name} was off when this file was made, so the file does not contain it.`;
+      if (enabled && row && !row.enabled) return `${row.name} ${WAS_OFF}`;
       if (enabled) wanted.delete(id);
       else wanted.set(id, false);
-      follow();
+      hidden = hiddenBy(wanted, recorded);
       return "";
     },
     /**
@@ -99,46 +71,105 @@ export function switches() {
      */
     content(name, content) {
       if (name === "displays") return rows(content);
-      return hidden.size && (name === "panes" || name === "legend") ? without(content) : content;
+      return hidden.size && (name === "panes" || name === "legend")
+        ? without(content, hidden)
+        : content;
     },
     /**
      * Messages of the scene, of which some would show what is hidden.
      *
      * @param {ViserMessage[]} messages
      */
-    messages(messages) {
-      if (!hidden.size) return messages;
-      return messages.flatMap((message) => {
-        const { type, name, props } = message;
-        if (typeof name !== "string" || !hidden.has(displayOf(name))) return [message];
-        if (type === VISIBILITY) return [];
-        return props ? [message, visibility(name, false)] : [message];
-      });
-    },
+    messages: (messages) =>
+      hidden.size ? messages.flatMap((message) => hiding(message, hidden)) : messages,
     /**
      * Hides or shows the nodes of displays after a switch: messages, and numbers of recorded ones.
      *
      * @param {Iterable<Known>} all messages of the scene
      */
-    difference(all) {
-      /** @type {Map<string, number | null>} */
-      const groups = new Map();
-      for (const message of all) {
-        const { node, phase, number } = message;
-        if (displayOf(node) === "") continue;
-        if (phase === "create" && !groups.has(node)) groups.set(node, null);
-        if (isVisibility(message)) groups.set(node, number);
-      }
-      /** @type {ViserMessage[]} */
-      const messages = [];
-      /** @type {number[]} */
-      const numbers = [];
-      for (const [name, number] of groups) {
-        if (hidden.has(displayOf(name))) messages.push(visibility(name, false));
-        else if (number === null) messages.push(visibility(name, true));
-        else numbers.push(number);
-      }
-      return { messages, numbers };
-    },
+    difference: (all) => differenceOf(all, hidden),
   };
+}
+
+/**
+ * A row as it is shown once somebody has switched its display.
+ *
+ * @param {any} row
+ * @param {boolean | undefined} isWanted undefined if nobody has
+ */
+const switched = (row, isWanted) =>
+  isWanted === undefined ? row : { ...row, enabled: row.enabled && isWanted };
+
+/**
+ * The displays that are hidden, by themselves or with their group.
+ *
+ * @param {Map<string, boolean>} wanted
+ * @param {Content} recorded the store "displays"
+ */
+function hiddenBy(wanted, recorded) {
+  /** @type {Set<string>} */
+  const hidden = new Set();
+  /** @type {number | null} */
+  let off = null;
+  for (const id of recorded.get("order") ?? []) {
+    /** @type {DisplayRow} */
+    const row = recorded.get(id);
+    if (off !== null && row.depth <= off) off = null;
+    if (off === null && wanted.get(id) === false) off = row.depth;
+    if (off !== null) hidden.add(id);
+  }
+  return hidden;
+}
+
+/**
+ * The values of a store without those of displays.
+ *
+ * @param {Content} content
+ * @param {Set<string>} hidden
+ */
+function without(content, hidden) {
+  /** @param {string} id */
+  const isShown = (id) => !hidden.has(id);
+  const shown = new Map([...content].filter(([id]) => isShown(id)));
+  const order = content.get("order");
+  if (order) shown.set("order", order.filter(isShown));
+  return shown;
+}
+
+/**
+ * A message, and what hides the node again that it would show.
+ *
+ * @param {ViserMessage} message
+ * @param {Set<string>} hidden
+ */
+function hiding(message, hidden) {
+  const { type, name, props } = message;
+  if (typeof name !== "string" || !hidden.has(displayOf(name))) return [message];
+  if (type === VISIBILITY) return [];
+  return props ? [message, visibility(name, false)] : [message];
+}
+
+/**
+ * @param {Iterable<Known>} all
+ * @param {Set<string>} hidden
+ */
+function differenceOf(all, hidden) {
+  /** @type {Map<string, number | null>} */
+  const groups = new Map();
+  for (const message of all) {
+    const { node, phase, number } = message;
+    if (displayOf(node) === "") continue;
+    if (phase === "create" && !groups.has(node)) groups.set(node, null);
+    if (isVisibility(message)) groups.set(node, number);
+  }
+  /** @type {ViserMessage[]} */
+  const messages = [];
+  /** @type {number[]} */
+  const numbers = [];
+  for (const [name, number] of groups) {
+    if (hidden.has(displayOf(name))) messages.push(visibility(name, false));
+    else if (number === null) messages.push(visibility(name, true));
+    else numbers.push(number);
+  }
+  return { messages, numbers };
 }

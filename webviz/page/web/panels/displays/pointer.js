@@ -23,27 +23,6 @@ export function listenToPointer(canvas, tree) {
   let timer = 0;
 
   /** @param {PointerEvent} event */
-  function onClick(event) {
-    const item = tree.itemAt(event.target);
-    const target = /** @type {Element} */ (event.target);
-    const part = target.closest("[data-part]")?.getAttribute("data-part");
-    if (!item || part === "box" || part === "remedy") return;
-    if (part === "fold") {
-      selection.activate(item.id);
-      tree.setOpen(item, !isOpen(item));
-      return tree.focus();
-    }
-    if (part === "more") return tree.openMenu(item.id, event.clientX, event.clientY);
-    if (event.detail > 1) return;
-    if (event.shiftKey) selection.extend(item.id, tree.rows());
-    else if (event.ctrlKey || event.metaKey || selection.severalAtOnce()) selection.toggle(item.id);
-    else selection.choose(item.id);
-    tree.refresh();
-    tree.focus();
-    setTimeout(() => item.id === selection.active() && tree.list.reveal(item.id), SEEN_MS);
-  }
-
-  /** @param {PointerEvent} event */
   function onHover(event) {
     const name = /** @type {Element} */ (event.target).closest(".wv-tree-name");
     if (name)
@@ -58,7 +37,7 @@ export function listenToPointer(canvas, tree) {
   }
 
   set(canvas, {
-    onclick: onClick,
+    onclick: (event) => click(tree, event),
     ondblclick: (event) => {
       const item = tree.itemAt(event.target);
       if (item && !event.target.closest("[data-part]")) tree.rename(item.id);
@@ -87,4 +66,28 @@ export function listenToPointer(canvas, tree) {
     },
   });
   return { hovered: () => hovered, end: () => clearTimeout(timer) };
+}
+
+/**
+ * @param {Tree} tree
+ * @param {PointerEvent} event
+ */
+function click(tree, event) {
+  const item = tree.itemAt(event.target);
+  const target = /** @type {Element} */ (event.target);
+  const part = target.closest("[data-part]")?.getAttribute("data-part");
+  if (!item || part === "box" || part === "remedy") return;
+  if (part === "fold") {
+    selection.activate(item.id);
+    tree.setOpen(item, !isOpen(item));
+    return tree.focus();
+  }
+  if (part === "more") return tree.openMenu(item.id, event.clientX, event.clientY);
+  if (event.detail > 1) return;
+  if (event.shiftKey) selection.extend(item.id, tree.rows());
+  else if (event.ctrlKey || event.metaKey || selection.severalAtOnce()) selection.toggle(item.id);
+  else selection.choose(item.id);
+  tree.refresh();
+  tree.focus();
+  setTimeout(() => item.id === selection.active() && tree.list.reveal(item.id), SEEN_MS);
 }
