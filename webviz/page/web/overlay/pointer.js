@@ -3,16 +3,18 @@
 
 import { act } from "webviz/act.js";
 import { listenToLongPresses } from "webviz/controls/long_press.js";
-import { el, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { recall, remember } from "webviz/remember.js";
 import { groundAt, toFixedFrame } from "webviz/scene/ground.js";
 import { hit } from "webviz/scene/mouse.js";
 import * as views from "webviz/scene/view.js";
-import { watch } from "webviz/stores.js";
+import { effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
+import { oncePerFrame } from "webviz/timing.js";
 import { sendable } from "webviz/tools/selection.js";
 import * as viser from "webviz/viser_page.js";
 
-/** @import {ValuesOf, Vec2, Vec3} from "webviz/types.js" */
+/** @import {Vec2, Vec3} from "webviz/types.js" */
 
 const REST_MS = 150;
 const AGAIN_MS = 2000; // what is named may move on below a mouse that rests
@@ -31,109 +33,124 @@ function hintOf() {
   return TURNS + (views.type() === "TopDownOrtho" ? "centre" : "look at");
 }
 
-export function build() {
-  const text = el("div", { class: "wv-card wv-pointer" });
-  /** @type {ValuesOf<"displays"> | null} */
-  let names = null;
-  let frame = "";
-  /** @type {Vec2 | null} */
-  let mouse = null;
-  let isWaiting = false;
-  let resting = 0;
-  let isNamed = false; // on a slow machine a frame comes after the mouse has rested
-  watch("displays", (rows) => (names = rows));
-  watch("settings", (settings) => (frame = settings.get("fixed_frame") ?? ""));
+const displays = store("displays");
+const settings = store("settings");
 
-  const hint = () => setText(text, hintOf());
+export function build() {
+  const pointing = new Pointing();
+  const events = viser.canvas().parentElement;
+  events.addEventListener("pointerdown", learn);
+  events.addEventListener("wheel", learn, { passive: true });
+  events.addEventListener("pointermove", (event) => pointing.move(event));
+  events.addEventListener("pointerleave", (event) => pointing.leave(event));
+  events.addEventListener("pointerdown", (event) => pointing.leave(event));
+  listenToLongPresses(events, (event) => pointing.press(event));
+  views.onShow(() => pointing.hint());
+  pointing.hint();
+  // Names, and the frame of coordinates, are there before something is pointed at.
+  effect(() => displays.all());
+  effect(() => settings.get("fixed_frame"));
+  const element = el("div", { class: "wv-card wv-pointer" }, pointing.text);
+  effect(() => element.classList.toggle("wv-touched", pointing.isTouched.value));
+  return element;
+}
+
+function learn() {
+  const moves = recall("camera-moves", 0) + 1;
+  if (moves <= LEARNED) remember("camera-moves", moves);
+}
+
+/** What is pointed at, in words. */
+class Pointing {
+  text = signal("");
+  isTouched = signal(false);
+  /** @type {Vec2 | null} */
+  #mouse = null;
+  #resting = 0;
+  #isNamed = false; // on a slow machine a frame comes after the mouse has rested
+  #showGround = oncePerFrame(() => {
+    if (this.#mouse && !this.#isNamed) this.#show(groundAt(...this.#mouse), "");
+  });
+
+  /** Shows what the buttons of the mouse do, unless something is pointed at. */
+  hint() {
+    if (!this.#mouse) this.text.value = hintOf();
+  }
 
   /** @param {PointerEvent} event */
-  function move(event) {
+  move(event) {
     if (event.pointerType === "touch") return;
-    mouse = [event.clientX, event.clientY];
-    clearTimeout(resting);
-    isNamed = false;
-    if (event.buttons === 0) resting = setTimeout(rest, REST_MS);
-    if (isWaiting) return;
-    isWaiting = true;
-    requestAnimationFrame(() => {
-      isWaiting = false;
-      if (mouse && !isNamed) show(groundAt(...mouse), "");
-    });
+    this.#mouse = [event.clientX, event.clientY];
+    clearTimeout(this.#resting);
+    this.#isNamed = false;
+    if (event.buttons === 0) this.#resting = setTimeout(() => this.#rest(), REST_MS);
+    this.#showGround();
   }
 
   // A look at all that is drawn is too slow for each frame; and its display knows more.
-  async function rest() {
+  async #rest() {
     const begun = performance.now();
-    const found = mouse && hit(mouse);
+    const at = this.#mouse;
+    const found = at && hit(at);
     if (!found || !("group" in found)) {
       // the ground
-      if (isNamed) show(mouse && groundAt(...mouse), "");
-      isNamed = false;
+      if (this.#isNamed) this.#show(at && groundAt(...at), "");
+      this.#isNamed = false;
       return;
     }
-    const [at, point] = [mouse, toFixedFrame(found.point)];
-    resting = setTimeout(rest, Math.max(AGAIN_MS, SHARE * (performance.now() - begun)));
-    if (!isNamed) show(point, nameOf(found, names));
-    isNamed = true;
+    const point = toFixedFrame(found.point);
+    const pause = Math.max(AGAIN_MS, SHARE * (performance.now() - begun));
+    this.#resting = setTimeout(() => this.#rest(), pause);
+    if (!this.#isNamed) this.#show(point, nameOf(found));
+    this.#isNamed = true;
     const [picks] = sendable([{ ...found, id: 0 }]);
     const { level, text } = await act("Identify", { picks }, { quiet: true, errors: "caller" });
-    if (isNamed && mouse === at) show(point, (level === "ok" && text) || nameOf(found, names));
+    if (this.#isNamed && this.#mouse === at)
+      this.#show(point, (level === "ok" && text) || nameOf(found));
   }
 
   /** @param {PointerEvent} event */
-  function press({ clientX, clientY }) {
-    mouse = [clientX, clientY];
-    text.classList.add("wv-touched");
-    show(groundAt(...mouse), "");
-    rest();
+  press({ clientX, clientY }) {
+    this.#mouse = [clientX, clientY];
+    this.isTouched.value = true;
+    this.#show(groundAt(clientX, clientY), "");
+    this.#rest();
     return false;
   }
 
   /** @param {PointerEvent} event */
-  function leave({ type, pointerType }) {
+  leave({ type, pointerType }) {
     const isFinger = pointerType === "touch";
     if (isFinger !== (type === "pointerdown")) return; // what a finger pressed is read once it is lifted
-    mouse = null;
-    text.classList.remove("wv-touched");
-    clearTimeout(resting);
-    hint();
+    this.#mouse = null;
+    this.isTouched.value = false;
+    clearTimeout(this.#resting);
+    this.hint();
   }
 
   /**
    * @param {Vec3 | null} point
    * @param {string} name
    */
-  function show(point, name) {
-    if (!point) return setText(text, name);
+  #show(point, name) {
+    if (!point) {
+      this.text.value = name;
+      return;
+    }
     const [x, y, z] = point.map((number) => number.toFixed(2));
     const height = Math.abs(point[2]) < 0.005 ? "" : ` z ${z}`;
-    setText(text, [`x ${x} y ${y}${height} m`, frame, name].filter(Boolean).join(" · "));
+    const frame = settings.get("fixed_frame");
+    this.text.value = [`x ${x} y ${y}${height} m`, frame, name].filter(Boolean).join(" · ");
   }
-
-  function learn() {
-    const moves = recall("camera-moves", 0) + 1;
-    if (moves <= LEARNED) remember("camera-moves", moves);
-  }
-
-  const events = viser.canvas().parentElement;
-  events.addEventListener("pointerdown", learn);
-  events.addEventListener("wheel", learn, { passive: true });
-  events.addEventListener("pointermove", move);
-  events.addEventListener("pointerleave", leave);
-  events.addEventListener("pointerdown", leave);
-  listenToLongPresses(events, press);
-  views.onShow(() => mouse ?? hint());
-  hint();
-  return text;
 }
 
-// The display that drew something, and the frame that it moves with, if it has one of its own.
 /**
+ * The display that drew something, and the frame that it moves with, if it has one of its own.
+ *
  * @param {{group?: string}} hit
- * @param {ValuesOf<"displays"> | null} names
  */
-function nameOf({ group }, names) {
+function nameOf({ group }) {
   const [id, , ...rest] = (group ?? "").split("/");
   const part = rest.join("/").replace(/\|.*$/, "");
-  return [names?.get(id)?.name ?? "", part].filter(Boolean).join(": ");
+  return [displays.get(id)?.name ?? "", part].filter(Boolean).join(": ");
 }
