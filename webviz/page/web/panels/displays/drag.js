@@ -38,34 +38,61 @@ const INTO = [0.25, 0.75]; // of the height of a group
 const partOf = ({ target }) => /** @type {Element} */ (target).closest("[data-part]");
 
 /**
- * Lets rows of a tree be dragged; a finger that rests and does not move opens the menu.
+ * Lets rows of a tree be dragged; a finger that rests and does not move opens the menu. Returns what
+ * ends that.
  *
  * @param {HTMLElement} canvas
  * @param {Tree} tree
  */
 export function listenToDrags(canvas, tree) {
-  const mark = createMark(tree);
-  const ghost = el("div", { class: "wv-tree-ghost wv-card", "aria-hidden": "true" });
-  /** @type {Press | null} */
-  let press = null;
-  /** @type {Drag | null} */
-  let drag = null;
-  let frame = 0;
+  const dragging = new Dragging(canvas, tree);
+  canvas.addEventListener("pointerdown", (event) => dragging.press(event));
+  canvas.addEventListener("pointermove", (event) => dragging.move(event));
+  canvas.addEventListener("pointerup", (event) => dragging.release(event));
+  canvas.addEventListener("pointercancel", () => dragging.end());
+  canvas.addEventListener("touchmove", (event) => dragging.keepStill(event), { passive: false });
+  const endKeys = takeKeysFirst((event) => event.key === "Escape" && dragging.giveUp());
+  return () => {
+    dragging.end();
+    endKeys();
+  };
+}
 
-  /** @param {PointerEvent} event */
-  function onDown(event) {
-    const item = tree.itemAt(event.target);
-    if (press || event.button !== 0 || !item || partOf(event)) return;
-    const { pointerId, clientX: x, clientY: y } = event;
-    const kind = event.pointerType === "touch" ? "touch" : "mouse";
-    const timer = kind === "touch" ? setTimeout(hold, HOLD_MS) : 0;
-    press = { item, pointerId, kind, x, y, isReady: kind === "mouse", timer };
+class Dragging {
+  #canvas;
+  #tree;
+  #mark;
+  #ghost = el("div", { class: "wv-tree-ghost wv-card", "aria-hidden": "true" });
+  /** @type {Press | null} */
+  #press = null;
+  /** @type {Drag | null} */
+  #drag = null;
+  #frame = 0;
+
+  /**
+   * @param {HTMLElement} canvas
+   * @param {Tree} tree
+   */
+  constructor(canvas, tree) {
+    this.#canvas = canvas;
+    this.#tree = tree;
+    this.#mark = createMark(tree);
   }
 
-  function hold() {
-    if (!press) return;
-    press.isReady = true;
-    tree.list.row(press.item.id)?.element.classList.add("wv-tree-held");
+  /** @param {PointerEvent} event */
+  press(event) {
+    const item = this.#tree.itemAt(event.target);
+    if (this.#press || event.button !== 0 || !item || partOf(event)) return;
+    const { pointerId, clientX: x, clientY: y } = event;
+    const kind = event.pointerType === "touch" ? "touch" : "mouse";
+    const timer = kind === "touch" ? setTimeout(() => this.#hold(), HOLD_MS) : 0;
+    this.#press = { item, pointerId, kind, x, y, isReady: kind === "mouse", timer };
+  }
+
+  #hold() {
+    if (!this.#press) return;
+    this.#press.isReady = true;
+    this.#tree.list.row(this.#press.item.id)?.element.classList.add("wv-tree-held");
     navigator.vibrate?.(10);
   }
 
@@ -73,19 +100,19 @@ export function listenToDrags(canvas, tree) {
    * @param {PointerEvent} event
    * @returns {void}
    */
-  function onMove(event) {
-    if (event.pointerId !== press?.pointerId) return;
+  move(event) {
+    if (event.pointerId !== this.#press?.pointerId) return;
     const { clientX: x, clientY: y } = event;
-    if (drag) {
-      drag.x = x;
-      drag.y = y;
-      return aim(press, drag);
+    if (this.#drag) {
+      this.#drag.x = x;
+      this.#drag.y = y;
+      return this.#aim(this.#press, this.#drag);
     }
-    if (Math.hypot(x - press.x, y - press.y) < START[press.kind]) return;
-    if (!press.isReady || press.item.id === GLOBAL) return end(); // the list is scrolled
+    if (Math.hypot(x - this.#press.x, y - this.#press.y) < START[this.#press.kind]) return;
+    if (!this.#press.isReady || this.#press.item.id === GLOBAL) return this.end(); // the list is scrolled
     const reason = why("MoveDisplay");
-    if (!reason) return start(press, x, y);
-    end();
+    if (!reason) return this.#start(this.#press, x, y);
+    this.end();
     toast(reason, { level: "warn", topic: "access" });
   }
 
@@ -94,19 +121,20 @@ export function listenToDrags(canvas, tree) {
    * @param {number} x
    * @param {number} y
    */
-  function start(press, x, y) {
+  #start(press, x, y) {
     const { item } = press;
     const ids = new Set(selection.isSelected(item.id) ? selection.ids() : [item.id]);
     ids.delete(GLOBAL);
-    const moved = topmost(tree.model(), ids);
-    drag = { ids, moved, x, y, place: null, over: null, since: 0 };
+    const moved = topmost(this.#tree.model(), ids);
+    this.#drag = { ids, moved, x, y, place: null, over: null, since: 0 };
     selection.activate(item.id); // keeps its row in the page
-    canvas.setPointerCapture(press.pointerId);
-    canvas.classList.add("wv-tree-dragging");
-    ghost.textContent = moved.length === 1 ? sanitized(item.name, 60) : `${moved.length} displays`;
-    document.getElementById("webviz")?.append(ghost);
-    aim(press, drag);
-    frame = requestAnimationFrame(turn);
+    this.#canvas.setPointerCapture(press.pointerId);
+    this.#canvas.classList.add("wv-tree-dragging");
+    this.#ghost.textContent =
+      moved.length === 1 ? sanitized(item.name, 60) : `${moved.length} displays`;
+    document.getElementById("webviz")?.append(this.#ghost);
+    this.#aim(press, this.#drag);
+    this.#frame = requestAnimationFrame((now) => this.#turn(now));
   }
 
   /**
@@ -116,98 +144,93 @@ export function listenToDrags(canvas, tree) {
    * @param {Drag} drag
    * @returns {void}
    */
-  function aim(press, drag) {
-    ghost.style.translate = `${drag.x + 12}px ${drag.y + 10}px`;
-    const rows = tree.rows();
-    const y = drag.y - canvas.getBoundingClientRect().top;
-    const index = tree.list.at(y);
+  #aim(press, drag) {
+    this.#ghost.style.translate = `${drag.x + 12}px ${drag.y + 10}px`;
+    const rows = this.#tree.rows();
+    const y = drag.y - this.#canvas.getBoundingClientRect().top;
+    const index = this.#tree.list.at(y);
     const item = rows[index];
     if (!item) return; // a config without displays was loaded meanwhile
-    const { top, height } = tree.list.span(index);
+    const { top, height } = this.#tree.list.span(index);
     const share = (y - top) / height;
     const isInto = item.isGroup && share > INTO[0] && share < INTO[1] && !isWithin(item, drag.ids);
-    watchGroup(drag, isInto && !isOpen(item) ? item : null);
+    this.#watchGroup(drag, isInto && !isOpen(item) ? item : null);
     if (isInto) {
       drag.place = inside(item);
-      return mark.around(index);
+      return this.#mark.around(index);
     }
     const above = share < 0.5 && item.id !== GLOBAL ? index - 1 : index;
     const depth = press.item.depth + Math.round((drag.x - press.x) / INDENT);
-    const place = below(tree.model(), rows, above, depth, drag.ids, isOpen);
+    const place = below(this.#tree.model(), rows, above, depth, drag.ids, isOpen);
     drag.place = place;
-    mark.below(above, place.depth);
+    this.#mark.below(above, place.depth);
   }
 
   /**
    * @param {Drag} drag
    * @param {Item | null} item
    */
-  function watchGroup(drag, item) {
+  #watchGroup(drag, item) {
     if (item?.id !== drag.over?.id) drag.since = performance.now();
     drag.over = item;
   }
 
   /** @param {number} now */
-  function turn(now) {
-    if (!press || !drag) return;
-    const { top, bottom } = tree.element.getBoundingClientRect();
+  #turn(now) {
+    if (!this.#press || !this.#drag) return;
+    const { top, bottom } = this.#tree.element.getBoundingClientRect();
     /** @param {number} depth */
     const speed = (depth) => Math.ceil(Math.min(1, depth / EDGE) * FASTEST);
-    const before = tree.element.scrollTop;
-    if (drag.y < top + EDGE) tree.element.scrollTop -= speed(top + EDGE - drag.y);
-    else if (drag.y > bottom - EDGE) tree.element.scrollTop += speed(drag.y - bottom + EDGE);
-    if (tree.element.scrollTop !== before) aim(press, drag);
-    if (drag.over && now - drag.since > UNFOLD_MS) {
-      tree.setOpen(drag.over, true);
-      aim(press, drag);
+    const before = this.#tree.element.scrollTop;
+    if (this.#drag.y < top + EDGE) this.#tree.element.scrollTop -= speed(top + EDGE - this.#drag.y);
+    else if (this.#drag.y > bottom - EDGE)
+      this.#tree.element.scrollTop += speed(this.#drag.y - bottom + EDGE);
+    if (this.#tree.element.scrollTop !== before) this.#aim(this.#press, this.#drag);
+    if (this.#drag.over && now - this.#drag.since > UNFOLD_MS) {
+      this.#tree.setOpen(this.#drag.over, true);
+      this.#aim(this.#press, this.#drag);
     }
-    frame = requestAnimationFrame(turn);
+    this.#frame = requestAnimationFrame((now) => this.#turn(now));
   }
 
   /** @param {PointerEvent} event */
-  function onUp(event) {
-    if (event.pointerId !== press?.pointerId) return;
-    const { item, isReady, kind } = press;
-    const done = drag;
+  release(event) {
+    if (event.pointerId !== this.#press?.pointerId) return;
+    const { item, isReady, kind } = this.#press;
+    const done = this.#drag;
     if (done || (kind === "touch" && isReady)) swallowClick();
-    end();
+    this.end();
     if (done) {
-      move(tree.model(), done.ids, done.place);
+      move(this.#tree.model(), done.ids, done.place);
       if (!selection.isSelected(item.id)) selection.choose(item.id);
-      tree.showActive();
+      this.#tree.showActive();
     } else if (kind === "touch" && isReady) {
       // A menu that opens now would be closed by the end of this touch.
       const { clientX: x, clientY: y } = event;
-      setTimeout(() => tree.openMenu(item.id, x, y));
+      setTimeout(() => this.#tree.openMenu(item.id, x, y));
     }
   }
 
-  function end() {
-    clearTimeout(press?.timer);
-    cancelAnimationFrame(frame);
-    tree.list.row(press?.item.id)?.element.classList.remove("wv-tree-held");
-    canvas.classList.remove("wv-tree-dragging");
-    ghost.remove();
-    mark.hide();
-    press = drag = null;
+  end() {
+    clearTimeout(this.#press?.timer);
+    cancelAnimationFrame(this.#frame);
+    this.#tree.list.row(this.#press?.item.id)?.element.classList.remove("wv-tree-held");
+    this.#canvas.classList.remove("wv-tree-dragging");
+    this.#ghost.remove();
+    this.#mark.hide();
+    this.#press = this.#drag = null;
   }
 
-  const endKeys = takeKeysFirst((event) => {
-    if (event.key !== "Escape" || !drag) return false;
+  /** Ends a drag; whether there was one. */
+  giveUp() {
+    if (!this.#drag) return false;
     swallowClickOfRelease();
-    end();
+    this.end();
     return true;
-  });
+  }
 
   /** @param {TouchEvent} event */
-  const keepStill = (event) => press?.isReady && event.cancelable && event.preventDefault();
-  canvas.addEventListener("pointerdown", onDown);
-  canvas.addEventListener("pointermove", onMove);
-  canvas.addEventListener("pointerup", onUp);
-  canvas.addEventListener("pointercancel", end);
-  canvas.addEventListener("touchmove", keepStill, { passive: false });
-  return () => {
-    if (press) end();
-    endKeys();
-  };
+  keepStill(event) {
+    if (this.#press?.isReady && event.cancelable) event.preventDefault();
+  }
 }
