@@ -1,9 +1,11 @@
 // The widget "outdoor map": tracks over map tiles in Web Mercator, which is zoomed and moved.
 
 import { fitted } from "webviz/charts/canvas.js";
-import { el, set, setText, showText } from "webviz/dom.js";
+import { el, set } from "webviz/dom.js";
 import { iconButton } from "webviz/icons.js";
 import { listenToPanning } from "webviz/panning.js";
+import { owned, signal } from "webviz/signals.js";
+import { oncePerFrame } from "webviz/timing.js";
 import { drawTile, drawTrack } from "./outdoor_drawing.js";
 import { makeImages } from "./outdoor_images.js";
 import {
@@ -20,6 +22,8 @@ import {
 /** @import {Line, Track} from "./outdoor_drawing.js" */
 /** @import {Look, Tile, Vec2} from "./outdoor_mercator.js" */
 
+/** @typedef {{address: string, credit: string, problem: string, tracks: Track[]}} Values */
+
 const FIRST = 17; // level
 const WHEEL_STEP = 0.003;
 const ASK_MS = 150;
@@ -29,162 +33,195 @@ export default function install(page) {
   page.widget("outdoor map", (_, send) => outdoorMap(send));
 }
 
-/**
- * @param {(tiles: Tile[]) => unknown} send
- */
+/** @param {(tiles: Tile[]) => unknown} send */
 function outdoorMap(send) {
-  const images = makeImages(soon);
+  const map = new OutdoorMap(send);
+  const { canvas } = map;
+  const text = (/** @type {() => string} */ read) => ({ hidden: () => !read() });
+  const problem = () => map.given.value.problem ?? "";
+  const credit = () => map.given.value.credit ?? "";
+  const place = () => map.placeText();
+  map.listen();
+  return {
+    element: el(
+      "div",
+      { class: "wv-plugin-fill" },
+      el("div", { class: "wv-empty", role: "status", ...text(problem) }, problem),
+      el(
+        "div",
+        { class: "wv-outdoor" },
+        canvas,
+        el("div", { class: "wv-outdoor-place", ...text(place) }, place),
+        el("div", { class: "wv-outdoor-credit", ...text(credit) }, credit),
+      ),
+    ),
+    head: el(
+      "span",
+      { class: "wv-panel-tools" },
+      iconButton("focus", "Follow the newest fix (0)", () => map.follow(true), {
+        "aria-pressed": () => String(map.isFollowed.value),
+      }),
+      iconButton("plus", "Zoom in (+)", () => map.zoom(1)),
+      iconButton("M5 12h14", "Zoom out (-)", () => map.zoom(-1)),
+    ),
+    /** @param {Values} values @param {(key: string) => any} part */
+    update: (values, part) => map.update(values, part),
+  };
+}
+
+/** A canvas with tracks and the tiles that are asked for. */
+class OutdoorMap {
+  given = signal(/** @type {Partial<Values>} */ ({}));
+  isFollowed = signal(true);
   /** @type {Line[]} */
-  let tracks = [];
-  /** @type {Look} */
-  let look = { x: 0.5, y: 0.5, zoom: FURTHEST };
-  let isFollowed = true;
-  let hasPlace = false;
-  let address = "";
-  let asked = "";
-  let timer = 0;
-  let request = 0;
-  /** @type {Vec2 | null} */
-  let pointer = null;
+  #tracks = [];
+  #look = signal(/** @type {Look} */ ({ x: 0.5, y: 0.5, zoom: FURTHEST }));
+  #pointer = signal(/** @type {Vec2 | null} */ (null));
+  #hasPlace = false;
+  #asked = "";
+  #timer = 0;
+  #redraw = oncePerFrame(() => this.#show());
+  #images = makeImages(this.#redraw);
+  #send;
+  canvas = el("canvas", {
+    role: "img",
+    tabindex: 0,
+    "aria-label": () => `Map, level ${Math.round(this.#look.value.zoom)}`,
+  });
 
-  const canvas = el("canvas", { role: "img", tabindex: 0, "aria-label": "Map" });
-  const credit = el("div", { class: "wv-outdoor-credit", hidden: true });
-  const place = el("div", { class: "wv-outdoor-place", hidden: true });
-  const problem = el("div", { class: "wv-empty", role: "status" });
-  const follow = iconButton("focus", "Follow the newest fix (0)", () => setFollowed(true));
-  const element = el(
-    "div",
-    { class: "wv-plugin-fill" },
-    problem,
-    el("div", { class: "wv-outdoor" }, canvas, place, credit),
-  );
+  /** @param {(tiles: Tile[]) => unknown} send */
+  constructor(send) {
+    this.#send = send;
+    owned(() => {
+      clearTimeout(this.#timer);
+      this.#images.clear();
+    });
+  }
 
-  const head = el(
-    "span",
-    { class: "wv-panel-tools" },
-    follow,
-    iconButton("plus", "Zoom in (+)", () => zoom(1)),
-    iconButton("M5 12h14", "Zoom out (-)", () => zoom(-1)),
-  );
+  #size() {
+    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
 
-  const size = () => ({ width: canvas.clientWidth, height: canvas.clientHeight });
-
-  function soon() {
-    request ||= requestAnimationFrame(show);
+  /** The place under the pointer, which changes with the map, too; "" without one. */
+  placeText() {
+    if (!this.#pointer.value) return "";
+    const place = placeAt(this.#pointer.value, this.#look.value, this.#size());
+    const [longitude, latitude] = unmercator(place);
+    return `${latitude.toFixed(6)}°, ${longitude.toFixed(6)}°`;
   }
 
   /** @param {boolean} wanted */
-  function setFollowed(wanted) {
-    isFollowed = wanted;
-    set(follow, { "aria-pressed": String(isFollowed) });
-    soon();
-  }
-
-  function show() {
-    request = 0;
-    if (!canvas.clientWidth) return;
-    const newest = tracks.find(({ track }) => track.newest)?.track.newest;
-    const first = newest ? mercator(newest) : tracks.find(({ lines }) => lines.length)?.lines[0];
-    if (first && isFollowed) look = { ...look, x: first[0], y: first[1] };
-    if (first && !hasPlace) look = { ...look, zoom: FIRST };
-    hasPlace ||= first !== undefined;
-    const { context } = fitted(canvas);
-    const wanted = tilesOf(look, size());
-    for (const tile of wanted)
-      drawTile(context, tile, { look, size: size(), imageOf: images.imageOf });
-    for (const [index, line] of tracks.entries())
-      drawTrack(context, line, { index, look, size: size() });
-    set(canvas, { "aria-label": `Map, level ${Math.round(look.zoom)}` });
-    showPlace();
-    if (hasPlace) ask(wanted);
-  }
-
-  /** The place under the pointer, which changes with the map, too. */
-  function showPlace() {
-    place.hidden = !pointer;
-    if (!pointer) return;
-    const [longitude, latitude] = unmercator(placeAt(pointer, look, size()));
-    setText(place, `${latitude.toFixed(6)}°, ${longitude.toFixed(6)}°`);
-  }
-
-  /** @param {Tile[]} wanted */
-  function ask(wanted) {
-    const isMissing = wanted.some((tile) => !images.has(tile.join("/")));
-    const text = JSON.stringify(wanted);
-    if (!address || !isMissing || text === asked) return;
-    if (canvas.closest(".wv-locked")) return; // those of others are shown
-    asked = text;
-    clearTimeout(timer);
-    timer = setTimeout(() => send(wanted), ASK_MS);
+  follow(wanted) {
+    this.isFollowed.value = wanted;
+    this.#redraw();
   }
 
   /** @param {number} by @param {Vec2} [pixel] */
-  function zoom(by, pixel = [canvas.clientWidth / 2, canvas.clientHeight / 2]) {
-    look = zoomed(look, by, pixel, size());
-    soon();
+  zoom(by, pixel = [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2]) {
+    this.#look.value = zoomed(this.#look.value, by, pixel, this.#size());
+    this.#redraw();
   }
 
-  listenToPanning(canvas, {
-    wheel: ({ deltaY, offsetX, offsetY }) =>
-      zoom(-deltaY * WHEEL_STEP, isFollowed ? undefined : [offsetX, offsetY]),
-    move(dx, dy) {
-      const world = TILE * 2 ** look.zoom;
-      look = { ...look, x: look.x - dx / world, y: look.y - dy / world };
-      setFollowed(false);
-    },
-    keys: { "+": () => zoom(1), "-": () => zoom(-1), 0: () => setFollowed(true) },
-  });
-  canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
-    pointer = [offsetX, offsetY];
-    showPlace();
-  });
-  canvas.addEventListener("pointerleave", () => {
-    pointer = null;
-    showPlace();
-  });
-  const sizes = new ResizeObserver(soon);
-  sizes.observe(canvas);
+  /** @param {number} dx @param {number} dy */
+  #move(dx, dy) {
+    const { x, y, zoom } = this.#look.value;
+    const world = TILE * 2 ** zoom;
+    this.#look.value = { x: x - dx / world, y: y - dy / world, zoom };
+    this.follow(false);
+  }
+
+  listen() {
+    listenToPanning(this.canvas, {
+      wheel: ({ deltaY, offsetX, offsetY }) =>
+        this.zoom(-deltaY * WHEEL_STEP, this.isFollowed.value ? undefined : [offsetX, offsetY]),
+      move: (dx, dy) => this.#move(dx, dy),
+      keys: {
+        "+": () => this.zoom(1),
+        "-": () => this.zoom(-1),
+        0: () => this.follow(true),
+      },
+    });
+    set(this.canvas, {
+      onpointermove: ({ offsetX, offsetY }) => (this.#pointer.value = [offsetX, offsetY]),
+      onpointerleave: () => (this.#pointer.value = null),
+    });
+    const sizes = new ResizeObserver(this.#redraw);
+    sizes.observe(this.canvas);
+    owned(() => sizes.disconnect());
+  }
+
+  #show() {
+    if (!this.canvas.clientWidth) return;
+    this.#goOn();
+    const { context } = fitted(this.canvas);
+    const [look, size] = [this.#look.value, this.#size()];
+    const wanted = tilesOf(look, size);
+    const { imageOf } = this.#images;
+    for (const tile of wanted) drawTile(context, tile, { look, size, imageOf });
+    for (const [index, line] of this.#tracks.entries())
+      drawTrack(context, line, { index, look, size });
+    if (this.#hasPlace) this.#ask(wanted);
+  }
+
+  // The map goes on with the newest fix, and begins near the first one.
+  #goOn() {
+    const newest = this.#tracks.find(({ track }) => track.newest)?.track.newest;
+    const [start] = this.#tracks.find(({ lines }) => lines.length)?.lines ?? [];
+    const first = newest ? mercator(newest) : start;
+    if (!first) return;
+    const { x, y, zoom } = this.#look.value;
+    const [atX, atY] = this.isFollowed.value ? first : [x, y];
+    const next = { x: atX, y: atY, zoom: this.#hasPlace ? zoom : FIRST };
+    this.#hasPlace = true;
+    this.#look.value = next;
+  }
+
+  /** @param {Tile[]} wanted */
+  #ask(wanted) {
+    const isMissing = wanted.some((tile) => !this.#images.has(tile.join("/")));
+    const text = JSON.stringify(wanted);
+    if (!this.given.value.address || !isMissing || text === this.#asked) return;
+    if (this.canvas.closest(".wv-locked")) return; // those of others are shown
+    this.#asked = text;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#send(wanted), ASK_MS);
+  }
 
   /**
-   * @param {{address: string, credit: string, problem: string, tracks: Track[]}} values
+   * @param {Values} values
    * @param {(key: string) => any} part
    */
-  function update(values, part) {
-    if (values.address !== address) {
-      address = values.address;
-      asked = "";
-      images.clear();
+  update(values, part) {
+    if (values.address !== this.given.value.address) {
+      this.#asked = "";
+      this.#images.clear();
     }
-    showText(problem, values.problem ?? "");
-    showText(credit, values.credit ?? "");
-    tracks = (values.tracks ?? []).map((track, index) => {
-      /** @type {Vec2[]} */
-      const lines = [];
-      for (let number = track.parts[0]; number < track.parts[1]; number++) {
-        const places = part(`track/${index}/${number}`)?.places ?? [];
-        for (let i = 0; i + 1 < places.length; i += 2)
-          lines.push(mercator([places[i], places[i + 1]]));
-      }
-      return { track, lines };
-    });
-    for (const tile of tilesOf(look, size())) {
+    this.given.value = values;
+    this.#tracks = (values.tracks ?? []).map((track, index) => ({
+      track,
+      lines: linesOf(track, (number) => part(`track/${index}/${number}`)?.places ?? []),
+    }));
+    for (const tile of tilesOf(this.#look.value, this.#size())) {
       const name = tile.join("/");
       const found = part(`tile/${name}`);
-      if (found) images.add(name, found.image);
+      if (found) this.#images.add(name, found.image);
     }
-    soon();
+    this.#redraw();
   }
+}
 
-  setFollowed(true);
-  return {
-    element,
-    head,
-    update,
-    close() {
-      sizes.disconnect();
-      clearTimeout(timer);
-      cancelAnimationFrame(request);
-      images.clear();
-    },
-  };
+/**
+ * The places of a track in Web Mercator.
+ *
+ * @param {Track} track
+ * @param {(number: number) => number[]} placesOf the longitudes and latitudes of a part
+ */
+function linesOf({ parts: [first, end] }, placesOf) {
+  /** @type {Vec2[]} */
+  const lines = [];
+  for (let number = first; number < end; number++) {
+    const places = placesOf(number);
+    for (let i = 0; i + 1 < places.length; i += 2) lines.push(mercator([places[i], places[i + 1]]));
+  }
+  return lines;
 }
