@@ -43,8 +43,6 @@ export const takeKey = shortcuts("Image", [
  * @param {() => void} changed
  */
 export function makeZoom(canvas, changed) {
-  /** @type {Map<number, Vec2>} */
-  const fingers = new Map();
   let zoom = 1;
   let [x, y] = [0, 0]; // of the left upper corner, as shares of the pane
 
@@ -77,32 +75,72 @@ export function makeZoom(canvas, changed) {
     show(next, moved(shareX, x), moved(shareY, y));
   }
 
-  /** @returns {Vec2} */
-  const shareOf = (/** @type {Vec2} */ [clientX, clientY]) => {
-    const box = /** @type {HTMLElement} */ (canvas.parentElement).getBoundingClientRect();
-    return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
+  const all = {
+    zoom: () => zoom,
+    /** @returns {Vec2} The left upper corner of the zoomed canvas, as shares of the pane. */
+    corner: () => [x, y],
+    reset: () => show(1, 0, 0),
+    zoomBy,
+    /** @param {Vec2} shares of the pane */
+    drag: ([right, down]) => show(zoom, x + right, y + down),
+    /** Moves what is shown by shares of the pane; false if all of it is shown. */
+    moveBy(/** @type {Vec2} */ shares) {
+      if (zoom === 1) return false;
+      all.drag(shares);
+    },
   };
+  listenToWheel(canvas, all);
+  listenToFingers(canvas, all);
+  return all;
+}
 
+/**
+ * A point of the window as shares of the pane that a canvas fills.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {Vec2} point
+ * @returns {Vec2}
+ */
+function shareOf(canvas, [clientX, clientY]) {
+  const box = /** @type {HTMLElement} */ (canvas.parentElement).getBoundingClientRect();
+  return [(clientX - box.left) / box.width, (clientY - box.top) / box.height];
+}
+
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {Pick<Zoom, "zoom" | "zoomBy">} zoomed
+ */
+function listenToWheel(canvas, { zoom, zoomBy }) {
   canvas.addEventListener(
     "wheel",
     (event) => {
-      if (zoom === 1 && event.deltaY > 0 && !event.ctrlKey) return; // scrolls the panes
+      if (zoom() === 1 && event.deltaY > 0 && !event.ctrlKey) return; // scrolls the panes
       event.preventDefault(); // with Ctrl, and by a pinch on a touchpad, it would zoom the page
       const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : LINE_PX);
       const step = event.ctrlKey ? PINCH_STEP : WHEEL_STEP;
-      zoomBy(2 ** (-pixels * step), shareOf([event.clientX, event.clientY]));
+      zoomBy(2 ** (-pixels * step), shareOf(canvas, [event.clientX, event.clientY]));
     },
     { passive: false },
   );
+}
+
+/**
+ * Drags by a button or a finger, and pinches.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {Pick<Zoom, "zoom" | "zoomBy" | "drag">} zoomed
+ */
+function listenToFingers(canvas, { zoom, zoomBy, drag }) {
+  /** @type {Map<number, Vec2>} */
+  const fingers = new Map();
   // One finger on a picture that is not zoomed scrolls the panes.
   canvas.addEventListener(
     "touchmove",
     (event) => {
-      if (event.touches.length > 1 || zoom > 1) event.preventDefault();
+      if (event.touches.length > 1 || zoom() > 1) event.preventDefault();
     },
     { passive: false },
   );
-
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
@@ -113,26 +151,13 @@ export function makeZoom(canvas, changed) {
     const before = spread(fingers);
     fingers.set(event.pointerId, [event.clientX, event.clientY]);
     const after = spread(fingers);
-    const [from, to] = [shareOf(before.middle), shareOf(after.middle)];
-    show(zoom, x + to[0] - from[0], y + to[1] - from[1]);
+    const [from, to] = [shareOf(canvas, before.middle), shareOf(canvas, after.middle)];
+    drag([to[0] - from[0], to[1] - from[1]]);
     if (before.size && after.size) zoomBy(after.size / before.size, to);
   });
   for (const name of /** @type {const} */ (["pointerup", "pointercancel"])) {
     canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
   }
-
-  return {
-    zoom: () => zoom,
-    /** @returns {Vec2} The left upper corner of the zoomed canvas, as shares of the pane. */
-    corner: () => [x, y],
-    reset: () => show(1, 0, 0),
-    zoomBy: (/** @type {number} */ factor) => zoomBy(factor),
-    /** Moves what is shown by shares of the pane; false if all of it is shown. */
-    moveBy(/** @type {Vec2} */ [right, down]) {
-      if (zoom === 1) return false;
-      show(zoom, x + right, y + down);
-    },
-  };
 }
 
 /**
