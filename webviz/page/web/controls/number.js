@@ -62,6 +62,26 @@ export function number(property, options) {
     },
   });
 
+  stepByKeys(input, property, field);
+  const dragged = dragOf(input, property, field);
+  drag(input, input, dragged);
+  return {
+    ...field,
+    element,
+    handle: (/** @type {HTMLElement} */ label) => drag(label, input, dragged),
+  };
+}
+
+/** @typedef {ReturnType<typeof entry<number, HTMLInputElement>>} NumberField */
+
+/**
+ * Arrow keys and pages step; Shift makes ten times as much of it, Alt a tenth.
+ *
+ * @param {HTMLInputElement} input
+ * @param {NumberProperty} property
+ * @param {NumberField} field
+ */
+function stepByKeys(input, property, field) {
   /** @param {KeyboardEvent} event */
   function step(event) {
     const value = field.current();
@@ -79,33 +99,34 @@ export function number(property, options) {
     event.preventDefault();
     event.stopPropagation();
   });
-  const dragged = {
-    begin() {
-      const value = field.current();
-      if (field.isTyped() || typeof value !== "number" || input.matches(":disabled")) return null;
-      return { value, size: stepOf(property, value) };
-    },
-    /**
-     * @param {{value: number, size: number}} start
-     * @param {number} by pixels
-     * @param {boolean} isFine
-     */
-    move({ value, size }, by, isFine) {
-      field.hold();
-      const isScale = property.above === 0 && property.kind !== "int";
-      const grain = property.kind !== "int" && (isScale || isFine) ? size / 10 : size;
-      const moved = isScale
-        ? value * 2 ** (by / DOUBLE_PX)
-        : value + Math.round(((by / STEP_PX) * size) / grain) * grain;
-      field.put(within(property, moved, grain));
-    },
-    end: field.release,
-  };
-  drag(input, input, dragged);
-
-  return {
-    ...field,
-    element,
-    handle: (/** @type {HTMLElement} */ label) => drag(label, input, dragged),
-  };
 }
+
+/**
+ * The drag that changes a number, as `drag` takes it.
+ *
+ * @param {HTMLInputElement} input
+ * @param {NumberProperty} property
+ * @param {NumberField} field
+ */
+const dragOf = (input, property, field) => ({
+  begin() {
+    const value = field.current();
+    if (field.isTyped() || typeof value !== "number" || input.matches(":disabled")) return null;
+    return { value, size: stepOf(property, value) };
+  },
+  /**
+   * @param {{value: number, size: number}} start
+   * @param {number} by pixels
+   * @param {boolean} isFine
+   */
+  move({ value, size }, by, isFine) {
+    field.hold();
+    const isScale = property.above === 0 && property.kind !== "int";
+    const grain = property.kind !== "int" && (isScale || isFine) ? size / 10 : size;
+    const moved = isScale
+      ? value * 2 ** (by / DOUBLE_PX)
+      : value + Math.round(((by / STEP_PX) * size) / grain) * grain;
+    field.put(within(property, moved, grain));
+  },
+  end: field.release,
+});

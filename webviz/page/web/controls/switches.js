@@ -31,44 +31,14 @@ const frames = store("frames");
  * @returns {Control}
  */
 export function switches({ offered }, options) {
-  const { label, help, known } = options;
+  const { label, help } = options;
   const height = touchable(ROW_PX);
   const noun = label.toLowerCase();
-  const current = signal(/** @type {Switches} */ ({}));
   const words = signal(/** @type {string[]} */ ([]));
-  const counts = () => /** @type {Record<string, number | string>} */ (known?.() ?? {});
-  const otherwise = () => options.otherwise?.() !== false;
-  const all = computed(() => {
-    const names = offered ? Object.keys(counts()) : (frames.get("frames") ?? []);
-    return [...new Set([...names, ...Object.keys(current.value)])].sort();
-  });
+  const { all, counts, isOn, put } = valuesOf(offered, options);
   const shown = computed(() =>
     all.value.filter((name) => words.value.every((word) => name.toLowerCase().includes(word))),
   );
-  /** @type {ReturnType<typeof sync<Switches>>} */
-  const state = sync({
-    ...options,
-    show: (value) => (current.value = /** @type {Switches} */ (value)),
-  });
-
-  /** @param {string} name */
-  const isOn = (name) => (Object.hasOwn(current.value, name) ? current.value[name] : otherwise());
-
-  /**
-   * Switches names; one that holds anyway needs no switch, so names that go leave nothing behind.
-   *
-   * @param {string[]} names
-   * @param {boolean} value
-   */
-  function put(names, value) {
-    const own = new Map(Object.entries(current.value));
-    for (const name of names) {
-      if (value === otherwise()) own.delete(name);
-      else own.set(name, value);
-    }
-    state.edit((current.value = Object.fromEntries(own)));
-  }
-
   /** @type {HTMLInputElement} */
   const search = searchField(`Filter ${noun}`, () => (words.value = wordsOf(search.value)), {
     autocomplete: "off",
@@ -97,25 +67,63 @@ export function switches({ offered }, options) {
     list.element.style.height = `${Math.min(shown.value.length, MAX_ROWS) * height}px`;
     list.show(shown.value.map((key) => ({ key })));
   });
+  const nothing = () => (all.value.length ? `No match in ${noun}.` : `No ${noun} yet.`);
+  const head = [
+    search,
+    button("All", true, `Switch on all ${noun} in the list`),
+    button("None", false, `Switch off all ${noun} in the list`),
+  ];
+  const empty = { class: "wv-quiet wv-switches-empty", hidden: () => shown.value.length > 0 };
   return {
     element: el(
       "div",
       { class: "wv-switches" },
-      el(
-        "div",
-        { class: "wv-switches-head" },
-        search,
-        button("All", true, `Switch on all ${noun} in the list`),
-        button("None", false, `Switch off all ${noun} in the list`),
-      ),
+      el("div", { class: "wv-switches-head" }, head),
       list.element,
-      el(
-        "div",
-        { class: "wv-quiet wv-switches-empty", hidden: () => shown.value.length > 0 },
-        () => (all.value.length ? `No match in ${noun}.` : `No ${noun} yet.`),
-      ),
+      el("div", empty, nothing),
     ),
     focus: () => search.focus(),
+  };
+}
+
+/**
+ * All names, how many things have each, which are on, and what switches them.
+ *
+ * @param {DeclaredProperty["offered"]} offered
+ * @param {ControlOptions<Switches>} options
+ */
+function valuesOf(offered, options) {
+  const current = signal(/** @type {Switches} */ ({}));
+  const counts = () => /** @type {Record<string, number | string>} */ (options.known?.() ?? {});
+  const otherwise = () => options.otherwise?.() !== false;
+  const all = computed(() => {
+    const names = offered ? Object.keys(counts()) : (frames.get("frames") ?? []);
+    return [...new Set([...names, ...Object.keys(current.value)])].sort();
+  });
+  /** @type {ReturnType<typeof sync<Switches>>} */
+  const state = sync({
+    ...options,
+    show: (value) => (current.value = /** @type {Switches} */ (value)),
+  });
+  return {
+    all,
+    counts,
+    /** @param {string} name */
+    isOn: (name) => (Object.hasOwn(current.value, name) ? current.value[name] : otherwise()),
+    /**
+     * Switches names; one that holds anyway needs no switch, so names that go leave nothing behind.
+     *
+     * @param {string[]} names
+     * @param {boolean} value
+     */
+    put(names, value) {
+      const own = new Map(Object.entries(current.value));
+      for (const name of names) {
+        if (value === otherwise()) own.delete(name);
+        else own.set(name, value);
+      }
+      state.edit((current.value = Object.fromEntries(own)));
+    },
   };
 }
 
