@@ -139,7 +139,12 @@ class ZenohRobot:
         return token
 
     def publisher(
-        self, topic: str, type: str, is_latched: bool = False, hash: str = ""
+        self,
+        topic: str,
+        type: str,
+        is_latched: bool = False,
+        hash: str = "",
+        is_blocking: bool = False,
     ) -> Callable[..., None]:
         """Return a function that publishes a message from values by field, or from bytes."""
         hash = hash or type_hash(type)
@@ -147,7 +152,13 @@ class ZenohRobot:
         assert key is not None
         cache = zenoh.ext.CacheConfig(10) if is_latched else None
         declared = zenoh.ext.declare_advanced_publisher(
-            self.session, key, cache=cache, publisher_detection=is_latched
+            self.session,
+            key,
+            cache=cache,
+            publisher_detection=is_latched,
+            congestion_control=zenoh.CongestionControl.BLOCK
+            if is_blocking
+            else zenoh.CongestionControl.DROP,
         )
         self._kept.append(declared)
         token = self.token("MP", topic, type, hash, f":{1 if is_latched else ''}:,10:,:,:,,")
