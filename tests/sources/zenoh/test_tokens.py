@@ -172,6 +172,8 @@ def test_defaults_of_qos_are_those_of_rmw_zenoh() -> None:
     assert read_qos("::,5:0,100000000:,:,,").deadline_s == pytest.approx(0.1)
     assert read_dds_qos("K:1:1:0,10") == TokenQos("reliable", "transient_local", 10)
     assert read_dds_qos(":::").durability == "volatile"
+    since_iron = f":0:0:0,5:typehash={HASH};"
+    assert read_dds_qos(since_iron) == TokenQos("best_effort", "volatile", 5)
 
 
 def test_attachments_are_33_bytes_as_the_engine_serialises_them() -> None:

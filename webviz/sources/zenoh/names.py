@@ -1,8 +1,8 @@
 """Names of types, topics and nodes on the wire of Zenoh, and their bounds.
 
 rmw_zenoh_cpp writes types as DDS names them, such as `std_msgs::msg::dds_::String_`;
-zenoh-bridge-ros2dds as ROS does. Read in ros2/rmw_zenoh, ZettaScaleLabs/hiroz, Pico-ROS and
-eclipse-zenoh/zenoh-plugin-ros2dds.
+zenoh-bridge-ros2dds as ROS does. Read in ros2/rmw_zenoh, ZettaScaleLabs/hiroz (both formats),
+Pico-ROS, pamoja-ros2 (`dds_type_name`) and eclipse-zenoh/zenoh-plugin-ros2dds.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
 """QoS in liveliness tokens, as numbers between colons.
 
 rmw_zenoh_cpp uses the numbers of rmw and leaves out what is its default: reliable, volatile, the
-last 42 messages. zenoh-bridge-ros2dds uses the numbers of DDS behind a field for keyed types, and
-leaves out what a DDS endpoint does not state. Read in ros2/rmw_zenoh (`qos_to_keyexpr`),
-ZettaScaleLabs/hiroz (`QosProfile::encode`), Pico-ROS and eclipse-zenoh/zenoh-plugin-ros2dds
-(`qos_to_key_expr`).
+last 42 messages: read in ros2/rmw_zenoh (`qos_to_keyexpr`), ZettaScaleLabs/hiroz
+(`QosProfile::encode`) and Pico-ROS. zenoh-bridge-ros2dds uses the numbers of DDS behind a field
+that is `K` for keyed types, and leaves out what a DDS endpoint does not state; since Iron a fifth
+field has the user data of the endpoint: read in eclipse-zenoh/zenoh-plugin-ros2dds
+(`qos_to_key_expr`) and hiroz (`Ros2DdsFormatter`), whose tests have the numbers.
 """
 
 from __future__ import annotations

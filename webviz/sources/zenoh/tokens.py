@@ -16,8 +16,12 @@ with `§` for slashes; the short one is of the bridge itself. The key of message
 is the name of the topic without its first slash, below the namespace of the bridge if it has one.
 It has tokens for actions, too, but none for nodes.
 
-Read in ros2/rmw_zenoh (`liveliness_utils.cpp`), ZettaScaleLabs/hiroz, Pico-ROS and
-eclipse-zenoh/zenoh-plugin-ros2dds (`liveliness_mgt.rs`).
+The former is read in ros2/rmw_zenoh (`docs/design.md`, `liveliness_utils.cpp`), hiroz of
+ZettaScaleLabs (`format/rmw_zenoh.rs`), natnet_zenoh (`liveliness.rs`), Pico-ROS and pamoja-ros2.
+The latter in eclipse-zenoh/zenoh-plugin-ros2dds (`liveliness_mgt.rs`, `route_action_srv.rs`) and
+hiroz (`format/ros2dds.rs`), which agree in the six kinds, `§`, and a QoS of topics alone; that keys
+are names below a namespace, those of the parts of actions included, also in open-rmf/free_fleet
+(`nav2_robot_adapter.py`), which drives robots behind that bridge.
 """
 
 from __future__ import annotations
