@@ -64,6 +64,24 @@ IMPORT = """async (names) => {
 }"""
 
 
+THROW = """async () => {
+  const { keyText } = await import("webviz/keys.js");
+  try {
+    keyText(null);
+  } catch (error) {
+    return error.stack;
+  }
+}"""
+
+
+def test_stack_traces_have_the_names_and_lines_of_modules(view: View) -> None:
+    """As those of a release do, by its source map."""
+    found = re.search(r"keyText \(.*/webviz/keys\.js:(\d+):\d+\)", view.evaluate(THROW))
+    assert found
+    line = (FOLDER / "keys.js").read_text("utf-8").splitlines()[int(found[1]) - 1]
+    assert "key.length" in line
+
+
 def test_all_modules_are_valid_and_used(view: View) -> None:
     """Chromium compiles them, with every name that they import; and the page has loaded them."""
     assert view.evaluate(IMPORT, MODULES) == {}
