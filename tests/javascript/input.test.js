@@ -63,7 +63,7 @@ function plug(...pads) {
 afterEach(() => Reflect.deleteProperty(navigator, "getGamepads"));
 
 test("a gamepad drives once its sticks have been in their middle", () => {
-  const { disarm, share } = makeGamepad();
+  const { share } = makeGamepad();
   plug({ connected: true, axes: [0, -1, 0] });
   assert.deepEqual(share(), [0, 0, 0]);
   plug({ connected: true, axes: [0.1, -0.14, 0] });
