@@ -49,7 +49,7 @@ export function makeCard(id, change) {
         () => note.value.text,
       ),
     ),
-    /** Whether the robot can, by the tool; read in effects. */
+    /** True if the robot can, by the tool; read in effects. */
     canGoSideways: () => Number(facts.get("value.lateral")) > 0,
     /** Puts the focus where arrow keys drive. */
     focus: () => stick.element.focus({ preventScroll: true }),

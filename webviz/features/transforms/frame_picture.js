@@ -153,7 +153,7 @@ class View {
     return this.#moved.value ?? this.#whole();
   }
 
-  /** What somebody has moved or zoomed to; read in effects. */
+  /** The look that somebody has moved or zoomed to, null before; read in effects. */
   moved() {
     return this.#moved.value;
   }

@@ -23,7 +23,7 @@ const PART = /^c(\d+)\//;
 const changes = listeners();
 const handles = store("handles");
 const nodeCount = signal(0);
-/** What there is in the scene of each handle, found anew when handles or the number of nodes change. */
+/** Nodes of each handle in the scene, found anew when handles or the number of nodes change. */
 const index = computed(() => indexOf(all() && nodeCount.value ? Object.keys(viser.nodes()) : []));
 
 export function install() {

@@ -60,7 +60,7 @@ function learn() {
   if (moves <= LEARNED) remember("camera-moves", moves);
 }
 
-/** What is pointed at, in words. */
+/** The thing that is pointed at, in words. */
 class Pointing {
   text = signal("");
   isTouched = signal(false);

@@ -24,7 +24,7 @@ const SENT_MS = 100; // after which viser has reported the camera
 /** @type {(() => void)[]} */
 const listeners = [];
 const shown = signal(/** @type {PlaceCamera | StartView | null} */ (null));
-/** What is before the camera's own pose, null for a view that follows nothing. */
+/** The transform before the camera's own pose, null for a view that follows nothing. */
 const rig = signal(/** @type {Matrix4 | null} */ (null));
 /** The height of the canvas that the view is shown for. */
 const height = signal(0);

@@ -116,7 +116,7 @@ function pauseButton(recording, isPaused, toggle) {
   );
 }
 
-/** Where the time comes from. @param {Timeline} recording */
+/** The origin of the time. @param {Timeline} recording */
 const badge = (recording) =>
   el(
     "span",

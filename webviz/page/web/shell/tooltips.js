@@ -11,9 +11,9 @@ const TIPPED = "[data-why], [data-tip], [title]";
 
 const tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
 
-/** What has its tooltip shown. */
+/** The element whose tooltip is shown. */
 const shown = signal(/** @type {HTMLElement | null} */ (null));
-/** What will have it shown in a while. */
+/** The element whose tooltip is shown in a while. */
 const due = signal(/** @type {{owner: HTMLElement, ms: number} | null} */ (null));
 
 /**

@@ -14,7 +14,7 @@ const MAX_BYTES = 1 << 30;
 const MAX_S = 3600;
 
 const running = signal(/** @type {MediaRecorder | null} */ (null));
-/** How long and how much has been recorded. */
+/** Seconds and bytes that have been recorded. */
 const size = signal({ seconds: 0, bytes: 0 });
 
 /** While a video is recorded: for how long and how much, and a button that stops it. */

@@ -19,7 +19,7 @@ const nextId = counter();
 /** By id. */
 const things = signal(/** @type {Map<number, Selected>} */ (new Map()));
 const total = signal(0);
-/** What the server knows of them. */
+/** The things that the server knows. */
 const known = ownStore("selected");
 
 /** All things by id: what `pickAt` made of each. */

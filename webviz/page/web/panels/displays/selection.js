@@ -18,11 +18,11 @@ const restored = signal(recalled());
 const saved = signal(JSON.stringify([...restored.value]));
 /** The id of a display that this page has made, until there is a row of it. */
 const awaited = signal(/** @type {string | null} */ (null));
-/** What follows displays that this page removes. */
+/** The display that follows those that this page removes. */
 const successor = signal(/** @type {string | null} */ (null));
-/** What was selected when it went, until something else is selected. */
+/** Displays that were selected when they went, until others are selected. */
 const gone = signal(/** @type {Set<string>} */ (new Set()));
-/** Whether each click adds or removes, as with Ctrl: fingers have no keys. */
+/** True if each click adds or removes, as with Ctrl: fingers have no keys. */
 const isSeveral = signal(false);
 const place = signal(0); // of the current row, should it go
 
