@@ -260,7 +260,7 @@ def test_the_page_itself_reads_no_other_stores_of_features() -> None:
     read = {
         name: own
         for name, text in texts_of_the_page().items()
-        if (own := set(re.findall(r'\b(?:store|watch)\([`"](\w+)', text)) & of_features)
+        if (own := set(re.findall(r'\b(?:store|ownStore|watch)\([`"](\w+)', text)) & of_features)
     }
     assert read == STORES_IN_THE_PAGE
 
