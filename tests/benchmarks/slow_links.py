@@ -49,6 +49,8 @@ FIELDS: dict[str, dict[str, Any]] = {
     "/points": {"data": os.urandom(480_000), "width": 30_000, "height": 1},
     "/camera": {"data": os.urandom(60_000), "format": "jpeg"},
 }
+_open: list[Any] = []
+"""A session and its node, which end with what refers to them."""
 BEGIN_S = 5.0
 """Time in seconds until ages count."""
 
@@ -67,8 +69,8 @@ def _tunnel(namespace: str, address: str) -> int:
     place = os.open(f"/var/run/netns/{namespace}", os.O_RDONLY)
     assert ctypes.CDLL(None).setns(place, 0) == 0, "needs root"
     device = os.open("/dev/net/tun", os.O_RDWR)
-    fcntl.ioctl(device, SET_TUN, struct.pack("16sH22x", b"link", TUN))
-    for command in ("addr add {}/24 dev link", "link set link up", "link set lo up"):
+    fcntl.ioctl(device, SET_TUN, struct.pack("16sH22x", b"slow0", TUN))
+    for command in ("addr add {}/24 dev slow0", "link set slow0 up", "link set lo up"):
         subprocess.run(["ip", *command.format(address).split()], check=True)
     return device
 
@@ -153,7 +155,9 @@ def _zenoh(way: str) -> dict[str, Callable[[bytes], None]]:
     for key in ("scouting/multicast/enabled", "transport/shared_memory/enabled"):
         made.insert_json5(key, "false")
     made.insert_json5("timestamping/enabled", "true")
-    node = ZenohNode(zenoh.open(made), 0, "", "robot")
+    session = zenoh.open(made)
+    node = ZenohNode(session, 0, "", "robot")
+    _open.extend((session, node))
     return {topic: node.publisher(type, topic).publish for topic, (type, _) in TOPICS.items()}
 
 
@@ -209,7 +213,8 @@ def measure(rate: str, way: str, seconds: str) -> None:
         process = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True)
         started.append(process)
         assert process.stdout is not None
-        process.stdout.readline()
+        if not process.stdout.readline():
+            raise SystemExit(f"{command} has ended.")
 
     try:
         for name in names:

@@ -241,7 +241,8 @@ class ZenohRobot:
                 publish({"goal_id": {"uuid": list(id)}, "feedback": fields})
 
             result = run(goals[id], feedback)
-            return {"status": 5 if id in cancelled else 4, "result": result}
+            is_cancelled = cancel is not None and id in cancelled
+            return {"status": 5 if is_cancelled else 4, "result": result}
 
         def cancel_goal(request: Any) -> Mapping[str, Any]:
             calls["cancel_goal"] += 1
