@@ -209,12 +209,13 @@ class Observation:
     def is_alone(self) -> bool:
         """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`.
 
-        Not before the others had time to be found, nor with publishers whose nodes are unknown, as
-        behind zenoh-bridge-ros2dds.
+        Not before the others had time to be found, nor with a connection to publishers whose nodes
+        are unknown, as behind zenoh-bridge-ros2dds.
         """
         if self.listened_s < DISCOVERED_S:
             return False
-        if any(not p.node for offer in self.offers.values() for p in offer.publishers):
+        publishers = [p for offer in self.offers.values() for p in offer.publishers]
+        if self.bridges and not all(publisher.node for publisher in publishers):
             return False
         shown = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
         return len(shown) == 1 and not self.is_recorded
