@@ -13,108 +13,62 @@ import { keyText } from "webviz/keys.js";
  * }} OptionRow
  */
 
+/** @typedef {(row: OptionRow, event: MouseEvent | KeyboardEvent) => void} Choose */
+
+/** @type {Record<string, number | undefined>} */
+const STEPS = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
+
 /**
  * A list of rows that a field searches; `choose(row)` is called by Enter and by a click.
  *
  * Rows are `{id, title}`, and if there are: `icon`, `picture`, an address, `line` below the title, `note` at its right,
  * `key`, `group`, `{title, line, note}` above the first of several, `isWithin` for rows that are set in
  * below it, `label` for what reads the page aloud, `checked` for rows of which several are taken, and
- * `disabled`. Returns `{element, show(rows), active()}`, the last of which is an id.
- *
- * @param {HTMLInputElement} input
- * @param {string} label
- * @param {(row: OptionRow, event: MouseEvent | KeyboardEvent) => void} choose
+ * `disabled`.
  */
-export function optionList(input, label, choose) {
-  const prefix = newId("options");
-  const element = el("div", {
-    class: "wv-picks",
-    role: "listbox",
-    id: prefix,
-    "aria-label": label,
-  });
+export class OptionList {
+  #input;
+  #choose;
   /** @type {OptionRow[]} */
-  let rows = [];
+  #rows = [];
   /** @type {Map<OptionRow["id"], {text: string, element: HTMLElement}>} */
-  let made = new Map();
+  #made = new Map();
   /** @type {OptionRow["id"] | null} */
-  let active = null;
+  #active = null;
 
-  set(input, {
-    role: "combobox",
-    "aria-controls": prefix,
-    "aria-expanded": "true",
-    "aria-autocomplete": "list",
-    autocomplete: "off",
-    spellcheck: "false",
-  });
-  input.addEventListener("keydown", (event) => {
-    const usable = rows.filter((row) => !row.disabled);
-    const at = usable.findIndex(({ id }) => id === active);
-    const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key];
-    if (event.key === "Enter" && !event.isComposing) {
-      if (at >= 0) choose(usable[at], event);
-    } else if (step && usable.length) {
-      const next =
-        Math.abs(step) > 1
-          ? Math.max(0, Math.min(at + step, usable.length - 1))
-          : (at + step + usable.length) % usable.length;
-      mark(usable[next].id)?.scrollIntoView({ block: "nearest" });
-    } else {
-      return;
-    }
-    event.preventDefault();
-  });
-
-  /** @param {OptionRow["id"] | null} id */
-  function mark(id) {
-    const before = elementOf(active);
-    if (before) set(before, { "aria-selected": "false" });
-    active = id;
-    const chosen = elementOf(active);
-    if (chosen) set(chosen, { "aria-selected": "true" });
-    set(input, { "aria-activedescendant": chosen?.id });
-    return chosen;
+  /**
+   * @param {HTMLInputElement} input
+   * @param {string} label
+   * @param {Choose} choose
+   */
+  constructor(input, label, choose) {
+    const id = newId("options");
+    this.#input = input;
+    this.#choose = choose;
+    this.element = el("div", { class: "wv-picks", role: "listbox", id, "aria-label": label });
+    set(input, {
+      role: "combobox",
+      "aria-controls": id,
+      "aria-expanded": "true",
+      "aria-autocomplete": "list",
+      autocomplete: "off",
+      spellcheck: "false",
+    });
+    input.addEventListener("keydown", (event) => this.#press(event));
+    // With other words, the best match is chosen.
+    input.addEventListener("input", () => (this.#active = null));
   }
 
-  /** @param {OptionRow["id"] | null} id */
-  const elementOf = (id) => (id === null ? undefined : made.get(id)?.element);
-
-  /** @param {OptionRow} row */
-  function rowOf(row) {
-    const { title, icon: name, picture, line, note, key, label, checked, disabled, refusal } = row;
-    return el(
-      "div",
-      {
-        class: row.isWithin ? "wv-pick wv-pick-within" : "wv-pick",
-        "aria-label": label,
-        role: "option",
-        id: newId("option"),
-        "aria-selected": "false",
-        "aria-disabled": disabled ? "true" : null,
-        "data-why": refusal || null,
-        "aria-checked": checked === undefined ? null : String(checked),
-        onpointermove: () => disabled || active === row.id || mark(row.id),
-        // The field keeps the focus.
-        onpointerdown: (event) => event.preventDefault(),
-        onclick: (event) => disabled || choose(row, event),
-      },
-      checked === undefined
-        ? null
-        : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
-      name ? el("span", { class: "wv-pick-icon" }, icon(name)) : null,
-      picture === undefined ? null : pictureOf(picture),
-      textOf("wv-pick-title", title, line),
-      note ? el("span", { class: "wv-pick-note" }, note) : null,
-      key ? el("kbd", {}, keyText(key)) : null,
-    );
+  /** The id of the row that Enter chooses, null for none. */
+  active() {
+    return this.#active;
   }
 
-  /** @param {OptionRow[]} next */
-  function show(next) {
-    const before = made;
-    made = new Map();
-    rows = next;
+  /** @param {OptionRow[]} rows */
+  show(rows) {
+    const before = this.#made;
+    this.#made = new Map();
+    this.#rows = rows;
     /** @type {HTMLElement[]} */
     const children = [];
     /** @type {OptionRow["group"]} */
@@ -122,20 +76,97 @@ export function optionList(input, label, choose) {
     for (const row of rows) {
       const text = JSON.stringify(row);
       const known = before.get(row.id);
-      const one = known?.text === text ? known : { text, element: rowOf(row) };
-      made.set(row.id, one);
+      const one = known?.text === text ? known : { text, element: this.#elementFor(row) };
+      this.#made.set(row.id, one);
       if (row.group?.title !== group?.title && row.group) children.push(headOf(row.group));
       group = row.group;
       children.push(one.element);
     }
-    setChildren(element, children);
-    const usable = rows.filter((row) => !row.disabled);
-    mark(usable.some(({ id }) => id === active) ? active : (usable[0]?.id ?? null));
+    setChildren(this.element, children);
+    const usable = this.#usable();
+    const isThere = usable.some(({ id }) => id === this.#active);
+    this.#mark(isThere ? this.#active : (usable[0]?.id ?? null));
   }
 
-  // With other words, the best match is chosen.
-  input.addEventListener("input", () => (active = null));
-  return { element, show, active: () => active };
+  #usable() {
+    return this.#rows.filter((row) => !row.disabled);
+  }
+
+  /** @param {OptionRow["id"] | null} id */
+  #mark(id) {
+    const before = this.#elementOf(this.#active);
+    if (before) set(before, { "aria-selected": "false" });
+    this.#active = id;
+    const chosen = this.#elementOf(id);
+    if (chosen) set(chosen, { "aria-selected": "true" });
+    set(this.#input, { "aria-activedescendant": chosen?.id });
+    return chosen;
+  }
+
+  /** @param {OptionRow["id"] | null} id */
+  #elementOf(id) {
+    return id === null ? undefined : this.#made.get(id)?.element;
+  }
+
+  /** @param {OptionRow} row */
+  #elementFor(row) {
+    return elementFor(row, {
+      point: () => row.disabled || this.#active === row.id || this.#mark(row.id),
+      choose: (event) => row.disabled || this.#choose(row, event),
+    });
+  }
+
+  /** @param {KeyboardEvent} event */
+  #press(event) {
+    const usable = this.#usable();
+    const at = usable.findIndex(({ id }) => id === this.#active);
+    const step = STEPS[event.key];
+    if (event.key === "Enter" && !event.isComposing) {
+      if (at >= 0) this.#choose(usable[at], event);
+    } else if (step && usable.length) {
+      const next =
+        Math.abs(step) > 1
+          ? Math.max(0, Math.min(at + step, usable.length - 1))
+          : (at + step + usable.length) % usable.length;
+      this.#mark(usable[next].id)?.scrollIntoView({ block: "nearest" });
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+}
+
+/**
+ * @param {OptionRow} row
+ * @param {{point: () => void, choose: (event: MouseEvent) => void}} listeners
+ */
+function elementFor(row, { point, choose }) {
+  const { title, icon: name, picture, line, note, key, label, checked, disabled, refusal } = row;
+  return el(
+    "div",
+    {
+      class: row.isWithin ? "wv-pick wv-pick-within" : "wv-pick",
+      "aria-label": label,
+      role: "option",
+      id: newId("option"),
+      "aria-selected": "false",
+      "aria-disabled": disabled ? "true" : null,
+      "data-why": refusal || null,
+      "aria-checked": checked === undefined ? null : String(checked),
+      onpointermove: point,
+      // The field keeps the focus.
+      onpointerdown: (event) => event.preventDefault(),
+      onclick: choose,
+    },
+    checked === undefined
+      ? null
+      : el("span", { class: "wv-box" }, checked ? icon("check", 12) : null),
+    name ? el("span", { class: "wv-pick-icon" }, icon(name)) : null,
+    picture === undefined ? null : pictureOf(picture),
+    textOf("wv-pick-title", title, line),
+    note ? el("span", { class: "wv-pick-note" }, note) : null,
+    key ? el("kbd", {}, keyText(key)) : null,
+  );
 }
 
 /**

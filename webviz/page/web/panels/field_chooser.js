@@ -3,7 +3,7 @@
 
 import { combobox } from "webviz/controls/combobox.js";
 import { textField } from "webviz/controls/fields.js";
-import { optionList, search } from "webviz/controls/option_list.js";
+import { OptionList, search } from "webviz/controls/option_list.js";
 import { popoverButton } from "webviz/controls/popover.js";
 import { el } from "webviz/dom.js";
 import { computed, effect, signal } from "webviz/signals.js";
@@ -63,7 +63,7 @@ function choosers(shown, send) {
   });
   const text = signal("");
   const input = textField("Field", { class: "wv-field", placeholder: "Search fields" });
-  const list = optionList(input, "Fields", ({ id }) =>
+  const list = new OptionList(input, "Fields", ({ id }) =>
     send(JSON.stringify({ add: messagePath({ topic: shown.value.topic, path: String(id) }) })),
   );
   input.addEventListener("input", () => (text.value = input.value));

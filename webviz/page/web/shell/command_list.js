@@ -8,7 +8,7 @@ import { watch } from "webviz/stores.js";
 import { all, keysOf, run } from "webviz/commands.js";
 import { openDialog } from "webviz/controls/dialog.js";
 import { FIXED, follow } from "webviz/shell/follow.js";
-import { optionList, search } from "webviz/controls/option_list.js";
+import { OptionList, search } from "webviz/controls/option_list.js";
 
 /** @import {Command} from "webviz/commands.js" */
 /** @import {StoreName, ValuesOf} from "webviz/types.js" */
@@ -56,7 +56,7 @@ export function openCommandList() {
     className: "wv-command-list",
     isLight: true,
     content(close) {
-      const list = optionList(input, "Commands", (row) => close(found[Number(row.id)]));
+      const list = new OptionList(input, "Commands", (row) => close(found[Number(row.id)]));
       /** @type {Command[]} */
       let found = [];
       const show = () => {

@@ -2,7 +2,7 @@
 
 import { openDialog } from "webviz/controls/dialog.js";
 import { textField } from "webviz/controls/fields.js";
-import { optionList, search } from "webviz/controls/option_list.js";
+import { OptionList, search } from "webviz/controls/option_list.js";
 import { el } from "webviz/dom.js";
 import { effect, root, signal } from "webviz/signals.js";
 
@@ -37,7 +37,7 @@ function content(types, close) {
   const text = signal("");
   const found = () => search(types, text.value, ({ title, about }) => [title, about]);
   const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
-  const list = optionList(input, "Panels", ({ id }) => {
+  const list = new OptionList(input, "Panels", ({ id }) => {
     const type = types.find((each) => each.type === id);
     if (type) close(type);
   });

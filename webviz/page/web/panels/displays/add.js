@@ -7,7 +7,7 @@ import { recall, remember } from "webviz/remember.js";
 import { computed, effect, root, signal } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 import { openDialog } from "webviz/controls/dialog.js";
-import { optionList, search } from "webviz/controls/option_list.js";
+import { OptionList, search } from "webviz/controls/option_list.js";
 import { topicEntries } from "webviz/panels/displays/topic_entries.js";
 
 /** @import {Close} from "webviz/controls/dialog.js" */
@@ -68,7 +68,7 @@ function chooser(way, checked, close) {
   );
   const found = computed(() => matches(all.value, text.value));
   const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
-  const list = optionList(input, "Displays", ({ id: row }, event) => {
+  const list = new OptionList(input, "Displays", ({ id: row }, event) => {
     const { id, pick } = found.value.find((one) => one.id === row) ?? {};
     if (!id || !pick) return;
     if (way.value === "type") return close([pick]);
