@@ -4,7 +4,7 @@ import { el, set, setText } from "webviz/dom.js";
 import { icon } from "webviz/icons.js";
 import { computed, effect, signal, untracked } from "webviz/signals.js";
 import { textField } from "webviz/controls/fields.js";
-import { listbox } from "webviz/controls/listbox.js";
+import { Listbox } from "webviz/controls/listbox.js";
 import { MIXED, MIXED_TEXT } from "webviz/controls/mixed.js";
 import { sync } from "webviz/controls/sync.js";
 
@@ -64,7 +64,7 @@ export function combobox({ label, value, options: read, free = true, placeholder
     onblur: () => (isTyped ? take() : close()),
   });
   const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
-  const list = listbox(input, label, { isOpen, options, free, choose });
+  const list = new Listbox(input, label, { isOpen, options, free, choose });
   const isInvalid = () => input.getAttribute("aria-invalid") !== null;
   const state = sync({
     ...rest,
