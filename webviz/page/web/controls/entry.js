@@ -9,113 +9,163 @@ import { sync } from "webviz/controls/sync.js";
 const MAX_TEXT = 100_000;
 
 /**
+ * @template T
+ * @typedef {{
+ *   value: () => T | Mixed | undefined, change(value: T): unknown, refused: (text: string) => void,
+ *   encode: (value: T) => string, decode: (text: string) => T, after?: (value: T | Mixed | undefined) => void, help?: string,
+ * }} EntryOptions
+ */
+
+/**
  * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
  * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after(value)` is called
  * when the text has changed, with the value that the field stands for. Besides what all controls have, `put(value)` changes it as if typed,
  * `take()` takes over what is typed so far, and `current()` is what the field stands for.
  *
  * @template T
- * @template {HTMLInputElement | HTMLTextAreaElement} Field
- * @param {Field} field
- * @param {{
- *   value: () => T | Mixed | undefined, change(value: T): unknown, refused: (text: string) => void,
- *   encode: (value: T) => string, decode: (text: string) => T, after?: (value: T | Mixed | undefined) => void, help?: string,
- * }} options
+ * @param {HTMLInputElement | HTMLTextAreaElement} field
+ * @param {EntryOptions<T>} options
  */
-export function entry(field, { value, change, refused, encode, decode, after = () => {}, help }) {
-  const isLong = field instanceof HTMLTextAreaElement;
-  /** @type {T | Mixed | undefined} */
-  let current;
-  let isTyped = false;
-  const { placeholder } = field;
-  /** @param {T | Mixed | undefined} value */
-  const textOf = (value) => (value === MIXED ? "" : encode(/** @type {T} */ (value)));
-
-  set(field, { autocomplete: "off", spellcheck: "false", title: help });
-  const state = sync({
-    value,
-    /** @param {T | Mixed} value */
-    show(value) {
-      current = value;
-      write();
-    },
-    change,
-    isFocused: () => field.matches(":focus"),
-    /** @param {string} text */
-    refused(text) {
-      set(field, { "aria-invalid": text ? "true" : null });
-      refused(text);
-    },
+export function entry(field, options) {
+  const text = new Entry(field, options);
+  /** @type {HTMLElement} */
+  const element = field;
+  element.addEventListener("input", () => text.type());
+  element.addEventListener("keydown", (event) => press(field, text, event));
+  element.addEventListener("blur", () => {
+    if (text.isTyped) text.take();
   });
+  return {
+    element,
+    focus: () => field.focus(),
+    current: () => text.current,
+    isTyped: () => text.isTyped,
+    take: () => text.take(),
+    /** @param {T} value */
+    put: (value) => text.put(value),
+    hold: text.state.hold,
+    release: text.state.release,
+  };
+}
 
-  function write() {
-    const text = textOf(current);
-    if (field.value !== text) field.value = text;
-    set(field, { placeholder: current === MIXED ? MIXED_TEXT : placeholder });
-    after(current);
+/**
+ * A text that somebody enters, and the value that it stands for.
+ *
+ * @template T
+ */
+class Entry {
+  /** @type {T | Mixed | undefined} */
+  current;
+  isTyped = false;
+  #field;
+  #options;
+  #placeholder;
+
+  /**
+   * @param {HTMLInputElement | HTMLTextAreaElement} field
+   * @param {EntryOptions<T>} options
+   */
+  constructor(field, options) {
+    const { value, change, refused, help } = options;
+    this.#field = field;
+    this.#options = options;
+    this.#placeholder = field.placeholder;
+    set(field, { autocomplete: "off", spellcheck: "false", title: help });
+    this.state = sync({
+      value,
+      show: (/** @type {T | Mixed} */ shown) => this.#show(shown),
+      change,
+      isFocused: () => field.matches(":focus"),
+      refused(text) {
+        set(field, { "aria-invalid": text ? "true" : null });
+        refused(text);
+      },
+    });
   }
 
-  function take() {
-    isTyped = false;
+  type() {
+    this.isTyped = true;
+    this.state.hold();
+    this.#options.after?.(this.current);
+  }
+
+  take() {
+    this.isTyped = false;
     // Half a letter, as some programs leave on the clipboard, cannot be sent.
-    const text = field.value.toWellFormed?.() ?? field.value;
-    if (text === textOf(current) && !field.getAttribute("aria-invalid")) return state.release();
+    const text = this.#field.value.toWellFormed?.() ?? this.#field.value;
+    if (text === this.#text() && !this.isInvalid()) return this.state.release();
     try {
       if (text.length > MAX_TEXT) {
         const [most, got] = [MAX_TEXT, text.length].map((n) => n.toLocaleString("en"));
         throw new Error(`Not changed: expected at most ${most} characters, got ${got}.`);
       }
-      const value = decode(text);
-      current = value;
-      state.release();
-      state.edit(value);
+      const value = this.#options.decode(text);
+      this.current = value;
+      this.state.release();
+      this.state.edit(value);
     } catch (error) {
-      state.refuse(error instanceof Error ? error.message : String(error));
+      this.state.refuse(error instanceof Error ? error.message : String(error));
     }
   }
 
   /** @param {T} value */
-  function put(value) {
-    if (value === current) return;
-    current = value;
-    write();
-    state.edit(value);
+  put(value) {
+    if (value === this.current) return;
+    this.#show(value);
+    this.state.edit(value);
   }
 
-  /** @type {HTMLElement} */
-  const element = field;
-  element.addEventListener("input", () => {
-    isTyped = true;
-    state.hold();
-    after(current);
-  });
-  element.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && (!isLong || event.ctrlKey || event.metaKey)) {
-      take();
-    } else if (event.key === "Escape") {
-      if (!isTyped && !field.getAttribute("aria-invalid")) return;
-      isTyped = false;
-      state.cancel();
-      write();
-    } else {
-      return;
-    }
-    if (!isLong) field.select();
-    event.preventDefault();
-    event.stopPropagation();
-  });
-  element.addEventListener("blur", () => {
-    if (isTyped) take();
-  });
+  /** Back to what the viewer has. */
+  cancel() {
+    this.isTyped = false;
+    this.state.cancel();
+    this.#write();
+  }
 
-  return {
-    element,
-    focus: () => field.focus(),
-    current: () => current,
-    isTyped: () => isTyped,
-    take,
-    put,
-    hold: state.hold,
-    release: state.release,
-  };
+  /** @returns {boolean} */
+  isInvalid() {
+    return Boolean(this.#field.getAttribute("aria-invalid"));
+  }
+
+  /** @param {T | Mixed | undefined} value */
+  #show(value) {
+    this.current = value;
+    this.#write();
+  }
+
+  #text() {
+    const { current } = this;
+    return current === MIXED ? "" : this.#options.encode(/** @type {T} */ (current));
+  }
+
+  #write() {
+    const text = this.#text();
+    if (this.#field.value !== text) this.#field.value = text;
+    const placeholder = this.current === MIXED ? MIXED_TEXT : this.#placeholder;
+    set(this.#field, { placeholder });
+    this.#options.after?.(this.current);
+  }
+}
+
+/**
+ * Enter takes over what is typed, with Ctrl in a text of several lines; Escape goes back.
+ *
+ * @template T
+ * @param {HTMLInputElement | HTMLTextAreaElement} field
+ * @param {Entry<T>} text
+ * @param {KeyboardEvent} event
+ */
+function press(field, text, event) {
+  const isLong = field instanceof HTMLTextAreaElement;
+  if (event.key === "Enter" && (!isLong || event.ctrlKey || event.metaKey)) {
+    text.take();
+  } else if (event.key === "Escape") {
+    if (!text.isTyped && !text.isInvalid()) return;
+    text.cancel();
+  } else {
+    return;
+  }
+  if (!isLong) field.select();
+  event.preventDefault();
+  event.stopPropagation();
 }

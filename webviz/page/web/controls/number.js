@@ -72,7 +72,7 @@ export function number(property, options) {
   };
 }
 
-/** @typedef {ReturnType<typeof entry<number, HTMLInputElement>>} NumberField */
+/** @typedef {ReturnType<typeof entry<number>>} NumberField */
 
 /**
  * Arrow keys and pages step; Shift makes ten times as much of it, Alt a tenth.
