@@ -15,6 +15,14 @@ const COARSE = matchMedia("(pointer: coarse)");
 /** @import {Mixed} from "webviz/controls/mixed.js" */
 
 /**
+ * @typedef {{
+ *   label: string, value: () => string | Mixed, options: (isOpen: boolean) => Choice[],
+ *   change: (value: string) => unknown, refused?: (text: string) => void, free?: boolean,
+ *   placeholder?: string, help?: string,
+ * }} ComboboxOptions
+ */
+
+/**
  * A field that calls `change(value)` with what was chosen or typed.
  *
  * `value()` and `options(isOpen)`, whether the list is open, are read in effects. Options are
@@ -23,72 +31,117 @@ const COARSE = matchMedia("(pointer: coarse)");
  * the field for correction, `refused(text)` receives the reason. Unless `free`, only options are taken.
  * Returns `{element, focus(), restore()}`.
  *
- * @param {{
- *   label: string, value: () => string | Mixed, options: (isOpen: boolean) => Choice[],
- *   change: (value: string) => unknown, refused?: (text: string) => void, free?: boolean,
- *   placeholder?: string, help?: string,
- * }} options
+ * @param {ComboboxOptions} options
  */
-export function combobox({ label, value, options: read, free = true, placeholder = "", ...rest }) {
-  const isOpen = signal(false);
-  /** @type {Choice[]} */
-  let last = [];
-  const options = computed(() => {
-    const next = read(isOpen.value);
-    if (JSON.stringify(next) !== JSON.stringify(last)) last = next;
-    return last;
-  });
-  let current = untracked(value);
-  let isTyped = false; // since the list was opened or the last choice
+export function combobox(options) {
+  const box = new Combobox(options);
+  return {
+    element: box.element,
+    focus: () => box.input.focus(),
+    /** Shows what the viewer has instead of what it refused. */
+    restore: () => box.restore(),
+  };
+}
 
-  /** @type {HTMLInputElement} */
-  const input = textField(label, {
-    role: "combobox",
-    "aria-autocomplete": "list",
-    "aria-description": rest.help,
-    autocomplete: "off",
-    spellcheck: "false",
-    inputmode: !free && COARSE.matches ? "none" : null, // a list to tap, without a keyboard over it
-    placeholder,
-    onfocus: () => input.select(),
-    onclick() {
-      if (!isOpen.value) input.select();
-      open();
-    },
-    oninput() {
-      isTyped = true;
-      state.hold();
-      open(input.value);
-    },
-    onkeydown: press,
-    onblur: () => (isTyped ? take() : close()),
-  });
-  const note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
-  const list = new Listbox(input, label, { isOpen, options, free, choose });
-  const isInvalid = () => input.getAttribute("aria-invalid") !== null;
-  const state = sync({
-    ...rest,
-    value,
-    show(shown) {
-      current = shown;
-      if (!isTyped) write();
-    },
-    isFocused: () => input.matches(":focus"),
-    refused(text) {
-      set(input, { "aria-invalid": text ? "true" : null });
-      rest.refused?.(text);
-    },
-  });
-  effect(() => {
-    if (options.value && !isTyped && !isInvalid()) untracked(write);
-  });
+class Combobox {
+  #isOpen = signal(false);
+  #isTyped = false; // since the list was opened or the last choice
+  /** @type {string | Mixed} */
+  #current;
+  #isFree;
+  #placeholder;
+  #options;
+  #list;
+  #state;
+  #note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
 
-  function write() {
-    const option = options.value.find((one) => one.value === current);
+  /** @param {ComboboxOptions} options */
+  constructor({ label, value, options, free = true, placeholder = "", ...rest }) {
+    this.#isFree = free;
+    this.#placeholder = placeholder;
+    this.#options = steady(() => options(this.#isOpen.value));
+    this.#current = untracked(value);
+    this.input = this.#field(label, rest.help);
+    this.#list = new Listbox(this.input, label, {
+      isOpen: this.#isOpen,
+      options: this.#options,
+      free,
+      choose: (chosen) => this.#choose(chosen),
+    });
+    this.#state = sync({
+      ...rest,
+      value,
+      show: (shown) => this.#show(shown),
+      isFocused: () => this.input.matches(":focus"),
+      refused: (text) => {
+        set(this.input, { "aria-invalid": text ? "true" : null });
+        rest.refused?.(text);
+      },
+    });
+    effect(() => {
+      if (this.#options.value && !this.#isTyped && !this.#isInvalid())
+        untracked(() => this.#write());
+    });
+    const parts = [this.input, this.#note, icon("chevron", 12), this.#list.element];
+    this.element = el("div", { class: "wv-combobox" }, ...parts);
+  }
+
+  restore() {
+    this.#close();
+    this.#state.cancel();
+    this.#write();
+  }
+
+  /**
+   * @param {string} label
+   * @param {string} [help]
+   */
+  #field(label, help) {
+    const isToTap = !this.#isFree && COARSE.matches;
+    /** @type {HTMLInputElement} */
+    const input = textField(label, {
+      role: "combobox",
+      "aria-autocomplete": "list",
+      "aria-description": help,
+      autocomplete: "off",
+      spellcheck: "false",
+      inputmode: isToTap ? "none" : null, // a list to tap, without a keyboard over it
+      placeholder: this.#placeholder,
+      onfocus: () => input.select(),
+      onclick: () => {
+        if (!this.#isOpen.value) input.select();
+        this.#open();
+      },
+      oninput: () => {
+        this.#isTyped = true;
+        this.#state.hold();
+        this.#open(input.value);
+      },
+      onkeydown: (event) => this.#press(event),
+      onblur: () => (this.#isTyped ? this.#take() : this.#close()),
+    });
+    return input;
+  }
+
+  #isInvalid() {
+    return this.input.getAttribute("aria-invalid") !== null;
+  }
+
+  /** @param {string | Mixed} value */
+  #show(value) {
+    this.#current = value;
+    if (!this.#isTyped) this.#write();
+  }
+
+  #write() {
+    const current = this.#current;
+    const { input } = this;
+    const note = this.#note;
+    const option = this.#options.value.find((one) => one.value === current);
     const text = current === MIXED ? "" : (option?.label ?? current);
     if (input.value !== text) input.value = text;
     set(input, {
-      placeholder: current === MIXED ? MIXED_TEXT : placeholder,
+      placeholder: current === MIXED ? MIXED_TEXT : this.#placeholder,
       title: text.length > 24 ? text.slice(0, 1000) : null,
     });
     setText(note, option?.note ?? "");
@@ -101,64 +154,68 @@ export function combobox({ label, value, options: read, free = true, placeholder
   }
 
   /** @param {string} [text] */
-  function open(text) {
-    if (isOpen.value && text === undefined) return;
-    list.open(text === undefined ? current : null, text);
+  #open(text) {
+    if (this.#isOpen.value && text === undefined) return;
+    this.#list.open(text === undefined ? this.#current : null, text);
   }
 
-  function close() {
-    isTyped = false;
-    isOpen.value = false;
+  #close() {
+    this.#isTyped = false;
+    this.#isOpen.value = false;
   }
 
   /** @param {string} chosen */
-  function choose(chosen) {
-    const isNew = chosen !== current || isInvalid();
-    close();
-    current = chosen;
-    write();
-    state.release();
-    if (isNew) state.edit(chosen);
+  #choose(chosen) {
+    const isNew = chosen !== this.#current || this.#isInvalid();
+    this.#close();
+    this.#current = chosen;
+    this.#write();
+    this.#state.release();
+    if (isNew) this.#state.edit(chosen);
   }
 
   // What was typed: the option that is marked, or the text itself.
-  function take() {
-    const text = input.value.trim();
-    if (list.active()) choose(list.active().value);
-    else if (free) choose(text);
-    else if (list.first()) choose(list.first().value);
-    else back();
-  }
-
-  function back() {
-    close();
-    state.cancel();
-    write();
+  #take() {
+    const list = this.#list;
+    const text = this.input.value.trim();
+    if (list.active()) this.#choose(list.active().value);
+    else if (this.#isFree) this.#choose(text);
+    else if (list.first()) this.#choose(list.first().value);
+    else this.restore();
   }
 
   /** @param {KeyboardEvent} event */
-  function press(event) {
+  #press(event) {
+    const isOpen = this.#isOpen.value;
     const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key] ?? 0;
     if (event.key === "Escape") {
-      if (!isOpen.value && !isTyped && !isInvalid()) return;
-      back();
-      input.select();
+      if (!isOpen && !this.#isTyped && !this.#isInvalid()) return;
+      this.restore();
+      this.input.select();
     } else if (event.key === "Enter") {
-      if (isTyped) take();
-      else if (list.active()) choose(list.active().value);
+      if (this.#isTyped) this.#take();
+      else if (this.#list.active()) this.#choose(this.#list.active().value);
       else return;
-      input.select();
-    } else if (step && isOpen.value) list.move(step);
-    else if (Math.abs(step) === 1) open();
+      this.input.select();
+    } else if (step && isOpen) this.#list.move(step);
+    else if (Math.abs(step) === 1) this.#open();
     else return;
     event.preventDefault();
     event.stopPropagation();
   }
+}
 
-  return {
-    element: el("div", { class: "wv-combobox" }, input, note, icon("chevron", 12), list.element),
-    focus: () => input.focus(),
-    /** Shows what the viewer has instead of what it refused. */
-    restore: back,
-  };
+/**
+ * The choices, the same object as long as they are the same.
+ *
+ * @param {() => Choice[]} read
+ */
+function steady(read) {
+  /** @type {Choice[]} */
+  let last = [];
+  return computed(() => {
+    const next = read();
+    if (JSON.stringify(next) !== JSON.stringify(last)) last = next;
+    return last;
+  });
 }
