@@ -30,46 +30,16 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
   let newest;
   let isHeld = false;
   let isRefused = false;
-  /** @type {ReturnType<typeof setTimeout> | 0} */
-  let timer = 0;
-  let isUnderWay = false;
-  /** @type {{value: T} | null} */
-  let waiting = null;
-
-  const isBusy = () => isHeld || isRefused || isUnderWay || timer !== 0;
-
-  function settle() {
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      timer = 0;
-      showNewest();
-    }, SETTLE_MS);
-  }
+  const settling = pause(SETTLE_MS, showNewest);
+  const sending = sender(change, (answer) => {
+    tell(answer?.level === "error" ? answer.text : "");
+    if (!isRefused) settling.start();
+  });
 
   /** @param {string} text */
   function tell(text) {
     isRefused = text !== "";
     refused(text);
-  }
-
-  /**
-   * One at a time: of a drag, the viewer gets as many values as it can take.
-   *
-   * @param {T} value
-   */
-  async function next(value) {
-    isUnderWay = true;
-    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
-    const answer = /** @type {Outcome | undefined} */ (await Promise.race([change(value), lost]));
-    isUnderWay = false;
-    if (waiting) {
-      const { value } = waiting;
-      waiting = null;
-      next(value);
-    } else {
-      tell(answer?.level === "error" ? answer.text : "");
-      if (!isRefused) settle();
-    }
   }
 
   /** @param {T | Mixed} value that the viewer has */
@@ -81,7 +51,8 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
   }
 
   function showNewest() {
-    if (!isBusy() && newest !== undefined) show(newest);
+    const isBusy = isHeld || isRefused || sending.isUnderWay() || settling.isOn();
+    if (!isBusy && newest !== undefined) show(newest);
   }
 
   effect(() => {
@@ -96,17 +67,10 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
     /** They have ended. */
     release() {
       isHeld = false;
-      settle();
+      settling.start();
     },
-    /**
-     * They entered a value.
-     *
-     * @param {T} value
-     */
-    edit(value) {
-      if (isUnderWay) waiting = { value };
-      else next(value);
-    },
+    /** They entered a value. */
+    edit: sending.send,
     /** Report invalid input, and leave it for correction. */
     refuse: tell,
     /** Back to what the viewer has, or is about to have. */
@@ -114,6 +78,62 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
       isHeld = false;
       if (isRefused) tell("");
       showNewest();
+    },
+  };
+}
+
+/**
+ * Sends one value at a time: of a drag, the viewer gets as many as it can take. `done` is called with
+ * the answer to the last one.
+ *
+ * @template T
+ * @param {(value: T) => unknown} change
+ * @param {(answer: Outcome | undefined) => void} done
+ */
+function sender(change, done) {
+  let isUnderWay = false;
+  /** @type {{value: T} | null} */
+  let waiting = null;
+
+  /** @param {T} value */
+  async function next(value) {
+    isUnderWay = true;
+    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
+    const answer = /** @type {Outcome | undefined} */ (await Promise.race([change(value), lost]));
+    isUnderWay = false;
+    if (!waiting) return done(answer);
+    const newer = waiting;
+    waiting = null;
+    next(newer.value);
+  }
+
+  return {
+    isUnderWay: () => isUnderWay,
+    /** @param {T} value */
+    send(value) {
+      if (isUnderWay) waiting = { value };
+      else next(value);
+    },
+  };
+}
+
+/**
+ * A pause that `start()` begins anew; `done` is called at its end.
+ *
+ * @param {number} milliseconds
+ * @param {() => void} done
+ */
+function pause(milliseconds, done) {
+  /** @type {ReturnType<typeof setTimeout> | 0} */
+  let timer = 0;
+  return {
+    isOn: () => timer !== 0,
+    start() {
+      clearTimeout(timer);
+      timer = setTimeout(() => {
+        timer = 0;
+        done();
+      }, milliseconds);
     },
   };
 }
