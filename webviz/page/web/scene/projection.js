@@ -4,7 +4,7 @@ import constants from "webviz/constants.js";
 import { casterAt } from "webviz/scene/rays.js";
 import * as viser from "webviz/viser_page.js";
 
-/** @import {Vector3} from "three" */
+/** @import {Camera, Vector3} from "three" */
 /** @import {Ray} from "webviz/vectors.js" */
 /** @import {SceneObject, Vec2, Vec3} from "webviz/types.js" */
 
@@ -42,13 +42,12 @@ export const frameNode = (group) => viser.node(group ? pathOf(group) : ROOT);
 export function projectionOf(object) {
   object.updateWorldMatrix(true, false);
   const camera = viser.camera();
-  /**
-   * @param {Vec3} xyz
-   * @returns {Vector3}
-   */
-  const vector = (xyz) => camera.position.clone().fromArray(xyz);
   const back = object.matrixWorld.clone().invert();
-  const whole = camera.matrixWorld.elements;
+  /** @param {Vec3} xyz */
+  const worldPlace = (xyz) =>
+    camera.position.clone().fromArray(xyz).applyMatrix4(object.matrixWorld);
+  /** @param {Vec3} point */
+  const perPixel = (point) => pixelSize(camera, worldPlace(point));
   /**
    * @param {number} column
    * @param {number} sign
@@ -57,44 +56,21 @@ export function projectionOf(object) {
   const direction = (column, sign) =>
     camera.position
       .clone()
-      .fromArray(whole, 4 * column)
+      .fromArray(camera.matrixWorld.elements, 4 * column)
       .multiplyScalar(sign)
       .transformDirection(back)
       .toArray();
-  /**
-   * @param {Vec2} xy
-   * @returns {Ray}
-   */
-  const rayAt = (xy) => {
-    const { origin, direction } = casterAt(xy).ray.applyMatrix4(back);
-    return { origin: origin.toArray(), direction: direction.toArray() };
-  };
-  /**
-   * @param {Vec3} point
-   * @returns {Vec2 | null}
-   */
-  const project = (point) => {
-    const place = vector(point).applyMatrix4(object.matrixWorld);
-    if (place.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;
-    const { x, y } = place.project(camera);
-    const { left, top, width, height } = viser.canvas().getBoundingClientRect();
-    return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
-  };
-  /**
-   * @param {Vec3} point
-   * @returns {number}
-   */
-  const perPixel = (point) => {
-    const place = vector(point).applyMatrix4(object.matrixWorld);
-    const depth = place.clone().applyMatrix4(camera.matrixWorldInverse);
-    const { elements } = camera.projectionMatrix;
-    // The projection divides by w, which is the depth, or 1 without perspective.
-    const w = elements[11] * depth.z + elements[15];
-    return (2 * w) / (elements[5] * viser.canvas().clientHeight);
-  };
   return {
-    rayAt,
-    project,
+    /**
+     * @param {Vec2} xy
+     * @returns {Ray}
+     */
+    rayAt(xy) {
+      const { origin, direction } = casterAt(xy).ray.applyMatrix4(back);
+      return { origin: origin.toArray(), direction: direction.toArray() };
+    },
+    /** @param {Vec3} point */
+    project: (point) => windowPlace(camera, worldPlace(point)),
     perPixel,
     /** @param {Vec3} point */
     unit: (point) => 100 * perPixel(point),
@@ -107,4 +83,33 @@ export function projectionOf(object) {
      */
     toFrame: (point) => point.clone().applyMatrix4(back).toArray(),
   };
+}
+
+/**
+ * The point of the window where the camera sees a point of the world, null behind it.
+ *
+ * @param {Camera} camera
+ * @param {Vector3} place
+ * @returns {Vec2 | null}
+ */
+function windowPlace(camera, place) {
+  if (place.clone().applyMatrix4(camera.matrixWorldInverse).z >= 0) return null;
+  const { x, y } = place.clone().project(camera);
+  const { left, top, width, height } = viser.canvas().getBoundingClientRect();
+  return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
+}
+
+/**
+ * Metres of a pixel at a point of the world.
+ *
+ * @param {Camera} camera
+ * @param {Vector3} place
+ * @returns {number}
+ */
+function pixelSize(camera, place) {
+  const depth = place.clone().applyMatrix4(camera.matrixWorldInverse);
+  const { elements } = camera.projectionMatrix;
+  // The projection divides by w, which is the depth, or 1 without perspective.
+  const w = elements[11] * depth.z + elements[15];
+  return (2 * w) / (elements[5] * viser.canvas().clientHeight);
 }
