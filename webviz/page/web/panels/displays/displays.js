@@ -14,7 +14,7 @@ import * as folding from "webviz/panels/displays/folding.js";
 import { topmost } from "webviz/panels/displays/model.js";
 import * as selection from "webviz/panels/displays/selection.js";
 import { signal } from "webviz/signals.js";
-import { buildTree } from "webviz/panels/displays/tree.js";
+import { DisplayTree } from "webviz/panels/displays/tree.js";
 
 /** @import {Command} from "webviz/commands.js" */
 /** @import {Signal} from "webviz/signals.js" */
@@ -52,7 +52,7 @@ export const displays = {
       },
     );
     const details = buildDetails();
-    const tree = buildTree({
+    const tree = new DisplayTree({
       after: addButton(),
       changed({ items, search }) {
         // Properties stand once: not below the tree while they are in it.

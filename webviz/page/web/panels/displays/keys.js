@@ -138,7 +138,7 @@ function switchOn(tree, item, event) {
   const items = (
     isOne ? [item] : [...selection.ids()].flatMap((id) => tree.model().byId.get(id) ?? [])
   ).filter((each) => each.can_edit);
-  if (items.length) actions.setEnabled(items, !actions.isEnabled(item), tree.refresh);
+  if (items.length) actions.setEnabled(items, !actions.isEnabled(item), () => tree.refresh());
 }
 
 /** @param {Tree} tree */

@@ -46,7 +46,7 @@ export function listenToPointer(canvas, tree) {
       const item = target.dataset.part === "box" && tree.itemAt(target);
       if (!item) return;
       selection.activate(item.id);
-      actions.setEnabled([item], target.checked, tree.refresh);
+      actions.setEnabled([item], target.checked, () => tree.refresh());
       tree.focus();
     },
     oncontextmenu: (event) => {

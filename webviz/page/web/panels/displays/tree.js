@@ -34,185 +34,222 @@ const BEYOND_PX = 300; // above and below what is seen
 const GUESS = { status: 18, inside: 240 };
 
 /**
- * Builds the tree; `after` follows the last row. `changed({items, search})` is called when
+ * The tree; `after` follows the last row. `changed({items, search})` is called when
  * something else is shown or selected: `items` are those whose properties are shown, and `search` what
  * is searched for, which ends when something else is added.
  *
- * @param {{after: HTMLElement, changed: (shown: {items: Item[], search: string}) => void}} options
+ * @implements {Tree}
  */
-export function buildTree({ after, changed }) {
-  let model = arrange(new Map());
-  let global = globalItem(null);
-  let search = "";
+export class DisplayTree {
+  #model = arrange(new Map());
+  #global = globalItem(null);
+  #search = "";
   /** @type {Item[]} */
-  let rows = [];
-  let isThere = false;
-  let isKnown = false; // whether the viewer has said which displays there are
+  #rows = [];
+  #isThere = false;
+  #isKnown = false; // whether the viewer has said which displays there are
   /** @type {string | null} */
-  let toRename = null;
-  const canvas = el("div", {
-    class: "wv-tree-canvas",
-    role: "tree",
-    "aria-label": "Displays",
-    "aria-multiselectable": "true",
-  });
-  const none = el("p", { class: "wv-tree-none", hidden: true });
-  const element = el("div", { class: "wv-tree" }, canvas, none, after);
-  /** @type {Tree["list"]} */
-  const list = new VirtualList({
-    scroller: element,
-    canvas,
-    keyOf: ({ id }) => id,
-    guess,
-    make: (item, _, id) => makeRow(id, item, look),
-    held: selection.active,
-    beyond: () => BEYOND_PX,
-  });
+  #toRename = null;
+  #none = el("p", { class: "wv-tree-none", hidden: true });
+  #changed;
+  #pointer;
+  #ends;
 
-  const all = () => [global, ...model.items];
-
-  /** @param {Item} item */
-  function guess(item) {
-    const status = item.line && item.isActive ? GUESS.status : 0;
-    return rowHeight() + status + (folding.isOpen(item) && !item.isGroup ? GUESS.inside : 0);
+  /** @param {{after: HTMLElement, changed: (shown: {items: Item[], search: string}) => void}} options */
+  constructor({ after, changed }) {
+    this.#changed = changed;
+    this.canvas = el("div", {
+      class: "wv-tree-canvas",
+      role: "tree",
+      "aria-label": "Displays",
+      "aria-multiselectable": "true",
+    });
+    this.element = el("div", { class: "wv-tree" }, this.canvas, this.#none, after);
+    /** @type {Tree["list"]} */
+    this.list = new VirtualList({
+      scroller: this.element,
+      canvas: this.canvas,
+      keyOf: ({ id }) => id,
+      guess,
+      make: (item, _, id) => makeRow(id, item, (now) => this.#look(now)),
+      held: selection.active,
+      beyond: () => BEYOND_PX,
+    });
+    rememberScroll(this.element);
+    this.#pointer = listenToPointer(this.canvas, this);
+    listenToKeys(this.canvas, this);
+    this.#ends = [
+      effect(() => {
+        if (selection.added() && this.#isKnown) untracked(() => this.#update());
+      }),
+      this.#pointer.end,
+      listenToDrags(this.canvas, this),
+      watch("settings", (settings) => {
+        this.#global = globalItem(settings);
+        this.refresh(); // which displays there are is not known yet after a lost connection
+      }),
+      watch("displays", (values) => {
+        this.#model = arrange(values);
+        this.#isKnown = values.has("order");
+        this.#update();
+      }),
+    ];
   }
 
-  /** @param {Item} item */
-  function look(item) {
-    const isAlone = selection.ids().size === 1 && selection.isSelected(item.id);
-    return {
-      isOpen: search && item.isGroup ? true : folding.isOpen(item),
-      isSelected: selection.isSelected(item.id),
-      isTabStop: item.id === selection.active(),
-      enabled: actions.isEnabled(item),
-      hasRate: item.isActive && (isAlone || item.id === pointer.hovered()),
-      ...placeAmong(model, item),
-    };
+  model() {
+    return this.#model;
   }
 
-  function refresh() {
-    const isGlobalShown = matches(global, wordsOf(search));
-    rows = [...(isGlobalShown ? [global] : []), ...visible(model, folding.isOpen, search)];
+  rows() {
+    return this.#rows;
+  }
+
+  refresh() {
+    const model = this.#model;
+    const isGlobalShown = matches(this.#global, wordsOf(this.#search));
+    const rows = [
+      ...(isGlobalShown ? [this.#global] : []),
+      ...visible(model, folding.isOpen, this.#search),
+    ];
+    this.#rows = rows;
     if (!rows.some(({ id }) => id === selection.active())) {
       selection.activate(
         rows.find(({ id }) => selection.isSelected(id))?.id ?? rows[0]?.id ?? null,
       );
     }
-    list.show(rows);
-    const sentence = !model.items.length ? (isKnown ? EMPTY : "") : rows.length ? "" : NOT_FOUND;
-    showText(none, sentence);
-    changed({ items: editable(all(), selection.isSelected), search });
-    selection.save(all());
+    this.list.show(rows);
+    const empty = this.#isKnown ? EMPTY : "";
+    showText(this.#none, !model.items.length ? empty : rows.length ? "" : NOT_FOUND);
+    const items = editable(this.#all(), selection.isSelected);
+    this.#changed({ items, search: this.#search });
+    selection.save(this.#all());
   }
 
-  function update() {
-    const items = all();
-    const hadFocus = canvas.contains(document.activeElement);
-    const before = selection.active();
-    folding.follow(items);
-    const added = selection.follow(items);
-    const item = added && model.byId.get(added);
-    if (item) {
-      if (!matches(item, wordsOf(search))) search = "";
-      for (let { parent } = item; parent; { parent } = parent) folding.setOpen(parent, true);
-    }
-    refresh();
-    if (added) list.reveal(added);
-    else if (!isThere && model.items.length) element.scrollTop = recall(SCROLL_KEY, 0);
-    isThere ||= model.items.length > 0;
-    if (hadFocus && (selection.active() !== before || !canvas.contains(document.activeElement)))
-      focus();
-    if (toRename && model.byId.has(toRename)) startRename(toRename);
+  focus() {
+    this.list.row(selection.active())?.row.focus({ preventScroll: true });
   }
 
-  function focus() {
-    list.row(selection.active())?.row.focus({ preventScroll: true });
-  }
-
-  function showActive() {
-    refresh();
-    list.reveal(selection.active());
-    focus();
+  showActive() {
+    this.refresh();
+    this.list.reveal(selection.active());
+    this.focus();
   }
 
   /** @param {string | null} id */
-  function startRename(id) {
-    const item = id === null ? undefined : model.byId.get(id);
-    toRename = item ? null : id; // when it is there
+  rename(id) {
+    const item = id === null ? undefined : this.#model.byId.get(id);
+    this.#toRename = item ? null : id; // when it is there
     if (!item?.can_edit) return;
-    list.reveal(item.id);
-    const row = list.row(item.id);
+    this.list.reveal(item.id);
+    const row = this.list.row(item.id);
     if (row) rename(row, item);
   }
 
-  /** @type {Tree} */
-  const tree = {
-    element,
-    canvas,
-    list,
-    model: () => model,
-    rows: () => rows,
-    refresh,
-    focus,
-    showActive,
-    rename: startRename,
-    itemAt: (target) => {
-      if (!(target instanceof Element)) return null;
-      const id = target.closest(".wv-tree-node")?.getAttribute("data-id");
-      if (!id || target.closest(".wv-tree-inside, .wv-tree-rename")) return null;
-      return rows.find((row) => row.id === id) ?? null;
-    },
-    setOpen(item, open) {
-      folding.setOpen(item, open);
-      refresh();
-    },
-    setSearch(text) {
-      if (text === search) return;
-      search = text;
-      element.scrollTop = 0;
-      refresh();
-    },
-    openMenu(id, x, y) {
-      if (id === GLOBAL) return;
-      if (!selection.isSelected(id)) selection.choose(id);
-      refresh();
-      focus();
-      const row = list.row(id)?.row;
-      if (!row) return; // somebody removed it meanwhile
-      const { left, bottom } = row.getBoundingClientRect();
-      const shared = { model, rows: tree.rows, rename: startRename, refresh };
-      actions.openActions(x ?? left + 40, y ?? bottom, shared);
-    },
-    close() {
-      ends.forEach((end) => end());
-      list.close();
-    },
-  };
+  /** @param {EventTarget | null} target */
+  itemAt(target) {
+    if (!(target instanceof Element)) return null;
+    const id = target.closest(".wv-tree-node")?.getAttribute("data-id");
+    if (!id || target.closest(".wv-tree-inside, .wv-tree-rename")) return null;
+    return this.#rows.find((row) => row.id === id) ?? null;
+  }
 
+  /**
+   * @param {Item} item
+   * @param {boolean} open
+   */
+  setOpen(item, open) {
+    folding.setOpen(item, open);
+    this.refresh();
+  }
+
+  /** @param {string} text */
+  setSearch(text) {
+    if (text === this.#search) return;
+    this.#search = text;
+    this.element.scrollTop = 0;
+    this.refresh();
+  }
+
+  /**
+   * @param {string} id
+   * @param {number} [x]
+   * @param {number} [y]
+   */
+  openMenu(id, x, y) {
+    if (id === GLOBAL) return;
+    if (!selection.isSelected(id)) selection.choose(id);
+    this.refresh();
+    this.focus();
+    const row = this.list.row(id)?.row;
+    if (!row) return; // somebody removed it meanwhile
+    const { left, bottom } = row.getBoundingClientRect();
+    actions.openActions(x ?? left + 40, y ?? bottom, {
+      model: this.#model,
+      rows: () => this.rows(),
+      rename: (chosen) => this.rename(chosen),
+      refresh: () => this.refresh(),
+    });
+  }
+
+  close() {
+    this.#ends.forEach((end) => end());
+    this.list.close();
+  }
+
+  #all() {
+    return [this.#global, ...this.#model.items];
+  }
+
+  /** @param {Item} item */
+  #look(item) {
+    const isAlone = selection.ids().size === 1 && selection.isSelected(item.id);
+    return {
+      isOpen: this.#search && item.isGroup ? true : folding.isOpen(item),
+      isSelected: selection.isSelected(item.id),
+      isTabStop: item.id === selection.active(),
+      enabled: actions.isEnabled(item),
+      hasRate: item.isActive && (isAlone || item.id === this.#pointer.hovered()),
+      ...placeAmong(this.#model, item),
+    };
+  }
+
+  // Shows what the viewer has now, and what was added just now.
+  #update() {
+    const { canvas, element } = this;
+    const { items, byId } = this.#model;
+    const hadFocus = canvas.contains(document.activeElement);
+    const before = selection.active();
+    folding.follow(this.#all());
+    const added = selection.follow(this.#all());
+    const item = added && byId.get(added);
+    if (item) this.#uncover(item);
+    this.refresh();
+    if (added) this.list.reveal(added);
+    else if (!this.#isThere && items.length) element.scrollTop = recall(SCROLL_KEY, 0);
+    this.#isThere ||= items.length > 0;
+    if (hadFocus && (selection.active() !== before || !canvas.contains(document.activeElement)))
+      this.focus();
+    if (this.#toRename && byId.has(this.#toRename)) this.rename(this.#toRename);
+  }
+
+  /** @param {Item} item that neither the search nor a folded group shall hide */
+  #uncover(item) {
+    if (!matches(item, wordsOf(this.#search))) this.#search = "";
+    for (let { parent } = item; parent; { parent } = parent) folding.setOpen(parent, true);
+  }
+}
+
+/** @param {Item} item */
+function guess(item) {
+  const status = item.line && item.isActive ? GUESS.status : 0;
+  return touchable(26) + status + (folding.isOpen(item) && !item.isGroup ? GUESS.inside : 0);
+}
+
+/** @param {HTMLElement} element */
+function rememberScroll(element) {
   let scrolled = 0;
   element.addEventListener("scroll", () => {
     clearTimeout(scrolled);
     scrolled = setTimeout(() => remember(SCROLL_KEY, Math.round(element.scrollTop)), HOVER_MS);
   });
-  const pointer = listenToPointer(canvas, tree);
-  listenToKeys(canvas, tree);
-  const ends = [
-    effect(() => {
-      if (selection.added() && isKnown) untracked(update);
-    }),
-    pointer.end,
-    listenToDrags(canvas, tree),
-    watch("settings", (settings) => {
-      global = globalItem(settings);
-      refresh(); // which displays there are is not known yet after a lost connection
-    }),
-    watch("displays", (values) => {
-      model = arrange(values);
-      isKnown = values.has("order");
-      update();
-    }),
-  ];
-  return tree;
 }
-
-const rowHeight = () => touchable(26);
