@@ -2,7 +2,7 @@
 // would, and refuses the rest.
 
 import { clock } from "webviz/recorded/clock.js";
-import { player } from "webviz/recorded/player.js";
+import { Player } from "webviz/recorded/player.js";
 import { boxOf } from "webviz/recorded/bounds.js";
 import { frameAt } from "webviz/recorded/moments.js";
 import { selection } from "webviz/recorded/selection.js";
@@ -57,7 +57,7 @@ export function connection(about, feed, fail) {
   const panes = pictureSender((data) => socket.onmessage?.({ data }));
   /** @type {Promise<void>} */
   let applied = Promise.resolve();
-  const run = player(about, {
+  const run = new Player(about, {
     scene: (messages) => (applied = feed(messages)),
     store: (store, all, set, gone) => tell({ type: "Values", store, all, set, gone }),
     pictures: panes.offer,
@@ -127,7 +127,7 @@ const makeSocket = (hear) => ({
  * Answers what a page sends.
  *
  * @param {{
- *   own: ReturnType<typeof ownStores>, run: ReturnType<typeof player>, acts: Acts,
+ *   own: ReturnType<typeof ownStores>, run: Player, acts: Acts,
  *   panes: ReturnType<typeof pictureSender>, tell: (message: ToPage) => void,
  * }} viewer
  * @returns {(message: FromPage) => void}
@@ -140,7 +140,8 @@ const answers = ({ own, run, acts, panes, tell }) =>
       own.unwatch(message.store);
       run.unwatch(message.store);
     } else if (message.type === "Do") carryOut(acts, message).then(tell);
-    else if (message.type === "ShowPictures") panes.show(Object.keys(message.widths), run.repeat);
+    else if (message.type === "ShowPictures")
+      panes.show(Object.keys(message.widths), (display) => run.repeat(display));
     else if (message.type === "FramesShown") panes.confirm(Object.keys(message.numbers));
     else if (message.type === "Ping") tell({ type: "Pong" });
   };
@@ -293,7 +294,7 @@ const timeActs = ({ duration, index }, time) => ({
 });
 
 /**
- * @param {ReturnType<typeof player>} run
+ * @param {Player} run
  * @param {ReturnType<typeof views>} view
  * @param {(message: ToPage) => void} tell
  * @returns {Acts}
