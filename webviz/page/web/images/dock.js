@@ -8,10 +8,10 @@ import { recall, remember } from "webviz/remember.js";
 import { effect, signal } from "webviz/signals.js";
 import { watch } from "webviz/stores.js";
 import * as frames from "webviz/images/frames.js";
-import { makePane } from "webviz/images/pane.js";
+import { Pane } from "webviz/images/pane.js";
 
 /** @import {Panel, ValuesOf} from "webviz/types.js" */
-/** @typedef {{pane: ReturnType<typeof makePane>, panel: Panel}} Image */
+/** @typedef {{pane: Pane, panel: Panel}} Image */
 
 const STANDARD = 360;
 const MIN_SIZE = 120;
@@ -53,7 +53,7 @@ export function install(page) {
  * @param {() => void} changed
  */
 function follow(changed) {
-  /** @type {Map<string, ReturnType<typeof makePane>>} */
+  /** @type {Map<string, Pane>} */
   const panes = new Map();
   const images = signal(/** @type {Image[]} */ ([]));
   watch("panes", (rows) => {
@@ -69,7 +69,7 @@ function follow(changed) {
     images.value = order.flatMap((id) => {
       const row = rows.get(id);
       if (!row) return [];
-      const pane = panes.get(id) ?? makePane(id, changed, Boolean(row.hidden));
+      const pane = panes.get(id) ?? new Pane(id, changed, Boolean(row.hidden));
       if (!panes.has(id)) dragTab(pane.head, () => nameOf(pane));
       panes.set(id, pane);
       pane.update(row);
@@ -96,7 +96,7 @@ const panelOf = (pane, name) => ({
   name,
   title: pane.title(),
   home: "With the images",
-  open: pane.openIn,
+  open: (place, tools) => pane.openIn(place, tools),
 });
 
 /**
