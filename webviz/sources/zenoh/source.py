@@ -45,6 +45,8 @@ TF_TYPE = "tf2_msgs/msg/TFMessage"
 CLOCK, CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 MAX_FEEDBACK = 100
 """Actions whose feedback is received."""
+SETTLE_S = 1.0
+"""Time for the tokens to come again over a link that is back."""
 LOOK_S = 0.1
 """Pause in seconds between two readings of the graph, which may change for each of many tokens."""
 
@@ -82,7 +84,7 @@ class ZenohSource:
         self._opened: dict[str, str] = {}
         """Types by topic, of the topics that are open in the inbox."""
         self._is_wish_new = False
-        self._next_look_s = 0.0
+        self._next_look_s = self._settled_s = 0.0
         self._offers: Mapping[str, Offer] = {}
         self._bridges = (Bridge(address.name, problem=NEVER.cause, remedy=NEVER.remedy),)
         self._too_large: dict[str, str] = {}
@@ -255,9 +257,12 @@ class ZenohSource:
     def _look(self) -> None:
         """Read the graph, subscribe to what is wanted, and describe what there is."""
         is_new, self._is_wish_new = self._is_wish_new, False
-        problem = self.link.problem
-        # While the link is broken, what was known holds.
-        snapshot = self._found.snapshot() if problem is None else None
+        problem, now_s = self.link.problem, time.monotonic()
+        if problem is not None and self._bridges[0].was_up:
+            self._settled_s = now_s + SETTLE_S
+        # While the link is broken, what was known holds; and then until the tokens are there again.
+        is_settled = problem is None and now_s >= self._settled_s
+        snapshot = self._found.snapshot() if is_settled else None
         if snapshot is not None:
             self.snapshot = snapshot
         if is_new:
