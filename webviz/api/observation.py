@@ -206,6 +206,11 @@ class Observation:
             if display.problem(each.status):
                 yield display, each, self.offers.get(each.topic, NO_OFFER)
 
+    @property
+    def zenoh_links(self) -> Sequence[Bridge]:
+        """Return the links over Zenoh that are up."""
+        return [each for each in self.bridges if each.is_up and each.protocol == "Zenoh"]
+
     def is_alone(self) -> bool:
         """Return whether webviz is the only node in sight, apart from hidden ones as of `ros2`.
 

@@ -150,5 +150,5 @@ class PlanningScene(Display, ProtocolClient):
 
 
 def no_scene(topic: str, asking: Asking) -> str:
-    """Return why there is no scene, with the remedy."""
+    """Return why no planning scene is shown, and what to do."""
     return joined(f"No planning scene received on {topic}", asking.problem, "Start move_group.")

@@ -2,7 +2,8 @@
 
     python -m side_by_side.tail [--scene D] [--minutes 10]
 
-The first minute is told apart: in it, browsers join and modules are imported. For a quiet machine.
+The first minute is reported separately, since pages join and modules are imported then. Run it on
+a quiet machine.
 """
 
 from __future__ import annotations

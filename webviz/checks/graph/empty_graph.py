@@ -40,7 +40,7 @@ class EmptyGraph(Check):
         if not seen.is_alone() or not explains:
             return
         domain = seen.environment.domain if seen.environment else "0"
-        router = next((b.name for b in seen.bridges if b.is_up and b.protocol == "Zenoh"), "")
+        router = next((each.name for each in seen.zenoh_links), "")
         place = f"the Zenoh router {router}" if router else f"domain {domain}"
         has_left = any(each.received for _, each in seen.inputs())
         start = OVER_ZENOH if router else "Start the robot, or set the ROS_DOMAIN_ID of its nodes."

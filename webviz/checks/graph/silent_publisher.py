@@ -86,7 +86,7 @@ class SilentPublisher(Check):
                 f"{each.silence} ago.",
                 joined(
                     "Check what the node waits for, such as its sensor or its inputs.",
-                    OVER_ZENOH if any(b.protocol == "Zenoh" for b in seen.bridges) else "",
+                    OVER_ZENOH if seen.zenoh_links else "",
                     earlier if is_single and not is_repeated else "",
                 ),
                 subject=each.topic,

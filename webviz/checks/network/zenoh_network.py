@@ -34,9 +34,7 @@ class ZenohNetwork(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each remark on a link over Zenoh."""
-        for bridge in seen.bridges:
-            if not bridge.is_up or bridge.protocol != "Zenoh":
-                continue
+        for bridge in seen.zenoh_links:
             keys = ("Connection", f"Connection to {bridge.title}")
             explains = [symptom for key in keys for symptom in seen.symptom(key)]
             if not any(offer.publishers for offer in seen.offers.values()):

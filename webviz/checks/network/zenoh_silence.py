@@ -37,9 +37,8 @@ class ZenohSilence(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each link over Zenoh from which nothing comes."""
-        for bridge in seen.bridges:
-            if bridge.is_up and bridge.protocol == "Zenoh":
-                yield from self._silent(bridge, seen)
+        for bridge in seen.zenoh_links:
+            yield from self._silent(bridge, seen)
 
     def _silent(self, bridge: Bridge, seen: Observation) -> Iterator[Finding]:
         root = f"/{bridge.robot}/" if bridge.robot else "/"

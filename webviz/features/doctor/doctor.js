@@ -8,7 +8,7 @@ import { el } from "webviz/dom.js";
 import { iconButton, textButton } from "webviz/icons.js";
 import { timeOfDay } from "webviz/time_text.js";
 import { openPanel } from "webviz/docks/layout.js";
-import { computed, each, effect, signal, untracked } from "webviz/signals.js";
+import { computed, each, effect, signal } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 import { GLOBAL } from "webviz/panels/displays/model.js";
 import * as selection from "webviz/panels/displays/selection.js";
@@ -79,8 +79,8 @@ const doctor = {
       ),
     );
     effect(() => {
-      if (!all().length) return;
-      const key = untracked(() => wanted.value);
+      const key = wanted.value;
+      if (!all().length || !key) return;
       wanted.value = "";
       if (notes.value.some((one) => keyOf(one) === key)) isUnfolded.value = true;
       const made = /** @type {NodeListOf<HTMLElement>} */ (element.querySelectorAll(".wv-finding"));

@@ -69,7 +69,7 @@ export function makeCard(id, change) {
 }
 
 /**
- * What the robot does, and where it is told.
+ * Speed and turn rate of the robot, and the topic that they come from.
  *
  * @param {string} id of the tool
  * @param {() => string} topic

@@ -162,7 +162,7 @@ export const nodes = () => page().nodeRefFromName;
 export const node = (name) => page().nodeRefFromName[name];
 
 /**
- * Return where a node is relative to its parent, also of one that is no object, such as a text.
+ * Return the position of a node in its parent. Texts have one, too, although they are no objects.
  *
  * @param {string} name
  * @returns {Vec3 | undefined}
