@@ -1,6 +1,7 @@
 """Mood of docstrings: modules, classes and values get a noun phrase, functions the imperative."""
 
 import ast
+import functools
 import itertools
 import re
 from collections.abc import Iterator
@@ -45,6 +46,13 @@ def test_no_docstring_or_comment_begins_as_a_question(
     assert found == []
 
 
+@functools.cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    """Return the nodes of a module that have a body; all tests share them."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return tuple(node for node in ast.walk(tree) if isinstance(getattr(node, "body", None), list))
+
+
 def documented(doc: str) -> list[str]:
     """Return the names below "Args:" of a docstring."""
     section = ARGUMENTS.search(doc)
@@ -79,7 +87,7 @@ def accepted(node: Function | ast.ClassDef) -> set[str] | None:
 
 def strange_arguments(path: Path) -> Iterator[str]:
     """Return the documented arguments that do not exist."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes(path):
         if not isinstance(node, Function | ast.ClassDef):
             continue
         names = documented(ast.get_docstring(node) or "")
@@ -96,10 +104,8 @@ def test_every_documented_argument_exists(folder: str) -> None:
 
 def values(path: Path) -> Iterator[str]:
     """Return the docstrings of fields and constants."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        body = getattr(node, "body", None)
-        pairs = itertools.pairwise(body) if isinstance(body, list) else ()
-        for value, text in pairs:
+    for node in nodes(path):
+        for value, text in itertools.pairwise(vars(node)["body"]):
             match value, text:
                 case ast.Assign() | ast.AnnAssign(), ast.Expr(ast.Constant(str(words))):
                     yield words

@@ -63,14 +63,18 @@ def test_browsers_are_shared_out_and_stay(
         chosen: set[str] = set()
         for _ in range(MOST):
             with browser.new_context(viewport=SIZE, ignore_https_errors=True) as context:
-                page = context.new_page()
                 url = f"https://localhost:{port}/robot1/"
+                context.request.get(f"{url}?watch={SECRET}")
+                name = viewer_of(context)
+                if name in chosen:  # pages take long
+                    continue
+                context.clear_cookies(name=re.compile("webviz"))  # but not the proxy's
+                page = context.new_page()
                 page.goto(f"{url}?watch={SECRET}")
-                name = viewer_of(page)
                 for _ in range(2):
                     page.goto(f"{url}?fixedDpr={COARSE}")
                     page.wait_for_function("window.webviz?.hasView()")
-                    assert viewer_of(page) == name
+                    assert viewer_of(context) == name
                 viewer = viewers["abc".index(name[-1])]
                 # Nothing is drawn before a browser is connected.
                 until(
@@ -82,8 +86,8 @@ def test_browsers_are_shared_out_and_stay(
         assert chosen == {"viewer_a", "viewer_b", "viewer_c"}
 
 
-def viewer_of(page: playwright.Page) -> str:
+def viewer_of(context: playwright.BrowserContext) -> str:
     """Return the viewer that the proxy has chosen for a browser."""
-    (name,) = [c.get("value", "") for c in page.context.cookies() if c.get("name") == "viewer"]
+    (name,) = [c.get("value", "") for c in context.cookies() if c.get("name") == "viewer"]
     assert re.fullmatch("viewer_[abc]", name)
     return name
