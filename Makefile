@@ -39,8 +39,9 @@ unexport PYTHONDONTWRITEBYTECODE
 # Neither a browser nor a ROS graph: halves that take equally long, each for a process. To share them
 # out takes two processes of xdist an eighth more, as both collect all.
 QUICK_1 := $(addprefix tests/,displays data/messages engine files/rviz)
-QUICK_2 := $(wildcard tests/test_*.py) $(addprefix tests/,api sources server) \
-	$(filter-out $(QUICK_1),$(wildcard tests/data/* tests/files/*))
+QUICK_2 := $(wildcard tests/test_*.py) $(addprefix tests/,api server) \
+	$(filter-out $(QUICK_1) tests/sources/zenoh %/__pycache__ %/conftest.py, \
+	$(wildcard tests/data/* tests/files/* tests/sources/*))
 # What speaks ROS, which differs between distributions.
 OF_ROS := $(addprefix tests/,ros sim data/messages features/goals)
 # Processes for the others, twice as many as processors: they wait for browsers and ROS graphs.
@@ -49,8 +50,8 @@ WAITING := 4
 FIRST := $(addprefix tests/,page benchmarks e2e shell/testing sim scene shell/pictures pictures)
 # Each folder by itself: a folder that holds others takes their place in the order.
 SLOW := $(FIRST) $(filter-out $(FIRST) $(QUICK_1) $(QUICK_2) %/__pycache__ \
-	$(addprefix tests/,data files shell), \
-	$(patsubst %/,%,$(wildcard tests/*/ tests/shell/*/)))
+	$(addprefix tests/,data files shell sources), \
+	$(patsubst %/,%,$(wildcard tests/*/ tests/shell/*/ tests/sources/zenoh/)))
 
 # $(call run,OPTIONS,TESTS): a busy machine delays threads, browsers and ROS graphs, so what fails
 # runs once more, one after another.
