@@ -127,7 +127,7 @@ DOORS: Mapping[str, Door] = {
             "webviz/engine/feature.py",
             "webviz/server/access/*",
             "webviz/shell/docs.py",
-            "webviz/shell/new/*",
+            "webviz/shell/cli/new.py",
             "webviz/shell/testing/*",
             "webviz/shell/reference.py",
             "webviz/features/outputs/*",
@@ -136,7 +136,7 @@ DOORS: Mapping[str, Door] = {
         "Tokens, certificates, plug-ins and templates of the user who starts webviz.",
     ),
     "browsers of pictures": Door(
-        ("exported",), ("webviz/shell/pictures/*", "webviz/shell/frames/*")
+        ("exported",), ("webviz/shell/pictures/*", "webviz/shell/cli/frames.py")
     ),
 }
 

@@ -36,12 +36,12 @@ from webviz.files.report import read_report
 from webviz.panels.parameter_values import of_node
 from webviz.panels.yaml_text import read_yaml
 from webviz.shell.app.reading import read_config
+from webviz.shell.cli.frames import read_bag
 from webviz.shell.cli.terminal import say, warn
 from webviz.shell.doctor.examination import examine_bag
 from webviz.shell.doctor.report import to_text
 from webviz.shell.doctor.rule_results import RuleResults
 from webviz.shell.doctor.scene import NoScene
-from webviz.shell.frames.reading import read_bag
 from webviz.sources import Subscription
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.qos import profiles_of

@@ -193,7 +193,7 @@ def watch(address: str, seconds: float) -> None:
 
         source = bridge_source(address)
     else:
-        from webviz.shell.ros_source import ros_source
+        from webviz.shell.live_source import ros_source
 
         source = ros_source()
     delays: dict[str, list[float]] = {topic: [] for topic in TYPES}

@@ -26,7 +26,7 @@ from webviz.api.finding import CauseLevel
 from webviz.api.offer import Offer, Publisher
 from webviz.commands import SetProperty
 from webviz.shell.doctor.examination import examine_live, live_config
-from webviz.shell.ros_source import ros_source
+from webviz.shell.live_source import ros_source
 from webviz.shell.testing.harness import Harness
 from webviz.shell.testing.live import LiveViewer
 from webviz_displays.laser_scan import LaserScan as LaserScanDisplay

@@ -19,7 +19,7 @@ from plain_scenes import in_moving_frame
 from webviz.shell.testing import check_details
 from webviz_displays.grid_map import GridMap
 from webviz_displays.grid_map import display as display_module
-from webviz_displays.grid_map.surface import faces_of
+from webviz_displays.grid_map.display import faces_of
 
 NAN = math.nan
 

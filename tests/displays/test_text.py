@@ -13,7 +13,7 @@ from inspecting import Benches
 from webviz import Topic
 from webviz.api.pictures import Readout
 from webviz.data.messages import encode
-from webviz.shell.pictures.readouts import written
+from webviz.shell.pictures.dock import written
 from webviz.sources import Offer, Publisher
 from webviz_displays.text import MAX_FIELDS, Text
 

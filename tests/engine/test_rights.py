@@ -18,7 +18,7 @@ from webviz.engine.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
-from webviz.shell.app.allow_list import report_everything
+from webviz.shell.app.arguments import report_everything
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Advertisement, Gate, NotConnected, Rights

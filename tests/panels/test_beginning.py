@@ -13,7 +13,7 @@ from waiting import until
 from tests.support.guest import Guest
 from tests.support.memory_viewer import Memory
 from webviz.commands import AddPanel, Pause, RemovePanel, ReturnToLive, Seek, SetPanelProperty
-from webviz.engine.parts import past_messages
+from webviz.engine.parts import panels
 from webviz.panels.plot import Plot
 
 X, Y = "/plan.poses[1].pose.position.x", "/plan.poses[1].pose.position.y"
@@ -115,7 +115,7 @@ def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> 
 def test_what_a_panel_begins_with_is_bounded(
     memory: Memory, live: Guest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(past_messages, "MAX_MESSAGES", 7)
+    monkeypatch.setattr(panels, "MAX_MESSAGES", 7)
     begins = memory.viewer.fact("panels")
     assert begins == ()
     given: list[int] = []

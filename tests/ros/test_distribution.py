@@ -48,7 +48,7 @@ NAMED = {
     "webviz/data/messages/distributions.py",  # fields of messages
     "webviz/data/messages/typestore.py",  # the fields that are known here
     "webviz/data/recordings/folder_writing.py",  # of whose types bags are written
-    "webviz/shell/ros_source.py",  # what to source
+    "webviz/shell/live_source.py",  # what to source
     "sim/webviz_sim/node.py",
 }
 """Modules whose code names a distribution."""

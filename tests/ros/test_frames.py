@@ -13,7 +13,7 @@ from bags import stamped
 
 from webviz.data.messages import encode
 from webviz.ros.node import RosSource
-from webviz.shell.frames.reading import TreeRead, read_live
+from webviz.shell.cli.frames import TreeRead, read_live
 from webviz.sources import Advertisement
 
 TF = "tf2_msgs/msg/TFMessage"

@@ -21,7 +21,7 @@ from std_srvs.srv import SetBool
 from webviz.data.messages import decode, encode, interfaces
 from webviz.ros.node import RosSource
 from webviz.ros.types import MessageTypeError, learn, message_class
-from webviz.ros.types.composing import composed_service
+from webviz.ros.types.classes import composed_service
 from webviz.sources import Advertisement, NotConnected, ReadOnly
 
 STRING = "std_msgs/msg/String"

@@ -22,7 +22,7 @@ from webviz.data.messages import (
     typestore,
 )
 from webviz.ros.types import MessageTypeError, learn, message_class, service_class, type_hash
-from webviz.ros.types.composing import composed_message, composed_service
+from webviz.ros.types.classes import composed_message, composed_service
 from webviz.ros.types.wire import RawPayload
 
 # rclpy's own imports: the parser of an old lark uses a module that Python 3.11 deprecates.

@@ -14,11 +14,18 @@ from several import Make
 from waiting import until
 from websockets.frames import Frame, Opcode
 
-from webviz.server.http import backoff, connections
-from webviz.server.http.backoff import FIRST_S, FORGIVEN_S, MAX_S, BackOff
+from webviz.server.http import connections, rate_limits
 from webviz.server.http.connections import MAX_BROWSERS, READ_BYTES, Connection
 from webviz.server.http.eviction import network_of
-from webviz.server.http.rate_limits import MAX_REMEMBERED, RateLimit, SpentRates
+from webviz.server.http.rate_limits import (
+    FIRST_S,
+    FORGIVEN_S,
+    MAX_REMEMBERED,
+    MAX_S,
+    BackOff,
+    RateLimit,
+    SpentRates,
+)
 
 PAGE = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
@@ -169,10 +176,10 @@ def test_of_too_many_that_stay_away_the_first_may_come_back() -> None:
     back_off = BackOff()
     back_off.send_away(0, 0.0)
     back_off.send_away(0, FIRST_S)  # for 20 s
-    for number in range(1, backoff.MAX_REMEMBERED + 1):
+    for number in range(1, rate_limits.MAX_REMEMBERED + 1):
         back_off.send_away(number, 15.0)
-    waits = [back_off.wait_s(number, 15.0) for number in range(backoff.MAX_REMEMBERED + 1)]
-    assert waits == [0.0, *backoff.MAX_REMEMBERED * [FIRST_S]]
+    waits = [back_off.wait_s(number, 15.0) for number in range(rate_limits.MAX_REMEMBERED + 1)]
+    assert waits == [0.0, *rate_limits.MAX_REMEMBERED * [FIRST_S]]
 
 
 def test_a_browser_that_sends_too_much_waits_and_others_do_not(

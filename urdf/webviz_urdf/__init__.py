@@ -30,9 +30,8 @@ from webviz_urdf.robot import (
 )
 
 if TYPE_CHECKING:
-    from webviz_urdf.effort_limits import turning_joints
     from webviz_urdf.load import load_file, load_robot
-    from webviz_urdf.moving import moving_joints
+    from webviz_urdf.moving import moving_joints, turning_joints
 
 __all__ = [
     "Inertial",
@@ -71,7 +70,7 @@ __all__ = [
 def __getattr__(name: str) -> object:
     """Import what reads files when it is asked for: it takes longer than all of a viewer."""
     if name == "turning_joints":
-        return importlib.import_module("webviz_urdf.effort_limits").turning_joints
+        return importlib.import_module("webviz_urdf.moving").turning_joints
     if name == "moving_joints":
         return importlib.import_module("webviz_urdf.moving").moving_joints
     if name in ("load_file", "load_robot"):

@@ -9,16 +9,38 @@ from concurrent.futures import Future
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
 
 from webviz.ros.calls import Calls
-from webviz.ros.distribution import NO_EVENTS_OF_PUBLISHERS
-from webviz.ros.feedback import FeedbackSubscriptions
+from webviz.ros.distribution import NO_EVENTS_OF_PUBLISHERS, publisher_count
 from webviz.ros.types import MessageTypeError, learn, message_class
 from webviz.sources.goals import Goals
 from webviz.sources.graph import Advertisement, Goal
 from webviz.sources.jobs import Jobs
 
 MAX_PUBLISHERS = 100
+FEEDBACK_DEPTH = 10
+
+
+class FeedbackSubscriptions:
+    """One subscription for the feedback of all goals of an action.
+
+    Args:
+        node: that has them.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._subscriptions: dict[str, Subscription] = {}
+
+    def listen(self, topic: str, type: str, arrive: Callable[[bytes], None]) -> Callable[[], bool]:
+        """See `webviz.sources.goals.ListenToFeedback`."""
+        if topic not in self._subscriptions:
+            self._subscriptions[topic] = self._node.create_subscription(
+                message_class(type), topic, arrive, QoSProfile(depth=FEEDBACK_DEPTH), raw=True
+            )
+        subscription = self._subscriptions[topic]
+        return lambda: publisher_count(self._node, subscription) > 0
 
 
 class AdvertisedPublishers:

@@ -22,7 +22,7 @@ from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer, Raw
 from webviz.sources.bag.files import BagFiles
 from webviz.sources.past_state import PlaybackState
-from webviz.sources.recording.wall_clock import WallClock
+from webviz.sources.recording.entries_history import WallClock
 
 TURNS = 10_000
 LOOK_S = 0.005

@@ -46,8 +46,8 @@ from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.past_state import PlaybackState
 from webviz.sources.player import NEARLY_NS, Player
+from webviz.sources.recording.entries_history import WallClock
 from webviz.sources.recording.memory import MEMORY_OFF, MemoryHistory
-from webviz.sources.recording.wall_clock import WallClock
 from webviz.tools.teleop import Teleop
 from webviz_displays.path import Path as PathDisplay
 

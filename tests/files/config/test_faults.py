@@ -16,7 +16,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit
 from webviz.files.config import Settings
-from webviz.files.config.faults import Fault, first_fault
+from webviz.files.config.explain import Fault, first_fault
 
 ODD: tuple[Any, ...] = (
     *(None, True, -1, 3, 2.5, 1e9, math.nan, math.inf, "", "a b", "x" * 300),

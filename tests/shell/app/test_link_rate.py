@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from webviz.api.errors import Error
-from webviz.shell.app.link_rate import bytes_per_second
+from webviz.shell.app.arguments import bytes_per_second
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ import pytest
 from webviz.api.errors import UsageError
 from webviz.data.transforms import TransformBuffer, diagnose
 from webviz.data.transforms.picture import draw_tree
-from webviz.shell.frames import pixels
+from webviz.shell.cli import frames
 from webviz.shell.pictures import videos
 from webviz.shell.pictures.files import (
     OutputError,
@@ -143,11 +143,11 @@ def test_a_full_disk_is_one_sentence_and_a_device_stays_one(tmp_path):
 def test_a_tree_of_frames_is_a_png(
     browser: playwright.Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(pixels, "launched", lambda: contextlib.nullcontext(browser))
+    monkeypatch.setattr(frames, "launched", lambda: contextlib.nullcontext(browser))
     buffer = TransformBuffer()
     buffer.set_transform("map", "odom", 1, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
     picture = draw_tree(diagnose(buffer), "Frames")
-    with PIL.Image.open(io.BytesIO(pixels.to_png(picture))) as image:
+    with PIL.Image.open(io.BytesIO(frames.to_png(picture))) as image:
         assert image.size == (picture.width, picture.height)
         colors = {color for _, color in image.convert("RGB").getcolors(1 << 16) or ()}
     assert {(255, 255, 255), (0xF6, 0xF8, 0xFA)} <= colors

@@ -14,8 +14,8 @@ from playwright.sync_api import expect
 import webviz
 from webviz.api.views import Orbit
 from webviz.files.report import UnpackedReport, read_report
+from webviz.shell.cli.open import show
 from webviz.shell.pictures.browser import Page
-from webviz.shell.report.opening import show
 
 AT_S = 5.0
 

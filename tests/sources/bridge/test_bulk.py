@@ -17,9 +17,9 @@ from webviz.data.messages import definition, encode
 from webviz.sources import Subscription
 from webviz.sources.bridge.address import address
 from webviz.sources.bridge.bulk import BulkConnection
-from webviz.sources.bridge.opening import opened
 from webviz.sources.bridge.pacing import MAX_RATE, Pacer
 from webviz.sources.bridge.source import BridgeSource
+from webviz.sources.bridge.talking import opened
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
 

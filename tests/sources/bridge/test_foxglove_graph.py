@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from webviz.sources.bridge import foxglove_graph
-from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge import foxglove_channels
+from webviz.sources.bridge.foxglove_channels import ConnectionGraph
 from webviz.sources.bridge.foxglove_wire import (
     AdvertisedService,
     ConnectionGraphUpdate,
@@ -32,7 +32,7 @@ def test_topics_and_services_come_and_go() -> None:
 
 
 def test_a_graph_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(foxglove_graph, "MAX_NAMES", 3)
+    monkeypatch.setattr(foxglove_channels, "MAX_NAMES", 3)
     graph = ConnectionGraph()
     topics = tuple(PublishedTopic(f"/{number}", ("/node",)) for number in range(5))
     for count, expected in ((3, 3), (5, 3)):

@@ -15,14 +15,15 @@ from zenoh_robot import robot_attachment, robot_token
 from webviz.data.messages import type_hash
 from webviz.sources.names import MAX_NAME
 from webviz.sources.zenoh.attachment import Attachment, gid_of, read_attachment, write_attachment
-from webviz.sources.zenoh.names import dds_type, ros_type
 from webviz.sources.zenoh.qos import TokenQos, read_dds_qos, read_qos, write_qos
 from webviz.sources.zenoh.tokens import (
     MAX_TOKEN,
     GraphEntity,
     LivelinessError,
     data_key,
+    dds_type,
     read_token,
+    ros_type,
     write_token,
 )
 

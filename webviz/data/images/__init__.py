@@ -1,7 +1,6 @@
 """Images: every encoding of sensor_msgs to pixels, and values to colours."""
 
 from webviz.data.images.camera_model import CameraModel, calibration_problem, optical_problem
-from webviz.data.images.color_maps import COLOR_MAPS
 from webviz.data.images.compressed import (
     CompressedInfo,
     decoding,
@@ -16,7 +15,7 @@ from webviz.data.images.headers import read_header
 from webviz.data.images.lens import Lens
 from webviz.data.images.raw import RawImage, needed_bytes, remarks, values, whole_bytes
 from webviz.data.images.render import jpeg, render
-from webviz.data.images.tone import Tone, to_rgb, value_range
+from webviz.data.images.tone import COLOR_MAPS, Tone, to_rgb, value_range
 
 __all__ = [
     "COLOR_MAPS",

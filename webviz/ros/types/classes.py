@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy.serialization import deserialize_message, serialize_message
@@ -13,11 +14,157 @@ from rclpy.utilities import get_rmw_implementation_identifier
 from webviz.data.messages import MessageError, UnknownTypeError, interfaces
 from webviz.data.words import joined
 from webviz.ros import distribution
-from webviz.ros.types.composing import composed_message, composed_service
-from webviz.ros.types.descriptions import describe
+from webviz.ros.types import wire
+from webviz.ros.types.descriptions import BOUNDED_SEQUENCE, describe, fields
+from webviz.ros.types.structs import (
+    Member,
+    Members,
+    MessageCallbacks,
+    ServiceCallbacks,
+    ServiceTypeSupport,
+    TypeSupport,
+    address,
+    capsule,
+    finder,
+    function,
+    getters,
+    text,
+)
 from webviz.ros.types.wire import RawPayload
 
 _FEEDBACK = "_FeedbackMessage"
+# Primitive types by their number in the introspection's field_types.h.
+_INTROSPECTED = {"float32": 1, "float64": 2, "bool": 6, "byte": 7, "octet": 7, "uint8": 8}
+_INTROSPECTED |= {"char": 8, "int8": 9, "uint16": 10, "int16": 11, "uint32": 12, "int32": 13}
+_INTROSPECTED |= {"uint64": 14, "int64": 15, "string": 16, "wstring": 17}
+_NESTED = 18
+_C, _FASTRTPS, _INTROSPECTION = (
+    "rosidl_typesupport_c",
+    "rosidl_typesupport_fastrtps_c",
+    "rosidl_typesupport_introspection_c",
+)
+_pointer = ctypes.c_void_p
+
+
+class _ComposedType(type):
+    """Metaclass of the composed classes; each class has its own subclass with the capsules."""
+
+    @classmethod
+    def __import_type_support__(cls) -> None:
+        """Do nothing: the capsules exist from the start."""
+
+
+class _ComposedMessage(_ComposedType):
+    def __call__(cls, *_: object, **__: object) -> Any:
+        raise TypeError(f"The package of {cls.__name__} is missing: use serialised bytes.")
+
+
+@functools.cache
+def composed_message(type_name: str) -> type:
+    """Return the class of a message type, composed from its definition."""
+    # Called by a subscription without raw=True: null makes rclpy raise.
+    no_message = capsule(function(lambda: None, _pointer))
+    attributes = dict.fromkeys(wire.conversions(), no_message)
+    attributes["_TYPE_SUPPORT"] = capsule(_message_support(type_name))
+    return _class(type_name, _ComposedMessage, (), attributes)
+
+
+@functools.cache
+def composed_service(type_name: str) -> type:
+    """Return the class of a service type, composed from its definition.
+
+    Requests are `RawPayload`.
+    """
+    parts = interfaces.service(type_name)
+    cls = _class(type_name, _ComposedType, (), {"_TYPE_SUPPORT": capsule(_service(type_name))})
+    for name, part in (("Request", parts.request), ("Response", parts.response)):
+        attributes = wire.conversions() | {"_TYPE_SUPPORT": capsule(_message_support(part))}
+        setattr(cls, name, _class(part, _ComposedType, (wire.RawPayload,), attributes))
+    return cls
+
+
+def _class(type_name: str, base: type, bases: tuple[type, ...], attributes: dict[str, Any]) -> Any:
+    package, kind, name = type_name.split("/")
+    metaclass = type(f"Metaclass_{name}", (base,), attributes)
+    return metaclass(name, bases, {"__module__": f"{package}.{kind}"})
+
+
+def _handle(
+    type_name: str, identifier: str, data: int, others: dict[str, int], messages: Sequence[int] = ()
+) -> int:
+    """Return a `rosidl_message_type_support_t`, or that of a service with `messages`."""
+    support: Any
+    if messages:
+        more = (*messages, 0, 0, *getters(type_name))
+        support = ServiceTypeSupport(text(identifier), data, 0, *more)
+    else:
+        support = TypeSupport(text(identifier), data, 0, *getters(type_name))
+    own = address(support)
+    support.func = finder({**others, identifier: own})
+    return own
+
+
+@functools.cache
+def _introspection(type_name: str) -> int:
+    """Return the handle from which Fast DDS reads the members to announce them as an XTypes object.
+
+    Sizes, offsets and functions stay zero, since they describe a C struct that does not exist.
+    """
+    members = [
+        Member(
+            name=text(field.name),
+            type_id=_INTROSPECTED.get(field.type_name, _NESTED),
+            string_bound=field.string_bound,
+            members=_introspection(field.type_name) if field.is_nested else 0,
+            is_array=bool(field.repeated),
+            array_size=field.capacity,
+            is_upper_bound=field.repeated == BOUNDED_SEQUENCE,
+        )
+        for field in fields(type_name)
+    ]
+    package, kind, name = type_name.split("/")
+    array = address((Member * len(members))(*members))
+    data = Members(text(f"{package}__{kind}"), text(name), len(members), members=array)
+    return _handle(type_name, _INTROSPECTION, address(data), {})
+
+
+@functools.cache
+def _message_support(type_name: str) -> int:
+    """Return the handle for rclpy, through which rmw_fastrtps_cpp finds the two that it uses."""
+    package, kind, name = type_name.split("/")
+
+    def max_serialized_size(bounds: Any) -> int:
+        bounds[0] = b"\0"  # ROSIDL_TYPESUPPORT_FASTRTPS_UNBOUNDED_TYPE: memory as each one needs
+        return 0
+
+    callbacks = MessageCallbacks(
+        text(f"{package}::{kind}"),
+        text(name),
+        function(wire.serialize, ctypes.c_bool, _pointer, _pointer),
+        function(wire.deserialize, ctypes.c_bool, _pointer, _pointer),
+        function(wire.serialized_size, ctypes.c_uint32, _pointer),
+        function(max_serialized_size, ctypes.c_size_t, ctypes.POINTER(ctypes.c_char)),
+    )
+    data = address(callbacks)
+    others = {
+        _FASTRTPS: _handle(type_name, _FASTRTPS, data, {}),
+        _INTROSPECTION: _introspection(type_name),
+    }
+    return _handle(type_name, _C, data, others)
+
+
+def _service(type_name: str) -> int:
+    """Return a `rosidl_service_type_support_t`; the counterpart of `_message_support`."""
+    package, kind, name = type_name.split("/")
+    parts = interfaces.service(type_name)
+    supports = [_message_support(part) for part in (*parts, f"{type_name}_Event")]
+    members = [
+        _handle(part, _FASTRTPS, TypeSupport.from_address(support).data, {})
+        for part, support in zip(parts, supports[:2], strict=True)
+    ]
+    data = address(ServiceCallbacks(text(f"{package}::{kind}"), text(name), *members))
+    others = {_FASTRTPS: _handle(type_name, _FASTRTPS, data, {}, supports)}
+    return _handle(type_name, _C, data, others, supports)
 
 
 class MessageTypeError(Exception):

@@ -18,10 +18,9 @@ from websockets.protocol import State
 from webviz.api.roles import Role
 from webviz.server.access.access import EVERYBODY, Grant
 from webviz.server.access.roles import LIMITS
-from webviz.server.http.backoff import BackOff
 from webviz.server.http.eviction import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
-from webviz.server.http.rate_limits import RateLimit, SpentRates
+from webviz.server.http.rate_limits import BackOff, RateLimit, SpentRates
 from webviz.server.http.requests import add_policy, as_get, is_complete, is_head, refusal
 from webviz.server.http.viser_messages import objection
 from webviz.server.sending.congestion import CongestionControl, InFlightWindow, SentMarker

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from webviz.api.errors import Error
 from webviz.shell.cli.ending import Stop, kill
-from webviz.shell.ros_source import NO_ROS
+from webviz.shell.live_source import NO_ROS
 
 DEMO, FLEET = (Path(__file__).with_name(name) for name in ("demo.yaml", "fleet.yaml"))
 _NO_ROBOTS = "robots: []"

@@ -1,14 +1,23 @@
 """`webviz frames`: prints or draws the tree of transforms, live or of a bag."""
 
+from __future__ import annotations
+
+import base64
 import contextlib
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
+import msgspec
 from cyclopts import App, Parameter, validators
 
-from webviz.api.errors import UsageError
+from webviz.api.errors import Error, UsageError
+from webviz.data.names import readable
+from webviz.data.transforms import Diagnosis, TransformBuffer, diagnose, tree_text
+from webviz.data.transforms.picture import TreePicture
+from webviz.engine.pipeline.listener import TransformListener
 from webviz.shell.cli.ending import Stop, until_signal
 from webviz.shell.cli.options import (
     ROS_ARGS_HELP,
@@ -20,9 +29,9 @@ from webviz.shell.cli.options import (
 from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
 from webviz.shell.cli.terminal import say, warn
-
-if TYPE_CHECKING:
-    from webviz.shell.frames.reading import TreeRead
+from webviz.shell.pictures.browser import LARGEST, launched
+from webviz.sources import Source
+from webviz.sources.player import Player
 
 EXAMPLES = """\
 Examples:
@@ -38,6 +47,117 @@ FAULTY = 3
 SUFFIXES = (".svg", ".png")
 
 app = App("frames", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
+REST_S = 0.1
+
+Progress = Callable[[str, float], object]
+"""Called with what is done and the share of it that is."""
+
+
+class TreeRead(msgspec.Struct, frozen=True):
+    """The tree of transforms at a time.
+
+    Args:
+        diagnosis: its frames and faults.
+        tree: as indented lines.
+        nodes: that publish each topic of transforms.
+    """
+
+    diagnosis: Diagnosis
+    tree: str
+    nodes: Mapping[str, Sequence[str]]
+
+    def notes(self) -> list[str]:
+        """Sentences on the publishers."""
+        return [
+            f"{topic} is published by {', '.join(nodes)}."
+            for topic, nodes in self.nodes.items()
+            if nodes
+        ]
+
+    def text(self) -> str:
+        """Return the tree for a terminal, with its faults and publishers."""
+        tree = self.tree or "No transforms arrived on /tf or /tf_static."
+        return "\n".join([tree, *map(readable, (*self.diagnosis.problems, *self.notes()))])
+
+
+def read_live(source: Source, seconds: float, progress: Progress) -> TreeRead:
+    """Listen to live transforms for some seconds, and read their tree."""
+    reader = _Reader(source)
+    began = time.monotonic()
+    while (passed := time.monotonic() - began) < seconds:
+        progress("listening", passed / seconds)
+        source.inbox.arrived.wait(REST_S)
+        source.inbox.arrived.clear()
+        reader.take()
+    return reader.read()
+
+
+def read_bag(bag: Player, at_ns: int, progress: Progress) -> TreeRead:
+    """Read the transforms of a bag from its beginning to a time of recording.
+
+    All of them, since a frame that has stopped long ago belongs to the tree.
+
+    Raises:
+        BagError: the file can no longer be read.
+    """
+    reader = _Reader(bag)
+    span = max(1, at_ns - bag.history.start_ns)
+    while bag.reached_ns < at_ns:
+        bag.play_step(at_ns)
+        reader.take()
+        progress("reading", (bag.reached_ns - bag.history.start_ns) / span)
+    return reader.read()
+
+
+class _Reader:
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self._buffer = TransformBuffer()
+        self._listener = TransformListener(self._buffer, time.monotonic)
+        source.want(self._listener.subscriptions())
+
+    def take(self) -> None:
+        """Insert what arrived."""
+        source = self._source
+        if self._listener.take(source.inbox.drain(), source.offers()):
+            self._listener.reset()
+        source.want(self._listener.subscriptions())
+
+    def read(self) -> TreeRead:
+        offers, now_ns = self._source.offers(), self._source.now_ns()
+        topics = self._listener.subscriptions()
+        nodes = {
+            topic: tuple(dict.fromkeys(each.label for each in offers[topic].publishers))
+            for topic in topics
+            if topic in offers and not offers[topic].is_recorded
+        }
+        if not nodes:  # each transform of a bag is from the bag
+            self._buffer.nodes = {}
+        return TreeRead(diagnose(self._buffer, now_ns), tree_text(self._buffer, now_ns), nodes)
+
+
+def to_png(picture: TreePicture) -> bytes:
+    """Draw a picture.
+
+    Raises:
+        Error: it is too large, or no browser is installed.
+    """
+    if max(picture.width, picture.height) > LARGEST:
+        raise Error(
+            f"The picture would have {picture.width} x {picture.height} pixels; the limit is "
+            f"{LARGEST} per side. Write an .svg file instead."
+        )
+    with launched() as browser:
+        context = browser.new_context()
+        try:
+            tab = context.new_page()
+            tab.set_viewport_size({"width": picture.width, "height": picture.height})
+            # Scripts do not run in images, whatever the names of frames are.
+            url = f"data:image/svg+xml;base64,{base64.b64encode(picture.svg.encode()).decode()}"
+            tab.set_content(f'<!doctype html><style>body {{ margin: 0 }}</style><img src="{url}">')
+            return tab.screenshot(type="png")
+        finally:
+            context.close()
 
 
 @Parameter(name="*")
@@ -84,9 +204,9 @@ def frames(
 
 def _read(
     options: FramesOptions, connect: ConnectOptions, ros: Sequence[str]
-) -> "tuple[TreeRead, str]":
+) -> tuple[TreeRead, str]:
     from webviz.shell.bag_player import bag_player
-    from webviz.shell.frames.reading import read_bag, read_live
+    from webviz.shell.cli.frames import read_bag, read_live
     from webviz.shell.pictures.times import position_ns, seconds_from_start
 
     if options.bag is None:
@@ -102,10 +222,10 @@ def _read(
         return tree, title
 
 
-def _draw(tree: "TreeRead", title: str, output: Path) -> None:
+def _draw(tree: TreeRead, title: str, output: Path) -> None:
     from webviz.data.transforms.picture import draw_tree
     from webviz.data.words import counted
-    from webviz.shell.frames.pixels import to_png
+    from webviz.shell.cli.frames import to_png
     from webviz.shell.pictures.files import writing
 
     picture = draw_tree(tree.diagnosis, title, tree.notes())

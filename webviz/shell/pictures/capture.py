@@ -22,11 +22,11 @@ from webviz.engine.pipeline import plugins
 from webviz.files.config import Config, Settings, nearest
 from webviz.files.opening import load, parse
 from webviz.shell.bag_player import bag_player
+from webviz.shell.live_source import ros_source
 from webviz.shell.pictures.browser import Pixels, check_size, launched
 from webviz.shell.pictures.headless_renderer import HeadlessRenderer
 from webviz.shell.pictures.offline_viewer import OfflineViewer, Readiness
 from webviz.shell.pictures.times import At, position_ns, seconds_from_start
-from webviz.shell.ros_source import ros_source
 from webviz.sources import Source
 from webviz.sources.bag.extras import Extra
 from webviz.sources.player import Player

@@ -13,10 +13,16 @@ from webviz.data.foxglove.schemas import ConversionError, conversion
 from webviz.data.messages import MessageError, definition
 from webviz.data.words import plain
 from webviz.sources.bridge import foxglove_wire as wire
-from webviz.sources.bridge.foxglove_channels import FoxgloveChannels, is_foreign, type_of, unread
-from webviz.sources.bridge.foxglove_graph import ConnectionGraph
+from webviz.sources.bridge.foxglove_channels import (
+    ChannelSubscription,
+    ChannelSubscriptions,
+    ConnectionGraph,
+    FoxgloveChannels,
+    is_foreign,
+    type_of,
+    unread,
+)
 from webviz.sources.bridge.foxglove_parameters import ParameterServices
-from webviz.sources.bridge.foxglove_subscriptions import ChannelSubscription, ChannelSubscriptions
 from webviz.sources.bridge.session import (
     CarriedTopic,
     Host,

@@ -1,13 +1,16 @@
-"""The channels that a Foxglove server advertises, bounded in number and size."""
+"""The other side of a Foxglove server: its channels, what is subscribed of them, and its nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
 
+import msgspec
 from msgspec.structs import replace
 
 from webviz.data.foxglove.schemas import conversion, is_own, problem_of
 from webviz.data.words import listed, plain
+from webviz.sources.bridge import foxglove_wire as wire
 from webviz.sources.bridge.foxglove_wire import ServerChannel
 from webviz.sources.names import MAX_NAME, is_full_name
 
@@ -16,6 +19,114 @@ MAX_SCHEMAS = 256 << 20
 """Characters of all definitions, each counted once."""
 MAX_MISNAMED = 8
 """Invalid names that are remembered."""
+MAX_NAMES = 100_000
+"""Topics and services in the graph; more are ignored."""
+MAX_ENDED = 100
+"""Ended subscriptions whose messages are still taken."""
+
+
+class ChannelSubscription(msgspec.Struct, frozen=True):
+    """A subscription.
+
+    Args:
+        id: chosen by webviz.
+        topic: of the channel.
+        channel: its id.
+        asked: of the wish, see `webviz.sources.Subscription`.
+    """
+
+    id: int
+    topic: str
+    channel: int
+    asked: int
+
+
+class ChannelSubscriptions:
+    """Subscriptions by topic and by id.
+
+    Messages that are on their way when a subscription ends belong to its topic still, unless that
+    has another channel by then, and so perhaps another type.
+    """
+
+    def __init__(self) -> None:
+        self._open: dict[str, ChannelSubscription] = {}
+        self._by_id: dict[int, ChannelSubscription] = {}
+        self._ended: deque[ChannelSubscription] = deque()
+
+    def __contains__(self, topic: str) -> bool:
+        return topic in self._open
+
+    def __iter__(self) -> Iterator[ChannelSubscription]:
+        """Iterate over those that are open."""
+        return iter(list(self._open.values()))
+
+    def channel(self, topic: str) -> int | None:
+        """Return the channel that a topic is subscribed to."""
+        line = self._open.get(topic)
+        return line.channel if line else None
+
+    def topic(self, id: int) -> str:
+        """Return the topic of messages of a subscription, "" if it is unknown."""
+        line = self._by_id.get(id)
+        return line.topic if line else ""
+
+    def begin(self, line: ChannelSubscription) -> None:
+        """Add one."""
+        for ended in self._ended:
+            if ended.topic == line.topic and ended.channel != line.channel:
+                self._by_id.pop(ended.id, None)
+        self._open[line.topic] = self._by_id[line.id] = line
+
+    def end(self, line: ChannelSubscription) -> None:
+        """End one."""
+        del self._open[line.topic]
+        self._ended.append(line)
+        if len(self._ended) > MAX_ENDED:
+            self._by_id.pop(self._ended.popleft().id, None)
+
+
+class ConnectionGraph:
+    """Publishers and subscribers by topic; it begins empty, and is updated by differences."""
+
+    def __init__(self) -> None:
+        self._publishers: dict[str, tuple[str, ...]] = {}
+        self._subscribers: dict[str, tuple[str, ...]] = {}
+        self._providers: dict[str, tuple[str, ...]] = {}
+        self._is_known = False
+        self.nodes: tuple[str, ...] = ()
+        """Full names, sorted."""
+
+    def update(self, change: wire.ConnectionGraphUpdate) -> None:
+        """Apply a difference."""
+        self._is_known = True
+        for topic in change.removed_topics:
+            self._publishers.pop(topic, None)
+            self._subscribers.pop(topic, None)
+        for service in change.removed_services:
+            self._providers.pop(service, None)
+        self._publishers |= {t.name: _names(t.publisher_ids) for t in change.published_topics}
+        self._subscribers |= {t.name: _names(t.subscriber_ids) for t in change.subscribed_topics}
+        self._providers |= {s.name: _names(s.provider_ids) for s in change.advertised_services}
+        tables = (self._publishers, self._subscribers, self._providers)
+        for table in tables:
+            while len(table) > MAX_NAMES:
+                table.popitem()
+        self.nodes = tuple(
+            sorted({n for table in tables for names in table.values() for n in names})
+        )
+
+    def publishers(self, topic: str) -> tuple[str, ...]:
+        """Return the nodes that publish a topic."""
+        return self._publishers.get(topic, ())
+
+    def subscribers(self, topic: str) -> tuple[str, ...] | None:
+        """Return the nodes that subscribe to a topic, None if the graph is unknown."""
+        return self._subscribers.get(topic, ()) if self._is_known else None
+
+
+def _names(ids: tuple[str, ...]) -> tuple[str, ...]:
+    """Node names; ids that are no names, as some servers have them, are kept as they are."""
+    return tuple(sorted(set(ids)))
 
 
 class FoxgloveChannels:

@@ -22,12 +22,10 @@ from webviz.sources.bridge.definitions import Definitions
 from webviz.sources.bridge.describing import described, thinning
 from webviz.sources.bridge.graph import BridgeGraph
 from webviz.sources.bridge.health import LinkHealth
-from webviz.sources.bridge.opening import opened
 from webviz.sources.bridge.pacing import TF_TYPE, Pacer
-from webviz.sources.bridge.protocols import open_session
 from webviz.sources.bridge.refusals import explain
 from webviz.sources.bridge.session import BridgeSession, CarriedTopic
-from webviz.sources.bridge.talking import first_of, read, write
+from webviz.sources.bridge.talking import first_of, open_session, opened, read, write
 from webviz.sources.graph import NotConnected
 from webviz.sources.inbox import MAX_TOTAL, Inbox, Raw
 from webviz.sources.names import resolved

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from webviz.api.lookback import Lookback
 from webviz.data.recordings.latched import TF
-from webviz.sources.history.earlier import EarlierMessages
 from webviz.sources.history.history import FOLLOWED, History, HistoryChannel, Recorded
 from webviz.sources.history.needed import NeededMessages
-from webviz.sources.inbox import Raw
+from webviz.sources.inbox import Earlier, Raw
 from webviz.sources.source import Subscription
 
 MAX_BATCH = 500
@@ -20,6 +19,54 @@ MAX_BATCH_BYTES = 32 << 20
 STEP_NS, LONG_STEP_NS = 100_000_000, 2_000_000_000
 """Recording time between two turns of a frame loop that draws nothing: longer while it is far from
 its destination, but much shorter than the history of transforms."""
+LAST = 100
+"""Messages of a topic whose times are known."""
+
+
+class EarlierMessages:
+    """Knows the last messages of topics until a position, until their next one is delivered.
+
+    Args:
+        history: all messages.
+    """
+
+    def __init__(self, history: History) -> None:
+        self._history = history
+        self._known: dict[str, Earlier] = {}
+
+    def look(self, channels: Collection[HistoryChannel], at_ns: int, *, is_new: bool) -> None:
+        """Look up the last messages of channels until a time of recording.
+
+        Args:
+            channels: one of a topic; those of transforms and of the clock are ignored.
+            at_ns: the time.
+            is_new: whether this replaces what is known of topics.
+        """
+        if self._history.is_growing:
+            return
+        for channel in channels:
+            if channel.type in FOLLOWED or (channel.topic in self._known and not is_new):
+                continue
+            found = self._history.newest_stamps([channel], at_ns)
+            stamps = list(itertools.islice(found, LAST))
+            if stamps:
+                first_ns = self._history.first_ns(channel)
+                first_ns = stamps[-1] if first_ns is None else first_ns
+                self._known[channel.topic] = Earlier(stamps, first_ns)
+
+    def clear(self) -> None:
+        """Forget what no message was delivered for."""
+        self._known.clear()
+
+    def take(self, recorded: Recorded) -> Earlier | None:
+        """Return what came before a message, once it is the newest or follows that."""
+        earlier, stamp_ns = self._known.get(recorded.topic), recorded.stamp_ns
+        if earlier is None or stamp_ns < earlier.recorded_ns[0]:
+            return None
+        del self._known[recorded.topic]
+        # Others of the same time are delivered with it.
+        before = [each for each in earlier.recorded_ns if each < stamp_ns]
+        return replace(earlier, recorded_ns=before)
 
 
 class Playhead:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import time
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -12,7 +13,6 @@ from webviz.sources.history import HistoryChannel, Recorded, Runs
 from webviz.sources.inbox import Raw
 from webviz.sources.recording.channels import Channels
 from webviz.sources.recording.recent import Entry
-from webviz.sources.recording.wall_clock import WallClock
 from webviz.sources.source import Offer, Source, Subscription
 
 NOT_REMEMBERED = (
@@ -22,6 +22,25 @@ NOT_REMEMBERED = (
 """Reason why a topic has no message in the past."""
 Numbered = tuple[int, Raw]
 """The place of a message in the order of arrival, and the message."""
+
+
+class WallClock:
+    """Times since 1970, which are steady whatever happens to other clocks."""
+
+    def __init__(self) -> None:
+        self._offset_ns = time.time_ns() - time.monotonic_ns()
+
+    def now_ns(self) -> int:
+        """Return the time."""
+        return time.monotonic_ns() + self._offset_ns
+
+    def stamp_ns(self, arrived_s: float) -> int:
+        """Return the time of recording of a message that arrived at a monotonic time in seconds."""
+        return round(arrived_s * 1e9) + self._offset_ns
+
+    def arrived_s(self, stamp_ns: int) -> float:
+        """Return the monotonic time of a time of recording, in seconds."""
+        return (stamp_ns - self._offset_ns) / 1e9
 
 
 class EntriesHistory:

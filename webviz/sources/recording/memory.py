@@ -3,25 +3,110 @@
 from __future__ import annotations
 
 import math
+from collections import Counter, deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from webviz.api.declared import Topic
-from webviz.sources.bag.log import LOG, ROSOUT
-from webviz.sources.history import Runs
+from webviz.sources.bag.log import LEVEL_AT, LOG, MAX_EVENTS, ROSOUT, WARN, event_of
+from webviz.sources.history import Recorded, Runs
+from webviz.sources.inbox import Raw
 from webviz.sources.past_state import Event
 from webviz.sources.recording.channels import Channels
-from webviz.sources.recording.entries_history import EntriesHistory
-from webviz.sources.recording.live_histogram import LiveHistogram
-from webviz.sources.recording.live_log import LiveLog
+from webviz.sources.recording.entries_history import EntriesHistory, WallClock
 from webviz.sources.recording.recent import Entry, RecentMessages
-from webviz.sources.recording.wall_clock import WallClock
 from webviz.sources.source import Source, Subscription
 
 MEMORY_OFF = (
     "Live topics are not remembered, so there is no past to show. Raise memory.seconds and "
     "memory.megabytes in the config, or start webviz with --memory 60s."
 )
+NOT_COUNTED: Mapping[str, Sequence[int]] = {}
+MAX_HELD_PARTS = 1000
+"""Parts of which messages were forgotten meanwhile but are still shown."""
+
+
+class LiveLog:
+    """Keeps what was logged to /rosout; `put` is called from any thread.
+
+    Args:
+        clock: for times of recording.
+    """
+
+    def __init__(self, clock: WallClock) -> None:
+        self._clock = clock
+        self._new: deque[Raw] = deque(maxlen=MAX_EVENTS)
+        self._events: deque[Event] = deque(maxlen=MAX_EVENTS)
+        self._shown: Sequence[Event] = ()
+
+    def put(self, topic: str, raw: Raw) -> None:
+        """Take a message of any topic; most are ignored by their topic or level."""
+        if topic == ROSOUT and len(raw.cdr) > LEVEL_AT and raw.cdr[LEVEL_AT] >= WARN:
+            self._new.append(raw)
+
+    def events(self, start_ns: int) -> Sequence[Event]:
+        """Warnings and errors since a time of recording; the same sequence until it changes."""
+        events, is_changed = self._events, bool(self._new)
+        while self._new:
+            raw = self._new.popleft()
+            stamp_ns = self._clock.stamp_ns(raw.arrived_s)
+            if found := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns, raw.types)):
+                events.append(found[1])
+        while events and events[0].at_ns < start_ns:
+            events.popleft()
+            is_changed = True
+        if is_changed:
+            self._shown = tuple(events)
+        return self._shown
+
+
+class LiveHistogram:
+    """Messages by topic in equal parts of time; one that goes on is counted when it is over.
+
+    Args:
+        memory: of the messages.
+        clock: for their times of recording.
+    """
+
+    def __init__(self, memory: RecentMessages, clock: WallClock) -> None:
+        self._memory = memory
+        self._clock = clock
+        self._held: dict[str, Counter[int]] = {}
+        self._held_part_s = 0.0
+        self._key: object = None
+        self._counts = NOT_COUNTED
+        self.span_ns = (0, 0)
+        """Times of recording that the counts are of."""
+
+    def hold(self) -> None:
+        """Keep the counts of all that is in memory now, until `release`."""
+        self._held_part_s, self._held = self._memory.counts()
+
+    def release(self) -> None:
+        """Forget what is not in memory."""
+        self._held = {}
+
+    def counts(self, now_ns: int) -> Mapping[str, Sequence[int]]:
+        """Messages by topic; the same mapping until a part is over.
+
+        Args:
+            now_ns: time of recording.
+        """
+        part_s, found = self._memory.counts() if self._memory.is_on else (1.0, {})
+        if self._held and self._held_part_s == part_s:
+            for topic, own in self._held.items():
+                found[topic] = own | found.get(topic, Counter())  # the greater of each part
+        end = int(self._clock.arrived_s(now_ns) // part_s)
+        first = min((part for own in found.values() for part in own), default=end)
+        first = max(first, end - MAX_HELD_PARTS)
+        key = first, end, part_s, len(found)
+        if key != self._key:
+            self._key = key
+            self.span_ns = self._clock.stamp_ns(first * part_s), self._clock.stamp_ns(end * part_s)
+            self._counts = {
+                topic: [own[part] for part in range(first, end)] for topic, own in found.items()
+            }
+        return self._counts
 
 
 class MemoryHistory(EntriesHistory):

@@ -26,10 +26,10 @@ are names below a namespace, those of the parts of actions included, also in ope
 
 from __future__ import annotations
 
+import re
 from typing import Literal, NamedTuple
 
-from webviz.sources.names import is_full_name
-from webviz.sources.zenoh.names import dds_type, is_ros_type, node_name, ros_type
+from webviz.sources.names import MAX_NAME, is_full_name
 from webviz.sources.zenoh.qos import TokenQos, read_dds_qos, read_qos
 
 ADMIN = "@ros2_lv"
@@ -55,6 +55,39 @@ _DDS_KINDS: dict[str, Kind] = {
     "AS": "action",
 }
 _LETTERS = {kind: letters for letters, kind in _KINDS.items()}
+MAX_TYPE = 255
+"""Characters of the name of a type."""
+_DDS_TYPE = re.compile(r"([A-Za-z]\w*)::(msg|srv|action)::dds_::([A-Za-z]\w*)_", re.ASCII)
+_ROS_TYPE = re.compile(r"[A-Za-z]\w*/(msg|srv|action)/[A-Za-z]\w*", re.ASCII)
+_NODE = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_NAMESPACE = re.compile(r"(/[A-Za-z_]\w*)*/?", re.ASCII)
+
+
+def dds_type(type: str) -> str:
+    """Return the DDS name of a ROS type, such as "std_msgs/msg/String"."""
+    package, kind, name = type.split("/")
+    return f"{package}::{kind}::dds_::{name}_"
+
+
+def ros_type(dds: str) -> str:
+    """Return the ROS name of a DDS type, "" if it is not one of ROS."""
+    found = _DDS_TYPE.fullmatch(dds) if len(dds) <= MAX_TYPE else None
+    return "/".join(found.groups()) if found else ""
+
+
+def is_ros_type(type: str) -> bool:
+    """Return whether ROS allows a name of a type."""
+    return len(type) <= MAX_TYPE and _ROS_TYPE.fullmatch(type) is not None
+
+
+def node_name(namespace: str, name: str) -> str:
+    """Return the full name of a node, "" if ROS does not allow it."""
+    is_valid = (
+        len(namespace) + len(name) < MAX_NAME
+        and _NODE.fullmatch(name) is not None
+        and _NAMESPACE.fullmatch(namespace) is not None
+    )
+    return f"{namespace.rstrip('/')}/{name}" if is_valid else ""
 
 
 class LivelinessError(ValueError):

@@ -11,7 +11,7 @@ import pytest
 
 from webviz.api.errors import Error
 from webviz.shell.cli.commands import run
-from webviz.shell.new.writing import KINDS, write_package
+from webviz.shell.cli.new import KINDS, write_package
 
 SHOWN = """
 import sys

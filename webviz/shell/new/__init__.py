@@ -1,1 +1,0 @@
-"""New packages of plug-ins, written from templates."""
