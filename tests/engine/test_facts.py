@@ -127,7 +127,7 @@ def test_calls_of_other_threads_wait_for_the_end_of_a_turn() -> None:
 @pytest.mark.parametrize("panel", plugin_types(Panel).values(), ids=lambda panel: panel.__name__)
 def test_the_panels_of_webviz_name_what_every_viewer_has(panel: type[Panel]) -> None:
     required = {
-        name for name, default in parameters_of(panel).items() if default is Parameter.empty
+        name for name, default in parameters_of(panel.show).items() if default is Parameter.empty
     }
     assert required <= {*State.__struct_fields__}
     types, known = get_type_hints(panel.show), get_type_hints(State)

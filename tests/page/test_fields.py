@@ -47,7 +47,7 @@ def show(loop: Loop, tab: Tab, plot: Plot) -> None:
     tab.wait_for(lambda: tab.page.locator("[data-panel=plugin-Plot]").count() == 1)
     if plot.curves:
         tab.wait_for(lambda: tab.page.locator(".wv-chart-entry").count() == len(plot.curves))
-    plot.receive("/cmd", message, 90 * SECOND)
+    plot.take("/cmd", message, 90 * SECOND)
 
 
 def test_a_field_is_added_in_a_popover_by_keys(loop: Loop, tab: Tab) -> None:
@@ -61,7 +61,7 @@ def test_a_field_is_added_in_a_popover_by_keys(loop: Loop, tab: Tab) -> None:
     topic.press("Enter")
     tab.wait_for(lambda: plot.chooser.topic == "/cmd")
     tab.wait_for(lambda: "/cmd" in plot.subscriptions())
-    plot.receive("/cmd", decode(TWIST, encode(TWIST, {})), 91 * SECOND)
+    plot.take("/cmd", decode(TWIST, encode(TWIST, {})), 91 * SECOND)
     fields = tab.page.get_by_role("listbox", name="Fields").get_by_role("option")
     tab.wait_for(lambda: fields.count() == 6)
     expect(tab.page.get_by_role("combobox", name="Field", exact=True)).to_be_focused()

@@ -64,13 +64,13 @@ def test_the_track_lies_on_the_tiles_and_the_map_follows_it(
     open_panel(loop, tab, panel, offers=OFFERS)
     tab.wait_for(lambda: "No place yet on /fix." in tab.text())
     for i in range(21):
-        panel.receive("/fix", fix(50.0, 7.999 + i / 20_000), 0)
+        panel.take("/fix", fix(50.0, 7.999 + i / 20_000))
     tab.wait_for(lambda: color(tab, 0, 60) == (*GREEN, 255))
     track = color(tab)
     assert track != (*GREEN, 255)
     assert color(tab, -40) == track
     assert color(tab, 40) == (*GREEN, 255)
-    panel.receive("/fix", fix(50.0, 8.001), 0)
+    panel.take("/fix", fix(50.0, 8.001))
     tab.wait_for(lambda: color(tab, -80) == track)
     box = tab.page.locator(".wv-outdoor canvas").bounding_box()
     assert box is not None

@@ -79,7 +79,7 @@ def test_panels_are_as_in_their_pictures(taken: Callable[..., None]) -> None:
         (20, "planner", "Path of 4.2 m to the goal"),
     )
     for at_s, line in enumerate(lines):
-        log.receive("/rosout", log_line(*line, at_s), at_s * SECOND)
+        log.take("/rosout", log_line(*line, at_s), at_s * SECOND)
     taken("panel_log", log, offers=offered(rosout=LOG))
 
     diagnostics = make(Diagnostics, {})
@@ -88,7 +88,7 @@ def test_panels_are_as_in_their_pictures(taken: Callable[..., None]) -> None:
         motor = {"name": "base: left motor", "level": 2, "message": "Hot", "values": [load]}
         arm = [{"name": f"arm: joint {i}", "message": "fine"} for i in range(4)]
         report = message(ARRAY, status=[motor, *arm, {"name": "laser", "level": 1}])
-        diagnostics.receive("/diagnostics", report, at_s * SECOND)
+        diagnostics.take("/diagnostics", report, at_s * SECOND)
     clock = PanelTimes(ros_ns=8 * SECOND)
     taken("panel_diagnostics", diagnostics, offers=offered(diagnostics=ARRAY), clock=clock)
 
@@ -101,6 +101,6 @@ def test_panels_are_as_in_their_pictures(taken: Callable[..., None]) -> None:
         for i in range(300):
             values = (0.4 + 0.1 * math.sin(i / 20), 20 * math.cos(i / 30), 12.1 - i / 900)
             for topic, value in zip(topics, values, strict=True):
-                plot.receive(topic, message(NUMBER, data=value), i * SECOND // 10)
+                plot.take(topic, message(NUMBER, data=value), i * SECOND // 10)
 
     taken("panel_plot", plot, drive, offers=topics, clock=PanelTimes(ros_ns=30 * SECOND))

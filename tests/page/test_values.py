@@ -90,7 +90,7 @@ def plot(tab: Any) -> Iterator[Any]:
     for i in range(1000):
         position = np.array([math.sin(i / 50), math.nan if 400 < i < 600 else i / 1000])
         message = JointState(name=["left", "right"], position=position)
-        panel.receive("/wheels", message, 100 * SECOND + i * SECOND // 50)
+        panel.take("/wheels", message, 100 * SECOND + i * SECOND // 50)
     tab.wait_for(lambda: legend(tab) == NEWEST)
     yield tab
     tab.loop.show(panels=())
@@ -164,7 +164,7 @@ def test_a_paused_page_stands_still_while_values_come(plot: Any) -> None:
     chart.get_by_role("button", name="Pause").click()
     panel = plot.loop.state.panels[0].panel
     message = JointState(name=["left", "right"], position=np.array([7.0, 8.0]))
-    panel.receive("/wheels", message, 121 * SECOND)
+    panel.take("/wheels", message, 121 * SECOND)
     plot.turn()
     assert legend(plot) == NEWEST
     chart.get_by_role("button", name="Resume").click()

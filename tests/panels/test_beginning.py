@@ -119,13 +119,16 @@ def test_what_a_panel_begins_with_is_bounded(
     begins = memory.viewer.fact("panels")
     assert begins == ()
     given: list[int] = []
-    receive = Plot.receive_past
+    take = Plot.take
 
-    def count(self: Plot, topic: str, message: Any, received_ns: int) -> None:
-        given.append(received_ns)
-        receive(self, topic, message, received_ns)
+    def count(
+        self: Plot, topic: str, message: Any, received_ns: int, *, is_past: bool = False
+    ) -> None:
+        if is_past:
+            given.append(received_ns)
+        take(self, topic, message, received_ns, is_past=is_past)
 
-    monkeypatch.setattr(Plot, "receive_past", count)
+    monkeypatch.setattr(Plot, "take", count)
     plot = add(memory, live, "Plot", curves=[X])
     until(lambda: plot.series[X].history.newest)
     assert len(given) == 7

@@ -59,7 +59,7 @@ def test_neither_many_nor_long_lines_fill_the_memory(
     monkeypatch.setattr(module, "MAX_CHARACTERS", 1_000_000)
     for _ in range(1000):
         values = {"msg": "x" * 100_000, "name": "n" * 1000, "file": "\x1b" * 500}
-        log.receive("/rosout", decode(LOG, encode(LOG, values)), 0)
+        log.take("/rosout", decode(LOG, encode(LOG, values)), 0)
     assert sum(map(len, texts(log))) < 1_100_000
     assert "\x1b" not in str([*widget(log).parts.values()][-1]["places"])
 

@@ -50,12 +50,12 @@ class Bench:
 
     def fix(self, latitude: float, longitude: float, status: int = 0) -> None:
         values = {"latitude": latitude, "longitude": longitude, "status": {"status": status}}
-        self.panel.receive("/fix", decode(FIX, encode(FIX, values)), 0)
+        self.panel.take("/fix", decode(FIX, encode(FIX, values)))
 
     def route(self, *places: tuple[float, float]) -> None:
         positions = [{"latitude": north, "longitude": east} for north, east in places]
         values = {"poses": [{"pose": {"position": each}} for each in positions]}
-        self.panel.receive("/route", decode(PATH, encode(PATH, values)), 0)
+        self.panel.take("/route", decode(PATH, encode(PATH, values)))
 
     def places(self, index: int) -> list[float]:
         """Longitudes and latitudes of a track, as a page joins them."""

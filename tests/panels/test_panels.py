@@ -36,7 +36,7 @@ class Notes(Panel):
     most: Annotated[int, Prop(ge=1)] = 3
 
 class Jobs(Panel):
-    place = 50
+    pass
 """
 LISTED = "displays: []\npanels:\n- {type: Notes, most: 7}\n"
 
@@ -147,6 +147,43 @@ def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Ben
         assert (advertisement.topic, message.data) == ("/answers", "yes")
         b.do(OpenPanels(frozenset()))
         assert "/words" not in b.source.wanted
+    finally:
+        registry.register(str(path), {})
+
+
+FORMER = """\
+from webviz import Panel
+
+class Asked(Panel):
+    on_request = True
+
+class Later(Panel):
+    pass
+
+class Sooner(Panel):
+    place = 50
+    heard = []
+
+    def subscriptions(self):
+        return {"/words": "std_msgs/msg/String"}
+
+    def receive(self, topic, message, received_ns):
+        self.heard.append((message.data, received_ns > 0))
+"""
+
+
+def test_panels_with_names_from_before_go_on(tmp_path: Path, bench: Benches) -> None:
+    path = tmp_path / "panels.py"
+    path.write_text(FORMER)
+    try:
+        sooner: Any = load(path)["Sooner"]
+        config = parse("displays: []\n", "x.yaml")
+        assert [each.name for each in config.panels] == ["Sooner", "Later"]
+        b = bench(strict=False)
+        b.do(OpenPanels(frozenset({"Sooner"})))
+        b.publish("/words", "std_msgs/msg/String", {"data": "one"})
+        b.turn()
+        assert sooner.heard == [("one", True)]
     finally:
         registry.register(str(path), {})
 

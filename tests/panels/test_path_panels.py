@@ -124,15 +124,15 @@ def test_a_field_that_is_missing_is_named_and_a_new_path_starts_over() -> None:
 def test_a_band_has_only_changes_and_a_bounded_number() -> None:
     panel = built(StateTimeline(paths=["/t.data"], window=50.0))
     for i in range(10):
-        panel.receive("/t", String("idle" if i < 5 else "go"), (90 + i) * SECOND)
+        panel.take("/t", String("idle" if i < 5 else "go"), (90 + i) * SECOND)
     (track,) = values(shown(panel))["tracks"]
     assert (track["times"], track["states"]) == ([90.0, 95.0], ["idle", "go"])
     assert values(shown(panel, 200 * SECOND))["tracks"][0]["states"] == ["go"]
     for i in range(3 * MAX_CHANGES):
-        panel.receive("/t", String(f"{i}" * 100), 200 * SECOND + i)
+        panel.take("/t", String(f"{i}" * 100), 200 * SECOND + i)
     (track,) = values(shown(panel, 200 * SECOND))["tracks"]
     assert len(track["states"]) == MAX_CHANGES
-    panel.receive("/t", String("back"), 5 * SECOND)
+    panel.take("/t", String("back"), 5 * SECOND)
     assert values(shown(panel, 6 * SECOND))["tracks"][0]["times"] == [5.0]
 
 
@@ -142,7 +142,7 @@ def test_bands_are_added_by_topic_and_field_and_removed() -> None:
     panel.chooser.topic = "/t"
     shown(panel)
     assert set(panel.subscriptions()) == {"/t"}
-    panel.receive("/t", STATUS(values=[KEY(key="a")]), SECOND)
+    panel.take("/t", STATUS(values=[KEY(key="a")]), SECOND)
     ui = RecordedUi()
     panel.chooser.build(ui, "band")
     shown(panel)
@@ -164,7 +164,7 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
     panel = built(Diagnostics())
     status = [STATUS(name=f"n: {i}", level=255, message="m" * 9999) for i in range(10**5)]
     status[0] = STATUS(name="n: 0", values=[KEY(key="\x00" * 500, value="\\" * 9999)] * 1000)
-    panel.receive("/diagnostics", ARRAY(status=status), 99 * SECOND)
+    panel.take("/diagnostics", ARRAY(status=status), 99 * SECOND)
     shown(panel)
     found = [each for part in panel.own.parts.values() for each in part["statuses"]]
     assert len(found) == MAX_STATUSES
@@ -172,15 +172,15 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
     assert (found[0]["level"], found[1]["level"]) == (0, 3)
     assert "not shown; the limit is" in values(panel)["problem"]
     before = dict(panel.own.parts)
-    panel.receive("/diagnostics", ARRAY(status=[STATUS(name="n: 25")]), 100 * SECOND)
+    panel.take("/diagnostics", ARRAY(status=[STATUS(name="n: 25")]), 100 * SECOND)
     shown(panel)
     assert [key for key, part in panel.own.parts.items() if before[key] is not part] == ["1"]
     shown(panel, 999 * SECOND)
     found = [each for part in panel.own.parts.values() for each in part["statuses"]]
     assert {each["level"] for each in found} == {3}
-    panel.receive("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
+    panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
     panel.start_over()
-    panel.receive("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
+    panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
     assert next(iter(panel.known.values())).shown["path"] == [
         "/diagnostics_agg",
         "Robot",
@@ -192,10 +192,10 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
 def test_states_and_raw_values_have_the_names_of_constants() -> None:
     battery = message_class("sensor_msgs/msg/BatteryState")
     bands = built(StateTimeline(paths=["/t.power_supply_status"]))
-    bands.receive("/t", battery(power_supply_status=2), 99 * SECOND)
-    bands.receive("/t", battery(power_supply_status=77), 100 * SECOND)
+    bands.take("/t", battery(power_supply_status=2), 99 * SECOND)
+    bands.take("/t", battery(power_supply_status=77), 100 * SECOND)
     [track] = values(shown(bands))["tracks"]
     assert track["states"] == ["DISCHARGING (2)", "77"]
     raw = built(RawMessage(path="/t.power_supply_status"))
-    raw.receive("/t", battery(power_supply_status=4), 0)
+    raw.take("/t", battery(power_supply_status=4))
     assert values(shown(raw))["tree"] == {"fields": {"value": "FULL (4)"}}

@@ -57,7 +57,7 @@ class Bench:
     def send(self, value: float, at_s: float, stamp_s: float = 0.0) -> None:
         header = Header(Time(int(stamp_s), round(stamp_s % 1 * SECOND)))
         message = JointState(header, ["left"], np.array([value]))
-        self.panel.receive("/joints", message, round(at_s * SECOND))
+        self.panel.take("/joints", message, round(at_s * SECOND))
 
     @property
     def chart(self) -> ChartWidget:
@@ -115,7 +115,7 @@ def test_times_may_be_those_of_the_headers() -> None:
 def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) -> None:
     bench = Bench(curve)
     if message is not None:
-        bench.panel.receive("/joints", message, SECOND)
+        bench.panel.take("/joints", message, SECOND)
     assert bench.curve()["problem"].startswith(reason)
     assert bench.points() == []
 
@@ -213,7 +213,7 @@ def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None
     chooser = bench.ui.widgets["1"]
     assert chooser.values["values"]["topics"] == ["/joints"]
     chooser.use('{"topic": "/joints"}', 7)
-    bench.panel.receive("/joints", JointState(name=["left"], position=np.array([0.5])), SECOND)
+    bench.panel.take("/joints", JointState(name=["left"], position=np.array([0.5])), SECOND)
     bench.show()
     assert chooser.values["values"]["fields"] == ["header.stamp", "position[left]"]
     chooser.use('{"add": "/joints.position[left]"}', 7)
@@ -285,7 +285,7 @@ def test_units_are_those_of_the_types_that_a_bag_defines() -> None:
     publisher = Publisher("the bag", name, "reliable", "volatile")
     bench.show(offers={"/thing": Offer((publisher,))})
     cdr = encode(name, {"motion": {"linear": {"x": 0.5}}}, types)
-    bench.panel.receive("/thing", decode(name, cdr, types), SECOND)
+    bench.panel.take("/thing", decode(name, cdr, types), SECOND)
     assert [bench.curve(index)["unit"] for index in (0, 1)] == ["m/s", "°"]
 
 

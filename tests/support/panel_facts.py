@@ -9,5 +9,5 @@ from webviz.engine.state import State
 
 def show(panel: Panel, state: State) -> None:
     """Let a panel show what it names of a state."""
-    named = parameters_of(type(panel)).items()
+    named = parameters_of(type(panel).show).items()
     panel.show(*(getattr(state, name, default) for name, default in named))

@@ -212,24 +212,25 @@ class Ui(Protocol):
 class Panel(Declared, kw_only=True, dict=True):
     """Base of all panels. Its exceptions are shown in its tab and do not affect other panels."""
 
-    kind: ClassVar[str] = "panel"
-    place: ClassVar[int] = 100
-    """Tabs with a lower number come first; those with the same one are sorted by name."""
-
-    opens: ClassVar[Literal["side", "below"]] = "side"
-    """Place of one that is added: the tabs at the side or, for wide ones, below the scene."""
+    kind = "panel"
+    opens: ClassVar[Literal["at start", "side", "below"]] = "at start"
+    """The place where it opens: as a tab of each viewer whose config lists no panels ("at start"),
+    or once the config or somebody adds it: as a tab or, for wide ones, below the scene."""
 
     icon: ClassVar[str] = "sidebar"
     """An icon as that of a display (`Display.icon`), for the list of panels."""
     rviz_tool: ClassVar[str] = ""
     """The class of a tool that does the same in RViz; files with that tool open the panel."""
-    on_request: ClassVar[bool] = False
-    """True if it is shown only if the config or somebody adds it."""
     always_reads: ClassVar[bool] = False
     """True if it also reads its topics while its tab is closed, as a log does.
 
     `take` is then called before `build`.
     """
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if cls.__dict__.get("on_request") and cls.opens == "at start":  # as before webviz 0.3
+            cls.opens = "side"
 
     def build(self, ui: Ui, send: Send) -> None:
         """Build the tab. Called once, before the first `show`."""
@@ -255,12 +256,14 @@ class Panel(Declared, kw_only=True, dict=True):
         """
         return Lookback(count=1)
 
-    def take(self, topic: str, message: Any) -> None:
-        """Take a message of one of these topics; called by the frame loop, oldest first.
+    def take(self, *args: Any, **kwargs: Any) -> None:
+        """Take a message of one of these topics: `take(self, topic, message)`.
 
-        Args:
-            topic: its full name, as in `subscriptions`.
-            message: decoded, read-only.
+        The topic has its full name, as in `subscriptions`; the message is decoded and read-only.
+        Two more parameters may be named: `received_ns`, when it came, in ROS time; and `is_past`,
+        whether it is remembered and came before what the panel has begun to show (`begun`).
+
+        Called by the frame loop, oldest first.
         """
 
     @property
@@ -268,22 +271,12 @@ class Panel(Declared, kw_only=True, dict=True):
         """The services and actions it sends to: they may be written unless the config says no."""
         return ()
 
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
-        """As `take`, which it calls, for panels that ask when the message came, in ROS time."""
-        self.take(topic, message)
-
     def begun(self) -> Collection[str]:
         """Return topics of which it shows something new since the last call, such as a curve.
 
-        It receives what is remembered of them by `receive_past`.
+        `take` gets what is remembered of them, with `is_past`; it may have had some already.
         """
         return ()
-
-    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
-        """Take a message of before it began to show something, the oldest first.
-
-        It may have received some of them already.
-        """
 
     def refuse(self, topic: str, reason: str) -> None:
         """Note why a message of one of these topics cannot be decoded."""

@@ -45,7 +45,6 @@ class _Known(msgspec.Struct):
 class Diagnostics(Panel):
     """Reports of nodes about themselves, the worst first."""
 
-    on_request = True
     icon = "check"
     opens = "below"
     module = "diagnostics.js"
@@ -78,7 +77,7 @@ class Diagnostics(Panel):
         self.places: dict[tuple[str, str], int] = {}
         self.ignored = 0
 
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+    def take(self, topic: str, message: Any, received_ns: int) -> None:
         """Take the statuses of a report."""
         self.problems.pop(topic, None)
         self.ignored = 0

@@ -57,7 +57,7 @@ class Docking(Panel):
 
     title = "Docking"
     rviz = "nav2_rviz_plugins/Docking"
-    on_request = True
+    opens = "side"
     icon = "plug"
 
     namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""

@@ -29,7 +29,6 @@ class NodeGraph(Panel):
     """Nodes and topics as a graph, with rates, and the QoS that does not match."""
 
     title = "Graph"
-    on_request = True
     icon = "orbit"
     opens = "below"
     module = "graph.js"

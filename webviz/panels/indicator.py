@@ -28,7 +28,7 @@ Rule = tuple[str, bool | float | str, str, str]
 class Indicator(PathPanel):
     """A value as a lamp with a label, which the first rule that fits chooses."""
 
-    on_request = True
+    opens = "side"
     icon = "sun"
     module = "indicator.js"
 

@@ -30,7 +30,7 @@ class Joints(Panel):
     """Sliders for the joints of a robot, whose positions are published."""
 
     title = "Joints"
-    on_request = True
+    opens = "side"
     icon = "robot"
 
     robot_description: Annotated[str, Prop(help="Topic of the robot's URDF.")] = (

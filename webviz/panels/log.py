@@ -36,7 +36,6 @@ Line = tuple[float, int, str, str, str]
 class Log(Panel):
     """Messages that nodes log, with filters by level, node and text."""
 
-    on_request = True
     icon = "list"
     opens = "below"
     always_reads = True
@@ -96,20 +95,15 @@ class Log(Panel):
         self.filled = self.topic
         return begun
 
-    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
-        """Add a line, unless it was received already."""
+    def take(self, topic: str, message: Any, received_ns: int, *, is_past: bool = False) -> None:
+        """Add a line, unless it is remembered and was added already, or a publisher repeats it."""
         line = self._line(message)
         if line not in self.past:
-            self.past.add(line)
             self.add(line, received_ns)
-
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
-        """Add a line, unless a publisher repeats it."""
-        line = self._line(message)
-        if line in self.past:
+            if is_past:
+                self.past.add(line)
+        elif not is_past:
             self.past.remove(line)
-        else:
-            self.add(line, received_ns)
 
     def _line(self, message: Any) -> Line:
         is_ros_1 = self.type == ROS_1_LOG

@@ -51,7 +51,7 @@ class Nav2(Panel):
 
     title = "Navigation 2"
     rviz = "nav2_rviz_plugins/Navigation 2"
-    on_request = True
+    opens = "side"
     icon = "flag"
 
     namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""

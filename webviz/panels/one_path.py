@@ -48,9 +48,9 @@ class PathPanel(Panel):
         """Return the topic of the path."""
         return subscribed([self.reading], self.types)
 
-    def take(self, topic: str, message: Any) -> None:
-        """Read the values of a message."""
-        if topic == self.reading.topic:
+    def take(self, topic: str, message: Any, *, is_past: bool = False) -> None:
+        """Read the values of a message; of one of the past only if there is no newer one."""
+        if topic == self.reading.topic and not (is_past and self.found):
             self.found = self.reading.values(message)
             self.names = self.reading.value_names(message)
             self.revision += 1
@@ -62,11 +62,6 @@ class PathPanel(Panel):
         if is_new:
             self.filled = self.reading
         return {topic} if is_new else ()
-
-    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
-        """Read the values, unless there are newer ones."""
-        if not self.found:
-            self.take(topic, message)
 
     def lookback(self, topic: str) -> Lookback:
         """Return the newest message."""

@@ -171,7 +171,6 @@ class OutdoorMap(Panel):
     """Tracks of satellite receivers, and paths of latitudes and longitudes, over map tiles."""
 
     title = "Outdoor map"
-    on_request = True
     icon = "map"
     opens = "below"
     module = "outdoor_map.js"
@@ -214,7 +213,7 @@ class OutdoorMap(Panel):
             return Lookback(count=1)
         return Lookback(seconds=self.window)
 
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
+    def take(self, topic: str, message: Any) -> None:
         """Add a fix to its track, or show another path."""
         if topic not in self.tracks:
             return

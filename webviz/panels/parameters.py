@@ -36,7 +36,7 @@ NOTHING = ""
 class Parameters(Panel):
     """The parameters of a node, with types, ranges and descriptions."""
 
-    on_request = True
+    opens = "side"
     icon = "gear"
     module = "parameters.js"
 

@@ -19,7 +19,7 @@ class MotionPlanningTasks(Panel):
 
     title = "Planning Tasks"
     rviz = "moveit_task_constructor/Motion Planning Tasks"
-    on_request = True
+    opens = "side"
     icon = "list"
 
     def build(self, ui: Ui, send: Send) -> None:

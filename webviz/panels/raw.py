@@ -17,7 +17,7 @@ class RawMessage(PathPanel):
     """Any message, or a part of it, as a tree."""
 
     title = "Raw message"
-    on_request = True
+    opens = "side"
     icon = "file"
     module = "raw.js"
 

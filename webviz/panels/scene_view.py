@@ -43,7 +43,6 @@ class SceneView(Panel):
     """The scene once more, with a camera and switches of displays of its own."""
 
     title = "3D scene"
-    on_request = True
     icon = "axes"
     opens = "below"
     module = "scene_view.js"

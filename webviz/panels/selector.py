@@ -48,7 +48,7 @@ class Selector(Panel):
 
     title = "Selector"
     rviz = "nav2_rviz_plugins/Selector"
-    on_request = True
+    opens = "side"
     icon = "list"
 
     namespace: Annotated[str, Prop(help="Namespace of Nav2's nodes; empty for none.")] = ""

@@ -43,7 +43,7 @@ DEFAULTS: Mapping[str, Any] = {
 class SendingPanel(Panel):
     """A panel with values of a message type, as a form and as YAML, which a button sends."""
 
-    on_request = True
+    opens = "side"
     module = "sending.js"
     target: ClassVar[str] = ""
     """The property that names where it is sent."""

@@ -38,7 +38,7 @@ class SlamToolbox(Panel):
 
     title = "SLAM Toolbox"
     rviz = "slam_toolbox::SlamToolboxPlugin"
-    on_request = True
+    opens = "side"
     icon = "map"
 
     node: Annotated[str, Prop(help="Full name of slam_toolbox's node.")] = "/slam_toolbox"

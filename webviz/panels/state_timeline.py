@@ -57,7 +57,6 @@ class StateTimeline(Panel):
     """Values as bands over time, a colour for each state."""
 
     title = "State timeline"
-    on_request = True
     icon = "clock"
     opens = "below"
     module = "state_timeline.js"
@@ -95,24 +94,20 @@ class StateTimeline(Panel):
         """Return the messages of the window."""
         return Lookback(seconds=self.window)
 
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
-        """Note what has changed."""
-        self.chooser.take(topic, message)
+    def take(self, topic: str, message: Any, received_ns: int, *, is_past: bool = False) -> None:
+        """Note what has changed, or had changed before."""
+        at_s = received_ns / NS_PER_S
+        if not is_past:
+            self.chooser.take(topic, message)
         for track in self.tracks.values():
-            if track.reading.topic == topic:
-                track.add(message, received_ns / NS_PER_S)
+            is_behind = not track.changes or track.changes[-1][0] < at_s
+            if track.reading.topic == topic and (is_behind or not is_past):
+                track.add(message, at_s)
 
     def begun(self) -> Collection[str]:
         """Return the topics of new bands."""
         begun, self.unfilled = self.unfilled, set()
         return begun
-
-    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
-        """Note what had changed before."""
-        at_s = received_ns / NS_PER_S
-        for track in self.tracks.values():
-            if track.reading.topic == topic and (not track.changes or track.changes[-1][0] < at_s):
-                track.add(message, at_s)
 
     def refuse(self, topic: str, reason: str) -> None:
         """Show why a message cannot be read."""

@@ -34,7 +34,6 @@ class MessageTable(PathPanel):
     """The elements of an array, or of what a filter finds, as rows of a table."""
 
     title = "Table"
-    on_request = True
     icon = "grid"
     opens = "below"
     module = "table.js"

@@ -29,7 +29,7 @@ class RvizVisualToolsGui(Panel):
     title = "Visual Tools"
     rviz = "rviz_visual_tools/RvizVisualToolsGui"
     rviz_tool = "rviz_visual_tools/KeyTool"
-    on_request = True
+    opens = "side"
     icon = "step"
 
     topic: Annotated[str, Prop(help="Topic of the buttons.")] = "/rviz_visual_tools_gui"

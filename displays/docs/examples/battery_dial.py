@@ -11,7 +11,7 @@ class BatteryDial(Panel):
 
     title = "Battery"
     module = "battery_dial.js"
-    on_request = True
+    opens = "side"
 
     def build(self, ui: Ui, send: Send) -> None:
         """Add the dial."""

@@ -36,8 +36,8 @@ READING = frozenset(
     for name in ("DescribeParameters", "GetParameters", "GetParameterTypes", "ListParameters")
 )
 """Types of services that change nothing, which need no right."""
-MAX_CLASSES = 1000
-"""Classes of panels whose parameters are remembered; one that is loaded again is another."""
+MAX_HOOKS = 2000
+"""Hooks of panels whose parameters are remembered; a class that is loaded again has others."""
 MAX_MESSAGES = 20_000
 """Largest number of past messages; at 400 Hz, decoding these takes a third of a second, which the
 frame loop waits for."""
@@ -178,7 +178,7 @@ class PanelsPart(Part):
         Raises:
             TypeError: there is no such thing.
         """
-        named = parameters_of(type(panel))
+        named = parameters_of(type(panel).show)
         values = {name: self.core.fact(name, default) for name, default in named.items()}
         unknown = [name for name, value in values.items() if value is inspect.Parameter.empty]
         if len(named) == len(unknown) == 1:  # as before webviz 0.3
@@ -346,10 +346,10 @@ class PanelsPart(Part):
         sent.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
 
 
-@functools.lru_cache(MAX_CLASSES)
-def parameters_of(panel: type[Panel]) -> Mapping[str, Any]:
-    """Return the names of what a panel shows, with their defaults."""
-    _, *own = inspect.signature(panel.show).parameters.values()
+@functools.lru_cache(MAX_HOOKS)
+def parameters_of(hook: Callable[..., object]) -> Mapping[str, Any]:
+    """Return the names of what a hook of a class of panels asks for, with their defaults."""
+    _, *own = inspect.signature(hook).parameters.values()
     variable = inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD
     return {each.name: each.default for each in own if each.kind not in variable}
 
@@ -364,5 +364,10 @@ def _pass(panel: Panel, topic: str, type_: str, raw: Any, *, is_past: bool = Fal
         message = decode(type_, raw.cdr, raw.types)
     except MessageError as error:
         panel.refuse(topic, str(error))
-    else:
-        (panel.receive_past if is_past else panel.receive)(topic, message, raw.received_ns)
+        return
+    if receive := getattr(panel, "receive", None):  # as before webviz 0.3
+        receive(topic, message, raw.received_ns)
+        return
+    told = {"received_ns": raw.received_ns, "is_past": is_past}
+    wanted = parameters_of(type(panel).take)
+    panel.take(topic, message, **{name: told[name] for name in told if name in wanted})

@@ -80,7 +80,7 @@ class PluginList(Generic[P]):
                 if lost:
                     log.warning("%s: values were dropped: %s.", item.name, "; ".join(lost))
         for name in self._types.keys() - before.keys():
-            if not getattr(self._types[name], "on_request", False):
+            if getattr(self._types[name], "opens", "at start") == "at start":
                 self.add(make(self._types[name], {}))
 
     def find(self, wanted: str) -> tuple[str, P]:

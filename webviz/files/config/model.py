@@ -171,9 +171,10 @@ def all_tools() -> list[ToolItem]:
 
 
 def all_panels() -> list[PanelItem]:
-    """Return the panels without a list of panels: those installed ones that are not on request."""
-    types = sorted(plugin_types(Panel).items(), key=lambda item: (item[1].place, item[0]))
-    return [make(cls, {}) for _, cls in types if not cls.on_request]
+    """Return the panels without a list of panels: those installed ones that open at start."""
+    by_name = sorted(plugin_types(Panel).items())
+    first = sorted(by_name, key=lambda item: getattr(item[1], "place", 100))  # before webviz 0.3
+    return [make(cls, {}) for _, cls in first if cls.opens == "at start"]
 
 
 class Config(msgspec.Struct):

@@ -201,7 +201,7 @@ def read_panels(entries: Any, tools: Any, report: Report) -> list[PanelItem]:
     found: list[PanelItem] = all_panels()
     for entry in entries if isinstance(entries, list) else []:
         cls = _counterpart(entry)
-        if cls is None or not cls.on_request or any(type(each) is cls for each in found):
+        if cls is None or cls.opens == "at start" or any(type(each) is cls for each in found):
             continue
         reading = Reading()
         found.append(make(cls, reading.struct(cls, entry)))
@@ -240,7 +240,7 @@ def write_panels(
     written: list[Any] = []
     for entry in kept if isinstance(kept, list) else []:
         cls = _counterpart(entry)
-        if cls is None or not cls.on_request:
+        if cls is None or cls.opens == "at start":
             written.append(entry)
         elif panel := by_class.get(cls):
             written.append({k: v for k, v in entry.items() if k not in keys(cls)} | _changed(panel))

@@ -34,7 +34,6 @@ CLOSED_S = 1.5
 class Plot(Panel):
     """Numbers of any messages over time, read while the panel is open."""
 
-    on_request = True
     icon = "pulse"
     opens = "below"
 
@@ -96,25 +95,22 @@ class Plot(Panel):
         """Return the messages of the window."""
         return Lookback(seconds=self.window)
 
-    def receive(self, topic: str, message: Any, received_ns: int) -> None:
-        """Add a value to each curve of a topic."""
-        self.active_s = time.monotonic()
-        self.chooser.take(topic, message)
+    def take(self, topic: str, message: Any, received_ns: int, *, is_past: bool = False) -> None:
+        """Add a value to each curve of a topic; one of the past to those that are not as far."""
+        by_stamp = self.time == "Header Stamp"
+        if not is_past:
+            self.active_s = time.monotonic()
+            self.chooser.take(topic, message)
         for each in self.series.values():
-            if each.topic == topic:
-                each.add(message, received_ns, by_stamp=self.time == "Header Stamp")
+            if each.topic == topic and (
+                not is_past or each.is_behind(message, received_ns, by_stamp=by_stamp)
+            ):
+                each.add(message, received_ns, by_stamp=by_stamp)
 
     def begun(self) -> Collection[str]:
         """Return the topics of new curves."""
         begun, self.unfilled = self.unfilled, set()
         return begun
-
-    def receive_past(self, topic: str, message: Any, received_ns: int) -> None:
-        """Add a value to the curves that are not as far."""
-        by_stamp = self.time == "Header Stamp"
-        for each in self.series.values():
-            if each.topic == topic and each.is_behind(message, received_ns, by_stamp=by_stamp):
-                each.add(message, received_ns, by_stamp=by_stamp)
 
     def refuse(self, topic: str, reason: str) -> None:
         """Note why a curve has no values."""

@@ -45,7 +45,7 @@ class OpenedPanel:
     ) -> None:
         self._do = do
         self._viewer = viewer
-        if cls.on_request:
+        if cls.opens != "at start":
             do(AddPanel(cls.__name__, values), Sender(None))
         do(OpenPanels(frozenset({cls.__name__})), Sender(None))
         tabs = viewer.get(PanelsPart).tabs()
