@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Annotated
 
 from webviz import Context, Details, Display, Hit, Prop, Sample
-from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 from webviz_displays.shared.geometry import Metres
+from webviz_displays.shared.properties import FIXED_FRAME, frame_of
 
 
 class Axes(Display):

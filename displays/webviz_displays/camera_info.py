@@ -27,7 +27,7 @@ from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 EDGE_M = 0.01
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from webviz import Color, Context, Details, Display, Hit, Prop, Remedy, Sample
 from webviz.data.transforms import REACH_M
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.frame_names import FIXED_FRAME, frame_of
 from webviz_displays.shared.geometry import Metres
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import FIXED_FRAME, frame_of, opaque
 
 MAX_LINES = 200_000
 """More lines would make the browser unresponsive."""

@@ -18,7 +18,7 @@ from webviz_displays.image.newest import Newest
 from webviz_displays.image.texels import texels
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Metres
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 _HALF = math.sqrt(0.5)
 # Rotations (w, x, y, z) that turn right and up, or right and down, into axes of the frame.

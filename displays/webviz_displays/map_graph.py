@@ -23,7 +23,7 @@ from webviz import (
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import is_drawable, origin_near
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 KINDS = (
     "neighbor",

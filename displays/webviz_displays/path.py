@@ -30,7 +30,7 @@ from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import Rows, evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Metres, along_x, is_drawable, origin_near, transformed
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 F64 = NDArray[np.float64]
 

@@ -29,13 +29,13 @@ from webviz_displays.point_cloud2.cloud import Cloud
 from webviz_displays.point_cloud2.display import CloudDisplay
 from webviz_displays.shared.colors import RAINBOW, Alpha, ramp
 from webviz_displays.shared.geometry import FARTHEST, origin_near
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import (
     InvertRainbow,
     MaxColor,
     MinColor,
     PointStyle,
 )
+from webviz_displays.shared.properties import opaque
 from webviz_displays.shared.rods import rods
 
 __all__ = ["FluidPressure", "Illuminance", "PointCloud", "Range", "RelativeHumidity", "Temperature"]

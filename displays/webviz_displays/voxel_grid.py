@@ -27,7 +27,7 @@ from webviz import (
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 MAX_VOXELS = 200_000
 """Boxes drawn at once; each takes 43 bytes to send."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from webviz_displays.tf.fading import Ages, fade
+from webviz_displays.tf.frame_marks import Ages, fade
 
 SECOND = 1_000_000_000
 

@@ -37,12 +37,6 @@ SERVER: tuple[Reach, ...] = (
         "an acknowledgement of messages by the page",
     ),
     Reach(
-        f"{ADAPTER}/background.py",
-        ("viser._messages", "_websock_server"),
-        "a background of one colour without importing imageio",
-        "a background by colour",
-    ),
-    Reach(
         f"{ADAPTER}/greeting.py",
         (
             "viser._messages",
@@ -56,9 +50,9 @@ SERVER: tuple[Reach, ...] = (
     ),
     Reach(
         f"{ADAPTER}/image.py",
-        ("viser._messages", "_make"),
-        "images that are encoded elsewhere, and added without encoding",
-        "`add_image` with encoded bytes",
+        ("viser._messages", "_make", "_websock_server"),
+        "encoded images, and a background of one colour, without importing imageio",
+        "`add_image` with encoded bytes, and a background by colour",
     ),
     Reach(
         f"{ADAPTER}/link.py",

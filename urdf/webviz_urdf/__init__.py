@@ -30,8 +30,8 @@ from webviz_urdf.robot import (
 )
 
 if TYPE_CHECKING:
+    from webviz_urdf.joints import moving_joints, turning_joints
     from webviz_urdf.load import load_file, load_robot
-    from webviz_urdf.moving import moving_joints, turning_joints
 
 __all__ = [
     "Inertial",
@@ -70,9 +70,9 @@ __all__ = [
 def __getattr__(name: str) -> object:
     """Import what reads files when it is asked for: it takes longer than all of a viewer."""
     if name == "turning_joints":
-        return importlib.import_module("webviz_urdf.moving").turning_joints
+        return importlib.import_module("webviz_urdf.joints").turning_joints
     if name == "moving_joints":
-        return importlib.import_module("webviz_urdf.moving").moving_joints
+        return importlib.import_module("webviz_urdf.joints").moving_joints
     if name in ("load_file", "load_robot"):
         return getattr(importlib.import_module("webviz_urdf.load"), name)
     raise AttributeError(f"module 'webviz_urdf' has no attribute {name!r}")

@@ -28,7 +28,7 @@ from webviz.api.nodes import (
 )
 from webviz.engine.pipeline.browsers import Browsers
 from webviz.scene.adapter import Adapter, Move, Position, Wxyz
-from webviz.scene.adapter.background import set_background
+from webviz.scene.adapter.image import set_background
 from webviz.scene.axes import AxesDrawn
 from webviz.scene.browsers import ViserBrowsers
 from webviz.scene.cameras import ViserCameras

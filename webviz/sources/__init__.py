@@ -4,8 +4,7 @@ from webviz.api.offer import Endpoint, Offer, Publisher
 from webviz.sources.gate import AllowList, Gate, Rights
 from webviz.sources.graph import Advertisement, Goal, Graph, Missing, NotConnected, ReadOnly
 from webviz.sources.inbox import Inbox, Raw
-from webviz.sources.source import Fleet, Source, Subscription, merged
-from webviz.sources.subscriber import Subscriber
+from webviz.sources.source import Fleet, Source, Subscriber, Subscription, merged
 
 __all__ = [
     "Advertisement",

@@ -23,8 +23,7 @@ from webviz.data.words import counted
 from webviz_displays.areas.grid_cells import GridCells
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import is_drawable, origin_near
-from webviz_displays.shared.history import HistoryLength
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import HistoryLength, opaque
 
 __all__ = ["GridCells", "Polygon"]
 

@@ -24,8 +24,7 @@ from webviz.data.words import counted
 from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, is_drawable, origin_near
-from webviz_displays.shared.history import HistoryLength
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import HistoryLength, opaque
 
 MAX_CELLS = 50_000
 """Cells drawn per message; each takes 72 bytes to send."""

@@ -27,8 +27,8 @@ from webviz_displays.autoware.objects import DetectedObjects, PredictedObjects, 
 from webviz_displays.autoware.path import AutowarePath, AutowareTrajectory
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, origin_near
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.pose_history import GrowingTrail, fault
+from webviz_displays.shared.properties import opaque
 
 __all__ = [
     "AutowarePath",

@@ -29,8 +29,8 @@ from webviz_displays.depth_cloud.cloud import DepthPoints, depth_points
 from webviz_displays.depth_cloud.hidden import Hidden
 from webviz_displays.image import transports
 from webviz_displays.image.newest import Newest
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, PointsDisplay
+from webviz_displays.shared.properties import opaque
 
 __all__ = ["DepthCloud"]
 

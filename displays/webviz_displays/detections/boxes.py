@@ -12,7 +12,7 @@ from webviz import Context, Display, Pose, Prop, Sample, compose
 from webviz.data.rotations import matrices, normalized, w_first
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import BOX_EDGES, LONGEST, is_drawable, origin_near
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 F64 = NDArray[np.float64]
 

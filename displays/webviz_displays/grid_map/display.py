@@ -28,8 +28,8 @@ from webviz.data.words import listed
 from webviz_displays.grid_map.layers import NAMED, GridMapFault, Layers, read_layers
 from webviz_displays.shared.colors import RAINBOW, Alpha, bounds, ramp
 from webviz_displays.shared.geometry import LONGEST
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import MaxColor, MaxIntensity, MinColor, MinIntensity
+from webviz_displays.shared.properties import opaque
 
 U32 = NDArray[np.uint32]
 

@@ -10,7 +10,7 @@ from webviz import Color, Context, Details, Display, Hit, Input, Prop, Sample, T
 from webviz_displays.imu.imu import Imu
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Length
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 from webviz_displays.shared.rods import add_solid_arrows
 
 __all__ = ["Imu", "Mag"]

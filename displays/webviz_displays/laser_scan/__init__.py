@@ -27,8 +27,8 @@ from webviz.api.consistency import ScanPoints
 from webviz.data import messages
 from webviz_displays.laser_scan import beams
 from webviz_displays.shared.geometry import coordinate
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import PointsDisplay
+from webviz_displays.shared.properties import opaque
 
 __all__ = ["LaserScan"]
 

@@ -39,7 +39,7 @@ from webviz.data.words import counted, joined
 from webviz_displays.map.palettes import Scheme, lookup_table
 from webviz_displays.map.tiles import Corner, GridFault, TiledGrid, tiled, updated, window
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 MEANINGS: dict[Scheme, dict[int, str]] = {
     "map": {-1: "unknown", 0: "free", 100: "occupied"},

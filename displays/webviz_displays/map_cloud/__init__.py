@@ -30,8 +30,8 @@ from webviz.data.words import counted, joined
 from webviz_displays.map_cloud.known import KnownMap
 from webviz_displays.map_cloud.node_cloud import CloudSettings, NodeCloud
 from webviz_displays.shared.geometry import transformed
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay
+from webviz_displays.shared.properties import opaque
 
 __all__ = ["MapCloud"]
 

@@ -31,7 +31,7 @@ from webviz_displays.octomap.seen import (
 from webviz_displays.octomap.voxels import places_of, voxels_of
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, origin_near
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 OCTOMAP = "octomap_msgs/msg/Octomap"
 

@@ -15,7 +15,7 @@ from webviz.data.words import counted
 from webviz_displays.outdoors.aerial_map import AerialMap
 from webviz_displays.outdoors.fixes import FIX, fault_of, place_of
 from webviz_displays.shared.geometry import LONGEST, Length, is_drawable
-from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.properties import HistoryLength
 
 __all__ = ["AerialMap", "GeoPath", "NavSatFix"]
 

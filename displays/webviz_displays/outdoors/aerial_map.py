@@ -16,7 +16,7 @@ from webviz.data.words import counted
 from webviz_displays.map.display import BEHIND
 from webviz_displays.outdoors.fixes import FIX, fault_of, place_of
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 
 AT_ONCE = 2
 """Tiles that are loaded at once: half of the threads that all displays share."""

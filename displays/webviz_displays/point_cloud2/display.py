@@ -20,8 +20,8 @@ from webviz_displays.point_cloud2.cloud_colors import (
 )
 from webviz_displays.point_cloud2.decimation import Rows, evenly, one_per_voxel
 from webviz_displays.shared.colors import layers
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay
+from webviz_displays.shared.properties import opaque
 
 _BITS = 16
 """Number of bits of the number of a cell: numpy sorts numbers of 16 bits by radix, ten times as

@@ -24,9 +24,9 @@ from webviz_displays.poses.pose_set import (
     pose_details,
 )
 from webviz_displays.shared.geometry import LONGEST, Length
-from webviz_displays.shared.history import HistoryLength
 from webviz_displays.shared.pose_history import PoseOf, PoseTrail
 from webviz_displays.shared.pose_properties import Covariance
+from webviz_displays.shared.properties import HistoryLength
 
 __all__ = ["ParticleCloud", "PointStamped", "Pose", "PoseArray", "PoseWithCovariance"]
 

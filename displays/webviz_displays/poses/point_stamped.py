@@ -12,8 +12,7 @@ from webviz.data.rotations import matrices
 from webviz.data.words import counted
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import Length, is_drawable, origin_near
-from webviz_displays.shared.history import HistoryLength
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import HistoryLength, opaque
 
 
 class PointStamped(Display):

@@ -15,10 +15,10 @@ from webviz.data.rotations import normalized
 from webviz.data.words import counted, joined
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Length, origin_near
-from webviz_displays.shared.history import HistoryLength
 from webviz_displays.shared.pose_history import GrowingTrail, PoseOf, PoseTrail, fault
 from webviz_displays.shared.pose_marks import draw_poses, report_orientations
 from webviz_displays.shared.pose_properties import PoseShape
+from webviz_displays.shared.properties import HistoryLength
 
 BY_ARROW = ("shape", "Arrow")
 BY_AXES = ("shape", "Axes")

@@ -16,8 +16,8 @@ from webviz_displays.point_cloud2.decimation import evenly
 from webviz_displays.poses.pose_display import placed
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import along_x, is_drawable, origin_near, transformed
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.pose_marks import report_orientations
+from webviz_displays.shared.properties import opaque
 from webviz_displays.shared.rods import add_solid_arrows, rods
 
 F64 = NDArray[np.float64]

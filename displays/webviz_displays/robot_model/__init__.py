@@ -44,7 +44,7 @@ from webviz_displays.robot_model.statuses import (
     report_unknown,
 )
 from webviz_displays.shared.colors import Alpha
-from webviz_displays.shared.frame_names import prefixed
+from webviz_displays.shared.properties import prefixed
 from webviz_displays.shared.trails import Trails
 from webviz_urdf import LoadRequest, Robot, RobotDescriptionError
 

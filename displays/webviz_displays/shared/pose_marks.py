@@ -7,9 +7,9 @@ import numpy as np
 from webviz import Context, Group
 from webviz.api.nodes import Ids
 from webviz_displays.shared.geometry import along_x
-from webviz_displays.shared.opaque import opaque
 from webviz_displays.shared.pose_history import UNIT_TOLERANCE, PoseTrail
 from webviz_displays.shared.pose_properties import PoseShape
+from webviz_displays.shared.properties import opaque
 from webviz_displays.shared.rods import add_solid_arrows
 
 

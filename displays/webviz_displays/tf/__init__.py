@@ -30,7 +30,6 @@ from webviz.api.frames import to_pose
 from webviz.data.rotations import to_rpy
 from webviz.data.transforms import Explanation, distinct, receptions
 from webviz_displays.shared.geometry import origin_near
-from webviz_displays.tf.fading import Ages, fade
 from webviz_displays.tf.frame_filter import (
     FrameFilter,
     Pattern,
@@ -38,7 +37,7 @@ from webviz_displays.tf.frame_filter import (
     compiled,
     parent_indices,
 )
-from webviz_displays.tf.frame_marks import Marks, add_arrows, add_axes, add_names
+from webviz_displays.tf.frame_marks import Ages, Marks, add_arrows, add_axes, add_names, fade
 
 __all__ = ["TF"]
 

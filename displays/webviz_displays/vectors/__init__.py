@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from webviz import Color, Context, Input, Prop, Remedy, Sample, Topic
 from webviz.data import messages
-from webviz_displays.shared.frame_names import frame_of
-from webviz_displays.shared.history import HistoryLength
+from webviz_displays.shared.properties import HistoryLength, frame_of
 from webviz_displays.vectors.effort import Effort
 from webviz_displays.vectors.vector_display import VectorDisplay, VectorLook
 

@@ -31,10 +31,8 @@ from webviz.data import messages
 from webviz.data.rotations import matrices
 from webviz.data.words import counted, listed
 from webviz_displays.shared.colors import RAINBOW, Alpha, ramp
-from webviz_displays.shared.frame_names import prefixed
 from webviz_displays.shared.geometry import Length, origin_near
-from webviz_displays.shared.history import HistoryLength
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import HistoryLength, opaque, prefixed
 from webviz_displays.shared.rods import add_solid_arrows, rods
 from webviz_urdf import RobotDescriptionError, TurningJoint
 

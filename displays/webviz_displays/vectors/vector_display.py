@@ -27,7 +27,7 @@ from webviz.data.rotations import matrices
 from webviz.data.words import joined
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import FARTHEST, Length, origin_near
-from webviz_displays.shared.opaque import opaque
+from webviz_displays.shared.properties import opaque
 from webviz_displays.shared.rods import add_solid_arrows, rods
 
 Ids = NDArray[np.intp]

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import msgspec
-from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from ruamel.yaml.representer import SafeRepresenter
 
 from webviz.api.declared import Declared, to_values
 from webviz.api.registry import type_name
@@ -22,11 +23,24 @@ from webviz.files.config.model import (
     all_panels,
     all_tools,
 )
-from webviz.files.config.representer import Representer
 from webviz.files.config.robots import folded
 
 LINE = 88
 """Maximum length of a mapping or list on one line."""
+_BREAKS = "\x85\u2028\u2029"
+"""Line ends in older YAML, which ruamel writes unquoted and reads as spaces."""
+
+
+class Representer(SafeRepresenter):
+    """ruamel's representer, which also quotes text that would read back as another value."""
+
+    def represent_str(self, data: Any) -> ScalarNode:
+        """Text, double-quoted if it contains line ends."""
+        style = '"' if any(mark in data for mark in _BREAKS) else None
+        return self.represent_scalar("tag:yaml.org,2002:str", data, style)
+
+
+Representer.add_representer(str, Representer.represent_str)
 
 
 def document(config: Config) -> dict[str, Any]:

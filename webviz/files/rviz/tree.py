@@ -16,7 +16,7 @@ from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from webviz.data import plain_yaml
 from webviz.files.config import ConfigError, YamlDocument
-from webviz.files.config.representer import Representer
+from webviz.files.config.writing import Representer
 
 Tree = dict[str, Any]
 Path = tuple[str, ...]

@@ -28,10 +28,9 @@ from webviz.server.access.login import cookie_name
 from webviz.server.access.visitors import Visitor
 from webviz.shell.app import notebook, starting
 from webviz.shell.app.arguments import bytes_per_second, check_names, report_everything
-from webviz.shell.app.closing import Closing
 from webviz.shell.app.picture_controls import PictureControls
 from webviz.shell.app.reading import read_config
-from webviz.shell.app.starting import BagPaths
+from webviz.shell.app.starting import BagPaths, Closing
 from webviz.shell.live_source import bridge_source, is_alone, ros_source, with_robots
 
 if TYPE_CHECKING:

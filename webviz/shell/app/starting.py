@@ -1,10 +1,14 @@
-"""The parts of a viewer that are opened before its server."""
+"""The parts of a viewer that are opened before its server, and the end of all of them."""
 
 from __future__ import annotations
 
+import contextlib
 import logging
+import math
 import os
 import ssl
+import threading
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,11 +17,46 @@ from webviz.api.errors import Error
 from webviz.engine.pipeline import plugins
 from webviz.server.access.journal_file import JournalFile
 from webviz.server.access.tls import doubts, server_context
-from webviz.shell.app.closing import Closing
 from webviz.shell.bag_player import bag_player
 
 if TYPE_CHECKING:
     from webviz.sources import Source
+
+
+CLOSING_S, ALL_CLOSING_S = 1.5, 2.0
+"""Time in seconds for a part to close, and for all: a program that is asked to end has three
+seconds."""
+LAST_S = 0.1
+"""Time in seconds for each part that remains after that."""
+
+
+class Closing:
+    """Closes the parts of a viewer in the reverse order; those that hang are reported and left.
+
+    They share one time limit, so that a program ends in time however many of them are slow.
+    """
+
+    def __init__(self, stack: contextlib.ExitStack) -> None:
+        self._stack = stack
+        self._until = math.inf
+
+    def add(self, what: str, close: Callable[[], object]) -> None:
+        """Close a part when the stack is closed."""
+        self._stack.callback(self._close, what, close)
+
+    def before(self, call: Callable[[], object]) -> None:
+        """Call something, which must not block, before the parts so far are closed."""
+        self._stack.callback(call)
+
+    def _close(self, what: str, close: Callable[[], object]) -> None:
+        self._until = min(self._until, time.monotonic() + ALL_CLOSING_S)
+        thread = threading.Thread(target=close, name="webviz-closing", daemon=True)
+        thread.start()
+        patience_s = min(CLOSING_S, max(LAST_S, self._until - time.monotonic()))
+        thread.join(patience_s)
+        if thread.is_alive():
+            log.warning("%s did not close within %.1f s.", what, patience_s)
+
 
 log = logging.getLogger("webviz")
 

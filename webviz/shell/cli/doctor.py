@@ -20,8 +20,7 @@ from webviz.shell.cli.options import (
     RosArgs,
     check_source,
 )
-from webviz.shell.cli.progress import progress
-from webviz.shell.cli.terminal import say, say_json, say_painted
+from webviz.shell.cli.terminal import progress, say, say_json, say_painted
 
 if TYPE_CHECKING:
     from webviz.shell.doctor.report import DoctorReport

@@ -10,9 +10,8 @@ from cyclopts import App, Parameter
 from webviz.shell.cli.ending import INTERRUPTED, end_in_time, on_signal, say_end
 from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import ConfigOptions, File, Size
-from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Seconds, Time
-from webviz.shell.cli.terminal import say, warn
+from webviz.shell.cli.terminal import progress, say, warn
 
 EXAMPLES = """\
 Examples:

@@ -26,9 +26,8 @@ from webviz.shell.cli.options import (
     RosArgs,
     check_source,
 )
-from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
-from webviz.shell.cli.terminal import say, warn
+from webviz.shell.cli.terminal import progress, say, warn
 from webviz.shell.pictures.browser import LARGEST, launched
 from webviz.sources import Source
 from webviz.sources.player import Player

@@ -137,7 +137,7 @@ class ConnectOptions:
         Raises:
             Error: the connection is invalid, or ROS is missing or does not start.
         """
-        from webviz.shell.cli.progress import progress
+        from webviz.shell.cli.terminal import progress
         from webviz.shell.live_source import live_source
 
         progress(f"connecting to {self.connect}" if self.connect else "starting ROS", 0.0)

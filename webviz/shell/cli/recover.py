@@ -8,8 +8,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from webviz.shell.cli.ending import INTERRUPTED, Stop, say_end, until_signal
-from webviz.shell.cli.progress import progress
-from webviz.shell.cli.terminal import warn
+from webviz.shell.cli.terminal import progress, warn
 
 EXAMPLES = """\
 Examples:

@@ -17,9 +17,8 @@ from webviz.shell.cli.options import (
     Flag,
     RosArgs,
 )
-from webviz.shell.cli.progress import progress
 from webviz.shell.cli.screenshot_options import Time
-from webviz.shell.cli.terminal import say, warn
+from webviz.shell.cli.terminal import progress, say, warn
 
 if TYPE_CHECKING:
     from webviz.sources import Source

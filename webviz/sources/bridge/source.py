@@ -19,9 +19,8 @@ from webviz.sources.bridge.bulk import BulkConnection, BulkLine
 from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
-from webviz.sources.bridge.describing import described, thinning
 from webviz.sources.bridge.graph import BridgeGraph
-from webviz.sources.bridge.health import LinkHealth
+from webviz.sources.bridge.health import LinkHealth, described, thinning
 from webviz.sources.bridge.pacing import TF_TYPE, Pacer
 from webviz.sources.bridge.refusals import explain
 from webviz.sources.bridge.session import BridgeSession, CarriedTopic
