@@ -43,7 +43,7 @@ from tests.attack.target import Target
 from tests.attack.uploads import Uploads
 from tests.attack.weights import Weights
 from webviz.api.roles import Role
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 CORPUS = Path(__file__).parent / "corpus"
 """Cases that once broke a promise, in a folder per kind: LABEL__NAME, packed if it ends with .gz.

@@ -45,7 +45,7 @@ from std_srvs.srv import Empty
 from webviz.data.messages import decode
 from webviz.data.transforms import TransformBuffer
 from webviz.ros.types import message_class
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 

@@ -17,7 +17,7 @@ from program import Program
 
 import webviz
 from webviz.shell.pictures.browser import Page
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from program import Program
 
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 ROOT = Path(__file__).parents[2]
 LAUNCH = ROOT / "ros" / "launch"

@@ -7,7 +7,7 @@ import os
 import pytest
 
 from webviz.shell.domains import VARIABLE, demo_domain
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 
 def test_a_second_demo_takes_a_domain_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:

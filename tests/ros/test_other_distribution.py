@@ -14,7 +14,7 @@ pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-
 
 from program import Program
 
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 ROOT = Path(__file__).parents[2]
 OTHER = ROOT / (".venv" if ".venv-kilted" in sys.prefix else ".venv-kilted") / "bin/python"

@@ -15,7 +15,7 @@ from waiting import until
 
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 from webviz.ros.shared_memory import MIN_AGE_S, remove_abandoned, remove_unused, segments_of
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 PROGRAM = """
 from webviz.ros.node import RosSource

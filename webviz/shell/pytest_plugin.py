@@ -6,16 +6,11 @@ pytest imports this module whenever webviz is installed, so fixtures import the 
 from __future__ import annotations
 
 import contextlib
-import os
-import random
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-
-from webviz.shell.domains import DOMAINS, reserve
 
 if TYPE_CHECKING:
     from webviz.api.display import Display
@@ -28,33 +23,8 @@ if TYPE_CHECKING:
     from webviz.shell.testing.recording import RecordingScene
     from webviz.shell.testing.shared_renderer import SharedRenderer, Size
 
-
 SIZE = (400, 300)
 """Width and height of pictures in pixels."""
-UNUSED = 249
-"""Offset of a port that only the 120th participant would use; bound as a lock."""
-
-
-@contextmanager
-def isolated_domain() -> Iterator[int]:
-    """Provide an unused domain, also for processes that are started during the block.
-
-    Raises:
-        Error: all domains are in use.
-    """
-    lock, domain = reserve(random.SystemRandom().sample(DOMAINS, len(DOMAINS)), UNUSED)
-    ours = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    before = {name: os.environ.get(name) for name in ours}
-    os.environ |= ours
-    try:
-        yield domain
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
-        lock.close()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -95,7 +65,7 @@ def webviz_renderer() -> Iterator[SharedRenderer]:
 @pytest.fixture(scope="session")
 def webviz_domain() -> Iterator[int]:
     """Reserve a ROS domain that is unused on this machine, also for processes started by tests."""
-    from webviz.shell.pytest_plugin import isolated_domain
+    from webviz.shell.testing.domain import isolated_domain
 
     with isolated_domain() as domain:
         yield domain

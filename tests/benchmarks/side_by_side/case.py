@@ -20,7 +20,7 @@ from side_by_side.scenes import Scene
 from side_by_side.small_computer import SmallComputer
 from side_by_side.systems.registry import System
 from side_by_side.watchers import Watcher
-from webviz.shell.pytest_plugin import isolated_domain
+from webviz.shell.testing.domain import isolated_domain
 
 SETTLE_S = 1.5
 """Time in seconds from the last change of the load to the first second that counts."""

@@ -14,8 +14,8 @@ from processes import no_thread_left
 from waiting import until
 
 from webviz import Display, Level, Topic
-from webviz.shell.pytest_plugin import isolated_domain
 from webviz.shell.testing import LiveViewer
+from webviz.shell.testing.domain import isolated_domain
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.path import Path
 
