@@ -86,7 +86,7 @@ def test_a_folder_that_another_program_takes_for_abandoned_is_made_anew(
     def late(descriptor: int) -> bool:
         if not taken:
             taken.extend(tmp_path.iterdir())
-            module._remove_if_abandoned(taken[0])
+            module.remove_if_abandoned(taken[0])
         return lock(descriptor)
 
     monkeypatch.setattr(module, "lock", late)

@@ -134,7 +134,7 @@ def test_what_cannot_be_right_is_said(
 def test_a_type_that_no_image_has_is_named(bench: Benches) -> None:
     at = bench(Image())
     publisher = Publisher("/theora", "theora_image_transport/msg/Packet", "reliable", "volatile")
-    at._offers[TOPIC] = Offer((publisher,), ("reliable", "volatile"))
+    at.offers[TOPIC] = Offer((publisher,), ("reliable", "volatile"))
     at.turn()
     level, text = at.statuses()["Topic"]
     assert level == "ERROR"

@@ -18,7 +18,6 @@ from webviz import Details
 from webviz.shell.testing import check_details
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import SECOND
-from webviz.sources import Raw
 from webviz_displays.markers import Marker, MarkerArray, store
 from webviz_displays.markers.blocks import BLOCK
 
@@ -412,8 +411,8 @@ def test_a_latched_message_that_comes_again_renews_lifetimes(bench: Benches) -> 
     made = bench(MarkerArray())
     for _ in range(2):
         made.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
-        offer = made._offers["/visualization_marker_array"]
-        made._offers["/visualization_marker_array"] = type(offer)(
+        offer = made.offers["/visualization_marker_array"]
+        made.offers["/visualization_marker_array"] = type(offer)(
             offer.publishers, ("reliable", "transient_local")
         )
         made.turn(1.5)
@@ -490,7 +489,7 @@ def test_very_many_markers_and_very_long_texts_are_limited(
 
 def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:
     bench = shown([cube(1, 1.0)])
-    bench._batches["/visualization_marker_array"] = [Raw(b"\0\1\0\0\xff\xff\xff\xff", bench.now_ns)]
+    bench.send_bytes(ARRAY, b"\0\1\0\0\xff\xff\xff\xff", "/visualization_marker_array")
     bench.turn()
     assert xs(bench) == [1.0]
     assert bench.statuses()["Message"][0] == "ERROR"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import math
 import random
@@ -18,7 +19,7 @@ from mapping_scenes import hill, seen_from_above
 from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
 from plain_scenes import in_moving_frame
 
-from webviz.data.memory import DECODING
+from webviz.data.memory import DECODING, MemoryBudget
 from webviz.shell.testing import check_details
 from webviz_displays.octomap import (
     ColorOccupancyGrid,
@@ -235,10 +236,22 @@ def test_a_tree_of_too_many_nodes_is_refused(monkeypatch: pytest.MonkeyPatch) ->
 
 
 @FORMS
-def test_nodes_are_counted_before_a_tree_is_read(form: Form) -> None:
+def test_nodes_are_counted_before_a_tree_is_read(
+    form: Form, monkeypatch: pytest.MonkeyPatch
+) -> None:
     values = form(octree(some_keys(100)))
     message = SimpleNamespace(**values | {"data": np.array(values["data"], np.int8)})
-    assert octree_module._nodes_in(message) == len(read_octree(message).codes)
+    budget = MemoryBudget(1 << 30)
+    monkeypatch.setattr(octree_module, "DECODING", budget)
+    monkeypatch.setattr(octree_module, "SLOW_BYTES", 0)
+    size = len(read_octree(message).codes) * octree_module.NODE_BYTES
+    for total, is_enough in ((size, True), (size - 1, False)):
+        budget.total = total
+        with (
+            contextlib.nullcontext() if is_enough else pytest.raises(OctreeFault, match="takes"),
+            octree_module.memory_for(message),
+        ):
+            pass
 
 
 LARGE = full(octree(some_keys(6000)))
@@ -248,7 +261,7 @@ LARGE = full(octree(some_keys(6000)))
 def test_a_tree_that_takes_more_memory_than_there_is_is_refused(
     turned: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(octree_module, "_NODE_BYTES", DECODING.total)
+    monkeypatch.setattr(octree_module, "NODE_BYTES", DECODING.total)
     level, text = turned(OccupancyGrid(), LARGE).statuses()["Octree"]
     assert (level, "to decode; the limit is" in text) == ("ERROR", True), text
 

@@ -19,7 +19,6 @@ from processes import command_lines, send
 from psutil import wait_procs
 from robot_arm import ARM, describe, is_loaded, place_arm, wait
 from robots import link_poses
-from waiting import until
 
 import webviz
 import webviz_urdf
@@ -292,8 +291,7 @@ def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_the
     at.turn()
     at.send("std_msgs/msg/String", {"data": ARM})
     at.turn()
-    until(at.runner._renderer._tasks.has_news)
-    at.turn()
+    at.settle()
     place_arm(at)
     at.turn()
     assert at.nodes()["tool visual grip"].color == (0, 0, 255)

@@ -90,7 +90,7 @@ def test_a_topic_that_changes_its_type_is_read_as_the_new_one(at: Any) -> None:
 
 def test_a_topic_that_another_display_reads_is_read_as_the_same_type(at: Any) -> None:
     publishers = tuple(Publisher("/a", each, "reliable", "volatile") for each in (BATTERY, STRING))
-    at._offers["/any"] = Offer(publishers, type=STRING)
+    at.offers["/any"] = Offer(publishers, type=STRING)
     at.turn()
     assert at.runner.subscriptions()["/any"].type == STRING
 

@@ -58,7 +58,7 @@ def processes() -> list[psutil.Process]:
 def start(tmp_path, monkeypatch):
     """Run a `Loading` in a thread; every test begins without a spare process."""
     monkeypatch.setenv("WEBVIZ_MESH_ROOT", str(tmp_path))
-    loading._end_spare()
+    loading.end_spare()
     with ThreadPoolExecutor() as pool:
         begun: list[Loading] = []
 
@@ -69,7 +69,7 @@ def start(tmp_path, monkeypatch):
         yield start
         for each in begun:
             each.stop()
-    loading._end_spare()
+    loading.end_spare()
 
 
 def wait_for_mesh(begun: Loading) -> psutil.Process:

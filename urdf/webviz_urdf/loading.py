@@ -292,7 +292,8 @@ def _keep(process: _Process) -> None:
 
 
 @atexit.register
-def _end_spare() -> None:
+def end_spare() -> None:
+    """End the process that is kept for the next robot."""
     with _lock:
         while _spare:
             _spare.pop().end()

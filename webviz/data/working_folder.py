@@ -71,10 +71,11 @@ def _remove_abandoned(prefix: str, beside: Path) -> None:
                 and about.st_uid == owner
             ):
                 with contextlib.suppress(OSError):
-                    _remove_if_abandoned(Path(entry.path))
+                    remove_if_abandoned(Path(entry.path))
 
 
-def _remove_if_abandoned(folder: Path) -> None:
+def remove_if_abandoned(folder: Path) -> None:
+    """Remove a folder unless a program has its lock."""
     held = os.open(folder / LOCK, os.O_RDWR)
     try:
         if lock(held):

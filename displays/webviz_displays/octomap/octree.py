@@ -29,7 +29,7 @@ LEVELS = 16
 """Number of levels below the root; the smallest voxels are at this depth."""
 MAX_NODES = 3_000_000
 """Largest number of nodes of a tree; they take 600 MB while they are read and drawn."""
-_NODE_BYTES = 210
+NODE_BYTES = 210
 """Bytes of each node meanwhile: 204 were measured."""
 _KEPT_BYTES = 40
 """Bytes of each node afterwards, and what is drawn."""
@@ -104,7 +104,7 @@ def memory_for(message: Any) -> Iterator[None]:
         yield
         return
     try:
-        with DECODING.take(_nodes_in(message) * _NODE_BYTES):
+        with DECODING.take(_nodes_in(message) * NODE_BYTES):
             yield
     except OverBudgetError as error:
         raise OctreeFault(f"The tree {error}. Publish a part of it, or remove displays.") from None

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from webviz.data.messages import DecodeError, DefinitionError, decode, register
+from webviz.data.messages import DecodeError, DefinitionError, decode, register, ros1
 from webviz.data.messages.ros1 import TRANSFORMS, Ros1Type, transforms_to_cdr
 
 NAME = "old_msgs/msg/Mixed"
@@ -146,25 +146,39 @@ def test_transforms_are_converted_as_every_message(
     names: list[tuple[bytes, bytes]], seconds: int, nanoseconds: int
 ) -> None:
     data = transforms(*names, seconds=seconds, nanoseconds=nanoseconds)
-    general = Ros1Type(TRANSFORMS, TF_TEXT)
-    general._is_usual = False
+    general = Ros1Type(TRANSFORMS, TF_TEXT)  # converts its first message as every type does
     assert transforms_to_cdr(data) == general.to_cdr(data)
 
 
-def test_transforms_are_converted_the_fast_way_once_that_is_known_to_fit() -> None:
+def counted(monkeypatch: pytest.MonkeyPatch, name: str) -> list[str]:
+    """Note each call of a function of `ros1`."""
+    calls: list[str] = []
+    function = getattr(ros1, name)
+    monkeypatch.setattr(ros1, name, lambda *args: calls.append(name) or function(*args))
+    return calls
+
+
+def test_transforms_are_converted_the_fast_way_once_that_is_known_to_fit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    general, fast = counted(monkeypatch, "encode"), counted(monkeypatch, "transforms_to_cdr")
     known = Ros1Type(TRANSFORMS, TF_TEXT)
     known.to_cdr(transforms())
-    assert known._is_usual is None  # an empty message shows nothing
+    assert fast == []  # an empty message shows nothing
     data = transforms((b"map", b"base"))
     first = known.to_cdr(data)
-    assert known._is_usual
+    assert (len(general), len(fast)) == (2, 1)
     assert known.to_cdr(data) == first
+    assert (len(general), len(fast)) == (2, 2)
     for size in range(len(data)):
         with pytest.raises(DecodeError):
             known.to_cdr(data[:size])
 
 
-def test_transforms_of_another_definition_are_read_by_that() -> None:
+def test_transforms_of_another_definition_are_read_by_that(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    fast = counted(monkeypatch, "transforms_to_cdr")
     text = TF_TEXT.replace("string child_frame_id\n", "string child_frame_id\nint32 extra\n")
     data = transforms((b"map", b"base"))
     data = data[:-56] + struct.pack("<i", 9) + data[-56:]
@@ -172,4 +186,4 @@ def test_transforms_of_another_definition_are_read_by_that() -> None:
     for _ in range(2):
         (found,) = decode(TRANSFORMS, other.to_cdr(data)).transforms
         assert (found.parent, found.child, found.translation) == ("map", "base", (0.0, 1.0, 2.0))
-    assert other._is_usual is False
+    assert len(fast) == 1, "It was found not to fit."

@@ -8,6 +8,7 @@ import pytest
 from bags import START_NS, files, ns, strings
 
 from webviz.data.messages import decode
+from webviz.data.recordings import mcap
 from webviz.data.recordings.mcap import McapRecording
 from webviz.data.recordings.mcap_chunks import McapChunk
 
@@ -24,11 +25,9 @@ def test_small_messages_of_a_chunk_are_unpacked_once(
     (file,) = files(bag.write(tmp_path / "run"), ".mcap")
     recording = McapRecording(file)
     unpacked: list[McapChunk] = []
-    unpack = McapRecording._unpacked
+    unpack = mcap.contents_of
     monkeypatch.setattr(
-        McapRecording,
-        "_unpacked",
-        lambda self, chunk: unpacked.append(chunk) or unpack(self, chunk),
+        mcap, "contents_of", lambda chunk, file: unpacked.append(chunk) or unpack(chunk, file)
     )
 
     def read(*topics: str) -> list[str]:

@@ -108,13 +108,13 @@ def test_what_a_histogram_read_is_not_searched_again(
     assert recording.span_ns is not None
     recording.histogram(sqlite.TimeParts(*recording.span_ns, 10))
     asked: list[tuple[int, int]] = []
-    sql = sqlite._Query.sql
+    sql = sqlite.Query.sql
 
-    def noted(query: sqlite._Query, limit: int) -> Any:
+    def noted(query: sqlite.Query, limit: int) -> Any:
         asked.append((query.start_ns, query.end_ns))
         return sql(query, limit)
 
-    monkeypatch.setattr(sqlite._Query, "sql", noted)
+    monkeypatch.setattr(sqlite.Query, "sql", noted)
     channels = [channel for channel in recording.channels if channel.topic == "/bursts"]
     assert len(list(recording.messages(channels, *recording.span_ns))) == 150
     assert sum(end - start for start, end in asked) < 3 * ns(15)  # in three bursts of 5 s
@@ -132,7 +132,7 @@ def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_wa
     bag.add("/map", "std_msgs/msg/String")
     bag.put(1.5, "/map", {"data": "map"})
     (file,) = files(bag.write(tmp_path / "run", StoragePlugin.SQLITE3), ".db3")
-    slices, is_over = sqlite_times._slices, threading.Event()
+    slices, is_over = sqlite_times.slices, threading.Event()
 
     def slow(db: sqlite3.Connection) -> Iterator[tuple[int, int]]:
         first, *others = slices(db)
@@ -140,7 +140,7 @@ def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_wa
         is_over.wait(60.0)
         yield from others
 
-    monkeypatch.setattr(sqlite_times, "_slices", slow)
+    monkeypatch.setattr(sqlite_times, "slices", slow)
     hasten(monkeypatch, random.Random(1), share=1.0)
     recording = SqliteRecording(file)
     channels = [channel for channel in recording.channels if channel.topic == "/map"]

@@ -2,7 +2,6 @@
 
 import math
 import random
-from collections import deque
 
 import pytest
 
@@ -183,10 +182,8 @@ def test_the_refusal_says_on_which_side_of_the_data_the_time_lies() -> None:
 
 def test_memory_is_bounded_even_when_the_clock_of_the_publisher_stands_still() -> None:
     cache = TimeCache(FAR)
-    cache._stamps = deque(range(MAX_SAMPLES))
-    cache._poses = deque([PACKED.pack(*pose())] * MAX_SAMPLES)
-    cache._parents = deque(["parent"] * MAX_SAMPLES)
-    cache.insert(MAX_SAMPLES, (pose(), "parent"))
+    for stamp_ns in range(MAX_SAMPLES + 1):
+        cache.insert(stamp_ns, (pose(), "parent"))
     assert len(cache) == MAX_SAMPLES
     assert cache.stamps[0] == 1
 

@@ -162,7 +162,9 @@ def test_messages_are_kept_for_the_cache_time_although_nobody_reads_a_history() 
     cache = buffer.tree.caches["f8"]
     assert isinstance(cache, TimeCache)
     assert cache.batches is not None
-    assert len(cache.batches._messages) == 22  # 2 s before the last but one, and the last
+    assert (
+        len(cache.batches.since(0, cache.place)) == 22
+    )  # 2 s before the last but one, and the last
     assert list(cache.stamps) == [S + tick * S // 10 for tick in range(178, 200)]
     assert buffer.lookup("f0", "f8", S + 19 * S).translation == (570.0, 0.0, 0.0)
 

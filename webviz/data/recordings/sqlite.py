@@ -60,7 +60,7 @@ class _Row(NamedTuple):
     data: Any
 
 
-class _Query(msgspec.Struct, frozen=True):
+class Query(msgspec.Struct, frozen=True):
     """Messages to read.
 
     Args:
@@ -78,14 +78,14 @@ class _Query(msgspec.Struct, frozen=True):
     last: tuple[int, int] = (-1, 0)
     columns: str = _COLUMNS
 
-    def after(self, row: _Row) -> _Query:
+    def after(self, row: _Row) -> Query:
         """Return the rest behind a row."""
         stamp_ns = row.stamp_ns
         if self.is_backwards:
             return replace(self, end_ns=stamp_ns, last=(stamp_ns, row.id))
         return replace(self, start_ns=stamp_ns, last=(stamp_ns, row.id))
 
-    def within(self, start_ns: int, end_ns: int) -> _Query:
+    def within(self, start_ns: int, end_ns: int) -> Query:
         """Return the part within a span."""
         return replace(self, start_ns=start_ns, end_ns=end_ns)
 
@@ -299,7 +299,7 @@ class SqliteRecording:
         """
         if not wanted:
             return
-        query = _Query(wanted, start_ns, end_ns, is_backwards, columns=columns)
+        query = Query(wanted, start_ns, end_ns, is_backwards, columns=columns)
         if not self._times.knows(wanted):
             row = None
             try:
@@ -311,7 +311,7 @@ class SqliteRecording:
         for span in self._times.spans(wanted, query.start_ns, query.end_ns, is_backwards):
             yield from self._queried(query.within(*span))
 
-    def _queried(self, query: _Query, patience_s: float = math.inf) -> Iterator[_Row]:
+    def _queried(self, query: Query, patience_s: float = math.inf) -> Iterator[_Row]:
         """Yield the rows that answer a query.
 
         They are taken few by few at first: sqlite3 looks for the next row before it returns one,

@@ -114,7 +114,7 @@ class TopicTimes:
         counts: dict[int, Counts] = {}
         newest: dict[int, int] = {}
         with contextlib.closing(connected(self._path)) as db:
-            for after, until in _slices(db):
+            for after, until in slices(db):
                 if self._is_closed:
                     break
                 rows = db.execute(
@@ -164,7 +164,7 @@ class TopicTimes:
             spans.append((first_ns, last_ns))
 
 
-def _slices(db: sqlite3.Connection) -> Sequence[_Span]:
+def slices(db: sqlite3.Connection) -> Sequence[_Span]:
     """Ids of messages: those after the first and up to the second of each pair."""
     first, last = db.execute("SELECT min(id), max(id) FROM messages").fetchone()
     if first is None:

@@ -63,8 +63,9 @@ class DisplayBench:
             points=PointBudget(self.scene.points_held),
         )
         self.runner = Runner("display", display, services)
+        self.offers: dict[str, Offer] = {}
+        """Topics that the display finds, as a source has them."""
         self._batches: dict[str, list[Raw]] = {}
-        self._offers: dict[str, Offer] = {}
 
     def transform(
         self,
@@ -104,7 +105,7 @@ class DisplayBench:
         """Publish a message as it is in a bag."""
         topic = topic or inputs(self.display)[0][2].name
         publisher = Publisher("/test", type_name, "reliable", "volatile")
-        self._offers[topic] = Offer((publisher,), ("reliable", "volatile"))
+        self.offers[topic] = Offer((publisher,), ("reliable", "volatile"))
         self._batches.setdefault(topic, []).append(Raw(cdr, self.now_ns))
 
     def serve(self, service: str, type: str, values: Mapping[str, Any]) -> None:
@@ -115,7 +116,7 @@ class DisplayBench:
         """Publish a topic that the display finds at run time."""
         publisher = Publisher("/test", type_name, "reliable", "volatile")
         known = Offer((publisher,) * publishers, ("reliable", "volatile"), type=type_name)
-        self._offers[topic] = known
+        self.offers[topic] = known
 
     def set(self, path: str, value: Any) -> None:
         """Change a property, and draw."""
@@ -127,7 +128,7 @@ class DisplayBench:
         self.now_ns += round(seconds * SECOND)
         batches, self._batches = self._batches, {}
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
-        self.runner.take(batches, frames, self._offers)
+        self.runner.take(batches, frames, self.offers)
         self.runner.draw(frames)
 
     def settle(self) -> None:
@@ -203,7 +204,7 @@ class DisplayBench:
 
     def _statuses(self) -> dict[str, Status]:
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
-        return self.runner.statuses(self._offers, frames, lambda topic: 0, is_watched=True)
+        return self.runner.statuses(self.offers, frames, lambda topic: 0, is_watched=True)
 
 
 def check_details(details: Details, title: str, values: Mapping[str, Any]) -> None:
