@@ -11,6 +11,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from examining import SCAN, three_ranges
 from nodes import SpunNode, node_of
+from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan as LaserScanMessage
@@ -121,8 +122,10 @@ def test_a_clock_of_a_paused_simulator(
         node.create_publisher(LaserScanMessage, "/scan", 1)
         viewer = webviz_viewer(LaserScan(topic=Topic("/scan")), fixed_frame="map")
         if is_followed:
-            parameter = Parameter("use_sim_time", value=True)
-            viewer.source._node.set_parameters([parameter])  # pyright: ignore[reportPrivateUsage]
+            set_parameters = node.create_client(SetParameters, "/webviz/set_parameters")
+            assert set_parameters.wait_for_service(60.0)
+            parameter = Parameter("use_sim_time", value=True).to_parameter_msg()
+            set_parameters.call_async(SetParameters.Request(parameters=[parameter]))
 
         def found(step: int | None = 0) -> dict[str, str]:
             """The causes by id, after a message on /clock if `step` is given."""

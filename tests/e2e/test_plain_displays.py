@@ -85,7 +85,7 @@ def test_each_display_draws_what_is_published_and_says_ok(
         for display in shown
     }
     for topic, type_name in types.items():  # a second each, one after another
-        viewer._publisher_node.open(topic, type_name, latched=False)
+        viewer.advertise(topic, type_name)
     for topic, type_name in types.items():
         viewer.publish(topic, type_name, MESSAGES.get(type_name, {}), frame="sensor")
     for cls in (*CLASSES, Twist):

@@ -7,12 +7,14 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
 from pages import COARSE, open_pages
 from processes import command_lines, send
 from program import Program
+from websockets.asyncio.server import ServerConnection
 
 pytest.importorskip("rclpy", reason="needs rclpy")
 
@@ -20,12 +22,13 @@ import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
-from viser_internals import cut_connections
 
 import webviz
 from webviz.commands import AddDisplay
+from webviz.engine.driving.velocity_controller import TAIL
 from webviz.files.config import Config
 from webviz.files.opening import parse
+from webviz.server.channel.channel import Channel
 from webviz.shell.pictures.browser import FLAGS, Page, executable_of
 
 PATIENCE_S = 60.0
@@ -85,7 +88,22 @@ def empty(*_: object) -> Config:
 
 
 @pytest.fixture(scope="module")
-def viewer(robot: Robot) -> Iterator[webviz.Viewer]:
+def channels() -> Iterator[list[ServerConnection]]:
+    """The connections over which pages drive."""
+    channels: list[ServerConnection] = []
+    serve = Channel.serve
+
+    def noting(channel: Channel, connection: Any, *args: Any) -> Any:
+        channels.append(connection)
+        return serve(channel, connection, *args)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Channel, "serve", noting)
+        yield channels
+
+
+@pytest.fixture(scope="module")
+def viewer(robot: Robot, channels: list[ServerConnection]) -> Iterator[webviz.Viewer]:
     with webviz.Viewer(port=0, read=empty) as viewer:
         yield viewer
 
@@ -140,10 +158,12 @@ def blocked(viewer: webviz.Viewer) -> Iterator[None]:
         begun.set()
         done.wait(PATIENCE_S)
 
-    viewer._loop.enqueue(AddDisplay("Axes", {}, "", wait))
+    adding = threading.Thread(target=viewer.do, args=(AddDisplay("Axes", {}, "", wait),))
+    adding.start()
     assert begun.wait(PATIENCE_S)
     yield
     done.set()
+    adding.join()
 
 
 def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_stands_still(
@@ -154,7 +174,7 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
         hold(page, robot)
         page.tab.keyboard.up("w")
         wait_until_stopped(page, robot)
-        until(lambda: not viewer._loop.controllers._is_moving())
+        until(lambda: robot.speeds()[-TAIL:] == [0.0] * TAIL)
         page.tab.wait_for_timeout(100)
         speeds = robot.speeds()
         # 1 m/s² from the first step of 50 ms on; a busy machine leaves out commands.
@@ -164,33 +184,29 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
         assert {(twist.linear.y, twist.angular.z) for _, twist in robot.heard} == {(0.0, 0.0)}
 
 
-def cut(page: Page, viewer: webviz.Viewer) -> None:
-    server = viewer._scene.link.server
-    cut_connections(server)
+def cut(page: Page, channels: list[ServerConnection]) -> None:
+    for each in channels:
+        each.loop.call_soon_threadsafe(each.transport.abort)
 
 
 @contextmanager
-def stalled(viewer: webviz.Viewer) -> Iterator[None]:
+def stalled(channels: list[ServerConnection]) -> Iterator[None]:
     """No page receives anything during the block, as behind a full buffer."""
-    server = viewer._scene.link.server
-
-    def each(do: str) -> None:
-        for _, connection in tuple(server.channel._visitors.values()):
-            server.get_event_loop().call_soon_threadsafe(getattr(connection, do))
-
-    each("pause_writing")
+    for each in channels:
+        each.loop.call_soon_threadsafe(each.pause_writing)
     yield
-    each("resume_writing")
+    for each in channels:
+        each.loop.call_soon_threadsafe(each.resume_writing)
 
 
-def freeze(page: Page, viewer: webviz.Viewer) -> Callable[[], object]:
+def freeze(page: Page, channels: list[ServerConnection]) -> Callable[[], object]:
     session = page.tab.context.new_cdp_session(page.tab)
     session.send("Debugger.enable")
     session.send("Debugger.pause")
     return lambda: session.send("Debugger.disable")
 
 
-def hide(page: Page, viewer: webviz.Viewer) -> None:
+def hide(page: Page, channels: list[ServerConnection]) -> None:
     page.evaluate("""() => {
       Object.defineProperty(document, "hidden", { get: () => true, configurable: true });
       document.dispatchEvent(new Event("visibilitychange"));
@@ -198,11 +214,11 @@ def hide(page: Page, viewer: webviz.Viewer) -> None:
     }""")
 
 
-def blur(page: Page, viewer: webviz.Viewer) -> None:
+def blur(page: Page, channels: list[ServerConnection]) -> None:
     page.evaluate("() => window.dispatchEvent(new Event('blur'))")
 
 
-def leave(page: Page, viewer: webviz.Viewer) -> None:
+def leave(page: Page, channels: list[ServerConnection]) -> None:
     page.tab.keyboard.press("Escape")
 
 
@@ -211,11 +227,12 @@ def test_the_robot_stops_although_the_key_is_still_held(
     page: Page,
     robot: Robot,
     viewer: webviz.Viewer,
-    cause: Callable[[Page, webviz.Viewer], Callable[[], object] | None],
+    channels: list[ServerConnection],
+    cause: Callable[[Page, list[ServerConnection]], Callable[[], object] | None],
 ) -> None:
     hold(page, robot)
     with blocked(viewer):
-        end = cause(page, viewer)
+        end = cause(page, channels)
         page.wait_for(lambda: 0.0 in robot.speeds(), "zero", PATIENCE_S)
         if end is not None:
             end()
@@ -224,10 +241,10 @@ def test_the_robot_stops_although_the_key_is_still_held(
 
 
 def test_the_robot_stops_while_the_page_sends_but_receives_nothing(
-    page: Page, robot: Robot, viewer: webviz.Viewer
+    page: Page, robot: Robot, channels: list[ServerConnection]
 ) -> None:
     hold(page, robot)
-    with stalled(viewer):
+    with stalled(channels):
         wait_until_stopped(page, robot)
         note = "The connection to webviz is too slow to drive."
         page.wait_for(lambda: note in page.tab.locator(".wv-teleop").inner_text(), "a reason")

@@ -35,6 +35,7 @@ from webviz.api.nodes import Pose
 from webviz.api.status import Level
 from webviz.commands import DragHandle, Identify, Refresh, SetBackground, SetProperty
 from webviz.engine.commands import Picks
+from webviz.engine.parts.displays import DisplaysPart
 
 SECOND = 1_000_000_000
 T = 100 * SECOND
@@ -258,7 +259,7 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
         raise Boom
 
     with monkeypatch.context() as patch:
-        patch.setattr(b.viewer._displays.list, "set", boom)
+        patch.setattr(b.viewer.get(DisplaysPart).list, "set", boom)
         refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
         b.turn()
     assert "Boom" in str(refused.exception())
@@ -293,17 +294,23 @@ def test_a_turn_that_raises_does_not_end_the_loop(
 ) -> None:
     b = bench(strict=False)
     turns: list[int] = []
+    arrived = b.source.inbox.arrived
 
     def boom() -> None:
+        raise Boom
+
+    def begin() -> None:
+        """Begin a turn, with which there is nothing new."""
         turns.append(1)
         if len(turns) == 3:
             b.viewer.stop()
-        raise Boom
 
-    monkeypatch.setattr(b.viewer, "_advance", boom)
-    b.viewer._wake()
+    monkeypatch.setattr(b.viewer.core, "is_watched", boom)
+    monkeypatch.setattr(arrived, "clear", begin)
     b.viewer.run()
     assert len(turns) == 3
+    b.viewer.update()
+    assert b.viewer.statuses["Frame loop"].text.startswith("Frame loop failed: Boom")
 
 
 def test_a_command_that_fails_leaves_memory_at_once(bench: Benches) -> None:

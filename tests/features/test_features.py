@@ -137,7 +137,11 @@ def test_one_that_is_not_sound_leaves_the_others(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setitem(sys.modules, __name__, sys.modules[Counting.__module__])
     points = entry_points("Counting", "Pausing", "Missing")
     monkeypatch.setattr(feature, "installed", lambda group: points)
-    found, broken = feature._loaded.__wrapped__()
+    feature.loaded.cache_clear()
+    try:
+        found, broken = feature.features(), feature.broken_features()
+    finally:
+        feature.loaded.cache_clear()
     assert found == {"Counting": Counting}
     assert broken["Pausing"].endswith("does not load: ValueError: Pause exists already")
     assert "AttributeError" in broken["Missing"]

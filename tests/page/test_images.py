@@ -47,6 +47,20 @@ def pictures(scene: ViserScene) -> Pictures:
 
 
 @pytest.fixture
+def sent(scene: ViserScene, monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+    """The display and the size of each picture that is sent."""
+    sent: list[tuple[str, int]] = []
+    send = scene.link.channel.send_bytes
+
+    def noting(data: bytes, key: str, browser: int) -> None:
+        sent.append((key.rpartition(" ")[0], len(data)))
+        send(data, key, browser)
+
+    monkeypatch.setattr(scene.link.channel, "send_bytes", noting)
+    return sent
+
+
+@pytest.fixture
 def tab(tab: Any, pictures: Pictures) -> Iterator[Any]:
     """The tab with two images."""
     rows = [row(name) for name in ("Color", "Depth")]
@@ -119,37 +133,25 @@ def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
 
 
 def test_only_what_is_shown_is_sent_and_only_the_newest(
-    tab: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
+    tab: Any, pictures: Pictures, sent: list[tuple[str, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
-    sent: list[str] = []
-    send = pictures._channel.send_bytes
-    pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
-        sent.append(key.rpartition(" ")[0]),
-        send(data, key, browser),
-    )[1]
-    try:
-        pane(tab, "Depth").get_by_role("button", name="Collapse /depth").click()
-        assert not pictures.is_unseen("Depth")
-        tab.wait_for(lambda: "Depth" not in looks(pictures) and pictures.is_unseen("Depth"))
-        assert not pictures.is_unseen("Color")
-        for stamp in range(2, 102):
-            color = np.full_like(COLORS, stamp)
-            pictures.show("Color", pixels(color, "rgb8", stamp=stamp))
-            pictures.show("Depth", pixels(DEPTHS, "32FC1", stamp=stamp))
-        tab.wait_for(lambda: near(shown(tab, "Color"), (101, 101, 101), 3))
-        assert "Depth" not in sent
-        assert sent.count("Color") < 100
-        pane(tab, "Depth").get_by_role("button", name="Expand /depth").click()
-        tab.wait_for(lambda: "Depth" in sent)
-        assert not pictures.is_unseen("Depth")
-    finally:
-        del pictures._channel.send_bytes
-
-
-def looks(pictures: Pictures) -> set[str]:
-    with pictures._lock:
-        return {display for each in pictures._looks.values() for display in each}
+    pane(tab, "Depth").get_by_role("button", name="Collapse /depth").click()
+    assert not pictures.is_unseen("Depth")
+    tab.wait_for(lambda: pictures.is_unseen("Depth"))
+    assert not pictures.is_unseen("Color")
+    sent.clear()
+    for stamp in range(2, 102):
+        color = np.full_like(COLORS, stamp)
+        pictures.show("Color", pixels(color, "rgb8", stamp=stamp))
+        pictures.show("Depth", pixels(DEPTHS, "32FC1", stamp=stamp))
+    tab.wait_for(lambda: near(shown(tab, "Color"), (101, 101, 101), 3))
+    names = [name for name, _ in sent]
+    assert "Depth" not in names
+    assert names.count("Color") < 100
+    pane(tab, "Depth").get_by_role("button", name="Expand /depth").click()
+    tab.wait_for(lambda: "Depth" in [name for name, _ in sent])
+    assert not pictures.is_unseen("Depth")
 
 
 def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any, pictures: Pictures) -> None:
@@ -170,27 +172,20 @@ def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any, pictures: 
     tab.wait_for(lambda: near(shown(tab, "Color"), COLORS[108, 80]) and not problem.is_visible())
 
 
-def test_marks_lie_over_the_picture_and_follow_the_zoom(tab: Any, pictures: Pictures) -> None:
+def test_marks_lie_over_the_picture_and_follow_the_zoom(
+    tab: Any, pictures: Pictures, sent: list[tuple[str, int]]
+) -> None:
     corners = (40.0, 30.0, 80.0, 30.0, 80.0, 60.0, 40.0, 60.0)
     mark = Mark("loop", corners, "#00ff00", fill="#0000ff", width=4.0, about="Detection 7")
     plain = pixels(COLORS, "rgb8")
-    sent: list[int] = []
-    send = pictures._channel.send_bytes
-    pictures._channel.send_bytes = lambda data, key, browser: (  # type: ignore[method-assign]
-        sent.append(len(data)),
-        send(data, key, browser),
-    )[1]
     marks = pane(tab, "Color").locator(".wv-pane-marks")
-    try:
-        pictures.show("Color", replace(plain, marks=(mark,)))
-        tab.wait_for(lambda: color_of(marks, tab, 60, 45) == [0, 0, 255, 255])
-        assert max(sent) > 500
-        sent.clear()
-        pictures.show("Color", replace(plain, marks=(replace_mark(mark, fill="#ff0000"),)))
-        tab.wait_for(lambda: color_of(marks, tab, 60, 45) == [255, 0, 0, 255])
-        assert max(sent) < 500, "The picture is not sent again for its marks."
-    finally:
-        del pictures._channel.send_bytes
+    pictures.show("Color", replace(plain, marks=(mark,)))
+    tab.wait_for(lambda: color_of(marks, tab, 60, 45) == [0, 0, 255, 255])
+    assert max(size for _, size in sent) > 500
+    sent.clear()
+    pictures.show("Color", replace(plain, marks=(replace_mark(mark, fill="#ff0000"),)))
+    tab.wait_for(lambda: color_of(marks, tab, 60, 45) == [255, 0, 0, 255])
+    assert max(size for _, size in sent) < 500, "The picture is not sent again for its marks."
     assert color_of(marks, tab, 60, 30) == [0, 255, 0, 255]
     assert color_of(marks, tab, 100, 45) == [0, 0, 0, 0]
     tab.wait_for(lambda: hover(tab, "Color", 60, 45).endswith("Detection 7"))
@@ -233,13 +228,18 @@ def test_a_pane_says_what_its_display_misses_and_goes_with_it(tab: Any) -> None:
 
 
 def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
-    tab: Any, pictures: Pictures
+    tab: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
     names = [f"Camera{number}" for number in range(MAX_PANES + 6)]
+
+    def seen() -> set[str]:
+        return {name for name in names if not pictures.is_unseen(name)}
+
     tab.loop.show(*map(row, names))
-    tab.wait_for(lambda: looks(pictures) == set(names[:MAX_PANES]))
+    tab.wait_for(lambda: seen() == set(names[:MAX_PANES]))
     tab.loop.show(*map(row, names[10:]))
-    tab.wait_for(lambda: looks(pictures) == set(names[10:]))
+    tab.wait_for(lambda: seen() == set(names[10:]))
 
 
 def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
@@ -600,22 +600,24 @@ def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(
     assert near(shown(tab, "Color"), (100, 100, 100), 3)
 
 
-def test_two_pages_and_a_flood_leave_no_queue(tab: Any, pictures: Pictures, other: Any) -> None:
+def test_two_pages_and_a_flood_leave_no_queue(
+    tab: Any, pictures: Pictures, sent: list[tuple[str, int]], other: Any
+) -> None:
     other.wait_for(lambda: shown(other, "Color") and shown(other, "Depth"))
     flood = threading.Thread(target=_flood, args=(pictures,))
     flood.start()
     tab.wait_for(lambda: not flood.is_alive())
     for each in (tab, other):
         each.wait_for(lambda each=each: near(shown(each, "Color"), (7, 7, 7), 3))
-    with pictures._lock:
-        waiting = [
-            len(look.waiting) for looks in pictures._looks.values() for look in looks.values()
-        ]
-    assert max(waiting) <= 2
+    assert len(sent) < FLOOD, "A page is sent the next one once it has shown one before."
+
+
+FLOOD = 2000
+"""Pictures, for two pages each."""
 
 
 def _flood(pictures: Pictures) -> None:
-    for _ in range(2000):
+    for _ in range(FLOOD):
         pictures.show("Color", pixels(COLORS, "rgb8"))
         time.sleep(0.0002)
     pictures.show("Color", pixels(np.full_like(COLORS, 7), "rgb8"))

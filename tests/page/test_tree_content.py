@@ -19,6 +19,7 @@ from webviz.api.offer import Offer, Publisher
 from webviz.api.status import Level, OtherFixedFrame, Remedy, Status
 from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.state import Row, State, Traffic
+from webviz.page import pages as pages_module
 from webviz.page.pages import Pages
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import ToPage
@@ -127,7 +128,9 @@ class CountingChannel(Channel):
         self.shown += 1
 
 
-def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(make_row: MakeRow) -> None:
+def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(
+    make_row: MakeRow, monkeypatch: pytest.MonkeyPatch
+) -> None:
     channel, given = CountingChannel(), GivenParts()
     pages = Pages(channel, lambda command, sender: Future(), parts=given.parts)
 
@@ -144,7 +147,7 @@ def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(make_row: MakeRo
     assert shown_after(state) == 2
     channel.names = {"displays"}
     assert shown_after(state) == 3, "nobody knows what the page had"
-    pages._types = {}
+    monkeypatch.setattr(pages_module, "display_types", dict)
     assert shown_after(state) == 4, "there are other types of displays"
 
 

@@ -60,12 +60,15 @@ def test_a_text_is_a_pane_with_fields_that_fold(texts: Any, pictures: Pictures) 
     texts.wait_for(lambda: "'hello'" in pane.inner_text())
 
 
-def test_a_text_that_is_folded_is_not_sent(texts: Any, pictures: Pictures) -> None:
+def test_a_text_that_is_folded_is_not_sent(
+    texts: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
     pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("first"))))
     pane = texts.page.get_by_label("Text /joints", exact=True)
     texts.wait_for(lambda: pane.count() and "'first'" in pane.inner_text())
     pane.get_by_role("button", name="Collapse /joints").click()
-    texts.wait_for(lambda: not any(pictures._looks.values()))
+    texts.wait_for(lambda: pictures.is_unseen("Joints"))
     pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("second"))))
     pane.get_by_role("button", name="Expand /joints").click()
     texts.wait_for(lambda: "'second'" in pane.inner_text())

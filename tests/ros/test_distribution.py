@@ -180,7 +180,7 @@ def test_types_need_their_package_where_structs_are_others(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(distribution.metadata, "version", lambda _: "3.3.15")
-    classes._composed.cache_clear()
+    classes.composed.cache_clear()
     expected = (
         "map_msgs/msg/OccupancyGridUpdate needs its package with this ROS 2: "
         "install ros-humble-map-msgs with apt."
@@ -235,9 +235,14 @@ def test_the_default_executor_serves_a_viewer_too(
     monkeypatch.setitem(sys.modules, "rclpy.experimental.events_executor", None)
     spun.node.create_service(Empty, "/reset", lambda _, response: response)
     publisher = spun.node.create_publisher(String, "/text", 1)
+    made: list[object] = []
+    choose = distribution.executor
+    monkeypatch.setattr(
+        distribution, "executor", lambda context: made.append(choose(context)) or made[-1]
+    )
     source = RosSource(domain_id=webviz_domain)
     try:
-        assert isinstance(source._executor, SingleThreadedExecutor)
+        assert [type(each) for each in made] == [SingleThreadedExecutor]
         source.want({"/text": Subscription("std_msgs/msg/String", Topic("/text"))})
 
         def is_received() -> bool:

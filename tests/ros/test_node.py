@@ -271,23 +271,34 @@ def test_simulated_time_is_the_clock_topic(talker: Node, listen: Listen) -> None
 
 
 def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
-    talker: Node, listen: Listen
+    talker: Node, listen: Listen, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     names = [f"/words{number}" for number in range(20)]
     for name in names:
         talker.create_publisher(String, name, qos("best_effort", "volatile"))
+    nodes: list[Node] = []
+
+    def make(*args: Any, **options: Any) -> Node:
+        nodes.append(Node(*args, **options))
+        return nodes[-1]
+
+    monkeypatch.setattr(node, "Node", make)
     source = listen()
-    own = set(source._node.waitables)
+    (own_node,) = nodes
+    own = set(own_node.waitables)
     all_names = {name: Subscription(STRING, Topic(name, reliability="reliable")) for name in names}
     for _ in range(8):
         for wanted in (all_names, {}):
             source.want(wanted)
             # Its thread would have ended, which fails the test.
-            until(lambda wanted=wanted: source._held.keys() == wanted.keys(), seconds=20)
+            until(
+                lambda wanted=wanted: wanted.keys() == {*filter(talker.count_subscribers, names)},
+                seconds=20,
+            )
     # Publishers, too, are destroyed while the node spins.
     advertised = source.graph.advertise({Advertisement("/out", STRING, "reliable", "volatile", 1)})
     advertised.result(20)
-    assert set(source._node.waitables) == own, "events would wait in the executor"
+    assert set(own_node.waitables) == own, "events would wait in the executor"
 
 
 def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) -> None:

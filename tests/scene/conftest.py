@@ -147,7 +147,7 @@ class Peer:
     """
 
     def __init__(self, server: HasPort, below: str = "/", **headers: str) -> None:
-        self._socket = websockets.sync.client.connect(
+        self.websocket = websockets.sync.client.connect(
             f"ws://127.0.0.1:{server.get_port()}{below}",
             subprotocols=[f"viser-v{viser.__version__}"],  # pyright: ignore[reportArgumentType]
             additional_headers=headers,
@@ -161,7 +161,7 @@ class Peer:
     def send(self, message: dict[str, Any] | bytes) -> None:
         """Send a message, or bytes as they are."""
         data = message if isinstance(message, bytes) else msgspec.msgpack.encode(message)
-        self._socket.send(data)
+        self.websocket.send(data)
 
     def look(self, x: float = 1.0) -> None:
         """Send a camera, upon which the server counts this peer as a browser."""
@@ -182,7 +182,7 @@ class Peer:
 
     def frame(self, timeout: float = 60.0) -> bytes:
         """The next websocket frame."""
-        data = self._socket.recv(timeout)
+        data = self.websocket.recv(timeout)
         assert isinstance(data, bytes)
         return data
 
@@ -206,11 +206,11 @@ class Peer:
         """Receives until the connection ends; `timeout` is that of all, None for none."""
         deadline = None if timeout is None else time.monotonic() + timeout
         while True:
-            self._socket.recv(None if deadline is None else max(0.0, deadline - time.monotonic()))
+            self.websocket.recv(None if deadline is None else max(0.0, deadline - time.monotonic()))
 
     def close(self) -> None:
         """Ends the connection without a farewell, to which a server that waits never responds."""
-        self._socket.close_socket()
+        self.websocket.close_socket()
 
 
 @pytest.fixture

@@ -15,8 +15,14 @@ import PIL.Image
 import pytest
 from several import Make
 from viser import _messages as wire
-from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import wire_field_names
+from viser_internals import (
+    message_buffer,
+    property_types,
+    queue_message,
+    state_of,
+    window_loop,
+)
 from waiting import until
 
 from webviz.scene import ViserScene
@@ -27,8 +33,7 @@ from webviz.scene.adapter.poses import OrientationMessage, PositionMessage
 
 def test_viser_has_the_loop_that_we_replace() -> None:
     """If this fails, viser changed: compare `SceneSender` with its new loop."""
-    source = inspect.getsource(AsyncMessageBuffer._window_loop)
-    assert hashlib.sha256(source.encode()).hexdigest().startswith("622c10d1a9e84168")
+    assert hashlib.sha256(window_loop().encode()).hexdigest().startswith("622c10d1a9e84168")
 
 
 @pytest.mark.parametrize(
@@ -85,8 +90,8 @@ def test_poses_are_packed_as_viser_packs_them(ours: Any, original: Any) -> None:
 def test_nodes_of_one_class_share_the_types_of_its_properties(scene: ViserScene) -> None:
     """viser evaluates them anew for each node, which takes half of the time to make one."""
     one, other = (scene.link.server.scene.add_frame(f"/{name}") for name in ("one", "other"))
-    assert one._prop_hints is other._prop_hints
-    assert one._prop_hints == get_type_hints(wire.FrameProps)
+    assert property_types(one) is property_types(other)
+    assert property_types(one) == get_type_hints(wire.FrameProps)
 
 
 def test_a_blank_image_is_added_as_viser_adds_one(scene: ViserScene) -> None:
@@ -96,7 +101,7 @@ def test_a_blank_image_is_added_as_viser_adds_one(scene: ViserScene) -> None:
         "/image", one, 1.0, 1.0, format="png", cast_shadow=False, receive_shadow=False
     )
     ours = add_blank_image(server, "/image")
-    first, second = (vars(handle._impl.props) for handle in (image, ours))
+    first, second = (vars(state_of(handle).props) for handle in (image, ours))
     assert {**first, "_data": b""} == {**second, "_data": b""}
     for props in (first, second):
         with PIL.Image.open(io.BytesIO(props["_data"])) as picture:
@@ -119,7 +124,7 @@ def test_many_moves_at_once_leave_what_single_ones_leave(scene: ViserScene) -> N
         link.set_orientation("/webviz/a", turned)
         link.place([("/webviz/b", (1.0, 0.0, 0.0), turned)])
     link.place([("/webviz/b", None, turned), ("/webviz/b", (2.0, 0.0, 0.0), None)])
-    buffer = link._buffer
+    buffer = message_buffer(link.server)
     for name in ("/webviz/a", "/webviz/b"):
         ids = buffer.ids_from_entity_state_key["scene", name]
         messages = [buffer.message_from_id[number] for number in sorted(ids)]
@@ -132,8 +137,9 @@ def test_many_moves_at_once_leave_what_single_ones_leave(scene: ViserScene) -> N
 
 def pretend_that_were_sent(scene: ViserScene, messages: int) -> None:
     """Lets message numbers go on from far above, as after so many messages."""
-    with scene.link._buffer.buffer_lock:
-        scene.link._buffer.message_counter += messages
+    buffer = message_buffer(scene.link.server)
+    with buffer.buffer_lock:
+        buffer.message_counter += messages
 
 
 def test_joining_does_not_depend_on_how_much_was_ever_sent(scene: ViserScene, call: Make) -> None:
@@ -161,7 +167,7 @@ def test_the_replay_comes_in_windows_and_in_order(scene: ViserScene, call: Make)
     names = []
     while "/webviz/299" not in names:
         window = peer.receive()
-        assert len(window) <= scene.link._buffer.max_window_size + 1
+        assert len(window) <= message_buffer(scene.link.server).max_window_size + 1
         names += [m["name"] for m in window if m["type"] == "SetPositionMessage"]
     assert names[-300:] == [f"/webviz/{index}" for index in range(300)]
 
@@ -197,7 +203,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
 ) -> None:
     """Each removal waits for the slowest browser; the memory for that has a bound."""
     call()  # reads nothing
-    cursors = scene.link._buffer.generator_cursors
+    cursors = message_buffer(scene.link.server).generator_cursors
     blob = np.zeros(20_000_000, np.uint8)
     seen = [-2]
     while len(seen) < 10 or len(set(seen[-10:])) > 1:  # it goes on, or has not begun
@@ -206,7 +212,7 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
         time.sleep(0.05)  # long enough to be sent, if the browser reads
         seen.append(min(cursors.values(), default=-len(seen)))
     for index in range(MAX_TOMBSTONES + 1000):
-        scene.link._queue(wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
+        queue_message(scene.link.server, wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
         scene.link.count_removals(1)
     until(lambda: not cursors)
     scene.link.count_removals(1000)

@@ -11,6 +11,7 @@ import pytest
 import viser
 import websockets.exceptions
 from several import Make
+from viser_internals import server_thread
 from waiting import until
 from websockets.frames import Frame, Opcode
 
@@ -210,7 +211,7 @@ def test_who_floods_with_what_cannot_wait_is_let_go(
     server: viser.ViserServer, call: Make, frame: Frame
 ) -> None:
     peer = call()
-    raw = peer._socket.socket
+    raw = peer.websocket.socket
     if frame.opcode is Opcode.CONT:
         raw.sendall(Frame(Opcode.BINARY, b"x", fin=False).serialize(mask=True))
     flood = 1000 * frame.serialize(mask=True)
@@ -286,7 +287,7 @@ def test_a_server_that_stops_waits_for_no_browser(
     with socket.create_connection(("127.0.0.1", server.get_port())) as client:
         client.sendall(b"GET / HT")
         assert ask(PAGE)[0] == 200
-        thread = server._websock_server._server_thread
+        thread = server_thread(server)
         server.stop()
         assert thread is not None
         assert not thread.is_alive()

@@ -11,6 +11,7 @@ import pytest
 import viser
 import websockets.exceptions
 from several import Make
+from viser_internals import is_shared, state_of
 from waiting import until
 
 from webviz.scene import CannotListen, PortInUse, open_server
@@ -148,17 +149,17 @@ def test_nothing_that_viser_shows_itself_can_be_operated(
     upload.on_upload(lambda _: pressed.append("upload"))
     command.on_trigger(lambda _: pressed.append("command"))
     peer = call()
-    own = {"uuid": check._impl.uuid}
+    own = {"uuid": state_of(check).uuid}
     for message in (
         {"type": "GuiUpdateMessage", "updates": {"value": True}} | own,
         {"type": "GuiUpdateMessage", "updates": {"removed": True}} | own,
-        {"type": "GuiFormDirtyMessage", "uuid": form._impl.uuid},
-        {"type": "GuiFormSubmitMessage", "uuid": form._impl.uuid},
+        {"type": "GuiFormDirtyMessage", "uuid": state_of(form).uuid},
+        {"type": "GuiFormSubmitMessage", "uuid": state_of(form).uuid},
         {"type": "GuiButtonHoldMessage", "frequency": 10.0} | own,
-        {"type": "CommandTriggerMessage", "uuid": command._impl.uuid},
+        {"type": "CommandTriggerMessage", "uuid": state_of(command).uuid},
         {
             "type": "FileTransferStartUpload",
-            "source_component_uuid": upload._impl.uuid,
+            "source_component_uuid": state_of(upload).uuid,
             "transfer_uuid": "a",
             "filename": "a",
             "mime_type": "",
@@ -170,7 +171,7 @@ def test_nothing_that_viser_shows_itself_can_be_operated(
     peer.look()
     until(lambda: len(server.get_clients()) == 1)
     assert not check.value
-    assert not check._impl.removed
+    assert not state_of(check).removed
     assert pressed == []
     assert "GuiFormDirtyMessage" not in {message["type"] for message in call().replay()}
 
@@ -203,4 +204,4 @@ def test_a_message_that_webviz_does_not_know_is_dropped_and_the_next_one_heard(
     peer.send(message)
     peer.look()
     until(lambda: len(server.get_clients()) == 1)
-    assert server._share_tunnel is None
+    assert not is_shared(server)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from viser import LabelHandle
+from viser_internals import scene_handles
 
 from webviz.api.nodes import Labels
 from webviz.scene import ViserScene
@@ -19,7 +20,7 @@ def labels(texts: list[str], x: float = 0.0) -> Labels:
 
 def sent(scene: ViserScene) -> list[str]:
     """The texts that browsers have been sent and keep."""
-    handles = scene.link.server.scene._handle_from_node_name.values()
+    handles = scene_handles(scene.link.server)
     return sorted(each.text for each in handles if isinstance(each, LabelHandle))
 
 

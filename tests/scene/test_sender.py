@@ -7,6 +7,7 @@ import pytest
 from several import Make
 from viser import _messages as wire
 from viser.infra._infra import ClientId
+from viser_internals import queue_message
 from websockets.frames import Frame, Opcode
 
 from webviz.scene import ViserScene
@@ -37,7 +38,7 @@ def test_a_browser_is_not_sent_what_it_is_excluded_from(scene: ViserScene, call:
     excluded = wire.SetPositionMessage("/webviz/a", (1.0, 0.0, 0.0))
     excluded.excluded_self_client = ClientId(0)
     with scene.link.atomic():
-        scene.link._queue(excluded)
+        queue_message(scene.link.server, excluded)
         scene.link.set_position("/webviz/b", (1.0, 0.0, 0.0))
     names = [[message["name"] for message in peer.receive()] for peer in peers]
     assert sorted(names) == [["/webviz/a", "/webviz/b"], ["/webviz/b"]]

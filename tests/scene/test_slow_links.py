@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from viser import _messages as wire
-from viser_internals import live_connections
+from viser_internals import live_connections, message_buffer
 
 from tests.scene.conftest import Peer
 from tests.support.slow_link import SlowLink
@@ -38,13 +38,13 @@ class Queue:
         self.now = 100.0
         self.congestion = CongestionControl(rate, lambda: self.now)
         self.outbox = Outbox(AcknowledgementRequest, self.congestion)
-        self._count = 0
+        self.count = 0
 
     def push(self, message: Any) -> None:
         key = message.redundancy_key()
         self.live = {n: m for n, m in self.live.items() if m.redundancy_key() != key}
-        self.live[self._count] = message
-        self._count += 1
+        self.live[self.count] = message
+        self.count += 1
 
     def cloud(self, name: str, count: int = WINDOW_BYTES // 4) -> None:
         self.push(wire.SceneNodeUpdateMessage(name, {"points": np.zeros(count, np.float32)}))
@@ -59,7 +59,7 @@ class Queue:
         return [f"{name}{cloud[1]}" if cloud else name for name, cloud in clouds]
 
     def _next(self) -> list[Any]:
-        messages = self.outbox.small(self.live, self._count - 1, None)
+        messages = self.outbox.small(self.live, self.count - 1, None)
         return messages + self.outbox.large(self.live)
 
 
@@ -154,7 +154,7 @@ def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
         scene.flush()
         clouds = [
             message
-            for message in scene.link._buffer.message_from_id.values()
+            for message in message_buffer(scene.link.server).message_from_id.values()
             if isinstance(message, wire.SceneNodeUpdateMessage) and "points" in message.updates
         ]
         clouds.sort(key=lambda message: message.name)
@@ -203,7 +203,7 @@ def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
     until = queue.now + seconds
     while queue.now < until:
         queue.now += 0.01
-        sent += queue.outbox.small(queue.live, queue._count - 1, None)
+        sent += queue.outbox.small(queue.live, queue.count - 1, None)
         sent += queue.outbox.large(queue.live)
     return sent
 
@@ -339,7 +339,7 @@ def test_a_cloud_that_waits_to_be_sent_whole_is_thinned_if_a_newer_one_comes() -
     while not sent:
         sent += taken(queue, 0.01)
     queue.push(AcknowledgementRequest("1"))
-    assert queue.outbox.small(queue.live, queue._count - 1, None) == []  # after the whole cloud
+    assert queue.outbox.small(queue.live, queue.count - 1, None) == []  # after the whole cloud
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
     sent += taken(queue, 0.5)
     clouds = [each for each in sent if not isinstance(each, AcknowledgementRequest)]

@@ -74,10 +74,8 @@ class Window(Page):
     def look(self, view: View) -> None:
         """Show a view, and wait until the page has reported it."""
         self.scene.cameras.show(view)
-        (browser,) = self.scene.cameras._browsers.values()
-        self.wait_for(
-            lambda: self.view and browser.obeyed == browser.number, "the report of the page"
-        )
+        # Until then the server believes what it asked for, and then what the page has.
+        self.wait_for(lambda: self.view is not view, "the report of the page")
         self.settle_down()
 
     def settle_down(self) -> None:

@@ -42,7 +42,7 @@ class Connections:
             if message["type"] == "RunJavascriptMessage":
                 source = message["source"].partition("(")[2].removesuffix(");")
                 self.page = msgspec.json.decode(source)
-        self._socket = websockets.sync.client.connect(
+        self.websocket = websockets.sync.client.connect(
             f"ws://127.0.0.1:{server.get_port()}{below}webviz/channel",
             compression=None,
             close_timeout=0.1,
@@ -58,7 +58,7 @@ class Connections:
 
     def say(self, text: str) -> None:
         """Send any text."""
-        self._socket.send(text)
+        self.websocket.send(text)
 
 
 class Guest(Connections):
@@ -69,7 +69,7 @@ class Guest(Connections):
         deadline = time.monotonic() + PATIENCE_S
         while True:
             # Without a deadline of all, a connection that should end would keep a test for ever.
-            text = self._socket.recv(max(0.0, deadline - time.monotonic()))
+            text = self.websocket.recv(max(0.0, deadline - time.monotonic()))
             if (message := msgspec.json.decode(text))["type"] == type_:
                 return message
 
@@ -80,9 +80,9 @@ class Guest(Connections):
 
     def drop(self) -> None:
         """End what is sent on the channel without a word, as a browser that is killed."""
-        self._socket.socket.shutdown(socket.SHUT_WR)
+        self.websocket.socket.shutdown(socket.SHUT_WR)
 
     def close(self) -> None:
         """End the connections, as `Peer.close`."""
-        self._socket.close_socket()
+        self.websocket.close_socket()
         self.viser.close()

@@ -16,6 +16,8 @@ from webviz.api.roles import Role
 from webviz.commands import Refresh
 from webviz.data.messages import encode
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources.player import Player
+from webviz.sources.recording.memory import MemoryHistory
 
 PATH = "nav_msgs/msg/Path"
 CONFIG = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
@@ -30,17 +32,15 @@ class Memory:
 
     def __init__(self, **options: Any) -> None:
         self.source = HandFedSource()
-        self.viewer = webviz.Viewer(port=0, source=self.source, **options)
+        self.memory = MemoryHistory(self.source)
+        self.viewer = webviz.Viewer(port=0, source=Player(self.memory), **options)
         self.viewer.config = CONFIG
         self.guests: list[Guest] = []
         self._ended = threading.Event()
         self._is_paused = False
         self._feeding = threading.Thread(target=self._feed)
         self._feeding.start()
-        memory = self.viewer._loop._core.player.memory
-        assert memory is not None
-        self.memory = memory
-        until(lambda: memory.recent.size()[0] > 1.5)
+        until(lambda: self.memory.recent.size()[0] > 1.5)
         self.viewer.do(Refresh())
 
     def _feed(self) -> None:

@@ -52,7 +52,7 @@ def with_remote_files(text: str, resolver: Resolver) -> Resolver:
     missing = [uri for uri in uris if not _is_here(resolver, *uri)]
     for _ in range(3):  # a mesh, its materials, their pictures
         missing = _fetch_all(missing, sources)
-    return resolver.with_root(_folder())
+    return resolver.with_root(folder())
 
 
 def _fetch_all(uris: Sequence[tuple[str, str]], sources: Sequence[Fetch]) -> list[tuple[str, str]]:
@@ -109,12 +109,12 @@ def _target(package: str, path: str) -> Path | None:
     inside = posixpath.normpath(path)
     if inside.startswith(("/", "..")) or inside == "." or not package.isidentifier():
         return None
-    return _folder() / package / inside
+    return folder() / package / inside
 
 
 @functools.cache
-def _folder() -> Path:
+def folder() -> Path:
     """Return the folder of fetched files, which is removed at the end of the program."""
-    folder = Path(tempfile.mkdtemp(prefix="webviz-robot-files-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return folder
+    made = Path(tempfile.mkdtemp(prefix="webviz-robot-files-"))
+    atexit.register(shutil.rmtree, made, ignore_errors=True)
+    return made

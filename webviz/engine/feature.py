@@ -70,12 +70,12 @@ class Feature(Part):
 
 def features() -> Mapping[str, type[Feature]]:
     """Return all features by name."""
-    return _loaded()[0]
+    return loaded()[0]
 
 
 def broken_features() -> Mapping[str, str]:
     """Return those that cannot be loaded by name, each with the reason."""
-    return _loaded()[1]
+    return loaded()[1]
 
 
 def missing_features() -> Mapping[str, Status]:
@@ -113,7 +113,8 @@ def texts_of(feature: type[Feature]) -> Mapping[str, str]:
 
 
 @functools.cache
-def _loaded() -> tuple[dict[str, type[Feature]], dict[str, str]]:
+def loaded() -> tuple[dict[str, type[Feature]], dict[str, str]]:
+    """Return all features by name, and the reasons of those that cannot be loaded."""
     found: dict[str, type[Feature]] = {}
     broken: dict[str, str] = {}
     taken = {*engine_commands.__all__, *(name for part in PARTS for name in commands_of(part))}

@@ -239,7 +239,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     hand = hold()
     until(lambda: len(sent) > 1)
     hand.vanish()
-    until(lambda: not b.viewer.controllers._is_moving())
+    until(lambda: not b.viewer.controllers.is_moving())
     until(lambda: all(each.cancelled() for each in sent[:-1]))
     assert not sent[-1].cancelled()
     sent[-1].set_result(1)
@@ -276,7 +276,7 @@ def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> 
     until(lambda: lone.speeds)
     lone.allowed.clear()
     before = len(lone.speeds)
-    until(lambda: not lone.controllers._is_moving())
+    until(lambda: not lone.controllers.is_moving())
     late = lone.speeds[before:]
     assert sum(speed != 0.0 for speed in late) <= 1  # which was on its way
     assert lone.speeds[-TAIL:] == [0.0] * TAIL

@@ -17,6 +17,7 @@ from waiting import until
 
 import webviz
 from tests.scene.conftest import Peer
+from tests.support.guest import Served
 from webviz.api.declared import Topic
 from webviz.api.views import Orbit
 from webviz.data.messages import decode, encode, register
@@ -105,7 +106,7 @@ def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
     shown = viewer.playback
     assert set(shown.names) == {"first", "second"}
     assert shown.end_ns - shown.start_ns == ns(5)
-    viewer.source.want(viewer.loop._parts.subscriptions())
+    viewer.source.want({"/words": Subscription("std_msgs/msg/String", Topic("/words"))})
     viewer.source.inbox.drain()
     viewer.source.jump(START_NS)
     while viewer.source.reached_ns < START_NS + ns(3):
@@ -239,7 +240,7 @@ def test_it_plays_once_a_browser_connects(tmp_path: Path) -> None:
     path = strings(0, 1, 2).write(tmp_path / "run")
     with webviz.Viewer(bag=path, port=0, autoplay=True) as viewer:
         assert viewer.position == 0.0
-        peer = Peer(viewer._scene.link.server)
+        peer = Peer(Served(viewer.port))
         peer.look()
         until(lambda: viewer.position == 2.0)
         peer.close()

@@ -108,13 +108,13 @@ def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
     graph = RememberingGraph()
     with benches() as make:
         bench = make(graph=graph, memory=MemorySettings(seconds=0))
-        gate, goal = bench.viewer._core.gate, Advertisement("/goal", "std_msgs/msg/Bool")
+        gate, goal = bench.viewer.core.gate, Advertisement("/goal", "std_msgs/msg/Bool")
         cdr = encode("std_msgs/msg/Bool", {"data": True})
         bench.do(OpenRecording(str(path)))
         assert str(gate.publish(goal, cdr).exception()) == REWOUND
         bench.do(ReturnToLive())
         gate.publish(goal, cdr).result()
-        assert bench.viewer._core.player.inbox is bench.source.inbox, "live without any memory"
+        assert bench.viewer.core.player.inbox is bench.source.inbox, "live without any memory"
 
 
 def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(

@@ -205,7 +205,7 @@ def test_a_time_outside_of_the_recording_is_brought_into_it(theater: Callable, b
 
 def test_the_clock_of_ages_never_goes_back(theater: Callable, bag: Bag) -> None:
     viewer = theater(bag, CONFIG)
-    clock = viewer.loop._core.clock
+    clock = viewer.loop.core.clock
     times = [clock()]
     for at_s in (3.0, 1.0, 2.0, 0.0, 4.0):
         viewer.do(Seek(at_s))

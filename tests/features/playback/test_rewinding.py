@@ -288,7 +288,7 @@ def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
 def test_nothing_is_sent_while_the_past_is_shown(make: Benches) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
-    gate, goal = bench.viewer._core.gate, Advertisement("/goal", PATH)
+    gate, goal = bench.viewer.core.gate, Advertisement("/goal", PATH)
     gate.publish(goal, encode(PATH, {})).result()
     advertised = graph.advertised
     rewind(bench, 1.5)

@@ -17,6 +17,7 @@ from webviz.data.messages import MessageTypes, decode, encode
 from webviz.data.recordings import RecordedChannel, open_recording
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.engine.commands import Sender
+from webviz.engine.parts.settings import SettingsPart
 from webviz.features.recording import (
     MemoryState,
     RecordingState,
@@ -226,7 +227,7 @@ def test_a_full_disk_ends_a_recording_with_a_status(bench: Bench) -> None:
 
 def test_settings_bound_the_memory(bench: Bench) -> None:
     publish(bench)
-    bench.viewer._settings.settings = Settings(memory=MemorySettings(seconds=0.0))
+    bench.viewer.get(SettingsPart).settings = Settings(memory=MemorySettings(seconds=0.0))
     bench.do(StopRecording())
     publish(bench)
     assert "raise memory.seconds in the config" in bench.refused(SaveMemory())
@@ -331,12 +332,13 @@ def test_what_waits_for_the_disk_is_bounded_and_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recorder, "MAX_BYTES", 3000)
-    disk = threading.Lock()
+    disk, is_begun = threading.Lock(), threading.Event()
 
     class Slow(Channels):
         """Answers once the disk does."""
 
         def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
+            is_begun.set()
             with disk:
                 return super().find(topic, types)
 
@@ -344,8 +346,7 @@ def test_what_waits_for_the_disk_is_bounded_and_counted(
     with disk:
         folder = RecordingFolder(tmp_path / "run", "test")
         writer = recorder.Recorder(folder, Slow(lambda: offers), past=[("/a", raw(0))])
-        while writer._waiting:
-            time.sleep(0.01)
+        assert is_begun.wait(60.0)
         for second in range(1, 6):
             writer.put("/a", raw(second, size=1000))
         assert writer.dropped == 2

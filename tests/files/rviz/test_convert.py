@@ -134,4 +134,4 @@ def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
     # Saving keeps what the import could not use.
     assert "my_plugins/Laser" in config_file.dump(viewer.config())
     assert "my_plugins/Brush" in config_file.dump(viewer.config())
-    viewer._workers.close()
+    viewer.close()

@@ -442,7 +442,7 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
 
 def test_a_page_that_floods_with_pings_is_ended_and_has_to_stay_away(house: House) -> None:
     flood = 1000 * Frame(Opcode.PING, b"x").serialize(mask=True)
-    raw = house.enter(Role.WATCHER)._socket.socket
+    raw = house.enter(Role.WATCHER).websocket.socket
     with contextlib.suppress(OSError):
         for _ in range(1000):
             raw.sendall(flood)

@@ -6,6 +6,7 @@ import os
 import re
 import threading
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -66,14 +67,13 @@ def test_what_a_slow_disk_has_no_time_for_is_counted(
     monkeypatch.setattr(journal_file, "MAX_WAITING", 2)
     path, begun, mounted = tmp_path / "journal.txt", threading.Event(), threading.Event()
     kept = JournalFile(path)
-    append = kept._append
 
-    def append_slowly(data: bytes) -> None:
+    def open_slowly(*args: Any, **options: Any) -> Any:
         begun.set()
         assert mounted.wait(60.0)
-        append(data)
+        return open(*args, **options)
 
-    monkeypatch.setattr(kept, "_append", append_slowly)
+    monkeypatch.setattr(journal_file, "open", open_slowly, raising=False)
     kept.write("0")
     assert begun.wait(60.0)
     for number in range(1, 6):

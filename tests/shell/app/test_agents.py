@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Awaitable, Callable, Coroutine, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -149,7 +150,7 @@ def over_http(tools: AgentTools) -> Iterator[tuple[str, dict[str, str]]]:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    now = Access()._now()
+    now = datetime.now(UTC)
     tokens = {"ada": make("ada", Role.WATCHER, now), "bob": make("bob", Role.OPERATOR, now)}
     access = Access(asks=True, others=tuple(tokens.values()))
     server = HttpServer(tools, access, "127.0.0.1", port)

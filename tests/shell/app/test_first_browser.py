@@ -6,6 +6,7 @@ import pytest
 
 import webviz
 from tests.scene.conftest import Peer
+from tests.support.guest import Served
 from webviz.engine.loop import loop
 from webviz.shell.testing.source import HandFedSource
 
@@ -16,7 +17,7 @@ def test_it_sees_the_scene_before_the_next_turn_of_an_idle_viewer(
     monkeypatch.setattr(loop, "IDLE_S", 600.0)
     with webviz.Viewer(port=0, source=HandFedSource()) as viewer:
         viewer.config = {"displays": [{"type": "Grid", "name": "Ground"}]}
-        peer = Peer(viewer._scene.link.server)
+        peer = Peer(Served(viewer.port))
         peer.look()
         names = {message.get("name", "") for message in peer.replay()}
         while not any(name.endswith("/grid") for name in names):

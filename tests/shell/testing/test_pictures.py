@@ -27,7 +27,7 @@ VIEW = Orbit(distance=7.0)
 def with_references(stage: Harness, folder: Path, *, update: bool = False) -> ReferenceImages:
     """Let a stage compare with pictures in a folder of the test."""
     references = ReferenceImages(folder / "pictures", folder / "output", folder, update)
-    stage._snapshots = dataclasses.replace(stage._snapshots, references=references, view=VIEW)
+    stage.snapshots = dataclasses.replace(stage.snapshots, references=references, view=VIEW)
     return references
 
 
@@ -113,7 +113,7 @@ def test_a_mask_is_grey_and_may_reach_over_the_edge() -> None:
 
 
 def test_a_picture_of_another_size_says_so(filled: Harness, references: ReferenceImages) -> None:
-    filled._snapshots.references = dataclasses.replace(references, size=(320, 240))
+    filled.snapshots.references = dataclasses.replace(references, size=(320, 240))
     with pytest.raises(
         AssertionError, match=r"has 320 x 240 pixels, pictures/scan.png has 400 x 3"
     ):
@@ -181,7 +181,7 @@ def test_a_browser_that_dies_is_reported_and_replaced(
     filled: Harness, shared_renderer: SharedRenderer, tmp_path: Path
 ) -> None:
     before = browsers()
-    filled._snapshots.shared_renderer = shared_renderer
+    filled.snapshots.shared_renderer = shared_renderer
     picture = filled.picture()
     (ours,) = set(browsers()) - set(before)
     helpers = ours.children(recursive=True)
@@ -204,7 +204,7 @@ def test_without_a_browser_one_sentence_says_how_to_get_one(
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> None:
-    filled._snapshots.shared_renderer = shared_renderer
+    filled.snapshots.shared_renderer = shared_renderer
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path))
     with pytest.raises(NoBrowser, match=r"No browser found\. Install Chromium"):

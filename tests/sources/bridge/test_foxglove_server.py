@@ -115,7 +115,7 @@ def test_meshes_that_this_machine_lacks_come_from_the_robot(reader: Reader) -> N
         {shape.format("arm/meshes/../../secret.obj")}{shape.format("arm/none.obj")}</link></robot>"""
     robot = Loading(LoadRequest(text=urdf)).run()
     assert [len(each.reason) > 0 for each in robot.missing] == [True, True]
-    folder = remote._folder() / "arm" / "meshes"
+    folder = remote.folder() / "arm" / "meshes"
     assert sorted(path.name for path in folder.iterdir()) == ["link.obj", "red.mtl"]
 
 

@@ -195,7 +195,7 @@ class VelocityControllers:
 
     def _run(self) -> None:
         published = 0.0
-        while (is_moving := self._is_moving()) or not self._has_ended:
+        while (is_moving := self.is_moving()) or not self._has_ended:
             due = 0.0 if self._has_ended else self._due(published + PERIOD_S)
             rest = due - time.monotonic() if is_moving else None
             if rest is None or rest > 0.0:
@@ -206,7 +206,8 @@ class VelocityControllers:
             self._step(published)
         wait(self._sent.values(), ENDING_S)
 
-    def _is_moving(self) -> bool:
+    def is_moving(self) -> bool:
+        """Return whether any vehicle moves, or has to stop yet."""
         with self._lock:
             return not all(
                 controller.is_at_rest

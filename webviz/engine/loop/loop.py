@@ -126,7 +126,8 @@ class FrameLoop:
         self.controllers = VelocityControllers(gate, live_ns)
         """Controllers of the vehicles that tools drive; they do not wait for the loop."""
         core = Core(player, gate, self.controllers, scene, self._guard, clock, waiting, host)
-        self._core = core
+        self.core = core
+        """All that parts share."""
         services = self._services(strict)
         self._tracer = services.tracer
         transforms = TransformsPart(core, self._robots)
@@ -150,7 +151,7 @@ class FrameLoop:
 
     def _services(self, strict: bool) -> Services:
         """Make what all displays share."""
-        core = self._core
+        core = self.core
         return Services(
             core.scene,
             self._workers,
@@ -173,7 +174,7 @@ class FrameLoop:
         session: Path | None,
     ) -> tuple[list[Part], SessionPart | None]:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
-        core, displays, settings = self._core, self._displays, self._settings
+        core, displays, settings = self.core, self._displays, self._settings
         panels = PanelsPart(core, settings)
         files = self._files = ConfigPart(
             core, displays, settings, views, core.tools, panels.list, config, path
@@ -191,7 +192,7 @@ class FrameLoop:
     @property
     def buffer(self) -> TransformBuffer:
         """All transforms."""
-        return self._core.buffer
+        return self.core.buffer
 
     @property
     def settings(self) -> Settings:
@@ -201,7 +202,7 @@ class FrameLoop:
     @property
     def parts(self) -> Sequence[Part]:
         """All parts and features."""
-        return self._core.parts
+        return self.core.parts
 
     @property
     def doctor(self) -> Examiner:
@@ -214,7 +215,7 @@ class FrameLoop:
 
     def get(self, kind: type[P]) -> P:
         """Return the part or feature of a class; see `Core.get`."""
-        return self._core.get(kind)
+        return self.core.get(kind)
 
     def runners(self) -> Sequence[Runner]:
         """Return the displays that are shown."""
@@ -273,7 +274,7 @@ class FrameLoop:
 
     def _advance(self) -> None:
         """Carry out commands, take what has arrived, and draw it."""
-        core = self._core
+        core = self.core
         self._calls.answer()
         self._owed += self._requests.obey(self._parts.do)
         self._receive()
@@ -303,7 +304,7 @@ class FrameLoop:
         self._guard("Panel", self._show)
 
     def _subscribe(self) -> None:
-        self._offers = self._core.offers
+        self._offers = self.core.offers
         self._guard("Source", self._source.want, self._parts.subscriptions())
 
     def _advertise(self) -> None:
@@ -311,7 +312,7 @@ class FrameLoop:
 
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
-        gate, stopping = self._core.gate, self.controllers.stopping()
+        gate, stopping = self.core.gate, self.controllers.stopping()
         wanted = self._parts.advertisements() | self.controllers.advertisements()
         wanted = {each for each in wanted if not gate.lasting_refusal(each.topic)} | stopping
         if wanted != self._advertised:
@@ -340,27 +341,27 @@ class FrameLoop:
         if not self._source.is_seeking:  # on the way, transforms and messages are missing
             self._part_statuses = self._parts.statuses()
         own = self._guard.statuses() | self._showing.statuses
-        self._core.statuses = {**self._part_statuses, **own, **missing_features()}
+        self.core.statuses = {**self._part_statuses, **own, **missing_features()}
         if not self._source.is_seeking:
             self._parts.review()
 
     def state(self) -> State:
         """Return all that programs may read, as of the last turn."""
         self.update()
-        return self._core.state()
+        return self.core.state()
 
     def last_state(self) -> State:
         """Return the same, as of the last `update`."""
-        return self._core.state()
+        return self.core.state()
 
     def fact(self, name: str, otherwise: Any = None) -> Any:
         """Return one field of the state, as of the last `update`; see `Core.fact`."""
-        return self._core.fact(name, otherwise)
+        return self.core.fact(name, otherwise)
 
     @property
     def statuses(self) -> Mapping[str, Status]:
         """Those of the viewer as a whole, as of the last `update`."""
-        return self._core.statuses
+        return self.core.statuses
 
     def call(self, read: Callable[[], T]) -> Future[T]:
         """Call something between two turns, from any thread."""
@@ -376,7 +377,7 @@ class FrameLoop:
 
     def _move_on(self) -> None:
         """Look up frames at the time that is shown now."""
-        core = self._core
+        core = self.core
         core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
 
     def _allow_list(self) -> AllowList | None:
@@ -386,7 +387,7 @@ class FrameLoop:
         return "" if self._source.is_live else REWOUND
 
     def _points_held(self) -> int:
-        return self._guard.attempt("Scene", POINTS_HELD, self._core.scene.points_held)
+        return self._guard.attempt("Scene", POINTS_HELD, self.core.scene.points_held)
 
     def _robots(self) -> tuple[NamespacedRobot, ...]:
         entries = self.settings.robots

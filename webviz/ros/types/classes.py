@@ -196,7 +196,7 @@ def message_class(type_name: str) -> type:
             raise MessageTypeError(
                 f"{type_name!r} is not a message type name. Write package/msg/Name."
             )
-    return installed or _composed(type_name, describe, composed_message)
+    return installed or composed(type_name, describe, composed_message)
 
 
 def service_class(type_name: str) -> Any:
@@ -221,7 +221,7 @@ def service_class(type_name: str) -> Any:
             raise MessageTypeError(
                 f"{type_name!r} is not a service type name. Write package/srv/Name."
             )
-    return installed or _composed(type_name, interfaces.service, composed_service)
+    return installed or composed(type_name, interfaces.service, composed_service)
 
 
 def from_cdr(cdr: bytes, cls: Any) -> Any:
@@ -245,9 +245,10 @@ def _installed(package: str, kind: str, name: str) -> Any:
 
 
 @functools.cache
-def _composed(
+def composed(
     type_name: str, check: Callable[[str], object], compose: Callable[[str], type]
 ) -> type:
+    """Return the class of a type whose package is not installed."""
     try:
         check(type_name)
     except UnknownTypeError as error:

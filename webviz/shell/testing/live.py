@@ -121,6 +121,10 @@ class LiveViewer(Shown):
             self._inbox.expect(topic, cdr)
         publisher.publish(cdr)
 
+    def advertise(self, topic: str, type_name: str, *, latched: bool = False) -> None:
+        """Make the publisher of a topic before its first message, as several at once are found."""
+        self._publisher_node.open(topic, type_name, latched)
+
     def now_ns(self) -> int:
         """ROS time."""
         return self.source.now_ns()

@@ -62,7 +62,8 @@ class Shown(ABC):
     ) -> None:
         self.viewer = viewer
         self.scene = scene
-        self._snapshots = snapshot
+        self.snapshots = snapshot
+        """Takes the pictures."""
 
     # Statuses
 
@@ -253,12 +254,12 @@ class Shown(ABC):
 
     def look(self, view: View) -> None:
         """Change the view of pictures."""
-        self._snapshots.view = view
+        self.snapshots.view = view
 
     def resize(self, width: int, height: int) -> None:
         """Change the size of pictures, in pixels."""
-        references = self._snapshots.references
-        self._snapshots.references = replace(references, size=(width, height))
+        references = self.snapshots.references
+        self.snapshots.references = replace(references, size=(width, height))
 
     @abstractmethod
     def settle(self) -> None:
@@ -276,7 +277,7 @@ class Shown(ABC):
             uint8 (height, width, 3), or (height, width, 4) if transparent.
         """
         self.settle()
-        return self._snapshots.capture(transparent)
+        return self.snapshots.capture(transparent)
 
     def check_picture(
         self,
@@ -300,9 +301,9 @@ class Shown(ABC):
         """
         self.settle()
         if each_display is None:
-            each_display = self._snapshots.references.each_display
+            each_display = self.snapshots.references.each_display
         must_be_seen = self._drawn() if each_display else {}
-        self._snapshots.check(name, must_be_seen, mask, tolerance)
+        self.snapshots.check(name, must_be_seen, mask, tolerance)
 
 
 def _name(row: Row) -> str:
