@@ -34,7 +34,7 @@ UPDATE = """(changes) => {
 }"""
 
 
-class Bench:
+class MountedControl:
     """A control on the page, and what was entered there."""
 
     def __init__(self, tab: Tab) -> None:
@@ -67,20 +67,20 @@ class Bench:
 
 
 @pytest.fixture
-def bench(tab: Tab) -> Bench:
-    return Bench(tab)
+def bench(tab: Tab) -> MountedControl:
+    return MountedControl(tab)
 
 
 FRAMES = [{"value": "base_link"}, {"value": "map", "note": "static"}, {"value": "odom"}]
 
 
 @pytest.fixture
-def frames(bench: Bench) -> Bench:
+def frames(bench: MountedControl) -> MountedControl:
     bench.mount("combobox", "combobox", label="Frame", value="map", options=FRAMES)
     return bench
 
 
-def test_a_click_opens_the_list_and_another_chooses(frames: Bench) -> None:
+def test_a_click_opens_the_list_and_another_chooses(frames: MountedControl) -> None:
     frames.field().click()
     assert frames.options() == ["base_link", "map\nstatic", "odom"]
     frames.page.get_by_role("option", name="odom").click()
@@ -90,7 +90,7 @@ def test_a_click_opens_the_list_and_another_chooses(frames: Bench) -> None:
     frames.wait_for_text("odom")
 
 
-def test_the_list_is_searched_by_typing_and_walked_by_arrow_keys(frames: Bench) -> None:
+def test_the_list_is_searched_by_typing_and_walked_by_arrow_keys(frames: MountedControl) -> None:
     frames.field().focus()
     frames.keyboard.type("B")
     assert frames.options() == ["base_link", "“B”\nas typed"]
@@ -102,7 +102,7 @@ def test_the_list_is_searched_by_typing_and_walked_by_arrow_keys(frames: Bench) 
     assert frames.entered() == ["base_link", "map"]
 
 
-def test_the_text_itself_is_below_the_option_that_begins_with_it(frames: Bench) -> None:
+def test_the_text_itself_is_below_the_option_that_begins_with_it(frames: MountedControl) -> None:
     frames.field().focus()
     frames.keyboard.type("base_l")
     frames.keyboard.press("ArrowDown")
@@ -110,7 +110,7 @@ def test_the_text_itself_is_below_the_option_that_begins_with_it(frames: Bench) 
     assert frames.entered() == ["base_l"]
 
 
-def test_any_text_may_be_typed(frames: Bench) -> None:
+def test_any_text_may_be_typed(frames: MountedControl) -> None:
     frames.field().fill("camera")
     assert frames.options() == []
     frames.keyboard.press("Enter")
@@ -120,7 +120,7 @@ def test_any_text_may_be_typed(frames: Bench) -> None:
     assert frames.entered() == ["camera", "tool0"]
 
 
-def test_where_only_options_count_the_first_that_fits_is_taken(bench: Bench) -> None:
+def test_where_only_options_count_the_first_that_fits_is_taken(bench: MountedControl) -> None:
     bench.mount("combobox", "combobox", label="Frame", value="map", options=FRAMES, free=False)
     bench.field().fill("od")
     bench.keyboard.press("Enter")
@@ -132,7 +132,7 @@ def test_where_only_options_count_the_first_that_fits_is_taken(bench: Bench) -> 
     assert bench.entered() == ["odom"]
 
 
-def test_escape_goes_back(frames: Bench) -> None:
+def test_escape_goes_back(frames: MountedControl) -> None:
     frames.field().fill("came")
     frames.keyboard.press("Escape")
     frames.wait_for_text("map")
@@ -140,7 +140,7 @@ def test_escape_goes_back(frames: Bench) -> None:
     assert frames.entered() == []
 
 
-def test_what_is_refused_stays_for_correction(frames: Bench) -> None:
+def test_what_is_refused_stays_for_correction(frames: MountedControl) -> None:
     frames.refuse("Not changed: no such frame.")
     frames.field().fill("came")
     frames.keyboard.press("Enter")
@@ -153,7 +153,7 @@ def test_what_is_refused_stays_for_correction(frames: Bench) -> None:
     assert frames.page.evaluate("refused.at(-1)") == ""
 
 
-def test_what_somebody_else_changes_waits_while_one_types(frames: Bench) -> None:
+def test_what_somebody_else_changes_waits_while_one_types(frames: MountedControl) -> None:
     frames.field().focus()
     frames.keyboard.type("x")
     frames.update(value="odom", options=[*FRAMES, {"value": "x1"}])
@@ -163,7 +163,7 @@ def test_what_somebody_else_changes_waits_while_one_types(frames: Bench) -> None
     frames.wait_for_text("odom")
 
 
-def test_very_many_options_are_not_all_made(bench: Bench) -> None:
+def test_very_many_options_are_not_all_made(bench: MountedControl) -> None:
     options = [{"value": f"frame_{number}"} for number in range(5000)]
     bench.mount("combobox", "combobox", label="Frame", value="", options=options)
     bench.field().click()
@@ -173,7 +173,7 @@ def test_very_many_options_are_not_all_made(bench: Bench) -> None:
     assert bench.options() == ["frame_4999"]
 
 
-def test_untrusted_names_are_text(bench: Bench) -> None:
+def test_untrusted_names_are_text(bench: MountedControl) -> None:
     name = "<img src=x onerror=alert(1)>"
     bench.mount("combobox", "combobox", label=name, value=name, options=[{"value": name}])
     bench.field().click()

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
+from concurrent.futures import Future
 from typing import Any
 
 import pytest
 from bench import Benches
 from waiting import until
 
-from tests.support.panel_facts import show as show_panel
-from webviz.commands import AddPanel, OpenPanels
-from webviz.engine.commands import Sender
-from webviz.page.recorded_ui import RecordedUi
 from webviz.panels import joints as module
 from webviz.panels.joints import Joints
+from webviz.shell.testing.harness import OpenedPanel
 from webviz.shell.testing.remembering_graph import RememberingGraph
 
 PI = math.pi
@@ -47,34 +45,25 @@ ENDLESS = """
 """
 
 
-class Bench:
-    """A panel in a viewer, without a page."""
+class JointsPanel(OpenedPanel):
+    """The panel in a viewer, without a page."""
 
-    def __init__(self, viewer: Any) -> None:
-        self.viewer = viewer
-        viewer.do(AddPanel("Joints"))
-        viewer.do(OpenPanels(frozenset({"Joints"})))
-        panel = viewer.viewer.state().panels[0].panel
-        assert isinstance(panel, Joints)
-        self.panel, self.ui = panel, RecordedUi()
-        panel.build(self.ui, self.send)
-        self.show()
+    def __init__(self, bench: Benches, **options: Any) -> None:
+        self.graph = RememberingGraph()
+        self.bench = bench(graph=self.graph, **options)
+        super().__init__(Joints, self.bench.do, self.bench.viewer)
 
-    def send(self, command: Any, browser: int | None = None) -> None:
-        self.viewer.until_done(self.viewer.viewer.enqueue(command, Sender(browser)))
-
-    def show(self) -> None:
-        show_panel(self.panel, self.viewer.viewer.state())
+    @property
+    def reading(self) -> Future[Any] | None:
+        assert isinstance(self.panel, Joints)
+        return self.panel.reading
 
     def describe(self, text: str) -> None:
-        before = self.panel.reading
-        self.viewer.publish("/robot_description", "std_msgs/msg/String", {"data": text})
-        until(lambda: self.panel.reading is not before, turn=self.viewer.turn)
-        until(lambda: self.panel.reading is None or self.panel.reading.done())
+        before = self.reading
+        self.bench.publish("/robot_description", "std_msgs/msg/String", {"data": text})
+        until(lambda: self.reading is not before, turn=self.bench.turn)
+        until(lambda: self.reading is None or self.reading.done())
         self.show()
-
-    def widget(self, label: str) -> Any:
-        return next(w for w in self.ui.widgets.values() if w.values.get("label") == label)
 
     def slides(self) -> dict[str, tuple[float, float, float]]:
         shown = self.sliders().values["slides"]
@@ -90,35 +79,35 @@ class Bench:
         return " ".join(w.values.get("text", "") for w in self.ui.widgets.values())
 
     def published(self) -> list[dict[str, float]]:
-        found = self.viewer.source.graph.published
+        found = self.graph.published
         assert all(advertisement.topic == "/joint_states" for advertisement, _ in found)
         return [dict(zip(each.name, each.position.tolist(), strict=True)) for _, each in found]
 
 
 @pytest.fixture
-def hand(bench: Benches) -> Bench:
-    made = Bench(bench(graph=RememberingGraph()))
+def hand(bench: Benches) -> JointsPanel:
+    made = JointsPanel(bench)
     assert "No robot description received on /robot_description" in made.texts()
     made.describe(HAND)
     return made
 
 
-def test_each_joint_that_leads_has_a_slider_within_its_limits(hand: Bench) -> None:
+def test_each_joint_that_leads_has_a_slider_within_its_limits(hand: JointsPanel) -> None:
     assert hand.slides() == {"bend": (0.5, 1.0, 1.5), "spin": (-PI, 0.0, PI), "slide": (-1, 0, 1)}
     assert "3 joints, 1 more follow them." in hand.texts()
     assert hand.published() == [], "nothing before somebody acts"
 
 
 def test_a_moved_slider_publishes_all_joints_until_nobody_looks(
-    hand: Bench, monkeypatch: pytest.MonkeyPatch
+    hand: JointsPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hand.move("bend", 0.75)
     assert hand.published() == [{"bend": 0.75, "tip": 1.6, "spin": 0.0, "slide": 0.0}]
     hand.show()
     assert len(hand.published()) == 2
     assert hand.slides()["bend"][1] == 0.75
-    _, message = hand.viewer.source.graph.published[-1]
-    assert message.header.stamp_ns == hand.viewer.viewer.state().clock.ros_ns
+    _, message = hand.graph.published[-1]
+    assert message.header.stamp_ns == hand.bench.viewer.state().clock.ros_ns
     monkeypatch.setattr(module, "PAUSE_S", -1.0)
     monkeypatch.setattr("webviz.page.widgets.SETTLE_S", -1.0)
     hand.show()
@@ -126,7 +115,7 @@ def test_a_moved_slider_publishes_all_joints_until_nobody_looks(
     assert hand.widget("Publish").value is False
 
 
-def test_center_and_randomize_stay_within_the_limits(hand: Bench) -> None:
+def test_center_and_randomize_stay_within_the_limits(hand: JointsPanel) -> None:
     for _ in range(20):
         hand.widget("Randomize").use(None, 1)
         newest = hand.published()[-1]
@@ -137,7 +126,7 @@ def test_center_and_randomize_stay_within_the_limits(hand: Bench) -> None:
     assert hand.published()[-1] == {"bend": 1.0, "tip": 2.1, "spin": 0.0, "slide": 0.0}
 
 
-def test_a_value_that_no_slider_has_is_refused(hand: Bench) -> None:
+def test_a_value_that_no_slider_has_is_refused(hand: JointsPanel) -> None:
     for value in (2.0, math.nan, math.inf):
         with pytest.raises(ValueError, match=r"is not in 0\.5 to 1\.5"):
             hand.move("bend", value)
@@ -147,7 +136,7 @@ def test_a_value_that_no_slider_has_is_refused(hand: Bench) -> None:
 
 
 def test_a_viewer_that_may_not_publish_says_so(bench: Benches) -> None:
-    made = Bench(bench(graph=RememberingGraph(), publish=("/cmd_vel",)))
+    made = JointsPanel(bench, publish=("/cmd_vel",))
     made.describe(HAND)
     made.move("bend", 1.0)
     made.show()
@@ -155,7 +144,7 @@ def test_a_viewer_that_may_not_publish_says_so(bench: Benches) -> None:
     assert "/joint_states" in made.texts()
 
 
-def test_joints_that_follow_each_other_have_sliders_of_their_own(hand: Bench) -> None:
+def test_joints_that_follow_each_other_have_sliders_of_their_own(hand: JointsPanel) -> None:
     hand.describe(ENDLESS)
     assert list(hand.slides()) == ["one", "two"]
     hand.move("one", PI)

@@ -12,10 +12,9 @@ import PIL.Image
 import pytest
 from waiting import until
 
-from tests.support.panel_facts import show as show_panel
+from tests.support.panel_facts import LonePanel
 from webviz.data.messages import decode, encode
 from webviz.engine.state import State
-from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.outdoor_map import (
     FIX,
     MAX_POINTS,
@@ -28,25 +27,20 @@ from webviz.panels.outdoor_map import (
 from webviz.sources import Offer, Publisher
 
 
-class Bench:
-    """A panel, and what its pages see."""
+class LoneMap(LonePanel[OutdoorMap]):
+    """A map with a fix and a route."""
 
     def __init__(self, **values: Any) -> None:
-        self.panel = OutdoorMap(**values)
-        self.ui = RecordedUi()
-        self.panel.build(self.ui, lambda command, browser=None: None)
         types = {"/fix": FIX, "/route": PATH}
         offers = {
             topic: Offer((Publisher("/robot", type_, "reliable", "volatile"),))
             for topic, type_ in types.items()
         }
-        self.state = State(offers=offers)
-        self.show()
+        super().__init__(OutdoorMap(**values), offers=offers)
 
-    def show(self) -> Any:
-        show_panel(self.panel, self.state)
-        (self.widget,) = self.ui.widgets.values()
-        return self.widget.values["values"]
+    @property
+    def widget(self) -> Any:
+        return self.ui.widgets["0"]
 
     def fix(self, latitude: float, longitude: float, status: int = 0) -> None:
         values = {"latitude": latitude, "longitude": longitude, "status": {"status": status}}
@@ -59,13 +53,13 @@ class Bench:
 
     def places(self, index: int) -> list[float]:
         """Longitudes and latitudes of a track, as a page joins them."""
-        first, end = self.show()["tracks"][index]["parts"]
+        first, end = self.values()["tracks"][index]["parts"]
         parts = [self.widget.parts[f"track/{index}/{number}"] for number in range(first, end)]
         return [degree for part in parts for degree in part["places"]]
 
 
 def test_fixes_make_a_track_and_a_path_replaces_the_one_before() -> None:
-    bench = Bench()
+    bench = LoneMap()
     bench.fix(50.0, 8.0)
     bench.fix(50.00000001, 8.0)  # stands still
     bench.fix(50.1, 8.1)
@@ -73,7 +67,7 @@ def test_fixes_make_a_track_and_a_path_replaces_the_one_before() -> None:
     bench.route((52.0, 8.0))
     assert bench.places(0) == [8.0, 50.0, 8.1, 50.1]
     assert bench.places(1) == [8.0, 52.0]
-    fix, route = bench.show()["tracks"]
+    fix, route = bench.values()["tracks"]
     assert (fix["newest"], fix["is_path"]) == ([8.1, 50.1], False)
     assert (route["newest"], route["is_path"]) == (None, True)
     bench.panel.start_over()
@@ -81,7 +75,7 @@ def test_fixes_make_a_track_and_a_path_replaces_the_one_before() -> None:
 
 
 def test_a_long_track_is_sent_in_parts_and_has_a_bound() -> None:
-    bench = Bench(topics=["/fix"])
+    bench = LoneMap(topics=["/fix"])
     for i in range(MAX_POINTS + PER_PART):
         bench.fix(i / 1000, 8.0)
     places = bench.places(0)
@@ -99,20 +93,20 @@ def test_a_long_track_is_sent_in_parts_and_has_a_bound() -> None:
     [(math.nan, 8.0, 0), (1e308, 8.0, 0), (89.9, 8.0, 0), (50.0, math.inf, 0), (50.0, 8.0, -1)],
 )
 def test_what_is_no_place_is_said(latitude: float, longitude: float, status: int) -> None:
-    bench = Bench(topics=["/fix"])
+    bench = LoneMap(topics=["/fix"])
     bench.fix(latitude, longitude, status)
     assert bench.places(0) == []
-    assert bench.show()["problem"].startswith("/fix: 1 message without a place on the map.")
+    assert bench.values()["problem"].startswith("/fix: 1 message without a place on the map.")
     bench.fix(50.0, 8.0)
-    assert bench.show()["problem"].startswith("No tiles are chosen.")
+    assert bench.values()["problem"].startswith("No tiles are chosen.")
 
 
 def test_topics_without_a_publisher_are_said() -> None:
-    assert "on /gone" in Bench(topics=["/gone"]).show()["problem"]
-    bench = Bench()
+    assert "on /gone" in LoneMap(topics=["/gone"]).values()["problem"]
+    bench = LoneMap()
     bench.state = State()
-    assert bench.show()["problem"].startswith("No publisher of NavSatFix or GeoPath.")
-    assert Bench(topics=["/fix"]).show()["problem"] == "No place yet on /fix."
+    assert bench.values()["problem"].startswith("No publisher of NavSatFix or GeoPath.")
+    assert LoneMap(topics=["/fix"]).values()["problem"] == "No place yet on /fix."
 
 
 def png(folder: Path, name: str) -> bytes:
@@ -125,9 +119,9 @@ def png(folder: Path, name: str) -> bytes:
 
 def test_a_page_gets_the_tiles_it_asks_for(tmp_path: Path) -> None:
     content = png(tmp_path, "3/4/2.png")
-    bench = Bench(object_uri=str(tmp_path))
+    bench = LoneMap(object_uri=str(tmp_path))
     bench.widget.use("[[3, 4, 2], [3, 4, 3], [3, 99, 0], [-1, 0, 0], [99, 0, 0]]", 7)
-    until(lambda: bench.show() and "tile/3/4/3" in bench.widget.parts)
+    until(lambda: bench.values() and "tile/3/4/3" in bench.widget.parts)
     tiles = {key: part for key, part in bench.widget.parts.items() if key.startswith("tile/")}
     assert tiles.keys() == {"tile/3/4/2", "tile/3/4/3"}
     assert base64.b64decode(tiles["tile/3/4/2"]["image"]) == content

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from bench import Benches
-from msgspec.structs import replace
 
+from tests.support.panel_facts import LonePanel
 from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.commands import AddPanel, OpenPanels, Reset, Seek, SetPanelProperty
@@ -24,7 +24,7 @@ from webviz.data.messages import (
     encode,
     register,
 )
-from webviz.engine.state import PanelTab, PanelTimes, State
+from webviz.engine.state import PanelTimes
 from webviz.page.recorded_ui import ChartWidget, RecordedUi
 from webviz.panels.plot import Plot
 from webviz.panels.plot.series import MAX_POINTS, CurveHistory
@@ -36,23 +36,14 @@ TWIST = "geometry_msgs/msg/Twist"
 SECOND = 10**9
 
 
-class Bench:
-    """A panel with curves, and what its pages see."""
+class LonePlot(LonePanel[Plot]):
+    """A plot with curves of a topic."""
 
     def __init__(self, *curves: str, **values: Any) -> None:
-        self.panel = Plot(curves=list(curves), **values)
-        self.ui = RecordedUi()
-        self.sent: list[Any] = []
-        self.panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
         publisher = Publisher("/robot", JOINTS, "reliable", "volatile")
         clock = PanelTimes(ros_ns=100 * SECOND)
-        tabs = (PanelTab("id", "Plot", self.panel),)
-        self.state = State(offers={"/joints": Offer((publisher,))}, clock=clock, panels=tabs)
-        self.show()
-
-    def show(self, **changes: Any) -> None:
-        self.state = replace(self.state, **changes)
-        show_panel(self.panel, self.state)
+        panel = Plot(curves=list(curves), **values)
+        super().__init__(panel, offers={"/joints": Offer((publisher,))}, clock=clock)
 
     def send(self, value: float, at_s: float, stamp_s: float = 0.0) -> None:
         header = Header(Time(int(stamp_s), round(stamp_s % 1 * SECOND)))
@@ -79,7 +70,7 @@ class Bench:
 
 
 def test_a_number_of_each_message_is_a_point_of_its_curve() -> None:
-    bench = Bench("/joints.position[left]", "/joints.position[0]")
+    bench = LonePlot("/joints.position[left]", "/joints.position[0]")
     assert bench.panel.subscriptions() == {"/joints": JOINTS}
     for i in range(3):
         bench.send(0.1 * i, 99.0 + 0.02 * i)
@@ -89,7 +80,7 @@ def test_a_number_of_each_message_is_a_point_of_its_curve() -> None:
 
 
 def test_times_may_be_those_of_the_headers() -> None:
-    bench = Bench("/joints.position[0]", time="Header Stamp")
+    bench = LonePlot("/joints.position[0]", time="Header Stamp")
     bench.send(1.0, 99.0, stamp_s=50.25)
     assert bench.points() == [(50.25, 1.0)]
     assert bench.chart.values["now"] == 50.25
@@ -113,7 +104,7 @@ def test_times_may_be_those_of_the_headers() -> None:
     ],
 )
 def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) -> None:
-    bench = Bench(curve)
+    bench = LonePlot(curve)
     if message is not None:
         bench.panel.take("/joints", message, SECOND)
     assert bench.curve()["problem"].startswith(reason)
@@ -121,7 +112,7 @@ def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) 
 
 
 def test_a_curve_may_have_functions_over_time_and_elements_that_come_and_go() -> None:
-    bench = Bench("/joints{header.stamp>=10}.position[0].@derivative")
+    bench = LonePlot("/joints{header.stamp>=10}.position[0].@derivative")
     for i in range(4):
         bench.send(0.5 * i * i, 90.0 + i, stamp_s=9.0 + i)
     assert bench.points() == [(92.0, 1.5), (93.0, 2.5)]
@@ -129,7 +120,7 @@ def test_a_curve_may_have_functions_over_time_and_elements_that_come_and_go() ->
 
 
 def test_bytes_that_do_not_decode_are_named() -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     bench.panel.refuse("/joints", "Not a JointState.")
     assert bench.curve()["problem"] == "Not a JointState."
     bench.send(1.0, 99.0)
@@ -137,7 +128,7 @@ def test_bytes_that_do_not_decode_are_named() -> None:
 
 
 def test_values_that_are_not_finite_end_a_line_and_large_ones_do_not() -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     values = [math.nan, 1.0, math.nan, math.inf, 1e308, -1e308]
     for i, value in enumerate(values):
         bench.send(value, 99.0 + 0.1 * i)
@@ -145,7 +136,7 @@ def test_values_that_are_not_finite_end_a_line_and_large_ones_do_not() -> None:
 
 
 def test_time_that_goes_back_starts_over_and_a_little_is_left_out() -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     for at_s in (98.0, 99.0, 98.95):
         bench.send(1.0, at_s)
     assert len(bench.points()) == 2
@@ -183,7 +174,7 @@ def test_values_and_gaps_in_turns_are_no_way_around_the_bound() -> None:
 
 
 def test_only_what_is_new_is_made_anew() -> None:
-    bench = Bench("/joints.position[0]", window=4.0)
+    bench = LonePlot("/joints.position[0]", window=4.0)
     for i in range(200):
         bench.send(1.0, 90.0 + 0.02 * i)
     bench.show()
@@ -198,7 +189,7 @@ def test_only_what_is_new_is_made_anew() -> None:
 def test_another_window_keeps_the_values_and_a_pause_of_the_panel_is_a_gap(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     bench.send(1.0, 98.0)
     bench.panel.window = 60.0
     assert bench.points() == [(98.0, 1.0)]
@@ -209,7 +200,7 @@ def test_another_window_keeps_the_values_and_a_pause_of_the_panel_is_a_gap(
 
 
 def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     chooser = bench.ui.widgets["1"]
     assert chooser.values["values"]["topics"] == ["/joints"]
     chooser.use('{"topic": "/joints"}', 7)
@@ -227,7 +218,7 @@ def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None
 
 def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
     left, right = "/joints.position[left]", "/joints.position[0]"
-    bench = Bench(left, right=[left, "/other.x"], across=right)
+    bench = LonePlot(left, right=[left, "/other.x"], across=right)
     assert bench.curve(0)["name"] == right
     assert [each["axis"] for each in bench.chart.values["curves"]] == [0, 1]
     assert bench.chart.values["across"] == bench.curve(0)["key"]
@@ -241,13 +232,13 @@ def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
 
 def test_curves_may_have_axes_of_their_own() -> None:
     curves = [f"/joints.position[{i}]" for i in range(8)]
-    bench = Bench(*curves, right=[curves[0], curves[2]], own_axis=[*curves[2:], "/other.x"])
+    bench = LonePlot(*curves, right=[curves[0], curves[2]], own_axis=[*curves[2:], "/other.x"])
     axes = [each["axis"] for each in bench.chart.values["curves"]]
     assert axes == [1, 0, 2, 3, 4, 5, 0, 0]
 
 
 def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
-    bench = Bench("/joints.position[0]")
+    bench = LonePlot("/joints.position[0]")
     with pytest.raises(Error, match="no recording"):
         bench.chart.use("95", 7)
     past = PlaybackState(
@@ -281,7 +272,7 @@ def test_units_are_those_of_the_types_that_a_bag_defines() -> None:
     part = f"{'=' * 80}\nMSG: geometry_msgs/Twist\nVector3 linear\nVector3 angular\n"
     part += f"{'=' * 80}\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
     types = defined(name, f"geometry_msgs/Twist motion\n{part}")
-    bench = Bench("/thing.motion.linear.x", "/thing.motion.angular.z.@degrees")
+    bench = LonePlot("/thing.motion.linear.x", "/thing.motion.angular.z.@degrees")
     publisher = Publisher("the bag", name, "reliable", "volatile")
     bench.show(offers={"/thing": Offer((publisher,))})
     cdr = encode(name, {"motion": {"linear": {"x": 0.5}}}, types)

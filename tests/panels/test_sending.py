@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from bench import Benches
 
+from tests.support.panel_facts import LonePanel, P
 from tests.support.panel_facts import show as show_panel
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
@@ -14,9 +13,8 @@ from webviz.commands import AddPanel, CallService, OpenPanels, Publish, SendGoal
 from webviz.data.messages import encode
 from webviz.engine.guard import Guard
 from webviz.engine.pipeline.own_names import own_names
-from webviz.engine.state import PanelTab, State
+from webviz.engine.state import State
 from webviz.files.config import Config
-from webviz.page.recorded_ui import RecordedUi
 from webviz.panels.calling import ActionGoal, ServiceCall
 from webviz.panels.publish import PublishMessage
 from webviz.panels.sending import HISTORY, MAX_PRESETS, SendingPanel, fields_of, template
@@ -28,22 +26,13 @@ RELIABLE = ("reliable", "volatile")
 TOPICS = {"/goal": (POSE,), "/name": (STRING,)}
 
 
-class Opened:
+def on_topics(panel: P) -> LonePanel[P]:
     """A panel that is open on a viewer with two topics."""
-
-    def __init__(self, panel: Any) -> None:
-        self.panel, self.sent, self.ui = panel, list[Any](), RecordedUi()
-        panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
-        self.show()
-
-    def show(self) -> dict[str, Any]:
-        tabs = (PanelTab("id", "Panel", self.panel),)
-        show_panel(self.panel, State(topics=TOPICS, panels=tabs))
-        return dict(self.ui.widgets["0"].values["values"])
+    return LonePanel(panel, topics=TOPICS)
 
 
 def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
-    opened = Opened(PublishMessage(topic="/goal_pose"))
+    opened = on_topics(PublishMessage(topic="/goal_pose"))
     reader = Endpoint("/planner", POSE, "reliable", "volatile")
     offers = {"/goal_pose": Offer((), readers=(reader,))}
     show_panel(opened.panel, State(topics={"/goal_pose": ()}, offers=offers))
@@ -52,20 +41,20 @@ def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
 
 
 def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
-    opened = Opened(PublishMessage(topic="/goal"))
-    assert opened.show()["about"] == POSE
-    assert opened.show()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
+    opened = on_topics(PublishMessage(topic="/goal"))
+    assert opened.values()["about"] == POSE
+    assert opened.values()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
     opened.panel.use({"field": ["pose.position.x", "1.5"]}, 1)
     opened.panel.use({"field": ["header.frame_id", "true"]}, 1)
-    assert "x: 1.5" in opened.show()["yaml"]
-    assert 'frame_id: "true"' in opened.show()["yaml"]
+    assert "x: 1.5" in opened.values()["yaml"]
+    assert 'frame_id: "true"' in opened.values()["yaml"]
     opened.panel.use({}, 1)
     (publish,) = opened.sent
     assert isinstance(publish, Publish)
     assert publish.values["pose"]["position"]["x"] == 1.5
-    assert opened.show()["history"] == [opened.show()["yaml"]]
+    assert opened.values()["history"] == [opened.values()["yaml"]]
     opened.panel.use({"reset": True}, 1)
-    assert "x: 0.0" in opened.show()["yaml"]
+    assert "x: 0.0" in opened.values()["yaml"]
 
 
 @pytest.mark.parametrize(
@@ -80,10 +69,10 @@ def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
     ],
 )
 def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reason: str) -> None:
-    opened = Opened(PublishMessage(topic="/name"))
+    opened = on_topics(PublishMessage(topic="/name"))
     opened.panel.use({"yaml": yaml}, 1)
-    assert reason in opened.show()["problem"]
-    assert opened.show()["yaml"] == yaml
+    assert reason in opened.values()["problem"]
+    assert opened.values()["yaml"] == yaml
     with pytest.raises(Error):
         opened.panel.use({}, 1)
     with pytest.raises(Error):
@@ -92,17 +81,17 @@ def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reas
 
 
 def test_a_field_that_does_not_fit_is_corrected_in_the_form() -> None:
-    opened = Opened(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
+    opened = on_topics(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
     opened.panel.use({"field": ["data", "maybe"]}, 1)
-    assert "expected bool" in opened.show()["problem"]
+    assert "expected bool" in opened.values()["problem"]
     opened.panel.use({"field": ["data", "true"]}, 1)
-    assert (opened.show()["problem"], opened.show()["yaml"]) == ("", "data: true\n")
+    assert (opened.values()["problem"], opened.values()["yaml"]) == ("", "data: true\n")
 
 
 def test_presets_are_properties_and_history_is_bounded() -> None:
-    opened = Opened(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
+    opened = on_topics(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
     opened.panel.use({"preset": "hello"}, 1)
-    assert opened.show()["fields"] == [{"path": "data", "text": "hello"}]
+    assert opened.values()["fields"] == [{"path": "data", "text": "hello"}]
     opened.panel.use({"keep": "again"}, 1)
     presets = {"hello": "data: hello", "again": "data: hello"}
     assert opened.sent.pop() == SetPanelProperty("id", "presets", presets)
@@ -113,30 +102,30 @@ def test_presets_are_properties_and_history_is_bounded() -> None:
     for i in range(3 * HISTORY):
         opened.panel.use({"yaml": f"data: '{i}'"}, 1)
         opened.panel.use({}, 1)
-    assert len(opened.show()["history"]) == HISTORY
+    assert len(opened.values()["history"]) == HISTORY
 
 
 def test_a_message_repeats_until_it_is_stopped_or_nobody_looks(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    opened = Opened(PublishMessage(topic="/name", rate=0.001))
+    opened = on_topics(PublishMessage(topic="/name", rate=0.001))
     opened.panel.use({"repeat": True}, 1)
     for _ in range(5):
-        assert opened.show()["repeats"]
+        assert opened.values()["repeats"]
     assert [type(each) for each in opened.sent] == [Publish]
     monkeypatch.setattr("webviz.panels.publish.PAUSE_S", -1.0)
-    assert not opened.show()["repeats"]
+    assert not opened.values()["repeats"]
 
 
 def test_a_refused_message_is_not_repeated_and_its_reason_goes_with_the_next_edit() -> None:
-    opened = Opened(PublishMessage(topic="/name"))
+    opened = on_topics(PublishMessage(topic="/name"))
     opened.panel.use({"repeat": True}, 1)
-    opened.show()
+    opened.values()
     opened.sent[0].report(Status(Level.ERROR, "Not allowed."))
-    shown = opened.show()
+    shown = opened.values()
     assert (shown["outcome"], shown["failed"], shown["repeats"]) == ("Not allowed.", True, False)
     opened.panel.use({"yaml": "data: again"}, 1)
-    assert (opened.show()["outcome"], opened.show()["failed"]) == ("", False)
+    assert (opened.values()["outcome"], opened.values()["failed"]) == ("", False)
 
 
 def test_a_panel_of_the_config_may_publish_also_before_the_type_is_known() -> None:
@@ -146,26 +135,26 @@ def test_a_panel_of_the_config_may_publish_also_before_the_type_is_known() -> No
 
 
 def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
-    call = Opened(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
+    call = on_topics(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
     call.panel.use({"field": ["data", "true"]}, 1)
     call.panel.use({}, 1)
     (sent,) = call.sent
     assert isinstance(sent, CallService)
     assert (sent.service, sent.request) == ("/light", {"data": True})
     sent.failed("Nobody answers.")
-    assert call.show()["outcome"] == "Nobody answers."
-    goal = Opened(ActionGoal(action="/undock", action_type="nav2_msgs/action/UndockRobot"))
+    assert call.values()["outcome"] == "Nobody answers."
+    goal = on_topics(ActionGoal(action="/undock", action_type="nav2_msgs/action/UndockRobot"))
     goal.panel.use({"field": ["max_undocking_time", "1"]}, 1)
     goal.panel.use({}, 1)
     assert isinstance(goal.sent[0], SendGoal)
     state = State(services={"/light": "std_srvs/srv/SetBool", "/a/list_parameters": "x/srv/Y"})
-    untyped = Opened(ServiceCall(service="/light"))
+    untyped = on_topics(ServiceCall(service="/light"))
     show_panel(untyped.panel, state)
     shown = untyped.ui.widgets["0"].values["values"]
     assert (shown["about"], shown["names"]) == ("std_srvs/srv/SetBool", ["/light"])
     untyped.panel.use({}, 1)
     assert untyped.sent[0].type == "std_srvs/srv/SetBool"
-    unnamed = Opened(ActionGoal(action="/undock"))
+    unnamed = on_topics(ActionGoal(action="/undock"))
     server = Publisher("/dock", "nav2_msgs/action/UndockRobot_FeedbackMessage", *RELIABLE)
     show_panel(unnamed.panel, State(offers={"/undock/_action/feedback": Offer((server,))}))
     shown = unnamed.ui.widgets["0"].values["values"]
@@ -176,14 +165,14 @@ def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
         ServiceCall(service="/such", service_type="no/srv/Such"),
         ActionGoal(action="/such", action_type="no/action/Such"),
     ):
-        assert "No definition of no/" in Opened(panel).show()["about"]
+        assert "No definition of no/" in on_topics(panel).values()["about"]
         with pytest.raises(Error, match="message type is unknown"):
             panel.use({}, 1)
 
 
 @pytest.mark.parametrize("panel", [PublishMessage(topic=""), ServiceCall(), ActionGoal()])
 def test_a_panel_without_a_name_asks_for_it(panel: SendingPanel) -> None:
-    assert Opened(panel).show()["about"] == f"Enter the name of the {panel.target}."
+    assert on_topics(panel).values()["about"] == f"Enter the name of the {panel.target}."
     with pytest.raises(Error, match=f"No {panel.target} is chosen"):
         panel.use({}, 1)
 

@@ -31,7 +31,7 @@ from webviz_displays import moveit as displays
 PARAMETERS = "rcl_interfaces/srv/GetParameters"
 
 
-class Bench(OpenedPanel):
+class ServicePanel(OpenedPanel):
     """A panel in a viewer on a graph that remembers."""
 
     def __init__(self, bench: Benches, cls: type[Panel], **values: Any) -> None:
@@ -45,11 +45,11 @@ class Bench(OpenedPanel):
 
 
 @pytest.fixture
-def tools(bench: Benches) -> Bench:
-    return Bench(bench, RvizVisualToolsGui)
+def tools(bench: Benches) -> ServicePanel:
+    return ServicePanel(bench, RvizVisualToolsGui)
 
 
-def test_each_button_presses_its_own(tools: Bench) -> None:
+def test_each_button_presses_its_own(tools: ServicePanel) -> None:
     assert {each.topic for each in tools.graph.advertised} >= {"/rviz_visual_tools_gui"}
     for label in ("Next", "Continue", "Break", "Stop"):
         tools.widget(label).use(None, 1)
@@ -59,7 +59,7 @@ def test_each_button_presses_its_own(tools: Bench) -> None:
     assert keys["Visual Tools: Next"] == "x"
 
 
-def test_a_press_that_nobody_hears_is_said(tools: Bench) -> None:
+def test_a_press_that_nobody_hears_is_said(tools: ServicePanel) -> None:
     tools.graph.subscriptions = 0
     tools.widget("Next").use(None, 1)
     assert "No subscription to /rviz_visual_tools_gui" in tools.text()
@@ -69,7 +69,7 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.panels.selector.ASK_S", 0.0)
-    b = Bench(bench, Selector, namespace="/robot1/")
+    b = ServicePanel(bench, Selector, namespace="/robot1/")
     assert "No names of controller_server, planner_server, smoother_server." in b.text()
     b.offers("/robot1/controller_server/get_parameters", ["MPPI", "RPP"], ["goal"], ["progress"])
     b.offers("/robot1/planner_server/get_parameters", ["GridBased"])
@@ -92,7 +92,7 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
 
 
 def test_the_end_of_a_goal_that_was_replaced_is_not_told(bench: Benches) -> None:
-    b = Bench(bench, Docking)
+    b = ServicePanel(bench, Docking)
     b.widget("Dock id").use("home", 1)
     for _ in range(2):
         b.widget("Dock").use(None, 1)
@@ -108,7 +108,7 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.panels.docking.ASK_S", 0.0)
-    b = Bench(bench, Docking)
+    b = ServicePanel(bench, Docking)
     with pytest.raises(Error, match="No dock id"):
         b.widget("Dock").use(None, 1)
     b.widget("Dock id").use("home", 1)
@@ -161,12 +161,12 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
 
 
 @pytest.fixture
-def slam(bench: Benches, monkeypatch: pytest.MonkeyPatch) -> Bench:
+def slam(bench: Benches, monkeypatch: pytest.MonkeyPatch) -> ServicePanel:
     monkeypatch.setattr("webviz.panels.slam_toolbox.ASK_S", 0.0)
-    return Bench(bench, SlamToolbox)
+    return ServicePanel(bench, SlamToolbox)
 
 
-def asked(b: Bench) -> Any:
+def asked(b: ServicePanel) -> Any:
     """Name and decoded request of the newest call that is not for the state."""
     service, type_, request = next(
         each for each in reversed(b.graph.requests) if each[1] != PARAMETERS
@@ -178,7 +178,7 @@ def response(name: str, values: dict[str, Any]) -> bytes:
     return encode(interfaces.service(f"slam_toolbox/srv/{name}").response, values)
 
 
-def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench) -> None:
+def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: ServicePanel) -> None:
     assert "No node offers /slam_toolbox/get_parameters" in slam.text()
     values = {"values": [{"type": 1, "bool_value": True}, {"type": 1}]}
     answer = encode(f"{PARAMETERS}_Response", values)
@@ -204,13 +204,15 @@ def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: Bench) -> Non
         ("Generate map", "merge_submaps"),
     ],
 )
-def test_a_button_of_slam_toolbox_calls_its_service(button: str, service: str, slam: Bench) -> None:
+def test_a_button_of_slam_toolbox_calls_its_service(
+    button: str, service: str, slam: ServicePanel
+) -> None:
     slam.widget(button).use(None, 1)
     assert asked(slam)[0] == f"/slam_toolbox/{service}"
     assert f"No node offers /slam_toolbox/{service}" in slam.text()
 
 
-def test_maps_and_pose_graphs_are_saved_and_loaded(slam: Bench) -> None:
+def test_maps_and_pose_graphs_are_saved_and_loaded(slam: ServicePanel) -> None:
     for button in ("Save map", "Serialize", "Deserialize", "Add submap"):
         with pytest.raises(Error, match="No file for"):
             slam.widget(button).use(None, 1)

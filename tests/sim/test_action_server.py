@@ -25,7 +25,7 @@ pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning"
 FIBONACCI = "test_msgs/action/Fibonacci"
 
 
-class Bench(SpunNode):
+class FibonacciNode(SpunNode):
     """A server that accepts positive orders, and a client."""
 
     def __init__(self, domain: int) -> None:
@@ -46,14 +46,14 @@ class Bench(SpunNode):
 
 
 @pytest.fixture(scope="module")
-def bench(webviz_domain: int) -> Iterator[Bench]:
-    bench = Bench(webviz_domain)
+def bench(webviz_domain: int) -> Iterator[FibonacciNode]:
+    bench = FibonacciNode(webviz_domain)
     yield bench
     bench.client.destroy()
     bench.close()
 
 
-def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: Bench) -> None:
+def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: FibonacciNode) -> None:
     heard: list[Any] = []
     handle = bench.send(3, heard.append)
     assert handle.accepted
@@ -76,7 +76,7 @@ def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: Bench) 
     assert bench.result_of(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN
 
 
-def test_a_goal_can_be_rejected_and_cancelled(bench: Bench) -> None:
+def test_a_goal_can_be_rejected_and_cancelled(bench: FibonacciNode) -> None:
     assert not bench.send(0).accepted
     handle = bench.send(2)
     goal = bench.begun[-1]
@@ -90,7 +90,7 @@ def test_a_goal_can_be_rejected_and_cancelled(bench: Bench) -> None:
     assert refused.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
 
 
-def test_a_request_without_an_id_cancels_all_goals(bench: Bench) -> None:
+def test_a_request_without_an_id_cancels_all_goals(bench: FibonacciNode) -> None:
     handles = [bench.send(order) for order in (4, 5)]
     cancel = bench.node.create_client(CancelGoal, "/count/_action/cancel_goal")
     answer = bench.result_of(cancel.call_async(CancelGoal.Request()))
@@ -102,7 +102,9 @@ def test_a_request_without_an_id_cancels_all_goals(bench: Bench) -> None:
         assert bench.result_of(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
 
 
-def test_a_goal_with_the_id_of_another_is_rejected_and_leaves_it_alone(bench: Bench) -> None:
+def test_a_goal_with_the_id_of_another_is_rejected_and_leaves_it_alone(
+    bench: FibonacciNode,
+) -> None:
     handle = bench.send(2)
     goal, count = bench.begun[-1], len(bench.begun)
     # rclpy's client refuses to send an id twice.
