@@ -488,7 +488,7 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
     assert found == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
 
 
-class Shown:
+class ShownMarker:
     """A display with one marker of a server, which records what is sent to it."""
 
     def __init__(
@@ -532,7 +532,7 @@ class Shown:
 
 
 def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> None:
-    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
     assert shown.drag("move", 5.0) == []  # nobody has pressed
     assert shown.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     assert shown.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
@@ -542,25 +542,25 @@ def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> N
     assert shown.drag("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
     assert shown.drag("hold", 7.0) == [(STAYS, 2.0)]
 
-    button = Shown(server, controls=[{"interaction_mode": BUTTON}])
+    button = ShownMarker(server, controls=[{"interaction_mode": BUTTON}])
     assert button.drag("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     clicked = [(BUTTON_CLICK, 0.0), (POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
     assert button.drag("release") == clicked
     menu = [{"id": 4, "title": "Go"}, {"id": 5, "title": "rm", "command_type": 1}]
-    chosen = Shown(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
+    chosen = ShownMarker(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
     assert chosen.drag("choose", entry=4) == [(MENU_SELECT, 0.0)]
     assert chosen.drag("choose", entry=5) == []
-    still = Shown(server, controls=[{"interaction_mode": 0}])
+    still = ShownMarker(server, controls=[{"interaction_mode": 0}])
     assert still.drag("press") == []
 
 
 def test_what_nobody_has_pressed_stays_when_it_is_released(server: Server) -> None:
-    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
     assert shown.drag("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
 
 
 def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Server) -> None:
-    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
     drags = (
         Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)),
         Drag("m1", 0, "move", Pose((4.0, 0, 0))),
@@ -572,7 +572,7 @@ def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Serve
 
 
 def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(server: Server) -> None:
-    shown = Shown(server)
+    shown = ShownMarker(server)
     known = shown.known
     shown.display.communicate(server, shown.context())
     assert shown.known is known
@@ -580,7 +580,7 @@ def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(serve
 
 def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
     controls = [{"interaction_mode": MOVE_AXIS, "markers": [{"type": 1, "color": {"a": 1.0}}]}]
-    shown = Shown(server, description="An arm", controls=controls)
+    shown = ShownMarker(server, description="An arm", controls=controls)
     node = shown.groups()["m1"].nodes["c0/m1/box"]
 
     def inspect(key: str) -> Any:
@@ -599,7 +599,9 @@ def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
 def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(server: Server) -> None:
     solid = {"type": 1, "color": {"a": 1.0}}
     controls = [{"interaction_mode": BUTTON, "markers": [solid]}]
-    nodes = Shown(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
+    nodes = (
+        ShownMarker(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
+    )
     assert "c0/m1/drag" not in nodes
     axes = nodes["axes/m1"]
     assert isinstance(axes, Axes)
@@ -608,7 +610,7 @@ def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(serve
 
 
 def test_a_title_is_above_its_marker_in_the_size_of_the_marker(server: Server) -> None:
-    shown = Shown(server, {"show_descriptions": True}, scale=2.0, description="An arm")
+    shown = ShownMarker(server, {"show_descriptions": True}, scale=2.0, description="An arm")
     title = shown.groups()["m1.title"].nodes["title/m1"]
     assert isinstance(title, Labels)
     assert (title.texts, title.height) == (("An arm",), pytest.approx(0.3))
@@ -620,7 +622,7 @@ def test_without_transparency_all_that_is_visible_is_opaque(server: Server) -> N
     controls = [{"interaction_mode": BUTTON, "markers": shapes}]
     for is_transparent, opacity in ((True, 0.25), (False, 1.0)):
         display = {"enable_transparency": is_transparent}
-        nodes = Shown(server, display, controls=controls).groups()["m1"].nodes
+        nodes = ShownMarker(server, display, controls=controls).groups()["m1"].nodes
         (box,) = (node for key, node in nodes.items() if "/box" in key)
         assert isinstance(box, Instances)
         assert len(box.positions) == 1
@@ -632,7 +634,7 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
     control = {"orientation_mode": 1, "interaction_mode": ROTATE_AXIS, "markers": shapes}
     up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
     for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
-        shown = Shown(server, controls=[{"orientation": orientation, **control}])
+        shown = ShownMarker(server, controls=[{"orientation": orientation, **control}])
         assert shown.groups()["m1.0"].placement.offset.wxyz == (1.0, 0.0, 0.0, 0.0)
         shown.drag("press")
         shown.drag("move", 0.0, turned=0.5)
@@ -651,7 +653,7 @@ def test_a_marker_has_a_handle_once_its_transform_has_come() -> None:
 
 
 def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:
-    shown = Shown(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
     shown.known.markers["a"].put(Place("hand", 5, Pose()))
     first = shown.handle()
     assert shown.display.handles(shown.context()) is shown.display.handles(shown.context())
@@ -667,7 +669,7 @@ def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
     across = {"w": math.sqrt(0.5), "z": math.sqrt(0.5)}
     facings = [{"orientation_mode": facing, **shapes} for facing in (0, 1, 2)]
     facings.append({"independent_marker_orientation": True, **facings[2]})
-    shown = Shown(server, controls=facings, pose={"orientation": across})
+    shown = ShownMarker(server, controls=facings, pose={"orientation": across})
     groups = shown.groups()
     assert groups.keys() == {"m1", "m1.1", "m1.2v"}
     turned = {key: group.placement.offset.wxyz[3] for key, group in groups.items()}
@@ -683,7 +685,7 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
 ) -> None:
     # A busy machine would draw some of them in the next round.
     monkeypatch.setattr("webviz_displays.interactive_markers.server.DRAWING_S", math.inf)
-    shown = Shown(server, controls=[{}])
+    shown = ShownMarker(server, controls=[{}])
     there, lost = {"header": {"frame_id": "map"}}, {"frame_id": "nowhere"}
     late = {**lost, "stamp": {"sec": 9}}
     markers = [
@@ -709,7 +711,9 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
 
 
 def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
-    shown = Shown(server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(
+        server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}]
+    )
     assert shown.drag("press") == []  # its frame is unknown
     at = (0.0, 0.0, 0.0)
     for stamp_ns in (3_000_000_001, 5_000_000_002):
@@ -723,7 +727,9 @@ def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) 
 
 
 def test_feedback_in_the_fixed_frame_has_no_stamp(server: Server) -> None:
-    shown = Shown(server, header={"frame_id": "map"}, controls=[{"interaction_mode": MOVE_AXIS}])
+    shown = ShownMarker(
+        server, header={"frame_id": "map"}, controls=[{"interaction_mode": MOVE_AXIS}]
+    )
     shown.display.drag(Drag("m1", 0, "press"), server, shown.context())
     for each in iter(shown.known.outgoing.next, None):
         assert each["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}

@@ -52,7 +52,7 @@ SPEED, SECONDS = 0.4, 2.5
 
 
 @dataclass
-class Seen:
+class PictureContent:
     """Positions seen in a picture, in metres of the fixed frame."""
 
     robot: np.ndarray
@@ -63,7 +63,7 @@ class Seen:
     """Black cells of the map (N, 2)."""
 
 
-def look(page: Page) -> Seen:
+def look(page: Page) -> PictureContent:
     """Find the displays in a picture by their colours."""
     page.draw()
     pixels = page.pixels().astype(int)
@@ -78,7 +78,7 @@ def look(page: Page) -> Seen:
     # Wheels and body are grey; the map is white, black and, where nothing is known, greenish.
     is_grey = np.ptp(pixels, axis=-1) < 15
     robot = where(is_grey & (green > 40) & (green < 246))
-    return Seen(
+    return PictureContent(
         robot.mean(axis=0) if len(robot) else np.full(2, math.nan),
         where((red > 230) & (green < 60) & (blue > 230)),
         where((red < 30) & (green < 30) & (blue < 30)),
@@ -179,11 +179,11 @@ def choose_fixed_frame(page: Page, frame: str) -> None:
     side.wait_for("Fixed Frame: OK")
 
 
-def settled(page: Page) -> Seen:
+def settled(page: Page) -> PictureContent:
     """Return the positions seen once everything is drawn and the robot stands."""
-    before: list[Seen] = []
+    before: list[PictureContent] = []
 
-    def at_rest() -> Seen | None:
+    def at_rest() -> PictureContent | None:
         seen = look(page)
         is_complete = len(seen.scan) > 50 and len(seen.walls) > 500
         stands = bool(before) and np.linalg.norm(seen.robot - before.pop().robot) < 0.005
@@ -218,7 +218,7 @@ def check_drive_in_base(page: Page, driver: Driver) -> None:
     walls = before.walls + (start - driver.where())
     inside = np.abs(walls).max(axis=1) < 2.5
 
-    def are_where_they_should_be(seen: Seen) -> bool:
+    def are_where_they_should_be(seen: PictureContent) -> bool:
         now = np.vstack([seen.walls, seen.scan])
         return share_on_walls(walls[inside], now, 0.06) > 0.95
 

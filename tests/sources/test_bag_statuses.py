@@ -10,12 +10,7 @@ from bags import START_NS, Bag, ns
 
 from webviz.api.status import Level
 from webviz.commands import Seek
-from webviz.engine.loop import FrameLoop
-from webviz.files.opening import parse
 from webviz.shell.testing import BagViewer, header
-from webviz.shell.testing.recording import RecordingScene
-from webviz.sources.bag.history import BagHistory
-from webviz.sources.player import Player
 
 CONFIG = """\
 fixed_frame: map
@@ -29,22 +24,11 @@ displays:
 
 def texts(path: Path, to_s: float) -> list[str]:
     """All statuses that are not OK, after some seconds of a bag."""
-    source, scene = Player(BagHistory(path)), RecordingScene()
-    loop = FrameLoop(
-        parse(CONFIG, "the config"), source, scene, clock=lambda: source.reached_ns / 1e9
-    )
-    scene.watched = True
-    loop.turn()
-    until_ns = source.history.start_ns + ns(to_s)
-    while source.reached_ns < until_ns:
-        source.play_step(until_ns)
-        loop.turn()
-    loop.turn()
-    state = loop.state()
+    with closing(BagViewer(path, CONFIG)) as viewer:
+        viewer.play_to(to_s)
+        state = viewer.loop.state()
     found = [*state.statuses.values()]
     found += [status for row in state.rows for status in row.statuses.values()]
-    loop.close()
-    source.close()
     return [status.text for status in found if status.level.name != "OK"]
 
 

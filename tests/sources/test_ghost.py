@@ -16,14 +16,11 @@ from webviz.api.nodes import Points
 from webviz.commands import Seek
 from webviz.data.messages import TFMessage, decode, definition, encode
 from webviz.data.messages.stamps import shifted
-from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.ghost_config import OPACITY, with_ghost
-from webviz.files.config import Config
 from webviz.files.opening import parse
 from webviz.files.report import read_report
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
-from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Align, Ghost
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
@@ -71,14 +68,8 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 def viewer(runs: tuple[Path, Path], align: Align | float) -> Iterator[BagViewer]:
     today, yesterday = runs
     history = BagHistory(today, ghost=Ghost(yesterday, align, "/speed.data"))
-    source = Player(history)
-    shown = BagViewer(today, Config())
-    shown.close()
-    shown.source, shown.scene = source, RecordingScene()
     config = with_ghost(parse(CONFIG, "the config"), history)
-    shown.loop = FrameLoop(config, source, shown.scene, strict=True)
-    shown.turn()
-    with contextlib.closing(shown):
+    with contextlib.closing(BagViewer(history, config)) as shown:
         yield shown
 
 

@@ -7,8 +7,8 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from bench import benches
 
-from webviz.data.messages import encode
 from webviz.data.transforms import (
     LookupException,
     MessageFilter,
@@ -18,11 +18,10 @@ from webviz.data.transforms import (
     tree_text,
 )
 from webviz.data.transforms.tree import FrameTree
-from webviz.engine.loop import FrameLoop
 from webviz.engine.pipeline.listener import TYPE
-from webviz.files.opening import parse
-from webviz.shell.testing.recording import RecordingScene
-from webviz.shell.testing.source import SECOND, HandFedSource
+from webviz.shell.testing.messages import stamped_transform
+from webviz.shell.testing.source import SECOND
+from webviz_displays.tf import TF
 
 COUNT = 10_000
 LOOPS = [("map", "x"), ("x", "map"), ("p", "q"), ("q", "p")]
@@ -111,26 +110,15 @@ def test_a_failure_has_no_text_until_it_is_shown(monkeypatch: pytest.MonkeyPatch
 
 @pytest.mark.parametrize("shape", ["a star", "a ring"])
 def test_the_frame_loop_goes_on(shape: str) -> None:
-    source, scene = HandFedSource(), RecordingScene()
-    config = parse("fixed_frame: map\ndisplays:\n- {type: TF}\n", "the config")
-    loop = FrameLoop(config, source, scene, strict=True)
-    scene.watched = True
-    loop.turn()
-    for links in (SHAPES[shape][:5000], SHAPES[shape][5000:], LOOPS, LOOPS[::-1]):
-        source.now += SECOND
-        stamp = {"sec": source.now // SECOND}
-        transforms = [
-            {
-                "header": {"frame_id": parent, "stamp": stamp},
-                "child_frame_id": child,
-                "transform": {"rotation": {"w": 1.0}},
-            }
-            for parent, child in links
-        ]
-        source.put("/tf", TYPE, encode(TYPE, {"transforms": transforms}))
-        start = time.thread_time()
-        loop.turn()
-        assert time.thread_time() - start < IN_TIME_S
-    (row,) = loop.state().rows
-    assert row.level.name == "WARN"
-    loop.close()
+    with benches() as make:
+        bench = make(TF())
+        for links in (SHAPES[shape][:5000], SHAPES[shape][5000:], LOOPS, LOOPS[::-1]):
+            bench.source.now += SECOND
+            now = bench.source.now
+            transforms = [stamped_transform(parent, child, now) for parent, child in links]
+            bench.publish("/tf", TYPE, {"transforms": transforms})
+            start = time.thread_time()
+            bench.turn()
+            assert time.thread_time() - start < IN_TIME_S
+        (row,) = bench.viewer.state().rows
+        assert row.level.name == "WARN"

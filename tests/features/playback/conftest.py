@@ -12,7 +12,7 @@ import pytest
 from bags import START_NS, Bag, ns
 from drives import CONFIG
 
-from webviz.commands import Refresh, Seek
+from webviz.commands import Seek
 from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
@@ -30,33 +30,14 @@ AGO_S = 9.0
 """Time in seconds since a drive began."""
 
 
-class Theater(BagViewer):
-    """A viewer of a bag that only runs in `turn`."""
-
-    def __init__(self, paths: Path | list[Path], config: str) -> None:
-        super().__init__(paths, config)
-        self.paths = paths
-
-    @property
-    def playback(self) -> PlaybackState:
-        state = self.do(Refresh()).playback
-        assert state is not None
-        return state
-
-    def nodes(self) -> list[Any]:
-        """Poses and nodes that are seen."""
-        # In which slot of a display a sample is drawn makes no difference.
-        return sorted(((pose, node) for _, pose, node in self.scene.visible()), key=repr)
-
-
 @pytest.fixture
-def theater(tmp_path: Path) -> Iterator[Callable[..., Theater]]:
+def theater(tmp_path: Path) -> Iterator[Callable[..., BagViewer]]:
     """Open a bag in a viewer; all are closed at the end."""
-    made: list[Theater] = []
+    made: list[BagViewer] = []
 
-    def make(bag: Bag | Path | list[Path], config: str = "displays: []\n") -> Theater:
+    def make(bag: Bag | Path | list[Path], config: str = "displays: []\n") -> BagViewer:
         paths = bag.write_file(tmp_path / f"bag{len(made)}.mcap") if isinstance(bag, Bag) else bag
-        made.append(Theater(paths, config))
+        made.append(BagViewer(paths, config))
         return made[-1]
 
     yield make
@@ -74,7 +55,7 @@ class SteadySource(HandFedSource):
         return START_NS + ns(time.monotonic() - self.began_s)
 
 
-class Drive:
+class LiveDrive:
     """A viewer of live topics that have just carried a recorded drive."""
 
     def __init__(self, path: Path, config: str, ago_s: float = AGO_S) -> None:
@@ -122,12 +103,12 @@ class Drive:
 
 
 @pytest.fixture
-def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Drive]]:
+def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LiveDrive]]:
     monkeypatch.chdir(tmp_path)
     with contextlib.ExitStack() as stack:
 
-        def make(bag: Bag, config: str = CONFIG, ago_s: float = AGO_S) -> Drive:
-            made = Drive(bag.write_file(tmp_path / "run.mcap"), config, ago_s)
+        def make(bag: Bag, config: str = CONFIG, ago_s: float = AGO_S) -> LiveDrive:
+            made = LiveDrive(bag.write_file(tmp_path / "run.mcap"), config, ago_s)
             stack.callback(made.close)
             return made
 

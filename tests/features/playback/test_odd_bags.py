@@ -109,7 +109,7 @@ def test_a_bag_with_one_message(tmp_path: Path, theater: Callable, storage: Stor
     viewer.turn_until(lambda: not viewer.playback.is_playing)
     viewer.do(Seek(0.0))
     assert viewer.playback.position_s == 0.0
-    assert viewer.nodes()
+    assert [*viewer.scene.visible()]
     viewer.turn_until(lambda: bool(viewer.loop.state().recorded))
     counts = viewer.loop.state().recorded["/map"]
     assert (counts[0], sum(counts)) == (1, 1)

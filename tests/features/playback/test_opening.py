@@ -11,7 +11,7 @@ from bags import START_NS
 from bench import benches
 from drives import CONFIG, recorded
 
-from tests.features.playback.conftest import Drive, Theater
+from tests.features.playback.conftest import LiveDrive
 from webviz.api.errors import Error
 from webviz.commands import OpenRecording, Pause, Refresh, ReturnToLive, SaveMemory, Seek
 from webviz.data.messages import encode
@@ -34,7 +34,7 @@ displays:
 """
 
 
-def refusal(drive: Drive, command: Command, sender: Sender) -> str:
+def refusal(drive: LiveDrive, command: Command, sender: Sender) -> str:
     answer = drive.loop.enqueue(command, sender)
     for _ in range(1000):
         drive.loop.turn()
@@ -45,7 +45,7 @@ def refusal(drive: Drive, command: Command, sender: Sender) -> str:
 
 
 def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
-    drive: Callable[..., Drive],
+    drive: Callable[..., LiveDrive],
 ) -> None:
     live = drive(recorded(4), STEADY)
     live.do(Refresh())
@@ -76,7 +76,7 @@ def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
 
 
 def test_topics_stay_subscribed_to_and_remembered_while_a_recording_is_shown(
-    drive: Callable[..., Drive],
+    drive: Callable[..., LiveDrive],
 ) -> None:
     live = drive(recorded(4), STEADY)
     live.do(SaveMemory(path="saved"))
@@ -118,7 +118,7 @@ def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
 
 
 def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(
-    drive: Callable[..., Drive],
+    drive: Callable[..., LiveDrive],
 ) -> None:
     live = drive(recorded(4))
     live.do(SaveMemory(path="saved"))
@@ -134,14 +134,14 @@ def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(
     assert live.playback.names == ("one",)
 
 
-def test_what_cannot_be_opened_leaves_what_is_shown(drive: Callable[..., Drive]) -> None:
+def test_what_cannot_be_opened_leaves_what_is_shown(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(4))
     with pytest.raises(Error, match=r"does not exist|not found|No such"):
         live.do(OpenRecording("missing"))
     assert live.playback.is_live
 
 
-def test_a_bag_is_not_replaced(theater: Callable[..., Theater]) -> None:
+def test_a_bag_is_not_replaced(theater: Callable[..., BagViewer]) -> None:
     with pytest.raises(Error) as caught:
         theater(recorded(4), CONFIG).do(OpenRecording("other"))
     assert str(caught.value) == NO_LIVE

@@ -63,18 +63,18 @@ def test_playing_moves_the_position_and_stops_at_the_end(theater: Callable, bag:
     viewer.turn_until(lambda: not viewer.playback.is_playing)
     assert viewer.playback.position_s == 4.0
     assert viewer.loop.state().clock.is_paused
-    assert len(viewer.nodes()) == 3
+    assert len([*viewer.scene.visible()]) == 3
 
 
 def test_at_the_end_playing_starts_over(theater: Callable, bag: Bag) -> None:
     viewer = theater(bag, CONFIG)
     viewer.do(Seek(4.0))
-    before = viewer.nodes()
+    before = [*viewer.scene.visible()]
     viewer.do(SetRate(0.01))
     shown = viewer.do(Play()).playback
     assert shown.is_playing
     assert shown.position_s < 0.5
-    assert len(viewer.nodes()) == 1 < len(before)
+    assert len([*viewer.scene.visible()]) == 1 < len(before)
 
 
 def test_pause_holds_the_position(theater: Callable, bag: Bag) -> None:

@@ -14,7 +14,7 @@ from bags import START_NS, Bag, ns, strings
 from bench import Bench, Benches, benches
 from drives import CONFIG, recorded
 
-from tests.features.playback.conftest import Drive
+from tests.features.playback.conftest import LiveDrive
 from webviz.api.declared import Topic
 from webviz.api.lookback import Lookback
 from webviz.api.nodes import Lines
@@ -65,7 +65,7 @@ PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_rewound_viewer_shows_what_the_saved_memory_does(
-    drive: Callable[..., Drive], seed: int
+    drive: Callable[..., LiveDrive], seed: int
 ) -> None:
     live = drive(recorded(seed))
     live.do(SaveMemory(path="saved"))
@@ -84,7 +84,7 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
 
 
 def test_what_is_looked_at_is_saved_although_the_memory_has_forgotten_it(
-    drive: Callable[..., Drive],
+    drive: Callable[..., LiveDrive],
 ) -> None:
     """A crash that somebody rewound to is in the file, however long they look at it."""
     live = drive(recorded(1), f"memory: {{seconds: 20}}\n{CONFIG}")
@@ -106,7 +106,7 @@ def test_what_is_looked_at_is_saved_although_the_memory_has_forgotten_it(
 
 @pytest.mark.parametrize("seconds", [60, 30])
 def test_frames_whose_transforms_ended_long_before_are_known(
-    drive: Callable[..., Drive], seconds: int
+    drive: Callable[..., LiveDrive], seconds: int
 ) -> None:
     """Those of the arm ended 39 s ago, and are forgotten in a memory of 30 s."""
     bag = Bag()
@@ -131,7 +131,9 @@ def test_frames_whose_transforms_ended_long_before_are_known(
             assert "Clocks" not in played.loop.state().statuses
 
 
-def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[..., Drive]) -> None:
+def test_back_at_now_everything_is_shown_that_came_meanwhile(
+    drive: Callable[..., LiveDrive],
+) -> None:
     live = drive(recorded(4), LASTING)
     live.do(Refresh())
     before = live.shown()
@@ -143,7 +145,7 @@ def test_back_at_now_everything_is_shown_that_came_meanwhile(drive: Callable[...
 
 
 def test_displays_that_never_catch_up_are_live_after_a_while(
-    drive: Callable[..., Drive], monkeypatch: pytest.MonkeyPatch
+    drive: Callable[..., LiveDrive], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.sources.player.RETURNING_S", 0.05)
     live = drive(recorded(4), LASTING)
@@ -156,7 +158,7 @@ def test_displays_that_never_catch_up_are_live_after_a_while(
     assert live.shown() == before
 
 
-def test_playing_from_the_past_becomes_live(drive: Callable[..., Drive]) -> None:
+def test_playing_from_the_past_becomes_live(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(5), LASTING)
     live.do(Refresh())
     before = live.shown()

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from bags import START_NS, ns
 from drives import recorded
 
-from tests.features.playback.conftest import Drive
+from tests.features.playback.conftest import LiveDrive
 from webviz.api.status import LOADING, Status
 from webviz.engine.loop import FrameLoop
 from webviz.engine.parts.displays import DisplaysPart
@@ -21,7 +21,7 @@ def statuses(loop: FrameLoop) -> dict[str, Mapping[str, Status]]:
     return {"": state.statuses, **{row.id: row.statuses for row in state.rows}}
 
 
-def test_nothing_new_is_said_until_the_position_is_reached(drive: Callable[..., Drive]) -> None:
+def test_nothing_new_is_said_until_the_position_is_reached(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(1))
     playback, displays = live.loop.get(TimePart), live.loop.get(DisplaysPart)
     player = playback.core.player

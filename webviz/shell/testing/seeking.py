@@ -23,6 +23,7 @@ from webviz.files.config import Config
 from webviz.shell.app.reading import read_config
 from webviz.shell.testing.recording import RecordingScene
 from webviz.sources.bag.history import BagHistory
+from webviz.sources.past_state import PlaybackState
 from webviz.sources.player import Player
 
 MAX_TURNS = 100_000
@@ -35,12 +36,14 @@ class BagViewer:
     """A viewer of a bag without a browser, which only runs in `turn`.
 
     Args:
-        bag: a file or folder, or several.
+        bag: a file or folder, or several, or a history, which is closed with the viewer.
         config: YAML, or a config; None for the displays of the bag's topics.
     """
 
-    def __init__(self, bag: Path | Sequence[Path], config: str | Config | None = None) -> None:
-        self.source = Player(BagHistory(bag))
+    def __init__(
+        self, bag: Path | Sequence[Path] | BagHistory, config: str | Config | None = None
+    ) -> None:
+        self.source = Player(bag if isinstance(bag, BagHistory) else BagHistory(bag))
         self.scene = RecordingScene()
         if config is None:
             config = read_config(None, self.source)
@@ -96,6 +99,13 @@ class BagViewer:
     def shown(self) -> dict[str, Any]:
         """Return the nodes that are seen of each display, with their poses in the fixed frame."""
         return shown(self.loop, self.scene)
+
+    @property
+    def playback(self) -> PlaybackState:
+        """The recording, and where in it the viewer is."""
+        playback = self.do(commands.Refresh()).playback
+        assert playback is not None
+        return playback
 
     @property
     def rows(self) -> Sequence[Row]:
