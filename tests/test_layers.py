@@ -194,7 +194,6 @@ PAGE_FOLDERS = (
     "scene",
     "charts",
     "tools",
-    "handles",
     "panels",
     "images",
     "shell",
@@ -248,7 +247,6 @@ def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None
 STORES_IN_THE_PAGE = {
     "controls/permission.js": {"permission"},
     "extensions.js": {"modules"},
-    "handles/known.js": {"handles"},
     "panels/plugin.js": {"commands", "panel", "panel_properties", "panels"},
     "tools/selection.js": {"selected"},
 }

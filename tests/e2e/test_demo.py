@@ -264,7 +264,7 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> N
         return page.evaluate(
             """async (point) => {
               const { frameNode, projectionOf } = await import("webviz/scene/projection.js");
-              const { all } = await import("webviz/handles/known.js");
+              const { all } = await import("webviz/features/handles/known.js");
               const [handle] = all().values();
               return projectionOf(frameNode(handle.frame)).project(point);
             }""",

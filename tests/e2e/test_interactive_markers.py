@@ -81,7 +81,7 @@ def known(page: Page) -> dict[str, Any]:
     """The handles that a page knows, by the name of their marker."""
     return page.tab.evaluate(
         """async () => {
-          const { all } = await import("webviz/handles/known.js");
+          const { all } = await import("webviz/features/handles/known.js");
           return Object.fromEntries([...all()].map(([id, each]) => [each.name, { id, ...each }]));
         }"""
     )
@@ -90,7 +90,7 @@ def known(page: Page) -> dict[str, Any]:
 def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
     """Return where a page shows a marker in its frame: position and orientation, w first."""
     found = page.tab.evaluate(
-        """async (id) => (await import("webviz/handles/poses.js")).poseOf(id)""",
+        """async (id) => (await import("webviz/features/handles/poses.js")).poseOf(id)""",
         known(page)[name]["id"],
     )
     return found["position"], found["wxyz"]
@@ -371,7 +371,7 @@ def around(page: Page, place: tuple[float, float]) -> list[Any]:
 def is_visible(page: Page, name: str, control: int) -> bool:
     return page.tab.evaluate(
         """async ([id, control]) => {
-          const { nodesOf } = await import("webviz/handles/known.js");
+          const { nodesOf } = await import("webviz/features/handles/known.js");
           const { node } = await import("webviz/viser_page.js");
           return nodesOf(id).parts.get(control).every((path) => node(path).visible);
         }""",
@@ -389,7 +389,7 @@ def test_controls_that_face_the_camera_do_so_in_every_view(
     def axes() -> Any:
         return page.tab.evaluate(
             """async (id) => {
-              const { nodesOf } = await import("webviz/handles/known.js");
+              const { nodesOf } = await import("webviz/features/handles/known.js");
               const { node, camera } = await import("webviz/viser_page.js");
               const group = node(nodesOf(id).groups.get("0v"));
               const seen = camera().matrixWorldInverse.clone().multiply(group.matrixWorld);

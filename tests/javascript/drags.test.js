@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { begin } from "../../webviz/page/web/handles/drags.js";
-import { heldText, helpOf } from "../../webviz/page/web/handles/help.js";
+import { begin } from "../../webviz/features/handles/drags.js";
+import { heldText, helpOf } from "../../webviz/features/handles/help.js";
 
 /** @import {HandleControl, SceneHandle} from "webviz/contents.js" */
-/** @import {Control, Moved, View} from "webviz/handles/drags.js" */
+/** @import {Control, Moved, View} from "webviz/features/handles/drags.js" */
 /** @import {Vec2, Vec3, Wxyz} from "webviz/types.js" */
 
 /** @typedef {Partial<Control> & Pick<Control, "mode">} GivenControl */

@@ -171,6 +171,7 @@ class HandlesFeature(PageFeature):
     """Passes on what browsers do with handles; each is held by one browser at a time."""
 
     name = "Handles"
+    module = "handles.js"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)

@@ -12,7 +12,6 @@ import * as liveness from "webviz/liveness.js";
 import * as extensions from "webviz/extensions.js";
 import { hasWebGL } from "webviz/scene/graphics.js";
 import * as flat from "webviz/scene/flat.js";
-import * as handles from "webviz/handles/handles.js";
 import * as capacity from "webviz/scene/capacity.js";
 import * as inStep from "webviz/scene/in_step.js";
 import * as labels from "webviz/scene/labels.js";
@@ -59,8 +58,7 @@ async function install() {
   for (const part of [shell, page, inStep, ...ofScene]) part.install();
   if (!isExported) liveness.install();
   await viser.until(() => viser.hasCamera() && viser.node(constants.ROOT));
-  for (const part of [view, mouse, fingers, handles, saveImage, overlay, capacity, blocks])
-    part.install();
+  for (const part of [view, mouse, fingers, saveImage, overlay, capacity, blocks]) part.install();
   if (!isExported) vitals.install();
   toolbar.install(shell.places);
   for (const module of constants.FEATURES) await installFeature(module);

@@ -1,9 +1,8 @@
 // The tools in the toolbar: their buttons and keys, and the pointer while one is active.
 
 import { el } from "webviz/dom.js";
-import * as glow from "webviz/handles/glow.js";
 import { icon } from "webviz/icons.js";
-import { focusCamera, interact, moveCamera } from "webviz/handles/camera_tools.js";
+import { focusCamera, moveCamera } from "webviz/tools/camera_tools.js";
 import { hint, tell } from "webviz/tools/hint.js";
 import { measure } from "webviz/tools/measure.js";
 import * as registry from "webviz/tools/registry.js";
@@ -44,10 +43,8 @@ const EVENTS = /** @type {const} */ ([
 ]);
 
 export function install() {
-  const first = interact();
-  registry.setDefault(first);
-  registry.provide("page", [first, moveCamera, focusCamera, measure()]);
-  glow.install();
+  registry.setDefault(moveCamera);
+  registry.provide("page", [moveCamera, focusCamera, measure()]);
   selection.install();
   provide(() =>
     registry.all().map((tool) => ({

@@ -5,7 +5,7 @@
 // called when it becomes active, and `leave()`, when it is not any more; `pointer(event)`, which
 // gets the pointer's events over the scene before the camera and returns whether it took them;
 // `isLean`, whether its button is an icon only.
-// Interact is the default.
+// Moving the camera is the default, until a feature has another.
 
 import { batch, computed, effect, root, signal } from "webviz/signals.js";
 import { canvas } from "webviz/viser_page.js";
@@ -45,13 +45,15 @@ export const active = () => current.value;
 export const isDefault = () => current.value === fallback.value;
 
 /**
- * Makes a tool the one to go back to.
+ * Makes a tool the one to go back to. It is active if the one before was.
  *
  * @param {Tool} tool
  */
-export function setDefault(tool) {
-  fallback.value = current.value = tool;
-}
+export const setDefault = (tool) =>
+  batch(() => {
+    if (isDefault()) current.value = tool;
+    fallback.value = tool;
+  });
 
 /**
  * Selects a tool; null is the default. One that cannot be used says why.

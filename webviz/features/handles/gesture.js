@@ -6,17 +6,25 @@ import * as channel from "webviz/channel.js";
 import { takeKeysFirst } from "webviz/keys.js";
 import { tell, tellLive } from "webviz/tools/hint.js";
 import { canvas, eachFrame, requestRender } from "webviz/viser_page.js";
-import * as aids from "webviz/handles/aids.js";
-import { CLICK_PX, grab, moveTo, pointAt, release, send, sendTo } from "webviz/handles/dragging.js";
-import { setKeys, step, wheel } from "webviz/handles/dragging.js";
-import * as glow from "webviz/handles/glow.js";
-import { heldText, helpOf } from "webviz/handles/help.js";
-import * as known from "webviz/handles/known.js";
-import * as menu from "webviz/handles/menu.js";
-import * as poses from "webviz/handles/poses.js";
+import * as aids from "webviz/features/handles/aids.js";
+import {
+  CLICK_PX,
+  grab,
+  moveTo,
+  pointAt,
+  release,
+  send,
+  sendTo,
+} from "webviz/features/handles/dragging.js";
+import { setKeys, step, wheel } from "webviz/features/handles/dragging.js";
+import * as glow from "webviz/features/handles/glow.js";
+import { heldText, helpOf } from "webviz/features/handles/help.js";
+import * as known from "webviz/features/handles/known.js";
+import * as menu from "webviz/features/handles/menu.js";
+import * as poses from "webviz/features/handles/poses.js";
 
-/** @import {Drag, Place} from "webviz/handles/dragging.js" */
-/** @import {Part} from "webviz/handles/known.js" */
+/** @import {Drag, Place} from "webviz/features/handles/dragging.js" */
+/** @import {Part} from "webviz/features/handles/known.js" */
 /** @import {SceneEvent, Vec2, Vec3} from "webviz/types.js" */
 
 /** @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked */

@@ -3,9 +3,9 @@
 import { active, isDefault, onChange } from "webviz/tools/registry.js";
 import { effect, owned, signal, untracked } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
-import * as known from "webviz/handles/known.js";
+import * as known from "webviz/features/handles/known.js";
 
-/** @import {Part} from "webviz/handles/known.js" */
+/** @import {Part} from "webviz/features/handles/known.js" */
 /** @import {Color, MeshStandardMaterial} from "three" */
 
 /** @type {Record<"over" | "pressed", number>} */

@@ -1,32 +1,10 @@
-// The tools that leave the pointer to the camera, and the one that aims the camera.
+// The tools that move the camera, and aim it.
 
-import { HandleGestures } from "webviz/handles/gesture.js";
 import { focusOn } from "webviz/scene/mouse.js";
 import { clicks } from "webviz/tools/clicks.js";
 import { select } from "webviz/tools/registry.js";
 
 /** @import {Tool} from "webviz/types.js" */
-
-/**
- * The tool that moves handles.
- *
- * @returns {Tool}
- */
-export function interact() {
-  const gestures = new HandleGestures();
-  return {
-    id: "interact",
-    name: "Interact",
-    shortcut: "i",
-    icon: "hand",
-    order: 0,
-    isLean: true,
-    tooltip: "Interact with objects, and move the camera elsewhere.",
-    hint: "",
-    pointer: (event) => gestures.pointer(event),
-    leave: () => gestures.leave(),
-  };
-}
 
 /** @type {Tool} */
 export const moveCamera = {

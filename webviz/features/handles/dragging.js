@@ -4,14 +4,14 @@ import * as act from "webviz/act.js";
 import { pickAt } from "webviz/scene/picking/pick.js";
 import { frameNode, projectionOf } from "webviz/scene/projection.js";
 import { requestRender } from "webviz/viser_page.js";
-import * as aids from "webviz/handles/aids.js";
-import { axisOf, begin } from "webviz/handles/drags.js";
-import * as known from "webviz/handles/known.js";
-import * as poses from "webviz/handles/poses.js";
+import * as aids from "webviz/features/handles/aids.js";
+import { axisOf, begin } from "webviz/features/handles/drags.js";
+import * as known from "webviz/features/handles/known.js";
+import * as poses from "webviz/features/handles/poses.js";
 
 /** @import {Commands} from "webviz/messages.js" */
-/** @import {Moved} from "webviz/handles/drags.js" */
-/** @import {Part} from "webviz/handles/known.js" */
+/** @import {Moved} from "webviz/features/handles/drags.js" */
+/** @import {Part} from "webviz/features/handles/known.js" */
 /** @import {Pose} from "webviz/vectors.js" */
 /** @import {Vector3} from "three" */
 /** @import {Vec2, Vec3} from "webviz/types.js" */

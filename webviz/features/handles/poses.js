@@ -4,11 +4,11 @@
 import { nodeNamed } from "webviz/scene/picking/things.js";
 import { computed, signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
-import * as known from "webviz/handles/known.js";
+import * as known from "webviz/features/handles/known.js";
 import { frameNode } from "webviz/scene/projection.js";
 import { about, compose, inverse, rotate, scaled, turnedBy } from "webviz/vectors.js";
 
-/** @import {Moved} from "webviz/handles/drags.js" */
+/** @import {Moved} from "webviz/features/handles/drags.js" */
 /** @import {Pose} from "webviz/vectors.js" */
 /** @import {SceneHandle} from "webviz/contents.js" */
 /** @import {SceneObject, Vec3, Wxyz} from "webviz/types.js" */
