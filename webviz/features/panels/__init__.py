@@ -153,6 +153,7 @@ class PluginPanels(PageFeature):
     """
 
     name = "Plug-in panels"
+    module = "panels.js"
 
     def __init__(self, core: Core) -> None:
         super().__init__(core)

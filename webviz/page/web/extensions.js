@@ -184,20 +184,13 @@ function style(name, rules) {
 const MAX_REPORTS = 3; // of a module: a fault may occur in every frame
 const IMPORT = /^(import\b[^"';(]*)["']\.\/([^"'/]+)["']/gm; // as in webviz/api/modules.py
 
-export function install() {
-  watch("modules", (modules, changed) => {
-    for (const name of changed) {
-      const texts = modules.get(name);
-      if (texts) add(name, Object.entries(texts));
-    }
-  });
-}
-
 /**
+ * Starts the module of a plug-in. A fault of it is shown, and stops nothing else.
+ *
  * @param {string} name of the plug-in
  * @param {[string, string][]} files names and texts of its module, the last, and of what it needs
  */
-async function add(name, files) {
+export async function start(name, files) {
   const folder = new URL(`webviz/plugin/${encodeURIComponent(name)}/`, location.href);
   /** @type {Map<string, string>} */
   const addresses = new Map();
@@ -219,8 +212,8 @@ async function add(name, files) {
     addresses.set(file, URL.createObjectURL(new Blob(parts, { type: "text/javascript" })));
   }
   try {
-    const { default: start } = await import([...addresses.values()].at(-1) ?? "");
-    await start(pageFor(report));
+    const { default: begin } = await import([...addresses.values()].at(-1) ?? "");
+    await begin(pageFor(report));
   } catch (error) {
     report(error);
   } finally {

@@ -9,7 +9,6 @@ import { connection, refusal } from "webviz/recorded/connection.js";
 import * as colors from "webviz/scene/colors.js";
 import constants from "webviz/constants.js";
 import * as liveness from "webviz/liveness.js";
-import * as extensions from "webviz/extensions.js";
 import { hasWebGL } from "webviz/scene/graphics.js";
 import * as flat from "webviz/scene/flat.js";
 import * as capacity from "webviz/scene/capacity.js";
@@ -62,7 +61,6 @@ async function install() {
   if (!isExported) vitals.install();
   toolbar.install(shell.places);
   for (const module of constants.FEATURES) await installFeature(module);
-  extensions.install();
 }
 
 /** @param {string} module of a feature, which may fail without others */

@@ -4,16 +4,21 @@
 // what is to be done when it is not any more. The tab of one that `isOnDemand` is there while it is
 // open only.
 
-import { listeners } from "webviz/listeners.js";
 import { displays } from "webviz/panels/displays/displays.js";
+import { computed, signal, untracked } from "webviz/signals.js";
 
+/** @import {PanelType} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 /** @import {Panel} from "webviz/types.js" */
 
 const LAST = 1000;
 
-/** @type {Panel[]} */
-export const panels = [];
-const changes = listeners();
+const own = signal([displays]);
+/** Panels that people add and remove, behind the others. @type {Signal<Panel[]>} */
+export const added = signal([]);
+/** The types of these. @type {Signal<readonly PanelType[]>} */
+export const types = signal([]);
+export const panels = computed(() => [...own.value, ...added.value]);
 
 /**
  * Adds a panel, or replaces that of the same name.
@@ -21,14 +26,10 @@ const changes = listeners();
  * @param {Panel} added
  */
 export function panel(added) {
-  const index = panels.findIndex(({ name }) => name === added.name);
-  if (index < 0) panels.push(added);
-  else panels[index] = added;
-  panels.sort((a, b) => (a.order ?? LAST) - (b.order ?? LAST));
-  changes.tell();
+  const before = untracked(() => own.value);
+  const isKnown = before.some(({ name }) => name === added.name);
+  const all = isKnown
+    ? before.map((each) => (each.name === added.name ? added : each))
+    : [...before, added];
+  own.value = all.sort((a, b) => (a.order ?? LAST) - (b.order ?? LAST));
 }
-
-/** Calls a listener whenever there is another panel. */
-export const onPanel = changes.on;
-
-panel(displays);

@@ -8,8 +8,7 @@ import { openIn } from "webviz/docks/frame.js";
 import { openPanel } from "webviz/docks/layout.js";
 import { el, set } from "webviz/dom.js";
 import { iconButton } from "webviz/icons.js";
-import { onPanel, panels } from "webviz/panels/panels.js";
-import { followPlugins } from "webviz/panels/plugin.js";
+import { added, panels, types } from "webviz/panels/panels.js";
 import { recall, remember } from "webviz/remember.js";
 import { computed, each, effect, owned, signal, untracked } from "webviz/signals.js";
 import { provideFrom } from "webviz/shell/command_list.js";
@@ -19,23 +18,23 @@ import { chooseType } from "webviz/shell/gallery.js";
 /** @import {Readable, Signal} from "webviz/signals.js" */
 /** @import {Panel} from "webviz/types.js" */
 
-const FADED = 20; // pixels at the edge of a list that goes on, as in plugin.css
+const FADED = 20; // pixels at the edge of a list that goes on, as in plugin_widgets.css
 
 /**
- * The panels that there are, those that are tabs, and the open one of these.
+ * The panels that are tabs, and the open one of these.
  *
  * @typedef {{
- *   there: Readable<Panel[]>, tabs: Readable<Panel[]>, open: Readable<Panel | undefined>,
- *   wanted: Signal<string>, types: Signal<PanelType[]>,
+ *   tabs: Readable<Panel[]>, open: Readable<Panel | undefined>,
+ *   wanted: Signal<string>,
  * }} Panels
  */
 
 /** Elements: the list of tabs, and the open one, a head above what it shows. */
 export function tabs() {
   const known = follow();
-  const { types, open } = known;
+  const { open } = known;
   const list = tabList(known);
-  const add = iconButton("plus", "Add a panel", () => choose(types.value), {
+  const add = iconButton("plus", "Add a panel", choose, {
     class: "wv-icon wv-tabs-add",
     hidden: () => !types.value.length,
   });
@@ -45,35 +44,28 @@ export function tabs() {
     "aria-haspopup": "menu",
   });
   const update = fit(list, more, known);
-  provideFrom([], () => commands(known));
+  provideFrom([], commands);
   const bar = el("div", { class: "wv-tab-bar" }, list, more, needs("AddPanel", add));
   return [bar, ...contentOf(open)];
 }
 
 /** @returns {Panels} */
 function follow() {
-  const own = signal([...panels]);
-  const additional = signal(/** @type {Panel[]} */ ([]));
-  const types = signal(/** @type {PanelType[]} */ ([]));
   // It may come later than the page, or again after a save.
   const wanted = signal(recall("tab", ""));
-  const there = computed(() => [...own.value, ...additional.value]);
-  const tabs = computed(() => there.value.filter((panel) => !docks.isPlaced(panel)));
+  const tabs = computed(() => panels.value.filter((panel) => !docks.isPlaced(panel)));
   const open = computed(
     () => tabs.value.find(({ name }) => name === wanted.value) ?? tabs.value[0],
   );
-  onPanel(() => (own.value = [...panels]));
-  followPlugins(
-    (plugins) => {
-      const before = new Set(additional.value.map(({ name }) => name));
-      additional.value = plugins;
-      const added = plugins.find(({ name }) => !before.has(name));
-      if (added) bring(added);
-    },
-    (known) => (types.value = known),
-  );
-  effect(() => docks.offer(there.value));
-  return { there, tabs, open, wanted, types };
+  effect(() => docks.offer(panels.value));
+  /** @type {Set<string>} */
+  let before = new Set();
+  effect(() => {
+    const fresh = added.value.find(({ name }) => !before.has(name));
+    before = new Set(added.value.map(({ name }) => name));
+    if (fresh) untracked(() => bring(fresh));
+  });
+  return { tabs, open, wanted };
 
   /** @param {Panel} panel that this page has added, perhaps */
   function bring({ name }) {
@@ -95,9 +87,8 @@ async function addPanel(type) {
   if (level === "error") adding.type = null;
 }
 
-/** @param {PanelType[]} types */
-async function choose(types) {
-  const type = await chooseType(types);
+async function choose() {
+  const type = await chooseType(types.value);
   if (type) addPanel(type);
 }
 
@@ -235,9 +226,8 @@ function chooseTab(button, { tabs, open, wanted }, chosen) {
   );
 }
 
-/** @param {Panels} panels */
-const commands = ({ there, types }) => [
-  ...there.value
+const commands = () => [
+  ...panels.value
     .filter(({ isOnDemand }) => !isOnDemand)
     .map(({ name, title }) => ({
       name: `Panel: ${title}`,
@@ -249,7 +239,7 @@ const commands = ({ there, types }) => [
     icon: "plus",
     group: "Panels",
     needs: "AddPanel",
-    run: () => choose(types.value),
+    run: choose,
   },
   ...types.value.map((type) => ({
     name: `Add panel: ${type.title}`,

@@ -21,8 +21,10 @@ import { widget } from "webviz/panels/plugin_widgets.js";
 
 const MAX_SHOWN = 100;
 
-widget("own fields", fields);
-widget("own path", path);
+export function install() {
+  widget("own fields", fields);
+  widget("own path", path);
+}
 
 /** @type {MakeWidget} */
 function fields(_, send) {

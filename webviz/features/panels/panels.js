@@ -8,32 +8,32 @@ import { el, setChildren, showText } from "webviz/dom.js";
 import { provide } from "webviz/commands.js";
 import { once, store, watch } from "webviz/stores.js";
 import { toast } from "webviz/toasts.js";
-import "webviz/panels/field_chooser.js";
+import { start } from "webviz/extensions.js";
+import { install as installChooser } from "webviz/features/panels/field_chooser.js";
 import { takeFields } from "webviz/panels/field_drag.js";
+import { added, types } from "webviz/panels/panels.js";
 import { makeWidget } from "webviz/panels/plugin_widgets.js";
 
-/** @import {Panel, SendProperty, ValuesOf} from "webviz/types.js" */
-/** @import {PanelType} from "webviz/contents.js" */
+/** @import {SendProperty, ValuesOf} from "webviz/types.js" */
 /** @import {Widget, WidgetValues} from "webviz/panels/plugin_widgets.js" */
 
-/**
- * Calls `offer(panels)` with the panels of plug-ins whenever they change, `types(types)` likewise.
- *
- * @param {(panels: Panel[]) => void} offer
- * @param {(types: PanelType[]) => void} types
- */
-export function followPlugins(offer, types) {
+export function install() {
+  installChooser();
   watch("panels", (values, changed) => {
-    if (changed.has("/types")) types(values.get("/types"));
-    offer(
-      values.get("/order").map((name) => ({
-        name: `plugin-${name}`,
-        title: values.get(name) ?? name,
-        open: (/** @type {HTMLElement} */ element, /** @type {HTMLElement} */ head) =>
-          open(element, head, name),
-        remove: () => remove(name),
-      })),
-    );
+    if (changed.has("/types")) types.value = values.get("/types");
+    added.value = values.get("/order").map((name) => ({
+      name: `plugin-${name}`,
+      title: values.get(name) ?? name,
+      open: (/** @type {HTMLElement} */ element, /** @type {HTMLElement} */ head) =>
+        open(element, head, name),
+      remove: () => remove(name),
+    }));
+  });
+  watch("modules", (modules, changed) => {
+    for (const name of changed) {
+      const texts = modules.get(name);
+      if (texts) start(name, Object.entries(texts));
+    }
   });
   /** @type {ValuesOf<"commands">} */
   let commands = new Map();
