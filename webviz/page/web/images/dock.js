@@ -5,7 +5,7 @@ import { splitter } from "webviz/docks/splitter.js";
 import { dragTab, isPlaced, offerOthers } from "webviz/docks/docks.js";
 import { el, setChildren } from "webviz/dom.js";
 import { recall, remember } from "webviz/remember.js";
-import { effect, signal } from "webviz/signals.js";
+import { effect, root, signal } from "webviz/signals.js";
 import { watch } from "webviz/stores.js";
 import * as frames from "webviz/images/frames.js";
 import { Pane } from "webviz/images/pane.js";
@@ -69,7 +69,8 @@ function follow(changed) {
     images.value = order.flatMap((id) => {
       const row = rows.get(id);
       if (!row) return [];
-      const pane = panes.get(id) ?? new Pane(id, changed, Boolean(row.hidden));
+      const pane =
+        panes.get(id) ?? root((end) => new Pane(id, Boolean(row.hidden), { changed, end }));
       if (!panes.has(id)) dragTab(pane.head, () => nameOf(pane));
       panes.set(id, pane);
       pane.update(row);

@@ -1,9 +1,10 @@
 // A pane: the picture of one display, its title, and the value under the mouse.
 
-import { el, set, showText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { takeKeysOf } from "webviz/keys.js";
 import { sanitized } from "webviz/sanitize.js";
 import { recall, remember } from "webviz/remember.js";
+import { batch, signal, untracked } from "webviz/signals.js";
 import { makeCamera } from "webviz/images/camera.js";
 import * as frames from "webviz/images/frames.js";
 import { makeHead } from "webviz/images/pane_head.js";
@@ -16,10 +17,10 @@ import { makeZoom, takeKey } from "webviz/images/zoom.js";
 
 /** @import {PictureHeader} from "webviz/messages.js" */
 /** @import {PaneCaption} from "webviz/contents.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 const RATE_MS = 1000;
 const TEXT = "application/json";
-const FULL = "wv-pane-full";
 
 /** The pane of a display. */
 export class Pane {
@@ -32,39 +33,41 @@ export class Pane {
   #marks;
   #reading;
   #ticking;
-  #head = makeHead({
-    toggle: () => this.#toggle(),
-    toggleFull: () => this.#toggleFull(),
-    unzoom: () => this.#zoom.reset(),
-  });
-  #problem = el("div", { class: "wv-pane-problem" });
-  #legend = makeLegend();
-  #title = "";
-  #about = "";
-  #isFolded = false;
-  #said = "";
-  #failed = "";
-  /** @type {Partial<PictureHeader>} */
-  #last = {};
+  #head;
+  #end;
+  #title = signal("");
+  #about = signal("");
+  #facts = signal("");
+  #factor = signal(1);
+  #isFolded = signal(false);
+  #isFull = signal(false);
+  #isEmpty = signal(false);
+  #said = signal("");
+  #failed = signal("");
+  /** @type {Signal<Partial<PictureHeader>>} */
+  #last = signal({});
   /** @type {number[]} */
   #times = [];
   #size = "";
-  /** @type {ReturnType<typeof makeReadout> | null} */
-  #readout = null;
+  /** @type {Signal<ReturnType<typeof makeReadout> | null>} */
+  #readout = signal(null);
 
   /**
-   * `changed()` is called when it takes more or less room. One `withScene` draws the scene, too.
+   * `changed()` is called when it takes more or less room, and `end()` as it is closed. One `withScene`
+   * draws the scene, too.
    *
    * @param {string} id
-   * @param {() => void} changed
    * @param {boolean} withScene
+   * @param {{changed: () => void, end: () => void}} dock
    */
-  constructor(id, changed, withScene) {
+  constructor(id, withScene, { changed, end }) {
     this.#id = id;
     this.#changed = changed;
+    this.#end = end;
     const canvas = el("canvas", {
       class: "wv-pane-picture",
       role: "img",
+      "aria-label": this.#title,
       tabindex: 0,
       ondblclick: () => (zoom.zoom() > 1 ? zoom.reset() : this.#toggleFull()),
     });
@@ -73,20 +76,32 @@ export class Pane {
     this.#zoom = zoom;
     const picture = (withScene ? makeCamera : makePicture)(canvas, {
       drawn: () => this.#drawn(),
-      fail: (sentence) => this.#fail(sentence),
+      fail: (sentence) => (this.#failed.value = sentence),
     });
     this.#picture = picture;
     this.#reading = makeReading(id, canvas, {
       picture,
-      header: () => this.#last,
+      header: () => this.#last.value,
       aboutAt: (mouse) => this.#marks.textAt(mouse),
     });
-    const content = [canvas, this.#problem, this.#reading.element, this.#legend.element];
-    this.#body = el("div", { class: "wv-pane-body" }, content);
+    const problem = () => this.#failed.value || this.#said.value;
+    this.#body = el(
+      "div",
+      { class: "wv-pane-body" },
+      canvas,
+      el("div", { class: "wv-pane-problem", hidden: () => !problem() }, problem),
+      this.#reading.element,
+      makeLegend(() => this.#last.value.legend),
+    );
     this.#marks = marksOver(canvas, this.#body, { picture, zoom });
+    this.#head = this.#makeHead();
     this.element = el(
       "section",
-      { class: "wv-pane", tabindex: -1 },
+      {
+        class: () => this.#classes(),
+        tabindex: -1,
+        "aria-label": () => `${this.#readout.value ? "Text" : "Image"} ${this.#title.value}`,
+      },
       this.#head.element,
       this.#body,
     );
@@ -99,16 +114,42 @@ export class Pane {
     });
   }
 
+  #makeHead() {
+    return makeHead({
+      title: () => this.#title.value,
+      about: () => this.#about.value,
+      facts: () => this.#facts.value,
+      zoom: () => this.#factor.value,
+      isFolded: () => this.#isFolded.value,
+      isFull: () => this.#isFull.value,
+      toggle: () => this.#toggle(),
+      toggleFull: () => this.#toggleFull(),
+      unzoom: () => this.#zoom.reset(),
+    });
+  }
+
+  #classes() {
+    return [
+      "wv-pane",
+      this.#isFolded.value && "wv-pane-folded",
+      this.#isFull.value && "wv-pane-full",
+      this.#isEmpty.value && "wv-pane-empty",
+      this.#readout.value && "wv-pane-text",
+    ]
+      .filter(Boolean)
+      .join(" ");
+  }
+
   get head() {
     return this.#head.element;
   }
 
   isFolded() {
-    return this.#isFolded;
+    return untracked(() => this.#isFolded.value);
   }
 
   title() {
-    return this.#title;
+    return this.#title.value;
   }
 
   /**
@@ -118,8 +159,8 @@ export class Pane {
    * @param {HTMLElement} tools
    */
   openIn(place, tools) {
-    if (this.#isFolded) this.#toggle();
-    this.#setFull(false);
+    if (this.isFolded()) this.#toggle();
+    this.#isFull.value = false;
     place.append(this.element);
     tools.append(...this.#head.tools);
     const sizes = new ResizeObserver(frames.refresh);
@@ -134,14 +175,15 @@ export class Pane {
   /** @param {PaneCaption} row */
   update(row) {
     const wanted = sanitized(row.title, 200);
-    if (wanted !== this.#title)
-      this.#isFolded = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
-    this.#title = wanted;
-    this.#about = [sanitized(row.name, 100), wanted].join("\n");
-    this.#said = sanitized(row.problem);
+    batch(() => {
+      if (wanted !== this.#title.value)
+        this.#isFolded.value = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
+      this.#title.value = wanted;
+      this.#about.value = [sanitized(row.name, 100), wanted].join("\n");
+      this.#said.value = sanitized(row.problem);
+      this.#isEmpty.value = !row.has_picture;
+    });
     this.#picture.hide?.(row.hidden ?? []);
-    this.element.classList.toggle("wv-pane-empty", !row.has_picture);
-    this.#write();
   }
 
   close() {
@@ -149,90 +191,72 @@ export class Pane {
     this.#marks.close();
     this.#reading.close();
     this.#picture.close();
-    this.#readout?.close();
+    this.#readout.value?.close();
     frames.close(this.#id);
-  }
-
-  #isFull() {
-    return this.element.classList.contains(FULL);
+    this.#end();
   }
 
   #toggle() {
-    const key = `pane.${this.#title}`;
-    this.#isFolded = !this.#isFolded;
-    remember(key, { ...recall(key, {}), isFolded: this.#isFolded });
-    if (this.#isFolded) this.#setFull(false);
-    this.#write();
+    const key = `pane.${this.title()}`;
+    const isFolded = !this.isFolded();
+    batch(() => {
+      this.#isFolded.value = isFolded;
+      if (isFolded) this.#isFull.value = false;
+    });
+    remember(key, { ...recall(key, {}), isFolded });
     this.#changed();
   }
 
   #toggleFull() {
-    this.#setFull(!this.#isFull());
-    if (this.#isFolded) this.#toggle();
+    this.#isFull.value = !this.#isFull.value;
+    if (this.#isFull.value) this.element.focus(); // for Escape
+    if (this.isFolded()) this.#toggle();
     this.#changed();
-  }
-
-  /** @param {boolean} wanted */
-  #setFull(wanted) {
-    this.element.classList.toggle(FULL, wanted);
-    if (wanted) this.element.focus(); // for Escape
-    this.#write();
   }
 
   /** @param {KeyboardEvent} event */
   #press(event) {
-    if (event.key !== "Escape" || !this.#isFull()) return false;
-    this.#setFull(false);
+    if (event.key !== "Escape" || !this.#isFull.value) return false;
+    this.#isFull.value = false;
     this.#changed();
     return true;
   }
 
   #zoomed() {
-    this.#head.showZoom(this.#zoom.zoom());
+    this.#factor.value = this.#zoom.zoom();
     this.#marks.redraw();
     frames.refresh(); // a larger picture has more to show
   }
 
-  #write() {
-    const [title, isFolded] = [this.#title, this.#isFolded];
-    this.element.classList.toggle("wv-pane-folded", isFolded);
-    this.#head.update({ title, about: this.#about, isFolded, isFull: this.#isFull() });
-    set(this.element, { "aria-label": `${this.#readout ? "Text" : "Image"} ${title}` });
-    set(this.#canvas, { "aria-label": title });
-    showText(this.#problem, this.#failed || this.#said);
+  #tellRate() {
+    this.#facts.value = this.#factsNow();
   }
 
-  #tellRate() {
-    if (this.#readout) return this.#head.tell(this.#readout.facts());
+  #factsNow() {
+    if (this.#readout.value) return this.#readout.value.facts();
     const now = performance.now();
     this.#times = this.#times.filter((time) => time > now - RATE_MS);
     const [width, height] = this.#picture.size();
-    const isShown = width && !this.#isFolded;
-    this.#head.tell(isShown ? `${width} × ${height} · ${this.#times.length} Hz` : "");
+    if (!width || this.isFolded()) return "";
+    return `${width} × ${height} · ${this.#times.length} Hz`;
   }
 
   // The width in pixels of the screen at which the picture is shown.
   #width() {
-    if (this.#isFolded) return 0;
-    if (this.#readout) return this.#body.clientWidth;
+    if (this.isFolded()) return 0;
+    if (this.#readout.value) return this.#body.clientWidth;
     return this.#canvas.clientWidth && this.#zoom.zoom() * this.#picture.width();
   }
 
   #drawn() {
     this.#times.push(performance.now());
-    if (this.#failed) this.#fail("");
+    this.#failed.value = "";
     const size = this.#picture.size();
     if (size.join() === this.#size) return;
     this.#size = size.join();
     this.#body.style.setProperty("--wv-aspect", size.join(" / "));
     this.#tellRate();
     frames.refresh();
-  }
-
-  /** @param {string} sentence */
-  #fail(sentence) {
-    this.#failed = sentence;
-    this.#write();
   }
 
   /**
@@ -243,13 +267,12 @@ export class Pane {
     try {
       if (header.mime === TEXT) return this.#takeText(header, data);
       await this.#picture.take(header, data);
-      this.#last = header;
+      this.#last.value = header;
       this.#marks.show(header.marks ?? []);
       this.element.dataset.stamp = String(header.stamp);
-      this.#legend.show(header.legend);
       this.#reading.read();
     } catch (error) {
-      this.#fail(error instanceof Error ? error.message : String(error));
+      this.#failed.value = error instanceof Error ? error.message : String(error);
     }
   }
 
@@ -258,12 +281,8 @@ export class Pane {
    * @param {Uint8Array<ArrayBuffer>} data
    */
   #takeText(header, data) {
-    if (!this.#readout) {
-      this.#readout = makeReadout(this.#body, this.#id);
-      this.element.classList.add("wv-pane-text");
-      this.#write();
-    }
-    this.#readout.take(header, data);
+    this.#readout.value ??= makeReadout(this.#body, this.#id);
+    this.#readout.value.take(header, data);
     this.element.dataset.stamp = String(header.stamp);
     this.#tellRate();
   }

@@ -1,24 +1,28 @@
 // The legend of a picture that is coloured by value.
 
-import { el, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { colorBar } from "webviz/charts/color_bar.js";
+import { effect } from "webviz/signals.js";
 
 /** @import {ColorRange} from "webviz/messages.js" */
 
-/** A legend; `show(range)` hides it without one. */
-export function makeLegend() {
-  const [low, high] = [el("span"), el("span")];
-  const bar = colorBar();
-  const element = el("div", { class: "wv-pane-legend", hidden: true }, low, bar.element, high);
-  return {
-    element,
-    /** @param {ColorRange | undefined} range */
-    show(range) {
-      element.hidden = !range;
-      if (!range) return;
-      setText(low, `${range.low}${range.unit && ` ${range.unit}`}`);
-      setText(high, `${range.high}${range.unit && ` ${range.unit}`}`);
-      bar.show(range.colors);
-    },
+/**
+ * A legend, hidden without a range.
+ *
+ * @param {() => ColorRange | undefined} range read in effects
+ */
+export function makeLegend(range) {
+  const text = (/** @type {"low" | "high"} */ end) => () => {
+    const { [end]: value = "", unit = "" } = range() ?? {};
+    return `${value}${unit && ` ${unit}`}`;
   };
+  const bar = colorBar();
+  effect(() => bar.show(range()?.colors ?? []));
+  return el(
+    "div",
+    { class: "wv-pane-legend", hidden: () => !range() },
+    el("span", {}, text("low")),
+    bar.element,
+    el("span", {}, text("high")),
+  );
 }
