@@ -1,6 +1,6 @@
 // A field with a list of what could be entered: searched by typing, walked through by arrow keys.
 
-import { el, set, setText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { icon } from "webviz/icons.js";
 import { computed, effect, signal, untracked } from "webviz/signals.js";
 import { textField } from "webviz/controls/fields.js";
@@ -13,6 +13,7 @@ const COARSE = matchMedia("(pointer: coarse)");
 
 /** @import {Choice} from "webviz/types.js" */
 /** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /**
  * @typedef {{
@@ -46,22 +47,22 @@ export function combobox(options) {
 class Combobox {
   #isOpen = signal(false);
   #isTyped = false; // since the list was opened or the last choice
-  /** @type {string | Mixed} */
+  #isInvalid = signal(false);
+  /** @type {Signal<string | Mixed>} */
   #current;
+  /** What stands in the field, once nobody types. */
+  #shown = signal({ text: "", note: "", level: /** @type {string | undefined} */ (undefined) });
   #isFree;
-  #placeholder;
   #options;
   #list;
   #state;
-  #note = el("span", { class: "wv-combobox-note", "aria-hidden": "true" });
 
   /** @param {ComboboxOptions} options */
   constructor({ label, value, options, free = true, placeholder = "", ...rest }) {
     this.#isFree = free;
-    this.#placeholder = placeholder;
     this.#options = steady(() => options(this.#isOpen.value));
-    this.#current = untracked(value);
-    this.input = this.#field(label, rest.help);
+    this.#current = signal(untracked(value));
+    this.input = this.#field(label, placeholder, rest.help);
     this.#list = new Listbox(this.input, label, {
       isOpen: this.#isOpen,
       options: this.#options,
@@ -74,16 +75,37 @@ class Combobox {
       show: (shown) => this.#show(shown),
       isFocused: () => this.input.matches(":focus"),
       refused: (text) => {
-        set(this.input, { "aria-invalid": text ? "true" : null });
+        this.#isInvalid.value = text !== "";
         rest.refused?.(text);
       },
     });
     effect(() => {
-      if (this.#options.value && !this.#isTyped && !this.#isInvalid())
+      if (this.#options.value && !this.#isTyped && !untracked(() => this.#isInvalid.value))
         untracked(() => this.#write());
     });
-    const parts = [this.input, this.#note, icon("chevron", 12), this.#list.element];
+    const parts = [this.input, this.#note(), icon("chevron", 12), this.#list.element];
     this.element = el("div", { class: "wv-combobox" }, ...parts);
+  }
+
+  /** The note, which gives way to the text where there is no room for both. */
+  #note() {
+    const note = el(
+      "span",
+      {
+        class: "wv-combobox-note",
+        "aria-hidden": "true",
+        "data-level": () => this.#shown.value.level,
+      },
+      () => this.#shown.value.note,
+    );
+    const { input } = this;
+    effect(() => {
+      const isThere = this.#shown.value.note !== "";
+      note.hidden = false;
+      input.style.paddingRight = isThere ? `${note.offsetWidth + CHEVRON_PX}px` : "";
+      note.hidden = input.scrollWidth > input.clientWidth;
+    });
+    return note;
   }
 
   restore() {
@@ -94,9 +116,10 @@ class Combobox {
 
   /**
    * @param {string} label
+   * @param {string} placeholder
    * @param {string} [help]
    */
-  #field(label, help) {
+  #field(label, placeholder, help) {
     const isToTap = !this.#isFree && COARSE.matches;
     /** @type {HTMLInputElement} */
     const input = textField(label, {
@@ -106,7 +129,10 @@ class Combobox {
       autocomplete: "off",
       spellcheck: "false",
       inputmode: isToTap ? "none" : null, // a list to tap, without a keyboard over it
-      placeholder: this.#placeholder,
+      placeholder: () => (this.#current.value === MIXED ? MIXED_TEXT : placeholder),
+      title: () =>
+        this.#shown.value.text.length > 24 ? this.#shown.value.text.slice(0, 1000) : null,
+      "aria-invalid": () => this.#isInvalid.value || null,
       onfocus: () => input.select(),
       onclick: () => {
         if (!this.#isOpen.value) input.select();
@@ -123,40 +149,24 @@ class Combobox {
     return input;
   }
 
-  #isInvalid() {
-    return this.input.getAttribute("aria-invalid") !== null;
-  }
-
   /** @param {string | Mixed} value */
   #show(value) {
-    this.#current = value;
+    this.#current.value = value;
     if (!this.#isTyped) this.#write();
   }
 
   #write() {
-    const current = this.#current;
-    const { input } = this;
-    const note = this.#note;
+    const current = this.#current.value;
     const option = this.#options.value.find((one) => one.value === current);
     const text = current === MIXED ? "" : (option?.label ?? current);
-    if (input.value !== text) input.value = text;
-    set(input, {
-      placeholder: current === MIXED ? MIXED_TEXT : this.#placeholder,
-      title: text.length > 24 ? text.slice(0, 1000) : null,
-    });
-    setText(note, option?.note ?? "");
-    set(note, { "data-level": option?.level, hidden: false });
-    // A name wins over its note where there is no room for both.
-    set(input, {
-      style: option?.note ? `padding-right: ${note.offsetWidth + CHEVRON_PX}px` : null,
-    });
-    set(note, { hidden: input.scrollWidth > input.clientWidth });
+    if (this.input.value !== text) this.input.value = text;
+    this.#shown.value = { text, note: option?.note ?? "", level: option?.level };
   }
 
   /** @param {string} [text] */
   #open(text) {
     if (this.#isOpen.value && text === undefined) return;
-    this.#list.open(text === undefined ? this.#current : null, text);
+    this.#list.open(text === undefined ? this.#current.value : null, text);
   }
 
   #close() {
@@ -166,9 +176,9 @@ class Combobox {
 
   /** @param {string} chosen */
   #choose(chosen) {
-    const isNew = chosen !== this.#current || this.#isInvalid();
+    const isNew = chosen !== this.#current.value || this.#isInvalid.value;
     this.#close();
-    this.#current = chosen;
+    this.#current.value = chosen;
     this.#write();
     this.#state.release();
     if (isNew) this.#state.edit(chosen);
@@ -189,7 +199,7 @@ class Combobox {
     const isOpen = this.#isOpen.value;
     const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key] ?? 0;
     if (event.key === "Escape") {
-      if (!isOpen && !this.#isTyped && !this.#isInvalid()) return;
+      if (!isOpen && !this.#isTyped && !this.#isInvalid.value) return;
       this.restore();
       this.input.select();
     } else if (event.key === "Enter") {

@@ -3,8 +3,10 @@
 import { set } from "webviz/dom.js";
 import { MIXED, MIXED_TEXT } from "webviz/controls/mixed.js";
 import { sync } from "webviz/controls/sync.js";
+import { signal } from "webviz/signals.js";
 
 /** @import {Mixed} from "webviz/controls/mixed.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 const MAX_TEXT = 100_000;
 
@@ -12,15 +14,16 @@ const MAX_TEXT = 100_000;
  * @template T
  * @typedef {{
  *   value: () => T | Mixed | undefined, change(value: T): unknown, refused: (text: string) => void,
- *   encode: (value: T) => string, decode: (text: string) => T, after?: (value: T | Mixed | undefined) => void, help?: string,
+ *   encode: (value: T) => string, decode: (text: string) => T, after?: () => void, help?: string,
  * }} EntryOptions
  */
 
 /**
  * Makes an input or a text area a control, see `control.js`. `encode(value)` is the text for a value;
- * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after(value)` is called
- * when the text has changed, with the value that the field stands for. Besides what all controls have, `put(value)` changes it as if typed,
- * `take()` takes over what is typed so far, and `current()` is what the field stands for.
+ * `decode(text)` the inverse, which throws a sentence if the text means nothing. `after()` is called
+ * when the text has changed. Besides what all controls have, `put(value)` changes it as if typed,
+ * `take()` takes over what is typed so far, and `current()` is what the field stands for, which
+ * effects may read.
  *
  * @template T
  * @param {HTMLInputElement | HTMLTextAreaElement} field
@@ -38,7 +41,7 @@ export function entry(field, options) {
   return {
     element,
     focus: () => field.focus(),
-    current: () => text.current,
+    current: () => text.current.value,
     isTyped: () => text.isTyped,
     take: () => text.take(),
     /** @param {T} value */
@@ -54,12 +57,12 @@ export function entry(field, options) {
  * @template T
  */
 class Entry {
-  /** @type {T | Mixed | undefined} */
-  current;
+  /** @type {Signal<T | Mixed | undefined>} */
+  current = signal(/** @type {T | Mixed | undefined} */ (undefined));
   isTyped = false;
+  #isInvalid = signal(false);
   #field;
   #options;
-  #placeholder;
 
   /**
    * @param {HTMLInputElement | HTMLTextAreaElement} field
@@ -69,15 +72,21 @@ class Entry {
     const { value, change, refused, help } = options;
     this.#field = field;
     this.#options = options;
-    this.#placeholder = field.placeholder;
-    set(field, { autocomplete: "off", spellcheck: "false", title: help });
+    const { placeholder } = field;
+    set(field, {
+      autocomplete: "off",
+      spellcheck: "false",
+      title: help,
+      placeholder: () => (this.current.value === MIXED ? MIXED_TEXT : placeholder),
+      "aria-invalid": () => this.#isInvalid.value || null,
+    });
     this.state = sync({
       value,
       show: (/** @type {T | Mixed} */ shown) => this.#show(shown),
       change,
       isFocused: () => field.matches(":focus"),
-      refused(text) {
-        set(field, { "aria-invalid": text ? "true" : null });
+      refused: (text) => {
+        this.#isInvalid.value = text !== "";
         refused(text);
       },
     });
@@ -86,7 +95,7 @@ class Entry {
   type() {
     this.isTyped = true;
     this.state.hold();
-    this.#options.after?.(this.current);
+    this.#options.after?.();
   }
 
   take() {
@@ -100,7 +109,7 @@ class Entry {
         throw new Error(`Not changed: expected at most ${most} characters, got ${got}.`);
       }
       const value = this.#options.decode(text);
-      this.current = value;
+      this.current.value = value;
       this.state.release();
       this.state.edit(value);
     } catch (error) {
@@ -110,7 +119,7 @@ class Entry {
 
   /** @param {T} value */
   put(value) {
-    if (value === this.current) return;
+    if (value === this.current.value) return;
     this.#show(value);
     this.state.edit(value);
   }
@@ -124,26 +133,24 @@ class Entry {
 
   /** @returns {boolean} */
   isInvalid() {
-    return Boolean(this.#field.getAttribute("aria-invalid"));
+    return this.#isInvalid.value;
   }
 
   /** @param {T | Mixed | undefined} value */
   #show(value) {
-    this.current = value;
+    this.current.value = value;
     this.#write();
   }
 
   #text() {
-    const { current } = this;
+    const current = this.current.value;
     return current === MIXED ? "" : this.#options.encode(/** @type {T} */ (current));
   }
 
   #write() {
     const text = this.#text();
     if (this.#field.value !== text) this.#field.value = text;
-    const placeholder = this.current === MIXED ? MIXED_TEXT : this.#placeholder;
-    set(this.#field, { placeholder });
-    this.#options.after?.(this.current);
+    this.#options.after?.();
   }
 }
 

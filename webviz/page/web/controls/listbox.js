@@ -1,7 +1,7 @@
 // The list below a combobox, over everything else.
 
 import { el, newId, set } from "webviz/dom.js";
-import { effect, owned, untracked } from "webviz/signals.js";
+import { each, effect, owned, signal, untracked } from "webviz/signals.js";
 import { wordsOf } from "webviz/words.js";
 
 /** @import {Choice} from "webviz/types.js" */
@@ -28,10 +28,10 @@ export class Listbox {
   #options;
   #isFree;
   #choose;
-  /** @type {Choice[]} */
-  #shown = [];
+  #shown = signal(/** @type {Choice[]} */ ([]));
+  #note = signal("");
+  #active = signal(-1);
   #search = "";
-  #active = -1;
 
   /**
    * @param {HTMLInputElement} input
@@ -45,22 +45,41 @@ export class Listbox {
     this.#isFree = free;
     this.#choose = choose;
     // In the top layer, where neither the panel's edge nor a dialog cuts it off.
-    this.element = el("div", {
-      id: this.#id,
-      class: "wv-list",
-      role: "listbox",
-      "aria-label": label,
-      popover: "manual",
-      onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
+    this.element = el(
+      "div",
+      {
+        id: this.#id,
+        class: "wv-list",
+        role: "listbox",
+        "aria-label": label,
+        popover: "manual",
+        onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
+      },
+      each(
+        () => this.#shown.value.map((choice, index) => ({ ...choice, index })),
+        ({ index }) => index,
+        (choice) => this.#item(choice),
+      ),
+      () => this.#note.value && el("div", { class: "wv-list-more" }, this.#note.value),
+    );
+    const marked = () => (isOpen.value && this.#active.value >= 0 ? this.#active.value : null);
+    set(input, {
+      "aria-controls": this.#id,
+      "aria-expanded": () => String(isOpen.value),
+      "aria-activedescendant": () => (marked() === null ? null : `${this.#id}-${marked()}`),
     });
-    set(input, { "aria-controls": this.#id, "aria-expanded": () => String(isOpen.value) });
     effect(() => {
       if (isOpen.value) this.#appear();
     });
     effect(() => {
-      if (!isOpen.value) return;
-      this.#fill();
-      untracked(() => this.#place());
+      if (isOpen.value) this.#fill();
+    });
+    // Last, since they need what the others have changed.
+    effect(() => {
+      if (isOpen.value && this.#shown.value) untracked(() => this.#place());
+    });
+    effect(() => {
+      if (isOpen.value && this.#shown.value) this.#scroll(this.#active.value);
     });
   }
 
@@ -75,31 +94,29 @@ export class Listbox {
     this.#isOpen.value = true;
     this.#fill();
     const typed = text.trim();
-    this.#active = typed
-      ? likely(this.#shown, typed)
-      : this.#shown.findIndex((one) => one.value === value);
-    this.#place();
-    this.#mark();
+    const shown = this.#shown.value;
+    this.#active.value = typed
+      ? likely(shown, typed)
+      : shown.findIndex((one) => one.value === value);
   }
 
   /** @param {number} by */
   move(by) {
-    if (!this.#shown.length) return;
-    const last = this.#shown.length - 1;
-    const next = this.#active + by;
-    if (Math.abs(by) === 1) this.#active = next < 0 ? last : next > last ? 0 : next;
-    else this.#active = Math.max(0, Math.min(last, next));
-    this.#mark();
+    const last = this.#shown.value.length - 1;
+    if (last < 0) return;
+    const next = this.#active.value + by;
+    if (Math.abs(by) === 1) this.#active.value = next < 0 ? last : next > last ? 0 : next;
+    else this.#active.value = Math.max(0, Math.min(last, next));
   }
 
   /** The option that the arrow keys have come to, null for none. */
   active() {
-    return this.#shown[this.#active] ?? null;
+    return this.#shown.value[this.#active.value] ?? null;
   }
 
   /** The first that fits, null for none. */
   first() {
-    return this.#shown[0] ?? null;
+    return this.#shown.value[0] ?? null;
   }
 
   #appear() {
@@ -109,14 +126,13 @@ export class Listbox {
     addEventListener("resize", place);
     owned(() => {
       if (this.element.isConnected) this.element.hidePopover();
-      set(this.#input, { "aria-activedescendant": null });
       removeEventListener("scroll", place, true);
       removeEventListener("resize", place);
     });
   }
 
   #fill() {
-    const chosen = this.active()?.value;
+    const chosen = untracked(() => this.active()?.value);
     const words = wordsOf(this.#search);
     const matches = this.#options.value.filter((one) => fits(one, words));
     const shown = matches.slice(0, MAX_SHOWN);
@@ -125,45 +141,34 @@ export class Listbox {
     const marked = typed ? shown[likely(shown, typed)] : undefined;
     if (this.#isFree && marked && textOf(marked) !== typed)
       shown.push({ value: typed, label: `“${typed}”`, note: "as typed" });
-    this.#shown = shown;
-    this.#active = shown.findIndex(({ value }) => value === chosen);
+    this.#shown.value = shown;
+    this.#active.value = shown.findIndex(({ value }) => value === chosen);
     const rest = matches.length - MAX_SHOWN;
-    const note = rest > 0 ? `${rest} more. Type to search.` : shown.length ? "" : "No match.";
-    this.element.replaceChildren(
-      ...shown.map((choice, index) => this.#item(choice, index)),
-      ...(note ? [el("div", { class: "wv-list-more" }, note)] : []),
-    );
-    this.#mark();
+    this.#note.value = rest > 0 ? `${rest} more. Type to search.` : shown.length ? "" : "No match.";
   }
 
-  /**
-   * @param {Choice} choice
-   * @param {number} index
-   */
-  #item({ value, label: text, note, level }, index) {
-    const name = el("span", { class: "wv-list-name" }, (text ?? value) || "(none)");
+  /** @param {Signal<Choice & {index: number}>} choice */
+  #item(choice) {
+    const { index } = untracked(() => choice.value);
+    const note = () => choice.value.note;
     return el(
       "div",
       {
         id: `${this.#id}-${index}`,
         class: "wv-option",
         role: "option",
-        "aria-selected": "false",
-        onclick: () => this.#choose(value),
+        "aria-selected": () => String(index === this.#active.value),
+        onclick: () => this.#choose(choice.value.value),
       },
-      name,
-      note ? el("span", { class: "wv-list-note", "data-level": level }, note) : null,
+      el("span", { class: "wv-list-name" }, () => textOf(choice.value) || "(none)"),
+      () =>
+        note() && el("span", { class: "wv-list-note", "data-level": choice.value.level }, note()),
     );
   }
 
-  #mark() {
-    const { children } = this.element;
-    const active = this.#active;
-    this.#shown.forEach((_, index) => {
-      set(children[index], { "aria-selected": String(index === active) });
-    });
-    set(this.#input, { "aria-activedescendant": active < 0 ? null : `${this.#id}-${active}` });
-    if (active >= 0) children[active].scrollIntoView({ block: "nearest" });
+  /** @param {number} active */
+  #scroll(active) {
+    if (active >= 0) this.element.children[active]?.scrollIntoView({ block: "nearest" });
   }
 
   #place() {

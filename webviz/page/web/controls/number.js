@@ -1,6 +1,6 @@
 // A number: typed with or without its unit, stepped by arrow keys, dragged sideways.
 
-import { el, set, setText } from "webviz/dom.js";
+import { el, set } from "webviz/dom.js";
 import { drag } from "webviz/controls/drag.js";
 import { entry } from "webviz/controls/entry.js";
 import { textField } from "webviz/controls/fields.js";
@@ -32,18 +32,6 @@ export function number(property, options) {
     "aria-valuemin": property.low ?? property.above,
     "aria-valuemax": property.high ?? property.below,
   });
-  const unit = el("span", {
-    class: "wv-number-unit",
-    "aria-hidden": "true",
-    "data-angle": isAngle(property.unit) ? "" : null,
-  });
-  const element = el(
-    "div",
-    { class: "wv-number-input" },
-    prefix && el("span", { class: "wv-number-prefix", "aria-hidden": "true" }, prefix),
-    input,
-    property.unit && unit,
-  );
   const field = entry(input, {
     ...options,
     encode: format,
@@ -52,15 +40,28 @@ export function number(property, options) {
       if (property.kind !== "int" || Number.isInteger(value)) return value;
       throw new Error(`Not changed: expected a whole number, got ${format(value)}.`);
     },
-    after(value) {
-      const text = format(value);
-      set(input, {
-        "aria-valuenow": text,
-        "aria-valuetext": text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT,
-      });
-      setText(unit, unitText(property.unit ?? "", value));
-    },
   });
+  const valueText = () => {
+    const text = format(field.current());
+    return text ? `${text} ${property.unit ?? ""}`.trim() : MIXED_TEXT;
+  };
+  set(input, { "aria-valuenow": () => format(field.current()), "aria-valuetext": valueText });
+  const unit = el(
+    "span",
+    {
+      class: "wv-number-unit",
+      "aria-hidden": "true",
+      "data-angle": isAngle(property.unit) ? "" : null,
+    },
+    () => unitText(property.unit ?? "", field.current()),
+  );
+  const element = el(
+    "div",
+    { class: "wv-number-input" },
+    prefix && el("span", { class: "wv-number-prefix", "aria-hidden": "true" }, prefix),
+    input,
+    property.unit && unit,
+  );
 
   stepByKeys(input, property, field);
   const dragged = dragOf(input, property, field);
