@@ -4,8 +4,9 @@ import { needs } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { declaredForm, form } from "webviz/controls/form.js";
 import { popoverButton } from "webviz/controls/popover.js";
-import { el, setChildren, showText } from "webviz/dom.js";
+import { el, setChildren } from "webviz/dom.js";
 import { provide } from "webviz/commands.js";
+import { signal } from "webviz/signals.js";
 import { once, store, watch } from "webviz/stores.js";
 import { toast } from "webviz/toasts.js";
 import { start } from "webviz/extensions.js";
@@ -61,13 +62,17 @@ const LOOKED_AT = new Set(["area", "chart"]); // what a chart lets people change
  * @param {string} name
  */
 function open(element, head, name) {
-  const failure = el("div", {
-    class: "wv-plugin-failure",
-    role: "alert",
-    hidden: true,
-    "data-level": "error",
-  });
-  const place = el("div", { class: "wv-plugin-widgets" });
+  const values = store(`panel:${name}`);
+  const text = () => values.get("/failure") ?? "";
+  const failure = el(
+    "div",
+    { class: "wv-plugin-failure", role: "alert", hidden: () => !text(), "data-level": "error" },
+    text,
+  );
+  const widgets = signal(/** @type {Widget[]} */ ([]));
+  const place = el("div", { class: "wv-plugin-widgets" }, () =>
+    widgets.value.flatMap((widget) => widget.element ?? []),
+  );
   const gear = settingsButton(name);
   const content = el("div", { class: "wv-plugin" }, failure, place);
   element.append(content);
@@ -79,13 +84,8 @@ function open(element, head, name) {
   const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
     for (const id of order) draw(name, id, values, changed, drawn);
-    const widgets = order.flatMap((id) => drawn.get(id) ?? []);
-    setChildren(
-      place,
-      widgets.flatMap((widget) => widget.element ?? []),
-    );
-    setChildren(head, [...widgets.flatMap((widget) => widget.head ?? []), gear]);
-    showText(failure, values.get("/failure") ?? "");
+    widgets.value = order.flatMap((id) => drawn.get(id) ?? []);
+    setChildren(head, [...widgets.value.flatMap((widget) => widget.head ?? []), gear]);
   });
   return () => {
     end();

@@ -4,11 +4,12 @@ import { chart } from "webviz/charts/chart.js";
 import { combobox } from "webviz/controls/combobox.js";
 import { slider } from "webviz/controls/slider.js";
 import { sync } from "webviz/controls/sync.js";
-import { el, set, setChildren, setText } from "webviz/dom.js";
-import { signal } from "webviz/signals.js";
+import { el, setText } from "webviz/dom.js";
+import { computed, each, root, signal, untracked } from "webviz/signals.js";
 
 /** @import {ValuesOf} from "webviz/types.js" */
 /** @import {Field} from "webviz/panels/field_drag.js" */
+/** @import {Signal} from "webviz/signals.js" */
 
 /**
  * Values of a widget, which its panel in Python makes; each kind reads those that it has.
@@ -46,8 +47,6 @@ export function widget(kind, make) {
   awaited.delete(kind);
 }
 
-for (const make of [area, button, checkbox, chart, field, choice, sliders]) widget(make.name, make);
-
 /**
  * A widget of these values; one of a module that is not there yet is drawn later.
  *
@@ -55,18 +54,23 @@ for (const make of [area, button, checkbox, chart, field, choice, sliders]) widg
  * @param {Send} send
  * @returns {Widget & {kind: string}}
  */
-export function makeWidget(values, send) {
-  const { kind } = values;
-  const make = makers.get(kind);
-  return { kind, ...(make ? make(values, send) : later(values, send)) };
-}
+export const makeWidget = (values, send) =>
+  root((end) => {
+    const { kind } = values;
+    const made = (makers.get(kind) ?? later)(values, send);
+    return {
+      kind,
+      ...made,
+      close() {
+        made.close?.();
+        end();
+      },
+    };
+  });
 
-/**
- * @param {WidgetValues & {kind: string}} values
- * @param {Send} send
- * @returns {Widget}
- */
+/** @type {MakeWidget} */
 function later(values, send) {
+  const kind = String(values.kind);
   const element = el("div", { class: "wv-quiet" }, "This widget needs the module of its panel.");
   const head = el("span", { class: "wv-panel-tools" });
   /** @type {Widget | null} */
@@ -74,14 +78,14 @@ function later(values, send) {
   /** @type {Parameters<Widget["update"]> | null} */
   let last = null;
   const draw = () => {
-    inner = makers.get(values.kind)?.(values, send) ?? null;
+    inner = makers.get(kind)?.(values, send) ?? null;
     if (!inner) return;
     if (last) inner.update(...last);
     element.className = "";
     element.replaceChildren(...(inner.element ? [inner.element] : []));
     if (inner.head) head.append(inner.head);
   };
-  awaited.set(values.kind, (awaited.get(values.kind) ?? new Set()).add(draw));
+  awaited.set(kind, (awaited.get(kind) ?? new Set()).add(draw));
   return {
     element,
     head,
@@ -91,7 +95,7 @@ function later(values, send) {
       inner?.update(...args);
     },
     close() {
-      awaited.get(values.kind)?.delete(draw);
+      awaited.get(kind)?.delete(draw);
       inner?.close?.();
     },
   };
@@ -132,54 +136,60 @@ function tableOf(rows) {
 }
 
 /**
- * @param {{width: number}} values
- * @param {Send} send
- * @returns {Widget}
+ * A kind whose elements follow its values.
+ *
+ * @template V
+ * @param {(values: () => V, send: Send) => HTMLElement} make
+ * @returns {MakeWidget}
  */
-function button({ width }, send) {
-  const element = el("button", { type: "button", class: "wv-button", onclick: () => send(null) });
-  element.style.setProperty("--wv-share", String(width));
-  /** @param {Labelled} values */
-  function update({ label, hint }) {
-    setText(element, label);
-    set(element, { "data-tip": hint || null });
-  }
-  return { element, update };
-}
+const following = (make) => (values, send) => {
+  const shown = signal(/** @type {V} */ (values));
+  return {
+    element: make(() => shown.value, send),
+    update: (next) => (shown.value = /** @type {V} */ (next)),
+  };
+};
 
-/**
- * @param {unknown} _
- * @param {Send} send
- * @returns {Widget}
- */
-function checkbox(_, send) {
+/** @param {() => Labelled} values */
+const labelOf = (values) => () => values().label;
+
+/** @param {() => Labelled} values */
+const tipOf = (values) => () => values().hint || null;
+
+const button = following((/** @type {() => Labelled & {width: number}} */ values, send) =>
+  el(
+    "button",
+    {
+      type: "button",
+      class: "wv-button",
+      style: () => `--wv-share: ${values().width}`,
+      "data-tip": tipOf(values),
+      onclick: () => send(null),
+    },
+    labelOf(values),
+  ),
+);
+
+const checkbox = following((/** @type {() => Labelled & {value: boolean}} */ values, send) => {
   /** @type {HTMLInputElement} */
   const box = el("input", { type: "checkbox", onchange: () => state.edit(box.checked) });
-  const text = el("span");
-  const element = el("label", { class: "wv-plugin-check" }, box, text);
-  const shown = signal(/** @type {boolean | undefined} */ (undefined));
+  const shown = computed(() => values().value);
   const state = sync({
     value: () => shown.value,
     show: (value) => (box.checked = value === true),
     change: send,
   });
-  /** @param {Labelled & {value: boolean}} values */
-  function update({ label, hint, value }) {
-    setText(text, label);
-    set(element, { "data-tip": hint || null });
-    shown.value = value;
-  }
-  return { element, update };
-}
+  return el(
+    "label",
+    { class: "wv-plugin-check", "data-tip": tipOf(values) },
+    box,
+    el("span", {}, labelOf(values)),
+  );
+});
 
-/**
- * @param {unknown} _
- * @param {Send} send
- * @returns {Widget}
- */
-function field(_, send) {
+const field = following((/** @type {() => Labelled & {value: string}} */ values, send) => {
   let timer = 0;
-  const name = el("span", { class: "wv-quiet" });
+  /** @type {HTMLInputElement} */
   const input = el("input", {
     class: "wv-field",
     type: "text",
@@ -191,10 +201,9 @@ function field(_, send) {
     onchange: enter,
     onblur: () => state.release(),
   });
-  const element = el("label", { class: "wv-plugin-line" }, name, input);
   /** @type {string | null} */
   let sent = null;
-  const shown = signal(/** @type {string | undefined} */ (undefined));
+  const shown = computed(() => values().value);
   const state = sync({
     value: () => shown.value,
     show(value) {
@@ -209,76 +218,60 @@ function field(_, send) {
     sent = input.value;
     state.edit(sent);
   }
-  /** @param {Labelled & {value: string}} values */
-  function update({ label, hint, value }) {
-    setText(name, label);
-    set(element, { "data-tip": hint || null });
-    shown.value = value;
-  }
-  return { element, update };
-}
+  return line(values, input);
+});
 
-/**
- * @param {Choices} values
- * @param {Send} send
- * @returns {Widget}
- */
-function choice(values, send) {
-  const shown = signal(values);
+const choice = following((/** @type {() => Choices} */ values, send) => {
   const box = combobox({
-    label: values.label,
-    value: () => shown.value.value,
-    options: () => shown.value.options.map((value) => ({ value, label: value || "(none)" })),
+    label: untracked(values).label,
+    value: () => values().value,
+    options: () => values().options.map((value) => ({ value, label: value || "(none)" })),
     change: send,
     free: false,
   });
-  const element = el(
-    "div",
-    { class: "wv-plugin-line", "data-tip": () => shown.value.hint || null },
-    el("span", { class: "wv-quiet" }, () => shown.value.label),
-    box.element,
-  );
-  /** @param {Choices} next */
-  const update = (next) => (shown.value = next);
-  return { element, update };
-}
+  return line(values, box.element, "div");
+});
 
 /**
- * @param {unknown} _
- * @param {Send} send
- * @returns {Widget}
+ * A control behind its label.
+ *
+ * @param {() => Labelled} values
+ * @param {HTMLElement} control
+ * @param {"label" | "div"} [tag]
  */
-function sliders(_, send) {
-  const element = el("div", { class: "wv-plugin-sliders" });
-  /** @type {Map<string, ReturnType<typeof make>>} */
-  const made = new Map();
-  /** @param {Slide} slide */
-  function make({ name, low, high, unit }) {
-    /** @param {number} value */
-    const change = (value) => send(`${value} ${name}`);
-    const shown = signal(/** @type {number | undefined} */ (undefined));
-    const value = () => shown.value;
+const line = (values, control, tag = "label") =>
+  el(
+    tag,
+    { class: "wv-plugin-line", "data-tip": tipOf(values) },
+    el("span", { class: "wv-quiet" }, labelOf(values)),
+    control,
+  );
+
+const sliders = following((/** @type {() => {slides: Slide[]}} */ values, send) => {
+  const slides = each(
+    () => values().slides,
+    ({ name, low, high, unit }) => JSON.stringify([name, low, high, unit]),
+    slide,
+  );
+  return el("div", { class: "wv-plugin-sliders" }, slides);
+
+  /** @param {Signal<Slide>} shown */
+  function slide(shown) {
+    const { name, low, high, unit } = untracked(() => shown.value);
+    const value = computed(() => shown.value.value);
     const control = slider(
       { kind: "float", low, high, unit },
-      { label: name, value, change: (value) => change(Number(value)), refused: () => {} },
+      {
+        label: name,
+        value: () => value.value,
+        change: (to) => send(`${Number(to)} ${name}`),
+        refused: () => {},
+      },
     );
     const label = el("span", { class: "wv-plugin-slider-name", title: name }, name);
-    return { line: el("div", { class: "wv-plugin-line" }, label, control.element), shown };
+    return el("div", { class: "wv-plugin-line" }, label, control.element);
   }
-  /** @param {{slides: Slide[]}} values */
-  function update({ slides }) {
-    const before = new Map(made);
-    made.clear();
-    for (const slide of slides) {
-      const key = JSON.stringify([slide.name, slide.low, slide.high, slide.unit]);
-      const one = before.get(key) ?? make(slide);
-      made.set(key, one);
-      one.shown.value = slide.value;
-    }
-    setChildren(
-      element,
-      [...made.values()].map(({ line }) => line),
-    );
-  }
-  return { element, update };
-}
+});
+
+const KINDS = { area, button, checkbox, chart, field, choice, sliders };
+for (const [kind, make] of Object.entries(KINDS)) widget(kind, make);
