@@ -46,7 +46,7 @@ export const onChange = changes.on;
  * @param {{group: string, key: string}} node
  * @returns {Part | null}
  */
-export function partOf({ group, key }) {
+function partOf({ group, key }) {
   const id = groupOf(group)?.id;
   const part = PART.exec(key);
   return id && all().has(id) && part ? { id, control: Number(part[1]) } : null;

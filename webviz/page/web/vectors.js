@@ -35,7 +35,7 @@ export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
  * @param {Vec3} b
  * @returns {Vec3}
  */
-export const cross = (a, b) => [
+const cross = (a, b) => [
   a[1] * b[2] - a[2] * b[1],
   a[2] * b[0] - a[0] * b[2],
   a[0] * b[1] - a[1] * b[0],

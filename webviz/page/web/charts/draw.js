@@ -11,8 +11,8 @@ import { numberText, share, ticks } from "webviz/charts/scale.js";
  * @typedef {{axis: number, range: Range, color: string}} RightAxis with the colour of its only curve, or ""
  */
 
-export const LEFT = 52;
-export const BOTTOM = 18;
+const LEFT = 52;
+const BOTTOM = 18;
 const TOP = 6;
 const RIGHT = 6;
 const PER_TICK = [70, 36];

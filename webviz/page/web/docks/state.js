@@ -16,13 +16,13 @@ import { alone, layoutName } from "webviz/docks/windows.js";
 const PLUGIN = "plugin-";
 const MAX_CHOSEN = 100;
 
-export const narrow = matchMedia("(max-width: 640px)");
+const narrow = matchMedia("(max-width: 640px)");
 const isNarrow = signal(narrow.matches);
 narrow.addEventListener("change", () => (isNarrow.value = narrow.matches));
 
 export const layout = signal(EMPTY);
 /** The one of all browsers, from which that of a watcher may differ. */
-export const common = signal(EMPTY);
+const common = signal(EMPTY);
 /** @type {Signal<readonly {name: string, is_shown: boolean}[]>} */
 export const saved = signal([]);
 /** Names of layouts for tasks. @type {Signal<readonly string[]>} */

@@ -59,7 +59,7 @@ export function messageRows({ label, topic }) {
  *
  * @param {string} key
  */
-export const pathOf = (key) => key.slice(1).replaceAll("/[", "[").replaceAll("/", ".");
+const pathOf = (key) => key.slice(1).replaceAll("/[", "[").replaceAll("/", ".");
 
 /**
  * @param {() => MessageRow} row

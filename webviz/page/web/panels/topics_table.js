@@ -34,7 +34,7 @@ const amountOf = (count, word) =>
  *
  * @type {Column[]}
  */
-export const COLUMNS = [
+const COLUMNS = [
   { id: "name", title: "Name", value: (topic) => topic.key, text: (topic) => topic.key },
   { id: "type", title: "Type", value: (topic) => topic.types[0] ?? "", text: typesText },
   {

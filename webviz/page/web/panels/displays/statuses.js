@@ -32,7 +32,7 @@ function run({ command, arguments: all }) {
  *
  * @param {RemedyButton} remedy
  */
-export const remedyButton = (remedy) =>
+const remedyButton = (remedy) =>
   needs(
     remedy.command,
     textButton(remedy.label, () => run(remedy), { class: "wv-button wv-remedy" }),
