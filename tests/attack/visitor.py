@@ -48,7 +48,7 @@ class Visitor(Connections):
 
     def _receive_answers(self) -> None:
         with contextlib.suppress(websockets.exceptions.ConnectionClosed):
-            for text in self._socket:
+            for text in self.websocket:
                 message = msgspec.json.decode(text)
                 if message["type"] == "Done":
                     self._answers.put(message)
@@ -66,10 +66,10 @@ class Visitor(Connections):
                 yield text
 
         # The viewer may as well read no more, so that sending waits.
-        end = threading.Timer(seconds, lambda: self._socket.socket.shutdown(socket.SHUT_RDWR))
+        end = threading.Timer(seconds, lambda: self.websocket.socket.shutdown(socket.SHUT_RDWR))
         end.start()
         try:
-            self._socket.send(parts())
+            self.websocket.send(parts())
         finally:
             end.cancel()
 
@@ -104,5 +104,5 @@ class Visitor(Connections):
 
     def close(self) -> None:
         """End the connections."""
-        self._socket.close()
+        self.websocket.close()
         self.viser.close()

@@ -38,7 +38,7 @@ LOST = "document.body.classList.contains('wv-lost')"
 class Quiet(http.server.SimpleHTTPRequestHandler):
     """Serves files without a log."""
 
-    def log_message(self, *_: Any) -> None:
+    def log_message(self, format: str, *_: Any) -> None:
         pass
 
 
