@@ -21,7 +21,7 @@ import { makeWidget } from "webviz/panels/plugin_widgets.js";
 export function install() {
   installChooser();
   watch("panels", (values, changed) => {
-    if (changed.has("/types")) types.value = values.get("/types");
+    if (changed.has("/types")) types.value = [...values.get("/types")];
     added.value = values.get("/order").map((name) => ({
       name: `plugin-${name}`,
       title: values.get(name) ?? name,

@@ -205,13 +205,13 @@ function pictureOf(picture) {
  * Those with every word of a text in what `textOf` says of them, the best match first.
  *
  * @template T
- * @param {readonly T[]} all
+ * @param {T[]} all
  * @param {string} text
  * @param {(item: T) => string[]} textOf
  */
 export function search(all, text, textOf) {
   const words = wordsOf(text);
-  if (!words.length) return [...all];
+  if (!words.length) return all;
   /** @param {T} item */
   const score = (item) => {
     const [title, more] = textOf(item).map((part) => part.toLowerCase());

@@ -16,7 +16,7 @@ const LAST = 1000;
 const own = signal([displays]);
 /** Panels that people add and remove, behind the others. @type {Signal<Panel[]>} */
 export const added = signal([]);
-/** The types of these. @type {Signal<readonly PanelType[]>} */
+/** The types of these. @type {Signal<PanelType[]>} */
 export const types = signal([]);
 export const panels = computed(() => [...own.value, ...added.value]);
 

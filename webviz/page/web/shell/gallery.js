@@ -14,7 +14,7 @@ const PLACES = { side: "In the side bar", below: "Below the scene" };
 /**
  * Lets somebody choose a type of panels; resolves with it, null for none.
  *
- * @param {readonly PanelType[]} types
+ * @param {PanelType[]} types
  * @returns {Promise<PanelType | null>}
  */
 export const chooseType = (types) =>
@@ -30,7 +30,7 @@ export const chooseType = (types) =>
   });
 
 /**
- * @param {readonly PanelType[]} types
+ * @param {PanelType[]} types
  * @param {(type: PanelType) => void} close
  */
 function content(types, close) {
