@@ -4,13 +4,14 @@ import { needs, why } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { copyAndTell } from "webviz/clipboard.js";
 import { number } from "webviz/controls/number.js";
-import { el, set, setText, showText } from "webviz/dom.js";
+import { el } from "webviz/dom.js";
 import { textButton } from "webviz/icons.js";
 import { overlay } from "webviz/overlay/overlay.js";
 import { findingsSection } from "webviz/panels/findings_sections.js";
 import { frameAction } from "webviz/panels/frame_actions.js";
 import { command } from "webviz/commands.js";
-import { store, watch } from "webviz/stores.js";
+import { effect, signal } from "webviz/signals.js";
+import { store } from "webviz/stores.js";
 import * as registry from "webviz/tools/registry.js";
 
 /** The numbers of a pose, as `MoveFrame` takes them, with their units. */
@@ -55,48 +56,39 @@ function trial() {
 
 /** The banner; hidden while no frame is tried. */
 function banner() {
-  let isTried = false;
-  const title = el("b");
-  const fits = el("p", { role: "status", "aria-live": "polite" });
-  const urdf = line("Copy the URDF origin");
-  const publisher = line("Copy the command");
+  const values = store("what_if");
+  const isTried = () => values.get("frame") !== undefined;
+  const title = () => {
+    const who = values.get("browser") === window.webviz.browser ? "you" : "another browser";
+    return `What if: ${who} moved ${values.get("frame") ?? ""} on all pages. Nothing is published.`;
+  };
+  const fits = () => (values.get("fits") ?? []).join(". ") || BESIDE;
   const find = textButton("Find it", () => act("FindFrame", {}), {
     tip: "Move it to where its scan fits the map best: x, y and yaw",
   });
   const done = textButton("Done", end, { tip: "Return it to its published pose (Esc)" });
   const element = el(
     "section",
-    { class: "wv-card wv-what-if", hidden: true, "aria-label": "What if" },
+    { class: "wv-card wv-what-if", hidden: () => !isTried(), "aria-label": "What if" },
     el(
       "div",
       { class: "wv-what-if-head" },
-      title,
+      el("b", {}, title),
       needs("FindFrame", find),
       needs("EndTrial", done),
     ),
-    fits,
+    el("p", { role: "status", "aria-live": "polite" }, fits),
     numbers(),
-    urdf.element,
-    publisher.element,
+    line("Copy the URDF origin", () => values.get("urdf") ?? ""),
+    line("Copy the command", () => values.get("command") ?? ""),
   );
-  watch("what_if", (values) => {
-    const frame = values.get("frame");
-    isTried = frame !== undefined;
-    document.body.classList.toggle("wv-trying", isTried);
-    set(element, { hidden: !isTried });
-    if (!isTried) return;
-    const who = values.get("browser") === window.webviz.browser ? "you" : "another browser";
-    setText(title, `What if: ${who} moved ${frame} on all pages. Nothing is published.`);
-    setText(fits, (values.get("fits") ?? []).join(". ") || BESIDE);
-    urdf.show(values.get("urdf") ?? "");
-    publisher.show(values.get("command") ?? "");
-  });
+  effect(() => void document.body.classList.toggle("wv-trying", isTried()));
   command({
     name: "End the what-if",
     key: "Escape",
     group: "Tools",
     needs: "EndTrial",
-    isThere: () => isTried && registry.isDefault() && !why("EndTrial"),
+    isThere: () => isTried() && registry.isDefault() && !why("EndTrial"),
     run: end,
   });
   return element;
@@ -104,7 +96,7 @@ function banner() {
 
 /** The pose of the frame in its parent, to be typed, stepped or dragged; degrees as "30°". */
 function numbers() {
-  const problem = el("p", { class: "wv-problem", role: "alert", hidden: true });
+  const problem = signal("");
   const now = () => store("what_if").get("pose");
   const fields = NUMBERS.map(([name, unit], index) => {
     const control = number(
@@ -117,29 +109,29 @@ function numbers() {
           const [x, y, z, roll, pitch, yaw] = pose;
           return act("MoveFrame", { x, y, z, roll, pitch, yaw });
         },
-        refused: (text) => showText(problem, text),
+        refused: (text) => (problem.value = text),
       },
     );
     return el("label", {}, el("span", {}, name), needs("MoveFrame", control.element));
   });
-  return el("div", {}, el("div", { class: "wv-what-if-numbers" }, fields), problem);
+  return el(
+    "div",
+    {},
+    el("div", { class: "wv-what-if-numbers" }, fields),
+    el("p", { class: "wv-problem", role: "alert", hidden: () => !problem.value }, problem),
+  );
 }
 
 /**
  * A line of text with a button that copies it.
  *
  * @param {string} label
+ * @param {() => string} text
  */
-function line(label) {
-  const text = el("code", { class: "wv-ellipsis" });
-  const take = () => copyAndTell(text.textContent ?? "");
-  const button = textButton("Copy", take, { "aria-label": label });
-  return {
-    element: el("div", { class: "wv-what-if-line" }, text, button),
-    /** @param {string} value */
-    show(value) {
-      setText(text, value);
-      set(text, { "data-tip": value });
-    },
-  };
-}
+const line = (label, text) =>
+  el(
+    "div",
+    { class: "wv-what-if-line" },
+    el("code", { class: "wv-ellipsis", "data-tip": text }, text),
+    textButton("Copy", () => copyAndTell(text()), { "aria-label": label }),
+  );
