@@ -246,7 +246,6 @@ def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None
 
 STORES_IN_THE_PAGE = {
     "controls/permission.js": {"permission"},
-    "tools/selection.js": {"selected"},
 }
 """Stores of features that modules of the page itself read, each in one place."""
 

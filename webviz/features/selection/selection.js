@@ -34,6 +34,7 @@ const values = ownStore("selection");
 const frames = store("frames");
 
 export function install() {
+  selection.install(ownStore("selected"));
   tool.install();
   panel(selectionPanel);
 }

@@ -6,7 +6,6 @@ import { focusCamera, moveCamera } from "webviz/tools/camera_tools.js";
 import { hint, tell } from "webviz/tools/hint.js";
 import { measure } from "webviz/tools/measure.js";
 import * as registry from "webviz/tools/registry.js";
-import * as selection from "webviz/tools/selection.js";
 import * as preview from "webviz/tools/preview.js";
 import { recall, remember } from "webviz/remember.js";
 import { each, effect } from "webviz/signals.js";
@@ -45,7 +44,6 @@ const EVENTS = /** @type {const} */ ([
 export function install() {
   registry.setDefault(moveCamera);
   registry.provide("page", [moveCamera, focusCamera, measure()]);
-  selection.install();
   provide(() =>
     registry.all().map((tool) => ({
       name: tool.name,

@@ -5,11 +5,13 @@ import { act } from "webviz/act.js";
 import * as channel from "webviz/channel.js";
 import { listeners } from "webviz/listeners.js";
 import { counter } from "webviz/numbers.js";
-import { ownStore } from "webviz/own_store.js";
 import { effect, signal, untracked } from "webviz/signals.js";
 
 /** @import {Picked, Selected} from "webviz/types.js" */
 /** @import {Commands} from "webviz/messages.js" */
+/** @import {ownStore} from "webviz/own_store.js" */
+
+/** @typedef {ReturnType<typeof ownStore<"selected">>} Known */
 
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
@@ -19,8 +21,8 @@ const nextId = counter();
 /** By id. */
 const things = signal(/** @type {Map<number, Selected>} */ (new Map()));
 const total = signal(0);
-/** The things that the server knows. */
-const known = ownStore("selected");
+/** The things that the server knows, null before it tells them. */
+const known = signal(/** @type {Known | null} */ (null));
 
 /** All things by id: what `pickAt` made of each. */
 export const all = () => things.value;
@@ -32,14 +34,16 @@ export const totalCount = () => total.value;
  *
  * @param {{id?: number}} pick
  */
-export const moves = ({ id }) => known.get(String(id))?.[1] ?? false;
+export const moves = ({ id }) => known.value?.get(String(id))?.[1] ?? false;
 
 /** Calls a listener whenever something else is selected; returns what ends it. */
 export const onChange = changes.on;
 
-export function install() {
+/** @param {Known} values the things that the server knows, by id */
+export function install(values) {
+  known.value = values;
   effect(() => {
-    if (known.all()) untracked(dropUnknown);
+    if (values.all()) untracked(dropUnknown);
   });
   // A server that comes back knows nothing of this page, which gets another id.
   channel.onOpen(() => {
@@ -120,7 +124,9 @@ async function put(keep, fresh, wanted) {
 
 function dropUnknown() {
   drop(
-    [...all()].filter(([id, { isKnown }]) => isKnown && !known.get(String(id))).map(([id]) => id),
+    [...all()]
+      .filter(([id, { isKnown }]) => isKnown && !known.value?.get(String(id)))
+      .map(([id]) => id),
   );
 }
 
