@@ -21,7 +21,7 @@ from webviz.data.messages.markers import ColorRGBA
 from webviz_displays.markers import MarkerArray, assets, meshes
 from webviz_displays.markers.batch import batch_of
 from webviz_displays.markers.faults import faults_of
-from webviz_displays.markers.meshes import NO_TINT, LoadedMesh
+from webviz_displays.markers.meshes import LoadedMesh
 from webviz_displays.markers.nodes import Files, nodes_of
 from webviz_urdf import MeshContent, MeshPart, Surface
 
@@ -30,6 +30,8 @@ CORNERS = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0)], np.float32)
 FACE = np.array([(0, 1, 2)], np.uint32)
 GREEN = MeshPart(CORNERS, FACE, Surface((0.0, 1.0, 0.0, 1.0)))
 PAINTED = MeshPart(CORNERS, FACE, colors=np.full((3, 4), 255, np.uint8))
+
+NO_TINT = (1.0, 1.0, 1.0, 1.0)
 
 
 def drawn(

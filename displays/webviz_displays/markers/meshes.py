@@ -15,7 +15,6 @@ from webviz_urdf import MeshContent, MeshPart, Surface, write_glb
 
 Tint = tuple[float, float, float, float]
 """RGBA that the materials of a mesh are multiplied by."""
-NO_TINT: Tint = (1.0, 1.0, 1.0, 1.0)
 MAX_MODELS = 64_000_000
 """Bytes of the models of one mesh that are kept; a publisher may change the colour with each
 message."""
