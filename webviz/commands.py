@@ -20,8 +20,8 @@ class MissingCommand(Error, AttributeError):
 
 
 def __getattr__(name: str) -> Any:
-    if (found := _of_features.get(name)) is not None:
-        return found
+    if (value := _of_features.get(name)) is not None:
+        return value
     if missing := ", ".join(broken_features()):
         raise MissingCommand(f"There is no {name} without {missing}. Install webviz anew.")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

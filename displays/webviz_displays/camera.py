@@ -47,10 +47,10 @@ class Infos:
         """
         if not self._by_stamp:
             raise LookupError("no camera info")
-        found = self._by_stamp.get(stamp_ns)
-        if found is not None:
+        exact = self._by_stamp.get(stamp_ns)
+        if exact is not None:
             self._are_alike = True
-            return found, 0.0
+            return exact, 0.0
         message = next(reversed(self._by_stamp.values()))
         apart = min(abs(stamp - stamp_ns) for stamp in self._by_stamp)
         far_apart = SKIPPED_NS if self._are_alike else FAR_APART_NS
@@ -214,8 +214,8 @@ class Camera(AnnotatedImage):
                 state.warp = (lens, whole), None if grid is None else Warp(grid)
         except ImageError as error:
             return None, str(error)
-        found = state.warp[1]
-        return found, f"undistorted by {lens.model}" if found else ""
+        lens_warp = state.warp[1]
+        return lens_warp, f"undistorted by {lens.model}" if lens_warp else ""
 
     def _report(
         self,

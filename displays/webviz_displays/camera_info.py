@@ -145,15 +145,15 @@ class CameraInfo(Display):
 
     def _draw_image(self, model: CameraModel, sample: Sample, ctx: Context) -> None:
         try:
-            found = transports.read(sample)
-            shown = ctx.state.cells.of(sample.number, lambda: _cells(found), ctx)
+            picture = transports.read(sample)
+            drawn_cells = ctx.state.cells.of(sample.number, lambda: _cells(picture), ctx)
         except ImageError as error:
             ctx.error("Image", str(error))
             return
-        if shown is None:
+        if drawn_cells is None:
             ctx.warn("Image", "Decompressing the first image.")
             return
-        cells, size = shown
+        cells, size = drawn_cells
         corners = model.corners(self.far_clip)
         width, height, _ = (corners[2] - corners[0]).tolist()
         x, y, _ = corners[0].tolist()

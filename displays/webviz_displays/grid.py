@@ -69,8 +69,8 @@ class Grid(Display):
         if self.alpha == 0:
             ctx.warn("Grid", "Invisible: alpha is 0. Increase it to show the grid.", opaque())
             return
-        wanted = self.plane_cell_count, self.normal_cell_count
-        plane, normal = _inner(*wanted)
+        counts = self.plane_cell_count, self.normal_cell_count
+        plane, normal = _inner(*counts)
         reach = self.cell_size * max(plane, normal) + max(map(abs, self.offset))
         if reach > REACH_M:
             problem = f"The grid reaches {reach:g} m. Choose smaller cells or a smaller offset."
@@ -81,7 +81,7 @@ class Grid(Display):
         width, unit = (1.0, "px") if self.line_style == "Lines" else (self.line_width, "m")
         color = None if self.color == GREY else self.color
         group.lines("grid", segments, color, width, unit, opacity=self.alpha)
-        if (plane, normal) == wanted:
+        if (plane, normal) == counts:
             ctx.ok("Grid", f"{_count(plane, normal)} lines.")
             return
         cells = f"{plane} x {plane}" + (f" x {normal}" if normal else "")

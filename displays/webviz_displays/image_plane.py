@@ -102,10 +102,14 @@ class ImagePlane(ImageDisplay):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a pixel, with its value if it is a measurement."""
-        shown: _Texture | None = ctx.state.shown
-        if shown is None or not isinstance(hit.node, Image):
+        texture: _Texture | None = ctx.state.shown
+        if texture is None or not isinstance(hit.node, Image):
             return None
-        picture, x, y = shown.picture, hit.point[0] / hit.node.width, hit.point[1] / hit.node.height
+        picture, x, y = (
+            texture.picture,
+            hit.point[0] / hit.node.width,
+            hit.point[1] / hit.node.height,
+        )
         column, row = (
             int(np.clip(share * count, 0, count - 1))
             for share, count in zip((x, y), picture.size, strict=True)

@@ -82,15 +82,17 @@ class MapGraph(Display):
             np.int64,
         )
         left_out = len(message.links) - len(numbers)
-        shown = f"{counted(count, 'pose')}, {counted(len(numbers), 'link')}"
+        amounts = f"{counted(count, 'pose')}, {counted(len(numbers), 'link')}"
         if left_out:
-            ctx.warn("Graph", f"{shown}; {left_out} left out: their poses are missing or invalid.")
+            ctx.warn(
+                "Graph", f"{amounts}; {left_out} left out: their poses are missing or invalid."
+            )
         elif not len(numbers):
-            ctx.warn("Graph", f"{shown}: nothing to draw. Wait until the robot has moved.")
+            ctx.warn("Graph", f"{amounts}: nothing to draw. Wait until the robot has moved.")
         elif self.alpha == 0:
             ctx.warn("Graph", "Invisible: alpha is 0. Increase it to show the links.", opaque())
         else:
-            ctx.ok("Graph", f"{shown}.")
+            ctx.ok("Graph", f"{amounts}.")
         if not len(numbers) or self.alpha == 0:
             return
         links = [message.links[number] for number in numbers]

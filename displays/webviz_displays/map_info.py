@@ -66,8 +66,8 @@ class MapInfo(Display):
         """Draw the statuses; nothing is drawn."""
         if not samples:
             return
-        seen: SeenInfo = samples[-1].message
-        message = seen.newest
+        info: SeenInfo = samples[-1].message
+        message = info.newest
         ctx.ok("Info", _link(message))
         is_linked = message.loop_closure_id or message.proximity_detection_id
         if is_linked and (pose := _pose(message.loop_closure_transform)):
@@ -75,8 +75,8 @@ class MapInfo(Display):
             ctx.ok("Position", f"x {x:.3f}, y {y:.3f}, z {z:.3f} m.")
             roll, pitch, yaw = to_rpy(pose.wxyz)
             ctx.ok("Orientation", f"roll {roll:.3f}, pitch {pitch:.3f}, yaw {yaw:.3f} rad.")
-        ctx.ok("Loop closures", f"{counted(seen.loops, 'loop closure')} so far.")
-        ctx.ok("Proximity detections", f"{counted(seen.nearby, 'detection')} so far.")
+        ctx.ok("Loop closures", f"{counted(info.loops, 'loop closure')} so far.")
+        ctx.ok("Proximity detections", f"{counted(info.nearby, 'detection')} so far.")
         names, values = message.stats_keys, message.stats_values
         if len(names) != len(values):
             text = f"{len(values)} values for {counted(len(names), 'name')}. Fix the publisher."

@@ -100,10 +100,10 @@ class Layer(msgspec.Struct, frozen=True, eq=False):
 
 def regions(blocks: Iterable[tuple[Key, MapBlock]], edge: int) -> dict[Key, list[MapBlock]]:
     """Blocks by cubes of that many along each edge, since each node costs browsers a draw call."""
-    found: dict[Key, list[MapBlock]] = {}
+    by_region: dict[Key, list[MapBlock]] = {}
     for (x, y, z), block in blocks:
-        found.setdefault((x // edge, y // edge, z // edge), []).append(block)
-    return found
+        by_region.setdefault((x // edge, y // edge, z // edge), []).append(block)
+    return by_region
 
 
 def _block_of(part: Any) -> MapBlock | str:
@@ -172,7 +172,7 @@ class NvbloxDisplay(Display):
                 ctx.error("Blocks", f"{what} is {metres:g}. Fix the publisher.")
                 return
         top = self.ceiling_height if self.cut_ceiling else math.inf
-        drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = {}
+        by_region: dict[Key, tuple[Sequence[MapBlock], Node]] = {}
         count = left_out = 0
         for key, blocks in regions(layer.below(top), EDGE).items():
             size = sum(self.size(block) for block in blocks)
@@ -182,9 +182,9 @@ class NvbloxDisplay(Display):
             count += size
             before = state.drawn.get(key)
             is_known = before is not None and list(map(id, before[0])) == list(map(id, blocks))
-            drawn[key] = before if before and is_known else (blocks, self.node(blocks, layer))
-            ctx.add("region {} {} {}".format(*key), drawn[key][1])
-        state.drawn = drawn
+            by_region[key] = before if before and is_known else (blocks, self.node(blocks, layer))
+            ctx.add("region {} {} {}".format(*key), by_region[key][1])
+        state.drawn = by_region
         self._report(layer, count, left_out, ctx)
 
     def size(self, block: MapBlock) -> int:
@@ -196,7 +196,7 @@ class NvbloxDisplay(Display):
         raise NotImplementedError
 
     def _report(self, layer: Layer, count: int, left_out: int, ctx: Context) -> None:
-        shown = f"{counted(count, self.noun)} in {counted(len(layer.blocks), 'block')}"
+        amounts = f"{counted(count, self.noun)} in {counted(len(layer.blocks), 'block')}"
         if layer.faults:
             (x, y, z), why = next(iter(layer.faults.items()))
             more = len(layer.faults) - 1
@@ -214,7 +214,7 @@ class NvbloxDisplay(Display):
             remedy = Remedy("ceiling_height", top, f"Raise it to {top:g} m")
             ctx.warn("Blocks", "All blocks are above Ceiling Height. Raise it.", remedy)
         else:
-            ctx.ok("Blocks", f"{shown} of {layer.block_m:g} m.")
+            ctx.ok("Blocks", f"{amounts} of {layer.block_m:g} m.")
 
 
 class NvbloxMesh(NvbloxDisplay):

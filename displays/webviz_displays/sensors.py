@@ -71,13 +71,13 @@ class ScalarDisplay(PointStyle):
             return
         values = np.array([getattr(sample.message, self.quantity) for sample in samples])
         ids = np.flatnonzero(np.isfinite(values))
-        said = self._amount(values[-1])
+        amount = self._amount(values[-1])
         if not math.isfinite(values[-1]):
-            ctx.error("Value", f"The {self._noun} is {said}. Check the sensor.")
+            ctx.error("Value", f"The {self._noun} is {amount}. Check the sensor.")
         elif self.alpha == 0:
-            ctx.warn("Value", f"Invisible: alpha is 0. The {self._noun} is {said}.", opaque())
+            ctx.warn("Value", f"Invisible: alpha is 0. The {self._noun} is {amount}.", opaque())
         else:
-            ctx.ok("Value", said)
+            ctx.ok("Value", amount)
         if not len(ids) or self.alpha == 0:
             return
         xyz = np.array([samples[i].pose.position for i in ids.tolist()])
@@ -284,9 +284,9 @@ class PointCloud(CloudDisplay):
         )
         others = [channel for channel in channels if len(channel.values) != len(points)]
         if others:
-            said = [f"{channel.name!r:.40} with {len(channel.values)}" for channel in others]
+            sizes = [f"{channel.name!r:.40} with {len(channel.values)}" for channel in others]
             cloud.remark = (
                 f"Channels do not have one value for each of the {len(points)} points and are "
-                f"ignored: {listed(said, 5)}. Fix the publisher."
+                f"ignored: {listed(sizes, 5)}. Fix the publisher."
             )
         return cloud

@@ -100,21 +100,21 @@ class Text(Display):
 
     def _found(self, sample: Sample, state: _State, ctx: Context) -> tuple[FieldPath, ...]:
         """Return the chosen fields that the message has; says which are missing."""
-        found: list[FieldPath] = []
+        paths: list[FieldPath] = []
         problems = list(state.problems)
         for path in state.paths:
             try:
                 path(sample.message)
-                found.append(path)
+                paths.append(path)
             except PathError as error:
                 problems.append(str(error))
         more = f" And {len(problems) - 1} more." if len(problems) > 1 else ""
         if not self.fields:
             ctx.ok("Fields", f"All fields of {sample.type}.")
-        elif not found:
+        elif not paths:
             ctx.error("Fields", problems[0] + more)
         elif problems:
             ctx.warn("Fields", problems[0] + more)
         else:
-            ctx.ok("Fields", f"{counted(len(found), 'field')} of {sample.type}.")
-        return tuple(found)
+            ctx.ok("Fields", f"{counted(len(paths), 'field')} of {sample.type}.")
+        return tuple(paths)

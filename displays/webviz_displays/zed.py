@@ -127,42 +127,42 @@ class ZedOdDisplay(Display):
         self._report(len(objects), len(tracked), int(is_placed.sum()), ctx)
         if not len(rows):
             return
-        found = [objects[row] for row in rows]
+        chosen = [objects[row] for row in rows]
         positions = positions[is_placed][:MAX_OBJECTS]
         origin = np.array(origin_near(positions))
         group = ctx.follow(None, offset=compose(sample.pose, Pose(tuple(origin.tolist()))))
-        colors = np.array([box_color(each.label_id) for each in found], np.uint8)
+        colors = np.array([box_color(each.label_id) for each in chosen], np.uint8)
         if self.show_labels:
             xyz = positions - origin
             group.instances("pivots", "sphere", xyz, PIVOT, colors, ids=rows)
-            texts = tuple(map(label_of, found))
+            texts = tuple(map(label_of, chosen))
             group.labels("labels", xyz, texts, PIVOT * self.label_scale, ids=rows)
         if self.show_bounding_boxes:
-            self._draw_boxes(found, rows, colors, origin, group, ctx)
+            self._draw_boxes(chosen, rows, colors, origin, group, ctx)
         if self.show_skeletons:
-            self._draw_skeletons(found, rows, colors, origin, group, ctx)
+            self._draw_skeletons(chosen, rows, colors, origin, group, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return an object: what it is, how sure that is, and how it moves."""
-        found = hit.sample.message.objects[hit.id]
-        x, y, z = found.velocity.tolist()
+        detected = hit.sample.message.objects[hit.id]
+        x, y, z = detected.velocity.tolist()
         values: dict[str, object] = {
-            "Kind": " > ".join(filter(None, (found.label, found.sublabel))),
-            "Confidence": f"{found.confidence:g} %",
+            "Kind": " > ".join(filter(None, (detected.label, detected.sublabel))),
+            "Confidence": f"{detected.confidence:g} %",
             "Velocity": f"{x:g}, {y:g}, {z:g} m/s",
-            "Size": " x ".join(f"{metres:g}" for metres in found.dimensions_3d.tolist()) + " m",
+            "Size": " x ".join(f"{metres:g}" for metres in detected.dimensions_3d.tolist()) + " m",
         }
-        if found.tracking_available:
-            values["Tracking"] = TRACKING[_state_of(found)]
-        return Details(label_of(found), values)
+        if detected.tracking_available:
+            values["Tracking"] = TRACKING[_state_of(detected)]
+        return Details(label_of(detected), values)
 
     def _draw_boxes(
         self, found: Sequence[Any], rows: Rows, colors: U8, origin: F64, group: Group, ctx: Context
     ) -> None:
         corners = np.array([each.bounding_box_3d.corners for each in found], np.float64)
         ok = is_drawable(corners).all(axis=1)
-        if lost := int((~ok).sum()):
-            text = f"{lost} of {len(found)} boxes left out: corners are missing or invalid."
+        if invalid := int((~ok).sum()):
+            text = f"{invalid} of {len(found)} boxes left out: corners are missing or invalid."
             ctx.warn("Boxes", text)
         corners, rows = corners[ok] - origin, rows[ok]
         if not len(rows):
@@ -233,16 +233,16 @@ class ZedOdDisplay(Display):
             if count
         ]
         left_out = f": {', '.join(reasons)}" if reasons else ""
-        shown = f"{min(placed, MAX_OBJECTS)} of {counted(total, 'object')} shown{left_out}."
+        amounts = f"{min(placed, MAX_OBJECTS)} of {counted(total, 'object')} shown{left_out}."
         if not total:
             ctx.warn("Objects", "No objects in the newest message.")
         elif not (self.show_labels or self.show_bounding_boxes or self.show_skeletons):
             remedy = Remedy("show_bounding_boxes", True, "Show bounding boxes")
             ctx.warn("Objects", "Boxes, skeletons and labels are switched off.", remedy)
         elif not placed or placed < tracked or placed > MAX_OBJECTS:
-            ctx.warn("Objects", shown)
+            ctx.warn("Objects", amounts)
         else:
-            ctx.ok("Objects", shown)
+            ctx.ok("Objects", amounts)
 
 
 def box_color(label_id: int) -> tuple[int, int, int]:

@@ -114,24 +114,24 @@ class ActionServer:
         goal.status, goal.result = status, result
         id = bytes(goal.info.goal_id.uuid)
         for _ in range(len(self._waiting)):
-            wanted, header = self._waiting.popleft()
-            if wanted == id:
+            goal_id, header = self._waiting.popleft()
+            if goal_id == id:
                 self._send_result(goal, header)
             else:
-                self._waiting.append((wanted, header))
+                self._waiting.append((goal_id, header))
         ended = [id for id, each in self._goals.items() if not each.is_active]
         for old in ended[:-KEPT]:
             del self._goals[old]
         self._publish_status()
 
     def _take_goal(self, request: Any, response: Any) -> Any:
-        wanted = decode(f"{self._parts.send_goal}_Request", to_cdr(request))
-        id = bytes(wanted.goal_id.uuid)
-        is_accepted = id not in self._goals and self._accept(wanted.goal)
+        goal_request = decode(f"{self._parts.send_goal}_Request", to_cdr(request))
+        id = bytes(goal_request.goal_id.uuid)
+        is_accepted = id not in self._goals and self._accept(goal_request.goal)
         info = GoalInfo(stamp=self._node.get_clock().now().to_msg())
         info.goal_id.uuid = list(id)
         if is_accepted:
-            goal = self._goals[id] = ServerGoal(self, info, wanted.goal)
+            goal = self._goals[id] = ServerGoal(self, info, goal_request.goal)
             self._publish_status()
             self._begin(goal)
         values = {"accepted": is_accepted, "stamp": info.stamp}
@@ -139,23 +139,23 @@ class ActionServer:
 
     def _cancel(self, request: CancelGoal.Request, response: CancelGoal.Response) -> Any:
         id = bytes(request.goal_info.goal_id.uuid)
-        wanted = [self._goals[id]] if id in self._goals else []
+        goals = [self._goals[id]] if id in self._goals else []
         if not any(id):  # of all goals
-            wanted = list(self._goals.values())
-        elif not wanted:
+            goals = list(self._goals.values())
+        elif not goals:
             response.return_code = CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID
-        elif not wanted[0].is_active:
+        elif not goals[0].is_active:
             response.return_code = CancelGoal.Response.ERROR_GOAL_TERMINATED
-        wanted = [goal for goal in wanted if goal.is_active]
-        for goal in wanted:
+        goals = [goal for goal in goals if goal.is_active]
+        for goal in goals:
             goal.status = GoalStatus.STATUS_CANCELING
-        response.goals_canceling = [goal.info for goal in wanted]
+        response.goals_canceling = [goal.info for goal in goals]
         self._publish_status()
         return response
 
     def _take_request(self, request: Any, header: Any) -> None:
-        wanted = decode(f"{self._parts.get_result}_Request", to_cdr(request))
-        id = bytes(wanted.goal_id.uuid)
+        result_request = decode(f"{self._parts.get_result}_Request", to_cdr(request))
+        id = bytes(result_request.goal_id.uuid)
         goal = self._goals.get(id)
         if goal is not None and goal.is_active:
             self._waiting.append((id, header))

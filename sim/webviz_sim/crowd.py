@@ -31,7 +31,9 @@ class Crowd:
     @property
     def circles(self) -> Circles:
         """Return where they are."""
-        here = [_along(walk, gone) for walk, gone in zip(self._walks, self._gone, strict=True)]
+        here = [
+            _along(walk, distance) for walk, distance in zip(self._walks, self._gone, strict=True)
+        ]
         return np.array([(*point, RADIUS) for point in here]) if here else NONE
 
     def step(self, seconds: float) -> None:

@@ -55,8 +55,8 @@ def read_robot(path: str) -> str:
         raise WorldError(f"Cannot read the robot {path}: {error.strerror}.") from None
     except (ElementTree.ParseError, ValueError, KeyError):
         raise WorldError(f"The robot {path} is not a valid URDF.") from None
-    found = {joint.name for joint in joints} | {joint.child for joint in joints}
-    if missing := sorted({*WHEEL_JOINTS, SCANNER} - found):
+    names = {joint.name for joint in joints} | {joint.child for joint in joints}
+    if missing := sorted({*WHEEL_JOINTS, SCANNER} - names):
         raise WorldError(
             f"The robot {path} lacks {' and '.join(missing)}, which the simulator moves."
         )

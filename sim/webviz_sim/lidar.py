@@ -45,9 +45,9 @@ def cast_rays(
     incidence = np.ones(len(angles))
     for grid, start, other, along, across in ((occupied, x, y, dx, dy), (occupied.T, y, x, dy, dx)):
         limit = np.minimum(distances, reach)
-        found = _first_crossing(grid, start, other, along, across, limit)
-        nearer = found < distances
-        distances[nearer] = found[nearer]
+        crossings = _first_crossing(grid, start, other, along, across, limit)
+        nearer = crossings < distances
+        distances[nearer] = crossings[nearer]
         incidence[nearer] = np.abs(along[nearer])
     return distances, incidence
 

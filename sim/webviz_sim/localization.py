@@ -120,8 +120,8 @@ class Slam(Perfect):
         rows, columns = _cells(x, y, angles, steps, ends / world.resolution)
         height, width = world.cells.shape
         inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
-        seen = rows[inside], columns[inside]
-        self._cells[seen] = world.cells[seen]
+        cells = rows[inside], columns[inside]
+        self._cells[cells] = world.cells[cells]
 
     def publish(self, now: int) -> None:
         """See `Perfect.publish`."""

@@ -51,11 +51,11 @@ def to_map_pose(header: Any, pose: Any) -> Pose2D | str:
     """Return the pose in the map, or why it is invalid."""
     if header.frame_id.removeprefix("/") != "map":
         return f"in the frame {header.frame_id!r}: send it in map"
-    found = to_pose(pose.position, pose.orientation)
-    if found is None:
+    planar = to_pose(pose.position, pose.orientation)
+    if planar is None:
         return "that is not finite"
-    is_near = max(abs(found.x), abs(found.y)) <= FARTHEST
-    return found if is_near else f"that is farther than {FARTHEST:g} m"
+    is_near = max(abs(planar.x), abs(planar.y)) <= FARTHEST
+    return planar if is_near else f"that is farther than {FARTHEST:g} m"
 
 
 def clock(nanoseconds: int) -> bytes:

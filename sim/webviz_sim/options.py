@@ -129,8 +129,8 @@ def fault_parameter(text: str) -> str:
     name, _, value = text.partition("=")
     option = OPTIONS.get(FAULT + name)
     if option is None:
-        known = ", ".join(key.removeprefix(FAULT) for key in OPTIONS if key.startswith(FAULT))
-        raise ValueError(f"Unknown fault '{name}'. Choose one of {known}.")
+        names = ", ".join(key.removeprefix(FAULT) for key in OPTIONS if key.startswith(FAULT))
+        raise ValueError(f"Unknown fault '{name}'. Choose one of {names}.")
     try:
         number = float(value or 1.0)
     except ValueError:

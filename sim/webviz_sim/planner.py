@@ -142,14 +142,14 @@ class Planner:
         came_from = {source: source}
         lengths = {source: 0.0}
         queue = [(0.0, source)]
-        done = set()
+        visited = set()
         while queue:
             _, cell = heapq.heappop(queue)
             if cell == target:
                 break
-            if cell in done:
+            if cell in visited:
                 continue
-            done.add(cell)
+            visited.add(cell)
             row, column = cell
             here = lengths[cell]
             for rows, columns, step in _STEPS:

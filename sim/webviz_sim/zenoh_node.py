@@ -71,11 +71,11 @@ class ZenohSim:
         else:
             world = load_world(values["world"] or BUILDING)
         seed = values["seed"] + len(fleet)
-        made = Simulation(world, SimulationSettings(), start, seed, values["obstacles"])
+        simulation = Simulation(world, SimulationSettings(), start, seed, values["obstacles"])
         for each in fleet:
-            each._simulation.others.append(made.robot)
-            made.others.append(each._simulation.robot)
-        return made
+            each._simulation.others.append(simulation.robot)
+            simulation.others.append(each._simulation.robot)
+        return simulation
 
     @property
     def period(self) -> float:

@@ -57,8 +57,8 @@ class ZenohTopicPublisher:
     def publish(self, cdr: bytes) -> None:
         """Publish a message with its encapsulation header."""
         self._sequence += 1
-        sent = _ATTACHMENT.pack(self._sequence, time.time_ns(), len(self._gid), self._gid)
-        self._declared.put(cdr, attachment=sent)
+        attachment = _ATTACHMENT.pack(self._sequence, time.time_ns(), len(self._gid), self._gid)
+        self._declared.put(cdr, attachment=attachment)
 
 
 class ZenohNode:

@@ -77,8 +77,8 @@ class Materials:
         definition = material and _definition(material)
         if material is None or definition is None or not material.name:
             return
-        known = self._by_name.setdefault(material.name, definition)
-        if known != definition and material.name not in self._conflicting:
+        former = self._by_name.setdefault(material.name, definition)
+        if former != definition and material.name not in self._conflicting:
             self._conflicting.add(material.name)
             self.warnings.append(
                 f"Material '{material.name}' is redefined differently in {where}; "

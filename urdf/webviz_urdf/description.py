@@ -64,12 +64,12 @@ def pose_of(origin: object) -> Pose:
 
 
 def _unique(kind: str, names: list[str]) -> set[str]:
-    seen: set[str] = set()
+    names_seen: set[str] = set()
     for name in names:
-        if name in seen:
+        if name in names_seen:
             raise RobotDescriptionError(f"Two {kind}s are named '{name}'.")
-        seen.add(name)
-    return seen
+        names_seen.add(name)
+    return names_seen
 
 
 def _joint(joint: yourdfpy.Joint) -> Joint:
@@ -140,9 +140,9 @@ def _broken_mimics(joints: list[yourdfpy.Joint]) -> list[str]:
     for name, leader in leaders.items():
         if leader and leader not in leaders:
             warnings.append(f"Joint '{name}' mimics '{leader}', which is not a joint.")
-        seen = {name}
-        while leader and leader not in seen:
-            seen.add(leader)
+        visited = {name}
+        while leader and leader not in visited:
+            visited.add(leader)
             leader = leaders.get(leader)
         if leader == name:
             warnings.append(f"Joint '{name}' mimics itself, directly or through other joints.")

@@ -232,8 +232,8 @@ def _numbers(
     where = f"Line {source.sourceline}: {name}='{value[:80]}' of <{tag}>"
     words = value.split()
     if len(words) not in counts:
-        wanted = " or ".join(map(str, counts))
-        raise RobotDescriptionError(f"{where}: expected {wanted} numbers, got {len(words)}.")
+        expected = " or ".join(map(str, counts))
+        raise RobotDescriptionError(f"{where}: expected {expected} numbers, got {len(words)}.")
     try:
         numbers = [float(word) for word in words]
     except ValueError:

@@ -66,11 +66,11 @@ def expand(path: Path) -> str:
         raise RobotDescriptionError(
             f"{path} expands to more than {MAX_BYTES >> 20} MB: simplify the description."
         )
-    found = text.decode(errors="replace").strip()
+    output = text.decode(errors="replace").strip()
     if status:
-        reason = found if status == 1 and found else f"it ended with status {status}"
+        reason = output if status == 1 and output else f"it ended with status {status}"
         raise RobotDescriptionError(f"xacro cannot expand {path}: {reason.rstrip('.')}.")
-    return found
+    return output
 
 
 def _run(path: Path) -> tuple[bytes, int, bool]:

@@ -134,16 +134,16 @@ def leader_of(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, fl
     One that mimics an unknown joint, or itself, decides its own.
     """
     name, multiplier, offset = joint.name, 1.0, 0.0
-    seen = {name}
+    visited = {name}
     current = joint
     while (mimic := current.mimic) and mimic.joint in joints:
-        if mimic.joint in seen:
+        if mimic.joint in visited:
             return joint.name, 1.0, 0.0
         offset += multiplier * mimic.offset
         multiplier *= mimic.multiplier
         current = joints[mimic.joint]
         name = current.name
-        seen.add(name)
+        visited.add(name)
     return name, multiplier, offset
 
 

@@ -60,11 +60,11 @@ def _memory_limit() -> Callable[[int | None], None]:
     if resource is None or not STATM.exists():
         return lambda more: None
     unix = resource
-    taken = int(STATM.read_text().split()[0]) * unix.getpagesize()
+    used_bytes = int(STATM.read_text().split()[0]) * unix.getpagesize()
     _, hard = unix.getrlimit(unix.RLIMIT_AS)
 
     def limit(more: int | None) -> None:
-        most = hard if more is None else taken + more
+        most = hard if more is None else used_bytes + more
         soft = most if hard == unix.RLIM_INFINITY else min(most, hard)
         unix.setrlimit(unix.RLIMIT_AS, (soft, hard))
 

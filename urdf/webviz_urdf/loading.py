@@ -147,11 +147,11 @@ class Loading:
         """
         if self._name:
             raise RobotDescriptionError(f"Loading {self._name} failed. {reason}")
-        done, total, link = self.at
-        if done in skip or len(skip) == MAX_FAILURES or done == total:
+        finished, total, link = self.at
+        if finished in skip or len(skip) == MAX_FAILURES or finished == total:
             where = f" It stopped at link '{link}'." if link else ""
             raise RobotDescriptionError(f"Loading the robot failed. {reason}{where}")
-        skip[done] = reason
+        skip[finished] = reason
 
     def _attempt(self, memory: int, skip: dict[int, str]) -> Loaded:
         """Load in a process that may take so much memory.

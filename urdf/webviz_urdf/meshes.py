@@ -292,8 +292,8 @@ def _gltf_surface(material: PBRMaterial, *, has_uvs: bool) -> Surface:
     rgba = np.ones(4) if factor is None else np.asarray(factor, np.float64) / 255.0
     alpha = float(rgba[3]) if is_clear else 1.0
     if image is not None and has_uvs:
-        shown = image if is_clear else _without_alpha(image)
-        return Surface((1.0, 1.0, 1.0, alpha), encode(shown))
+        opaque = image if is_clear else _without_alpha(image)
+        return Surface((1.0, 1.0, 1.0, alpha), encode(opaque))
     r, g, b = linear_to_srgb(rgba[:3]).tolist()
     return Surface((r, g, b, alpha))
 

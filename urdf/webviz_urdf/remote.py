@@ -57,14 +57,14 @@ def with_remote_files(text: str, resolver: Resolver) -> Resolver:
 
 def _fetch_all(uris: Sequence[tuple[str, str]], sources: Sequence[Fetch]) -> list[tuple[str, str]]:
     """Fetch files, and return the further ones that they name."""
-    asked: dict[tuple[str, str], list[Future[bytes]]] = {
+    pending: dict[tuple[str, str], list[Future[bytes]]] = {
         uri: [fetch("package://{}/{}".format(*uri)) for fetch in sources]
         for uri in uris[:MAX_FILES]
         if _target(*uri) is not None and not _is_kept(*uri)
     }
-    wait([each for answers in asked.values() for each in answers], TIMEOUT_S)
+    wait([each for answers in pending.values() for each in answers], TIMEOUT_S)
     named: dict[tuple[str, str], None] = {}
-    for uri, answers in asked.items():
+    for uri, answers in pending.items():
         for answer in answers:
             if answer.done() and not answer.exception() and _keep(*uri, answer.result()):
                 named |= dict.fromkeys(_named(*uri, answer.result()))

@@ -33,16 +33,16 @@ def register_checks(owner: str, checks: Sequence[type[Check]]) -> None:
     Raises:
         ValueError: an id is invalid or taken by another check; nothing was changed.
     """
-    taken = {check.id: "an installed package" for check in _installed()}
-    taken |= {
+    owners = {check.id: "an installed package" for check in _installed()}
+    owners |= {
         check.id: other for other, of in _registered.items() if other != owner for check in of
     }
     for check in checks:
         if not is_id(check.id):
             raise ValueError(f"the check {check.__name__} has no valid id: {check.id!r}")
-        if check.id in taken:
-            raise ValueError(f"{taken[check.id]} has a check with the id {check.id}, too")
-        taken[check.id] = "the file"
+        if check.id in owners:
+            raise ValueError(f"{owners[check.id]} has a check with the id {check.id}, too")
+        owners[check.id] = "the file"
     _registered[owner] = tuple(checks)
 
 
@@ -70,8 +70,8 @@ def checks_of(module: ModuleType) -> Iterator[type[Check]]:
 @functools.lru_cache(maxsize=1)
 def _in_order(registered: tuple[Sequence[type[Check]], ...]) -> Sequence[type[Check]]:
     """Return the checks of packages and those of files, in the order of causes."""
-    found = itertools.chain(_installed(), *registered)
-    return tuple(sorted(found, key=lambda check: (CauseLevel.of(check.id).place, check.id)))
+    checks = itertools.chain(_installed(), *registered)
+    return tuple(sorted(checks, key=lambda check: (CauseLevel.of(check.id).place, check.id)))
 
 
 @functools.cache
@@ -81,7 +81,7 @@ def _installed() -> Sequence[type[Check]]:
     A package that does not load is logged and left out, as are checks without a valid id and those
     whose id is taken.
     """
-    found: dict[str, type[Check]] = {}
+    checks: dict[str, type[Check]] = {}
     # webviz's own come first, so that no other package takes their ids.
     for point in sorted(installed(GROUP), key=lambda point: (point.value != GROUP, point.name)):
         try:
@@ -94,11 +94,11 @@ def _installed() -> Sequence[type[Check]]:
                 continue  # the base of several
             if not is_id(check.id):
                 log.warning("The check %s has no valid id: %r.", check.__name__, check.id)
-            elif found.setdefault(check.id, check) is not check:
+            elif checks.setdefault(check.id, check) is not check:
                 log.warning(
                     "The id %s is taken; the check %s is left out.", check.id, check.__name__
                 )
-    return tuple(found.values())
+    return tuple(checks.values())
 
 
 def _modules(module: ModuleType) -> Sequence[ModuleType]:

@@ -113,8 +113,8 @@ class Group:
         opacity: float = 1.0,
     ) -> None:
         """Draw independent segments; see `webviz.api.nodes.Lines`."""
-        known = None if colors is None else _colors(colors)
-        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), known, width, unit, ids, opacity)
+        rgba = None if colors is None else _colors(colors)
+        self.nodes[key] = nodes.Lines(_f32(segments, 2, 3), rgba, width, unit, ids, opacity)
 
     def strip(
         self,
@@ -170,8 +170,8 @@ class Group:
     ) -> None:
         """Draw texts; see `webviz.api.nodes.Labels`."""
         xyz = _f32(positions, 3)
-        known = None if colors is None else _colors(colors)
-        self.nodes[key] = nodes.Labels(xyz, texts, height, below, known, ids)
+        rgba = None if colors is None else _colors(colors)
+        self.nodes[key] = nodes.Labels(xyz, texts, height, below, rgba, ids)
 
     def instances(
         self,

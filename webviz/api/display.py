@@ -212,11 +212,11 @@ def inputs_of(cls: type[Display]) -> dict[str, Input]:
     Raises:
         TypeError: its `sync` names something that is not an input.
     """
-    found = {name: port for name, port in ports_of(cls).items() if isinstance(port, Input)}
+    inputs = {name: port for name, port in ports_of(cls).items() if isinstance(port, Input)}
     for name in cls.sync.inputs if cls.sync else ():
-        if name not in found:
+        if name not in inputs:
             raise TypeError(f"{cls.__name__}.sync: '{name}' is not an input of the display")
-    return found
+    return inputs
 
 
 def inputs(display: Display) -> list[tuple[str, Input, Topic]]:

@@ -186,18 +186,18 @@ def ordered(findings: Iterable[Finding]) -> Sequence[Finding]:
     merged: dict[tuple[str, str], Finding] = {}
     for finding in findings:
         key = finding.id, finding.subject
-        known = merged.get(key)
-        explains = tuple(dict.fromkeys((*(known.explains if known else ()), *finding.explains)))
-        merged[key] = replace(known or finding, explains=explains)
-    shown: list[Finding] = []
+        former = merged.get(key)
+        explains = tuple(dict.fromkeys((*(former.explains if former else ()), *finding.explains)))
+        merged[key] = replace(former or finding, explains=explains)
+    in_order: list[Finding] = []
     explained: set[Symptom] = set()
     for finding in sorted(merged.values(), key=_place):
         symptoms = {*finding.explains} - SUMMARIES
         if symptoms and explained.issuperset(symptoms):
             continue
-        shown.append(finding)
+        in_order.append(finding)
         explained |= symptoms
-    return tuple(shown)
+    return tuple(in_order)
 
 
 def _place(finding: Finding) -> tuple[bool, int, bool, bool, str, int, str]:

@@ -88,8 +88,8 @@ class Frames:
             self._is_all_wanted = False  # set again by `all`
             poses = self._compute_all()
             places = {name: place for place, name in enumerate(poses.names)}
-            known = [places[name] for name in missing if name in places]
-            positions, wxyzs, ok = poses.positions[known], poses.wxyzs[known], poses.ok[known]
+            indices = [places[name] for name in missing if name in places]
+            positions, wxyzs, ok = poses.positions[indices], poses.wxyzs[indices], poses.ok[indices]
             missing = [name for name in missing if name in places]
         else:
             some = self.buffer.poses_in(self.fixed_frame, missing)

@@ -222,8 +222,8 @@ class Observation:
         publishers = [p for offer in self.offers.values() for p in offer.publishers]
         if self.bridges and not all(publisher.node for publisher in publishers):
             return False
-        shown = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
-        return len(shown) == 1 and not self.is_recorded
+        visible = [node for node in self.nodes if not node.rpartition("/")[2].startswith("_")]
+        return len(visible) == 1 and not self.is_recorded
 
     def stalled_nodes(self) -> Iterator[str]:
         """Yield the nodes of `stalled` topics and, if transforms are missing, those of /tf."""
@@ -235,16 +235,18 @@ class Observation:
 
     def undiscovered(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have no publisher, those of transforms included."""
-        found = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
-        starved = [symptom for display, each in found for symptom in display.symptom(each.status)]
+        inputs = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
+        starved = [symptom for display, each in inputs for symptom in display.symptom(each.status)]
         if not any(self.offers.get(topic, NO_OFFER).publishers for topic in ("/tf", "/tf_static")):
             starved += [symptom for symptom, _ in self.lost(Kind.NO_TRANSFORMS)]
         return tuple(starved)
 
     def unreceived(self) -> tuple[Symptom, ...]:
         """Return the statuses of topics that have a publisher and no message."""
-        found = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
-        return tuple(symptom for display, each in found for symptom in display.symptom(each.status))
+        inputs = [(d, each) for d, each, o in self.starved() if o.publishers and not each.received]
+        return tuple(
+            symptom for display, each in inputs for symptom in display.symptom(each.status)
+        )
 
     def stalled(self) -> tuple[Symptom, ...]:
         """Return the statuses of a robot whose time does not run as it should.
@@ -282,13 +284,13 @@ class Observation:
     @functools.cached_property
     def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
         owners = [(display.id, display.statuses) for display in self.displays]
-        found: dict[Kind, list[tuple[Symptom, Explanation]]] = {}
+        by_kind: dict[Kind, list[tuple[Symptom, Explanation]]] = {}
         for id, statuses in [("", self.statuses), *owners]:
             for key, status in statuses.items():
                 if status.reason is not None and status.level >= Level.WARN:
                     symptom = Symptom(id, key)
-                    found.setdefault(status.reason.kind, []).append((symptom, status.reason))
-        return found
+                    by_kind.setdefault(status.reason.kind, []).append((symptom, status.reason))
+        return by_kind
 
     def lost(self, *kinds: Kind) -> Iterator[tuple[Symptom, Explanation]]:
         """Yield the statuses of frames that have no pose for one of these reasons."""

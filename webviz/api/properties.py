@@ -77,8 +77,8 @@ def value_at(declared: msgspec.Struct, path: str) -> Any:
 @functools.cache
 def properties_of(cls: type[msgspec.Struct]) -> tuple[Property, ...]:
     """Return the properties of a class, such as a display or tool; the name first."""
-    found = _properties(cls, "", "")
-    return tuple(sorted(found, key=lambda each: each.path not in FIRST))
+    properties = _properties(cls, "", "")
+    return tuple(sorted(properties, key=lambda each: each.path not in FIRST))
 
 
 def ports_of(cls: type[msgspec.Struct]) -> dict[str, Input | Output]:
@@ -86,16 +86,16 @@ def ports_of(cls: type[msgspec.Struct]) -> dict[str, Input | Output]:
 
     A viewer needs those of all displays to start, and to describe all their types takes longer.
     """
-    known = {name: _known(hint) for name, hint in _hints(cls).items()}
-    return {name: said["port"] for name, said in known.items() if "port" in said}
+    facts = {name: _known(hint) for name, hint in _hints(cls).items()}
+    return {name: by_field["port"] for name, by_field in facts.items() if "port" in by_field}
 
 
 def _hints(cls: type[msgspec.Struct]) -> dict[str, Any]:
     """Return the types of a class's fields with their annotations."""
-    found: dict[str, Any] = {}
+    hints: dict[str, Any] = {}
     for base in reversed(cls.__mro__):
-        found |= _own_hints(base)
-    return {name: found[name] for name in cls.__struct_fields__}
+        hints |= _own_hints(base)
+    return {name: hints[name] for name in cls.__struct_fields__}
 
 
 @functools.cache
@@ -122,50 +122,50 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = _hints(cls)
-    known = {field.name: _known(hints[field.name]) for field in info.fields}
-    found = []
+    facts = {field.name: _known(hints[field.name]) for field in info.fields}
+    properties = []
     for field in info.fields:
-        name, hint, said = field.name, hints[field.name], known[field.name]
+        name, hint, fact = field.name, hints[field.name], facts[field.name]
         # In RViz a group of properties may have a value of its own.
         own = group if name == "value" else name.replace("_", " ").title()
-        label = _with_unit(said.get("rviz") or own, said.get("unit", ""))
+        label = _with_unit(fact.get("rviz") or own, fact.get("unit", ""))
         type_ = field.type
         while isinstance(type_, msgspec.inspect.Metadata):
             type_ = type_.type
         nested = type_.cls if isinstance(type_, msgspec.inspect.StructType) else None
-        found.append(
+        properties.append(
             Property(
                 path=prefix + name,
                 label=label,
-                help=said.get("help", ""),
-                unit=said.get("unit", ""),
-                rviz=said.get("rviz", ""),
-                rviz_default=said.get("rviz_default"),
-                rviz_factor=said.get("rviz_factor", 1.0),
-                widget=said.get("widget", ""),
-                otherwise=prefix + other if (other := said.get("otherwise")) else "",
+                help=fact.get("help", ""),
+                unit=fact.get("unit", ""),
+                rviz=fact.get("rviz", ""),
+                rviz_default=fact.get("rviz_default"),
+                rviz_factor=fact.get("rviz_factor", 1.0),
+                widget=fact.get("widget", ""),
+                otherwise=prefix + other if (other := fact.get("otherwise")) else "",
                 hint=bare(hint),
                 type=type_,
                 default=_default(field),
-                port=said.get("port"),
-                when=_conditions(name, prefix, known, hints),
+                port=fact.get("port"),
+                when=_conditions(name, prefix, facts, hints),
                 choices=_choices(hint),
                 children=_properties(nested, f"{prefix}{name}.", label) if nested else (),
             )
         )
-    return tuple(found)
+    return tuple(properties)
 
 
 def _known(hint: Any) -> dict[str, Any]:
     """Return the values of a type's annotations; the outermost wins."""
-    known: dict[str, Any] = {}
+    facts: dict[str, Any] = {}
     for mark in getattr(hint, "__metadata__", ()):
         if isinstance(mark, Input | Output):
-            known["port"] = mark
+            facts["port"] = mark
         elif isinstance(mark, msgspec.Meta):
-            known |= mark.extra or {}
-            known |= {"help": mark.description} if mark.description else {}
-    return known
+            facts |= mark.extra or {}
+            facts |= {"help": mark.description} if mark.description else {}
+    return facts
 
 
 def _default(field: msgspec.inspect.Field) -> Any:
@@ -181,8 +181,8 @@ def _conditions(
     when = known[name].get("when")
     if when is None:
         return ()
-    other, wanted = when
-    values = wanted if isinstance(wanted, tuple) else (wanted,)
+    other, expected = when
+    values = expected if isinstance(expected, tuple) else (expected,)
     # A base class may name values that only some of its displays offer.
     choices = _choices(hints[other]) or values
     condition = prefix + other, tuple(value for value in values if value in choices)

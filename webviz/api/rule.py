@@ -127,11 +127,11 @@ def parse_rule(text: str) -> Rule:
     Raises:
         ValueError: it is not a rule; a sentence.
     """
-    found = _LINE.fullmatch(text.strip())
-    if found is None:
+    match = _LINE.fullmatch(text.strip())
+    if match is None:
         raise ValueError(f"`{text}` is not a rule. {FORM}")
-    subject, value = _subject_and_value(text, found["about"])
-    limit = found["limit"]
+    subject, value = _subject_and_value(text, match["about"])
+    limit = match["limit"]
     if value and value not in VALUES:
         raise ValueError(f"`{text}`: unknown value {value}. Use {', '.join(VALUES)}.")
     if (subject == DOCTOR) != (value in OF_DOCTOR):
@@ -142,9 +142,9 @@ def parse_rule(text: str) -> Rule:
         text=text.strip(),
         subject=subject,
         value=value,
-        comparison=found["comparison"],
+        comparison=match["comparison"],
         limit=LEVELS[limit] if limit in LEVELS else float(limit),
-        seconds=float(found["count"]) * _UNITS[found["unit"]] if found["count"] else 0.0,
+        seconds=float(match["count"]) * _UNITS[match["unit"]] if match["count"] else 0.0,
     )
 
 

@@ -176,8 +176,8 @@ class ToolContext:
         parts = interfaces.service(type, definition)
 
         take = answered or (lambda _: self.ok(f"{service} responded."))
-        sent = self._call(service, type, encode(parts.request, request), timeout_s)
-        sent.add_done_callback(interfaces.taker(service, parts.response, take, self.error))
+        response = self._call(service, type, encode(parts.request, request), timeout_s)
+        response.add_done_callback(interfaces.taker(service, parts.response, take, self.error))
 
     def send_goal(
         self,

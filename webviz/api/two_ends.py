@@ -53,11 +53,11 @@ class End:
 
         Those of running nodes; without any, that of the shell.
         """
-        found: dict[str, str] = {}
+        sources: dict[str, str] = {}
         for node in self.nodes:
             who = f"process {node.pid} ({node.command.partition(' --ros-args')[0]})"
-            found.setdefault(node.variables.get(name, "") or default, who)
-        return found or {self.variables.get(name, "") or default: "the environment"}
+            sources.setdefault(node.variables.get(name, "") or default, who)
+        return sources or {self.variables.get(name, "") or default: "the environment"}
 
     def shares_network(self, other: End) -> bool:
         """Return whether an interface of each is in the same subnet."""

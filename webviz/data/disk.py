@@ -44,7 +44,7 @@ class DiskThreads:
         """
         if not self._free.acquire(blocking=False):
             raise OSError(errno.EAGAIN, "too many files do not respond")
-        done: Future[T] = Future()
+        future: Future[T] = Future()
 
         def run() -> None:
             try:
@@ -53,9 +53,9 @@ class DiskThreads:
                 finally:
                     self._free.release()
             except BaseException as error:
-                done.set_exception(error)
+                future.set_exception(error)
             else:
-                done.set_result(result)
+                future.set_result(result)
 
         with self._lock:
             is_waited_for = self._idle > 0
@@ -67,7 +67,7 @@ class DiskThreads:
             self._free.release()
             raise OSError(errno.EAGAIN, "no thread is left for a file") from error
         self._work.put(run)
-        return done
+        return future
 
     def _serve(self) -> None:
         """Work until there has been nothing to do for a while."""
@@ -92,11 +92,11 @@ class DiskThreads:
             OSError: the time is over; the work continues in its thread.
             Exception: what the work raises.
         """
-        done = self.start(work)
+        future = self.start(work)
         try:
-            return done.result(seconds)
+            return future.result(seconds)
         except TimeoutError as error:
-            if done.done():
+            if future.done():
                 raise
             raise TimeoutError(errno.ETIMEDOUT, f"no response within {seconds:g} s") from error
 

@@ -202,5 +202,5 @@ class TilePlane(msgspec.Struct, frozen=True):
         rows = range(max(0, y - blocks), min(last, y + blocks) + 1)
         width = min(2 * blocks + 1, self.count)
         columns = range(x - width // 2, x - width // 2 + width)
-        found = [(column, row) for column in columns for row in rows]
-        return sorted(found, key=lambda at: (at[0] - x) ** 2 + (at[1] - y) ** 2)
+        tiles = [(column, row) for column in columns for row in rows]
+        return sorted(tiles, key=lambda at: (at[0] - x) ** 2 + (at[1] - y) ** 2)

@@ -29,7 +29,7 @@ def _limits() -> list[int]:
     own = next((line.removeprefix("0::/") for line in lines if line.startswith("0::/")), None)
     if own is None:
         return []
-    found: list[int] = []
+    limits: list[int] = []
     group = CGROUPS / own
     for folder in (group, *group.parents):
         for name in LIMITS:
@@ -38,7 +38,7 @@ def _limits() -> list[int]:
             except OSError:
                 continue
             if text.isdecimal():
-                found.append(int(text))
+                limits.append(int(text))
         if folder == CGROUPS:
             break
-    return found
+    return limits

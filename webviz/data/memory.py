@@ -58,22 +58,22 @@ class MemoryBudget:
         Raises:
             OverBudgetError: there is not so much even without other work.
         """
-        held: int = getattr(self._mine, "held", 0)
+        reserved: int = getattr(self._mine, "held", 0)
         with self._changed:
             while not (stopped and stopped.is_set()):
                 if size > self.room:
                     text = f"takes {_mb(size)} to decode; the limit is {_mb(self.room)}"
                     beside = f" beside {_mb(self._held)} of what is loaded" if self._held else ""
                     raise OverBudgetError(text + beside)
-                if held or self._taken + size <= self.room:
+                if reserved or self._taken + size <= self.room:
                     break
                 self._changed.wait()
             self._taken += size
-        self._mine.held = held + size
+        self._mine.held = reserved + size
         try:
             yield
         finally:
-            self._mine.held = held
+            self._mine.held = reserved
             with self._changed:
                 self._taken -= size
                 self._changed.notify_all()

@@ -26,7 +26,7 @@ def plain(value: Any, kind: int) -> Value | None:
     """Return the value in a rcl_interfaces/msg/ParameterValue, None if it is not set."""
     if kind not in KINDS:
         return None
-    found = getattr(value, KINDS[kind][1])
-    if hasattr(found, "tolist"):
-        return found.tolist()
-    return list(found) if kind >= BYTES else found
+    content = getattr(value, KINDS[kind][1])
+    if hasattr(content, "tolist"):
+        return content.tolist()
+    return list(content) if kind >= BYTES else content

@@ -118,12 +118,12 @@ def read_plain(text: str, limits: YamlLimits = DEFAULTS) -> Any:
         YamlDocumentError: it is not YAML, beyond the limits, or of other types.
     """
     nodes = YamlNodes(text, limits)
-    waiting, seen = [nodes.root] if nodes.root else [], set[int]()
+    waiting, visited = [nodes.root] if nodes.root else [], set[int]()
     while waiting:
         node = waiting.pop()
-        if id(node) in seen:
+        if id(node) in visited:
             continue
-        seen.add(id(node))
+        visited.add(id(node))
         if node.tag == _TIMESTAMP:
             node.tag = _TEXT
         keys = [key for key, _ in node.value] if isinstance(node, MappingNode) else []

@@ -45,10 +45,10 @@ def _locked(prefix: str, parent: Path | None, stack: contextlib.ExitStack) -> Pa
     for _ in range(ATTEMPTS):
         folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
         stack.callback(_remove, folder)
-        held = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
-        stack.callback(os.close, held)
+        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
+        stack.callback(os.close, descriptor)
         try:
-            lock(held)
+            lock(descriptor)
         except BlockingIOError:  # it is being removed
             continue
         except OSError:  # a file system without locks: nobody removes it
@@ -60,13 +60,13 @@ def _locked(prefix: str, parent: Path | None, stack: contextlib.ExitStack) -> Pa
 
 def _remove_abandoned(prefix: str, beside: Path) -> None:
     """Remove the folders of the same user whose programs have ended."""
-    known = re.compile(re.escape(prefix) + "[a-z0-9_]{8}")
+    own_name = re.compile(re.escape(prefix) + "[a-z0-9_]{8}")
     owner = beside.stat().st_uid
     with contextlib.suppress(OSError), os.scandir(beside.parent) as entries:
         for entry in entries:
             about = entry.stat(follow_symlinks=False)
             if (
-                known.fullmatch(entry.name)
+                own_name.fullmatch(entry.name)
                 and stat.S_ISDIR(about.st_mode)
                 and about.st_uid == owner
             ):

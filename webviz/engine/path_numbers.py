@@ -26,7 +26,7 @@ class PathNumbers:
 
     def read(self, type_name: str, batch: Sequence[Raw]) -> None:
         """Read messages; those that lack the number count as none."""
-        found: list[float] = []
+        numbers: list[float] = []
         for raw in batch:
             try:
                 message = decode(type_name, raw.cdr, raw.types)
@@ -34,5 +34,5 @@ class PathNumbers:
             except (MessageError, PathError):
                 continue
             time_s = raw.received_ns / NS_PER_S
-            found.append(self._over_time(time_s, number) if self._over_time else number)
-        self.numbers = found
+            numbers.append(self._over_time(time_s, number) if self._over_time else number)
+        self.numbers = numbers

@@ -71,23 +71,23 @@ class LoopCalls:
 
     def put(self, call: Callable[[], T]) -> Future[T]:
         """Call something as soon as no turn is under way; from any thread."""
-        done: Future[T] = Future()
-        self._waiting.put((call, done))
+        future: Future[T] = Future()
+        self._waiting.put((call, future))
         if self._thread in (None, threading.get_ident()):
             self.answer()
         else:
             self._wake()
-        return done
+        return future
 
     def answer(self) -> None:
         """Do what waits."""
         with contextlib.suppress(queue.Empty):
             while True:
-                call, done = self._waiting.get_nowait()
+                call, future = self._waiting.get_nowait()
                 try:
-                    done.set_result(call())
+                    future.set_result(call())
                 except Exception as error:
-                    done.set_exception(error)
+                    future.set_exception(error)
 
 
 Request = tuple[Command, Sender, Future[str]]
@@ -159,9 +159,9 @@ class Requests:
         """Finish a command whose slow part is done."""
         if self._running is None or not self._running[0].done():
             return []
-        done, job, answer = self._running
+        future, job, answer = self._running
         self._running = None
-        return self._attempt(answer, lambda: job.then(done.result()))
+        return self._attempt(answer, lambda: job.then(future.result()))
 
     def _attempt(
         self, answer: Future[str], act: Callable[[], str | Job[Any]]

@@ -19,15 +19,15 @@ class PageStore(msgspec.Struct, frozen=True):
 
     def by_key(self) -> dict[str, Any]:
         """Return the values by key, as `webviz.server.channel.stores` compares them."""
-        told: dict[str, Any] = {}
+        fields: dict[str, Any] = {}
         for name, key in zip(self.__struct_fields__, self.__struct_encode_fields__, strict=True):
             value = getattr(self, name)
             prefix = self.spread.get(name)
             if prefix is None:
                 if value is not msgspec.UNSET:
-                    told[key] = value
+                    fields[key] = value
             elif prefix:
-                told |= {f"{prefix}{item}": each for item, each in value.items()}
+                fields |= {f"{prefix}{item}": each for item, each in value.items()}
             else:
-                told |= value
-        return told
+                fields |= value
+        return fields

@@ -100,13 +100,13 @@ class Dispatcher:
         self.journal.note(self.channel.visitors().get(browser), text)
 
     def _do(self, browser: int, do: Do) -> None:
-        made: dict[str, str] = {}
+        addresses: dict[str, str] = {}
         try:
             command = command_of(
                 do.command,
                 do.arguments,
-                made=functools.partial(made.__setitem__, "display"),
-                opened=functools.partial(made.__setitem__, "address"),
+                made=functools.partial(addresses.__setitem__, "display"),
+                opened=functools.partial(addresses.__setitem__, "address"),
                 deliver=functools.partial(self._deliver, browser, do),
             )
         except ValueError as error:
@@ -114,19 +114,19 @@ class Dispatcher:
             return
         is_noted = feature.commands()[do.command].is_noted
         note = functools.partial(self.note, browser) if is_noted else None
-        asked = Asked(self.channel, browser, do, note)
+        request = Asked(self.channel, browser, do, note)
         limit = self._most.get(do.command)
         if limit and (most := limit(command)) and self._is_flood(browser, do.command, most):
-            asked.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")
+            request.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")
         elif (handler := self._handlers.get(do.command)) is not None:
-            handler(asked, command)
+            handler(request, command)
         elif isinstance(command, Command):
 
             def tell(done: Future[str]) -> None:
-                if not asked.refused_by(done):
-                    asked.answer(done.result(), **made)
+                if not request.refused_by(done):
+                    request.answer(done.result(), **addresses)
 
-            self.enqueue(command, asked.sender).add_done_callback(tell)
+            self.enqueue(command, request.sender).add_done_callback(tell)
 
     def _deliver(self, browser: int, do: Do, text: str) -> None:
         self.channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)

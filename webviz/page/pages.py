@@ -104,10 +104,10 @@ class Pages:
         last = self._made.get(store)
         if last is not None and declared.of and last[0] == of:
             return
-        made = declared.make(maker, argument)
-        if last is None or made is None or made is not last[1]:
-            self._channel.show(store, {} if made is None else made.by_key())
-        self._made[store] = of, made
+        store_value = declared.make(maker, argument)
+        if last is None or store_value is None or store_value is not last[1]:
+            self._channel.show(store, {} if store_value is None else store_value.by_key())
+        self._made[store] = of, store_value
 
     def _forget(self, watched: set[str]) -> None:
         """Have stores made anew that are not watched any more, and all if there are other types."""

@@ -47,19 +47,19 @@ class ChartWidget(Widget):
         self, curves: Sequence[Curve], window_s: float, now_s: float, across: str = ""
     ) -> None:
         """Show these curves."""
-        shown = curves[:MAX_CURVES]
+        limited = curves[:MAX_CURVES]
         self._keys = {
             curve.name: self._keys[curve.name] if curve.name in self._keys else next(self._count)
-            for curve in shown
+            for curve in limited
         }
-        made: dict[str, tuple[Chunk, Mapping[str, Any]]] = {}
+        parts: dict[str, tuple[Chunk, Mapping[str, Any]]] = {}
         facts = []
-        for curve in shown:
+        for curve in limited:
             key = self._keys[curve.name]
             for chunk in curve.chunks:
                 name = f"{key}.{chunk.number}"
-                known = self._made.get(name)
-                made[name] = known if known and known[0] is chunk else (chunk, _part(chunk))
+                cached = self._made.get(name)
+                parts[name] = cached if cached and cached[0] is chunk else (chunk, _part(chunk))
             numbers = [chunk.number for chunk in curve.chunks]
             facts.append(
                 {
@@ -71,8 +71,8 @@ class ChartWidget(Widget):
                     "chunks": [numbers[0], numbers[-1] + 1] if numbers else [0, 0],
                 }
             )
-        self._made = made
-        self.parts = {name: part for name, (_, part) in made.items()}
+        self._made = parts
+        self.parts = {name: part for name, (_, part) in parts.items()}
         self.set(
             curves=facts, window=window_s, now=round(now_s, 3), across=self._keys.get(across, -1)
         )

@@ -62,14 +62,14 @@ class AreaWidget(Widget):
         """Show lines in letters of one width."""
         lines = text.split("\n")
         more = len(lines) - MAX_LINES
-        shown = [clean(line, MAX_CELL) for line in lines[:MAX_LINES]]
-        shown += [f"… and {more} more lines"] if more > 0 else []
-        self.values = {"kind": "area", "lines": shown}
+        texts = [clean(line, MAX_CELL) for line in lines[:MAX_LINES]]
+        texts += [f"… and {more} more lines"] if more > 0 else []
+        self.values = {"kind": "area", "lines": texts}
 
     def table(self, rows: Iterable[Sequence[str]]) -> None:
         """Show texts in rows and columns."""
-        shown = [[clean(cell, MAX_CELL) for cell in row] for row in islice(rows, MAX_LINES)]
-        self.values = {"kind": "area", "table": shown}
+        cells = [[clean(cell, MAX_CELL) for cell in row] for row in islice(rows, MAX_LINES)]
+        self.values = {"kind": "area", "table": cells}
 
     def html(self, markup: str) -> None:
         """Show HTML."""
@@ -156,7 +156,7 @@ class SlidersWidget(Widget):
 
     def show(self, slides: Sequence[Slide]) -> None:
         """Show these."""
-        shown = [
+        slide_values = [
             {
                 "name": clean(each.name, MAX_CELL),
                 "value": each.value,
@@ -166,21 +166,21 @@ class SlidersWidget(Widget):
             }
             for each in slides[:MAX_SLIDES]
         ]
-        if shown != self.values["slides"]:
-            self.set(slides=shown)
+        if slide_values != self.values["slides"]:
+            self.set(slides=slide_values)
 
     def use(self, value: Any, browser: int | None) -> None:
         """Move one: its new value, a space, and its name."""
         text, _, name = value.partition(" ") if isinstance(value, str) else ("", "", "")
-        found = next((each for each in self.values["slides"] if each["name"] == name), None)
-        if found is None:
+        slide = next((each for each in self.values["slides"] if each["name"] == name), None)
+        if slide is None:
             raise ValueError(f"The slider {name[:100]} is gone.")
         try:
             number = float(text)
         except ValueError:
             raise ValueError(f"Expected a number, got {text[:100]}.") from None
-        if not found["low"] <= number <= found["high"]:
-            raise ValueError(f"{number:g} is not in {found['low']:g} to {found['high']:g}.")
+        if not slide["low"] <= number <= slide["high"]:
+            raise ValueError(f"{number:g} is not in {slide['low']:g} to {slide['high']:g}.")
         self._edit(name, number, browser)
 
 
@@ -206,13 +206,13 @@ class CustomWidget(Widget):
         parts = parts or {}
         if len(parts) > MAX_PARTS:
             raise ValueError(f"Expected at most {MAX_PARTS} parts.")
-        made: dict[str, tuple[Mapping[str, Any], Any]] = {}
+        part_cache: dict[str, tuple[Mapping[str, Any], Any]] = {}
         for key, part in parts.items():
-            known = self._made.get(key)
-            made[key] = known if known and known[0] is part else (part, _as_json(part))
+            cached = self._made.get(key)
+            part_cache[key] = cached if cached and cached[0] is part else (part, _as_json(part))
         self.set(values=_as_json(values))
-        self._made = made
-        self.parts = {key: part for key, (_, part) in made.items()}
+        self._made = part_cache
+        self.parts = {key: part for key, (_, part) in part_cache.items()}
 
     def use(self, value: Any, browser: int | None) -> None:
         """Pass on what the module sent, as JSON."""

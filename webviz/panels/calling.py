@@ -135,17 +135,17 @@ class ActionGoal(SendingPanel):
 
 def texts(feedback: Any) -> dict[str, str]:
     """Return the fields of feedback that are neither sequences nor empty, by their paths."""
-    found: dict[str, str] = {}
+    by_path: dict[str, str] = {}
 
     def add(path: str, tree: Any) -> None:
         if isinstance(tree, str):
-            found[path] = tree
+            by_path[path] = tree
         else:
             for name, each in tree.get("fields", {}).items():
                 add(f"{path}.{name}" if path else name, each)
 
     add("", to_tree(feedback, is_readable=True))
-    return found
+    return by_path
 
 
 def actions_of(offers: Mapping[str, Offer]) -> dict[str, str]:

@@ -120,12 +120,12 @@ class Diagnostics(Panel):
                 each.is_stale = is_stale
                 self.parts[self.places[key] // PER_PART] = None
         if None in self.parts:
-            shown = [
+            rows = [
                 {**each.shown, "level": STALE} if each.is_stale else each.shown
                 for each in self.known.values()
             ]
             self.parts = [
-                part or {"statuses": shown[at * PER_PART : (at + 1) * PER_PART]}
+                part or {"statuses": rows[at * PER_PART : (at + 1) * PER_PART]}
                 for at, part in enumerate(self.parts)
             ]
         parts = {str(at): part for at, part in enumerate(self.parts) if part is not None}
@@ -143,8 +143,8 @@ class Diagnostics(Panel):
         return "" if self.known else "No message yet."
 
     def _topics(self) -> list[str]:
-        wanted = dict.fromkeys((self.topic, self.aggregated))
-        return [topic for topic in wanted if topic.startswith("/")]
+        topics = dict.fromkeys((self.topic, self.aggregated))
+        return [topic for topic in topics if topic.startswith("/")]
 
 
 def _path(topic: str, name: str, *, is_aggregated: bool) -> Iterator[str]:

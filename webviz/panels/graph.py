@@ -67,16 +67,16 @@ class NodeGraph(Panel):
             for name in sorted(offers)
             if not is_hidden(name) and (self.hidden or "/_" not in name)
         ]
-        shown = names[:MAX_TOPICS]
-        topics = [topic_of(name, offers[name], is_hidden) for name in shown]
+        limited = names[:MAX_TOPICS]
+        topics = [topic_of(name, offers[name], is_hidden) for name in limited]
         parts: dict[str, Mapping[str, Any]] = {}
         for at in range(0, len(topics), PER_PART):
             key = str(at // PER_PART)
             part = {"topics": topics[at : at + PER_PART]}
-            known = self.parts.get(key)
-            parts[key] = known if known == part and known is not None else part
+            former = self.parts.get(key)
+            parts[key] = former if former == part and former is not None else part
         self.parts = parts
-        more = len(names) - len(shown)
+        more = len(names) - len(limited)
         problem = f"{counted(more, 'topic')} not shown; the limit is {MAX_TOPICS}." if more else ""
         if not names:
             problem = "No topics. Start a node, or show hidden topics."
@@ -120,8 +120,8 @@ def _reasons(reader: Endpoint, writer: Endpoint) -> Iterator[str]:
         ("durability", "transient_local", "volatile"),
     ):
         if getattr(reader, name) == more and getattr(writer, name) == less:
-            asked, offered = more.replace("_", " "), less.replace("_", " ")
-            yield f"{ends[0]} {asked}, but {ends[1]} {offered}."
+            requested, offered = more.replace("_", " "), less.replace("_", " ")
+            yield f"{ends[0]} {requested}, but {ends[1]} {offered}."
 
 
 def _label(end: Endpoint) -> str:

@@ -180,10 +180,10 @@ class Joints(Panel):
         with self.lock:
             if not self.joints:
                 return
-            found = {name: leader_of(joint, self.joints) for name, joint in self.joints.items()}
+            leaders = {name: leader_of(joint, self.joints) for name, joint in self.joints.items()}
             values = {
                 name: self.positions[leader] * factor + offset
-                for name, (leader, factor, offset) in found.items()
+                for name, (leader, factor, offset) in leaders.items()
             }
             sec, nanosec = divmod(self.now_ns, 1_000_000_000)
             message = {

@@ -87,12 +87,12 @@ class Nav2(Panel):
 
     def subscriptions(self) -> Mapping[str, str]:
         """Status and feedback of the actions."""
-        found = {}
+        subscriptions = {}
         for name, (action, _) in ACTIONS.items():
             base = f"{self._full(name)}/_action"
-            found[f"{base}/status"] = STATUS
-            found[f"{base}/feedback"] = interfaces.action(action).feedback
-        return found
+            subscriptions[f"{base}/status"] = STATUS
+            subscriptions[f"{base}/feedback"] = interfaces.action(action).feedback
+        return subscriptions
 
     def take(self, topic: str, message: Any) -> None:
         """Note how a goal is going."""

@@ -158,8 +158,8 @@ class _Track:
     def shown(self) -> dict[int, Mapping[str, Any]]:
         """Return the parts by number; the same objects as before if they have not changed."""
         for number, part in enumerate(self.parts, self.first):
-            known = self._made.get(number)
-            if known is None or known[0] != len(part):
+            entry = self._made.get(number)
+            if entry is None or entry[0] != len(part):
                 flat = [round(degree, 7) for place in part for degree in place]
                 self._made[number] = len(part), {"places": flat}
         numbers = range(self.first, self.first + len(self.parts))
@@ -243,23 +243,23 @@ class OutdoorMap(Panel):
 
     def show(self, offers: Mapping[str, Offer]) -> None:
         """Show the tracks and the tiles."""
-        known = types_of(offers)
-        self.types = {topic: type_ for topic, type_ in known.items() if type_ in (FIX, PATH)}
-        wanted = list(dict.fromkeys(self.topics or sorted(self.types)))[:MAX_TOPICS]
-        self.tracks = {topic: self.tracks.get(topic) or _Track() for topic in wanted}
+        all_types = types_of(offers)
+        self.types = {topic: type_ for topic, type_ in all_types.items() if type_ in (FIX, PATH)}
+        chosen = list(dict.fromkeys(self.topics or sorted(self.types)))[:MAX_TOPICS]
+        self.tracks = {topic: self.tracks.get(topic) or _Track() for topic in chosen}
         if (self.shelf.address, self.shelf.timeout_s) != (self.object_uri, self.timeout):
             self.shelf = TileShelf(self.object_uri, self.timeout)
         parts = {f"tile/{name}": part for name, part in self.shelf.parts().items()}
         tracks: list[Mapping[str, Any]] = []
         for index, (topic, track) in enumerate(self.tracks.items()):
-            shown = track.shown()
-            parts |= {f"track/{index}/{number}": part for number, part in shown.items()}
+            segments = track.shown()
+            parts |= {f"track/{index}/{number}": part for number, part in segments.items()}
             is_path = self.types.get(topic) == PATH
             newest = None if is_path or track.newest is None else list(track.newest)
-            span = [track.first, track.first + len(shown)]
+            span = [track.first, track.first + len(segments)]
             tracks.append({"topic": topic, "is_path": is_path, "parts": span, "newest": newest})
         values = {"address": self.object_uri, "credit": self.shelf.attribution, "tracks": tracks}
-        self.map.show(values | {"problem": self._problem(wanted)}, parts)
+        self.map.show(values | {"problem": self._problem(chosen)}, parts)
 
     def _problem(self, wanted: Sequence[str]) -> str:
         if not wanted:
@@ -271,8 +271,8 @@ class OutdoorMap(Panel):
             if reason := self.refused.get(topic):
                 return reason
             if track.invalid:
-                found = counted(track.invalid, "message")
-                return f"{topic}: {found} without a place on the map. Check the receiver."
+                invalid = counted(track.invalid, "message")
+                return f"{topic}: {invalid} without a place on the map. Check the receiver."
         if not any(track.parts for track in self.tracks.values()):
             return f"No place yet on {', '.join(wanted)}."
         if not self.object_uri:
@@ -281,8 +281,8 @@ class OutdoorMap(Panel):
 
     def _ask(self, value: Any, browser: int | None) -> None:
         """Read the tiles that a page shows."""
-        asked = msgspec.convert(value, list[tuple[int, int, int]])
-        self.shelf.want(asked[:MAX_ASKED])
+        tiles = msgspec.convert(value, list[tuple[int, int, int]])
+        self.shelf.want(tiles[:MAX_ASKED])
 
 
 def _is_shown(latitude: float, longitude: float) -> bool:

@@ -74,11 +74,11 @@ def of_node(found: Any, node: str) -> Mapping[str, Any]:
 
 def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     """Nested parameters by their names with dots."""
-    found: dict[str, Any] = {}
+    flattened: dict[str, Any] = {}
     for key, value in values.items():
         name = f"{before}{key}"
-        found |= flat(value, f"{name}.") if isinstance(value, Mapping) else {name: value}
-    return found
+        flattened |= flat(value, f"{name}.") if isinstance(value, Mapping) else {name: value}
+    return flattened
 
 
 def to_yaml(node: str, known: Mapping[str, Mapping[str, Any]]) -> str:

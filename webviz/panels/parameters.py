@@ -119,17 +119,17 @@ class Parameters(Panel):
 
     def load(self, text: str, browser: int | None) -> None:
         """Change what a YAML text says of this node, as `ros2 param load` does."""
-        found = flat(of_node(read_yaml(text), self.chosen))
+        loaded = flat(of_node(read_yaml(text), self.chosen))
         with self.lock:
-            known = {name: row["kind"] for name, row in self.known.items()}
+            kinds = {name: row["kind"] for name, row in self.known.items()}
         changes = {
-            name: (known[name], fitting(value, known[name]))
-            for name, value in found.items()
-            if name in known
+            name: (kinds[name], fitting(value, kinds[name]))
+            for name, value in loaded.items()
+            if name in kinds
         }
         if not changes:
             raise Error("The file has no parameter of this node. Choose another file or node.")
-        unknown = [readable(name)[:60] for name in found if name not in known]
+        unknown = [readable(name)[:60] for name in loaded if name not in kinds]
         left_out = f"The node does not have {listed(unknown, 5)}." if unknown else ""
         self.change(changes, browser, note=left_out)
 
@@ -197,7 +197,7 @@ class Parameters(Panel):
         for name, row in self.known.items():
             value = row["value"]
             text = value if isinstance(value, str) else "" if value is None else inline(value)
-            shown = {
+            cells = {
                 "name": name,
                 "kind": KINDS.get(row["kind"], ("not set", ""))[0],
                 "text": text[:MAX_TEXT],
@@ -206,10 +206,10 @@ class Parameters(Panel):
                 "locked": row["locked"] or value is None or len(text) > MAX_TEXT,
                 "refused": self.refused.get(name, ""),
             }
-            size += sum(len(str(each)) for each in shown.values())
+            size += sum(len(str(each)) for each in cells.values())
             if size > MAX_CHARACTERS:
                 break
-            rows.append(shown)
+            rows.append(cells)
         rest = len(self.known) - len(rows)
         note = f"{counted(rest, 'parameter')} more." if rest else ""
         yaml = to_yaml(self.chosen, self.known) if rows else ""
@@ -235,17 +235,17 @@ class Parameters(Panel):
 
     def _take_descriptions(self, node: str, names: Sequence[str], response: Any) -> None:
         about = dict(zip(names, response.descriptors, strict=False))
-        taken = functools.partial(self._take_values, node, names, about)
-        self._call("get_parameters", "GetParameters", {"names": list(names)}, taken, None, node)
+        on_values = functools.partial(self._take_values, node, names, about)
+        self._call("get_parameters", "GetParameters", {"names": list(names)}, on_values, None, node)
 
     def _take_values(
         self, node: str, names: Sequence[str], about: Mapping[str, Any], response: Any
     ) -> None:
-        known = {}
+        rows = {}
         for name, value in zip(names, response.values, strict=False):
             descriptor = about.get(name)
             kind = int(value.type)
-            known[readable(name)] = {
+            rows[readable(name)] = {
                 "kind": kind,
                 "value": plain(value, kind),
                 "range": _range(descriptor),
@@ -254,7 +254,7 @@ class Parameters(Panel):
             }
         with self.lock:
             if node == self.chosen:
-                self.known = known
+                self.known = rows
 
     def _call(
         self,

@@ -70,7 +70,7 @@ class PublishMessage(SendingPanel):
         if self.is_repeating and now_s >= self.next_s:
             self.next_s = now_s + (1.0 / self.rate if self.rate > 0 else math.inf)
             self._publish_or_stop()
-        named = {name for name, found in topics.items() if found} | read.keys()
+        named = {name for name, of_topic in topics.items() if of_topic} | read.keys()
         about = type_ or "Nothing publishes or reads this topic. Enter its type in Properties."
         use = f"publish on {self.topic}"
         form = {"verb": "Publish", "use": use, "name": self.topic, "label": "Topic"}

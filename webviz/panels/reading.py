@@ -57,12 +57,12 @@ class PathReading:
             return []
         self.has_message = True
         try:
-            found = self.path.values(message)
+            numbers = self.path.values(message)
         except PathError as error:
             self.problem = str(error)
             return []
         self.problem = ""
-        return found
+        return numbers
 
     def value_names(self, message: Any) -> ValueNames:
         """Return the names of the values in a message; see `webviz.data.messages.value_names`."""

@@ -214,7 +214,7 @@ def template(type_name: str) -> dict[str, Any]:
 
 
 def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    tree: dict[str, Any] = {}
     defaults = message_class(type_name)()
     for field in typestore.fields(type_name):
         if next(made) >= MAX_FIELDS:
@@ -223,15 +223,15 @@ def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]
             continue
         if field.is_message:
             if field.size is None and depth > 0:
-                found[field.name] = _template(field.base, depth - 1, made)
+                tree[field.name] = _template(field.base, depth - 1, made)
             elif field.size == 0:
-                found[field.name] = []
+                tree[field.name] = []
             continue
         if field.size is None:
-            found[field.name] = getattr(defaults, attribute(field.name))
+            tree[field.name] = getattr(defaults, attribute(field.name))
         elif field.size <= MAX_FIXED:
-            found[field.name] = [DEFAULTS.get(field.base, 0)] * field.size
-    return found
+            tree[field.name] = [DEFAULTS.get(field.base, 0)] * field.size
+    return tree
 
 
 def fields_of(values: Mapping[str, Any]) -> list[dict[str, str]]:

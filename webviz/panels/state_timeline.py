@@ -86,9 +86,13 @@ class StateTimeline(Panel):
 
     def subscriptions(self) -> Mapping[str, str]:
         """Return the topics of all paths."""
-        wanted = subscribed((track.reading for track in self.tracks.values()), self.types)
+        subscriptions = subscribed((track.reading for track in self.tracks.values()), self.types)
         offered = self.chooser.topic
-        return {**wanted, offered: self.types[offered]} if offered in self.types else wanted
+        return (
+            {**subscriptions, offered: self.types[offered]}
+            if offered in self.types
+            else subscriptions
+        )
 
     def lookback(self, topic: str) -> Lookback:
         """Return the messages of the window."""
@@ -131,9 +135,9 @@ class StateTimeline(Panel):
         self.id = id_of(self, panels)
         self.types = types_of(offers)
         self.chooser.offer(self.types)
-        wanted = list(dict.fromkeys(self.paths))[:MAX_PATHS]
+        texts = list(dict.fromkeys(self.paths))[:MAX_PATHS]
         before = self.tracks
-        self.tracks = {text: before.get(text) or _Track(text) for text in wanted}
+        self.tracks = {text: before.get(text) or _Track(text) for text in texts}
         new = (track for text, track in self.tracks.items() if text not in before)
         self.unfilled |= {track.reading.topic for track in new}
         now_s = clock.ros_ns / NS_PER_S

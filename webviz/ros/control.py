@@ -345,9 +345,9 @@ class _Service:
 
     def _begin(self, response: Any, header: Any) -> None:
         if len(self._pending) < MAX_REQUESTS:
-            done = self._pool.submit(self._work)
-            self._pending.append((done, response, header))
-            done.add_done_callback(lambda _: self._wake())
+            future = self._pool.submit(self._work)
+            self._pending.append((future, response, header))
+            future.add_done_callback(lambda _: self._wake())
             return
         refused: Future[Any] = Future()
         refused.set_exception(Error("Too many requests at once. Try again later."))

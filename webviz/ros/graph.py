@@ -113,8 +113,8 @@ class RosGraph:
 
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Create these publishers ahead of their first messages, and destroy the previous ones."""
-        wanted = frozenset(advertisements)
-        return self._jobs.put(lambda: self._publishers.advertise(wanted))
+        frozen = frozenset(advertisements)
+        return self._jobs.put(lambda: self._publishers.advertise(frozen))
 
     def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a message; the number of matched subscriptions."""
@@ -130,14 +130,14 @@ class RosGraph:
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Send a goal to an action."""
-        sent = self._goals.new(action)
+        goal_handle = self._goals.new(action)
 
         def send() -> None:
             learn(type)
-            self._goals.send(action, type, goal, sent, feedback)
+            self._goals.send(action, type, goal, goal_handle, feedback)
 
-        self._start(sent.accepted, send)
-        return sent
+        self._start(goal_handle.accepted, send)
+        return goal_handle
 
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of the graph, sorted."""

@@ -155,18 +155,18 @@ class RosSource:
         executor = self._executor
         executor.add_node(self._node)
         next_look = 0.0
-        wanted: Mapping[str, Subscription] = {}
+        target: Mapping[str, Subscription] = {}
         try:
             while not self._stop.is_set():
                 self._guard_condition.reset()
                 now = time.monotonic()
-                is_new = wanted is not self._wanted
+                is_new = target is not self._wanted
                 if is_new or now >= next_look:
                     is_steady = now - self._changed_s > STEADY_S
                     next_look = now + (2 * LOOK_S if is_steady else LOOK_S)
-                    wanted = self._wanted
-                    if self._look(wanted) or is_new:
-                        self._reconcile(wanted)
+                    target = self._wanted
+                    if self._look(target) or is_new:
+                        self._reconcile(target)
                     self.graph.look()
                 self._heap.turn()
                 self.control.turn()
@@ -206,10 +206,10 @@ class RosSource:
 
         To count them takes a tenth of the time.
         """
-        known, held = self._offers.get(topic, NO_OFFER), self._held.get(topic)
-        requested = held.policies if held else None
-        is_same = requested == known.requested and not is_thorough
-        node, publishers, readers = self._node, known.publishers, known.readers
+        former, subscribed = self._offers.get(topic, NO_OFFER), self._held.get(topic)
+        requested = subscribed.policies if subscribed else None
+        is_same = requested == former.requested and not is_thorough
+        node, publishers, readers = self._node, former.publishers, former.readers
         if not (is_same and _are_known(publishers, node.count_publishers(topic))):
             infos = node.get_publishers_info_by_topic(topic)
             publishers = tuple(sorted(map(_publisher, infos), key=lambda p: (p.node, p.type)))
@@ -221,7 +221,7 @@ class RosSource:
             publishers,
             requested,
             self._problems.get(topic, ""),
-            held.subscription.type if held else "",
+            subscribed.subscription.type if subscribed else "",
             subscribers,
             readers=readers,
         )
@@ -278,10 +278,10 @@ class RosSource:
         self._held[topic] = held
 
     def _release(self, topic: str) -> None:
-        held = self._held.pop(topic, None)
-        if held is None:
+        subscribed = self._held.pop(topic, None)
+        if subscribed is None:
             return
-        for subscription in held.subscriptions:
+        for subscription in subscribed.subscriptions:
             self._node.destroy_subscription(subscription)
         # The executor has to let go of it before the topic can have another type.
         never: Any = GuardCondition()

@@ -85,19 +85,19 @@ class ViserCameras:
         number = next(self._numbers)
         for id_ in self._link.server.get_clients():
             if browser in (None, id_):
-                if known := self._browsers.get(id_):
-                    known.view, known.number = view, number
+                if camera := self._browsers.get(id_):
+                    camera.view, camera.number = view, number
                 self._link.channel.send(placed(PlaceCamera, view, number), id_)
 
     def views(self) -> Mapping[int, View]:
         """Return the current view of every browser, by its id."""
         clients = self._take_reports()
-        return {id_: self._view(known, clients[id_]) for id_, known in self._browsers.items()}
+        return {id_: self._view(camera, clients[id_]) for id_, camera in self._browsers.items()}
 
     def target_frames(self) -> set[str]:
         """Return the target frames of all views, including that of browsers that join."""
         self._take_reports()
-        views = [self._start, *(known.view for known in self._browsers.values())]
+        views = [self._start, *(camera.view for camera in self._browsers.values())]
         return {view.target_frame for view in views} - {FIXED_FRAME}
 
     def size(self, browser: int) -> tuple[float, float]:
@@ -124,8 +124,8 @@ class ViserCameras:
             if id_ not in clients:
                 continue
             size = (max(report.width, 1.0), max(report.height, 1.0))
-            if known := self._browsers.get(id_):
-                known.obeyed, known.size = report.number, size
+            if camera := self._browsers.get(id_):
+                camera.obeyed, camera.size = report.number, size
             else:
                 with contextlib.suppress(msgspec.ValidationError):  # not webviz's page
                     view = msgspec.convert({"type": report.view} | report.options, View)

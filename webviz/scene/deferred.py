@@ -41,7 +41,7 @@ class DeferredMessages:
 
         def run() -> None:
             try:
-                made = make()
+                message = make()
             except Exception:
                 log.exception("%s could not be drawn", name)
                 with self._changed:
@@ -50,7 +50,7 @@ class DeferredMessages:
                 return
             with self._changed:
                 if self._jobs.get(name) is job:
-                    self._made[name] = lambda: send(made)
+                    self._made[name] = lambda: send(message)
                     self._changed.notify_all()
             self.wake()
 
@@ -71,8 +71,8 @@ class DeferredMessages:
     def deliver(self) -> None:
         """Send the messages that are ready."""
         with self._changed:
-            made = dict(self._made)
-        for name, send in made.items():
+            messages = dict(self._made)
+        for name, send in messages.items():
             try:
                 send()
             except Exception:

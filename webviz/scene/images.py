@@ -59,13 +59,13 @@ class ImageDrawn:
         old, self._sent = self._sent, node
         height, width = _shape(node)
         rows, columns = range(0, shape[0], height), range(0, shape[1], width)
-        wanted = {(node.layer, y, x) for y in rows for x in columns}
-        for tile in self._wanted - wanted:
+        tiles = {(node.layer, y, x) for y in rows for x in columns}
+        for tile in self._wanted - tiles:
             self._drop(tile)
-        for tile in sorted(wanted):
+        for tile in sorted(tiles):
             if old is None or tile not in self._wanted or not _is_same(tile, node, old):
                 self._draw_tile(tile, node)
-        self._wanted = wanted
+        self._wanted = tiles
 
     def remove(self) -> None:
         """Remove the image from the scene."""

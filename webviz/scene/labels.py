@@ -92,9 +92,9 @@ class LabelsDrawn:
         return _Label(_encodable(text), (x, y, z), look)
 
     def _remove_from(self, index: int) -> None:
-        for label, sent in zip(self._labels[index:], self._sent[index:], strict=True):
+        for label, shape in zip(self._labels[index:], self._sent[index:], strict=True):
             label.remove()
-            self._link.label_budget.free(sent.text)
+            self._link.label_budget.free(shape.text)
         self._link.count_removals(len(self._labels[index:]))
         del self._labels[index:], self._sent[index:]
 
@@ -120,10 +120,10 @@ def _steps(colors: U8 | Rgb | None, count: int) -> U8:
     """Colours of so many texts in 32 steps per channel, uint8 (count, 3)."""
     if colors is None:
         return np.broadcast_to(np.array(TEXT_CODE, np.uint8), (count, 3))
-    known = np.asarray(colors, np.uint8) >> 3
-    steps = known[:count] if known.ndim > 1 else np.broadcast_to(known, (count, 3))
-    taken = (steps == TEXT_CODE).all(axis=1, keepdims=True)
-    return np.where(taken, np.uint8(31), steps)
+    high_bits = np.asarray(colors, np.uint8) >> 3
+    steps = high_bits[:count] if high_bits.ndim > 1 else np.broadcast_to(high_bits, (count, 3))
+    is_code = (steps == TEXT_CODE).all(axis=1, keepdims=True)
+    return np.where(is_code, np.uint8(31), steps)
 
 
 def _marked(height: float, opacity: float, steps: U8) -> list[float]:

@@ -134,8 +134,8 @@ class ViserScene:
         Raises:
             ValueError: the pose is not finite.
         """
-        known = self._groups.get(group)
-        if known is not None and known.pose == pose:
+        entry = self._groups.get(group)
+        if entry is not None and entry.pose == pose:
             return
         if not math.isfinite(sum(pose.position) + sum(pose.wxyz)):
             raise ValueError(f"The pose of {group!r} is not finite.")
@@ -143,16 +143,16 @@ class ViserScene:
 
     def upsert(self, group: str, key: str, node: Node, pose: Pose = _IDENTITY) -> None:
         """Draws a node at a pose in a group, in place of the one with the same key."""
-        wanted = self._touch(group)
-        wanted.nodes[key] = (node, pose)
-        wanted.dirty[key] = None
+        contents = self._touch(group)
+        contents.nodes[key] = (node, pose)
+        contents.dirty[key] = None
 
     def remove(self, group: str, key: str) -> None:
         """Remove a node, if it exists."""
         if group in self._groups and key in self._groups[group].nodes:
-            wanted = self._touch(group)
-            del wanted.nodes[key]
-            wanted.dirty[key] = None
+            contents = self._touch(group)
+            del contents.nodes[key]
+            contents.dirty[key] = None
 
     def remove_group(self, group: str) -> None:
         """Remove a group with its nodes and pose, if it exists."""
@@ -270,36 +270,36 @@ class _Group:
             pane.set_visible(self.visible)
 
     def _send_node(self, link: Adapter, key: str) -> None:
-        wanted, sent = self.nodes.get(key), self._drawn.get(key)
-        if sent is not None and (wanted is None or type(wanted[0]) is not type(sent[0])):
-            sent[2].remove()
+        entry, former = self.nodes.get(key), self._drawn.get(key)
+        if former is not None and (entry is None or type(entry[0]) is not type(former[0])):
+            former[2].remove()
             link.count_removals(1)
             del self._drawn[key]
-            sent = None
-        if wanted is None:
+            former = None
+        if entry is None:
             return
-        node, pose = wanted
+        node, pose = entry
         path = node_path(self._name, key)
-        drawn = _DRAWN[type(node)](link, path) if sent is None else sent[2]
-        is_new = sent is None or node != sent[0]
+        handle = _DRAWN[type(node)](link, path) if former is None else former[2]
+        is_new = former is None or node != former[0]
         if is_new:
-            drawn.draw(node)
+            handle.draw(node)
         # Some primitives recreate their viser node when drawn, at the identity.
-        if pose != (_IDENTITY if sent is None else sent[1]) or (is_new and pose != _IDENTITY):
+        if pose != (_IDENTITY if former is None else former[1]) or (is_new and pose != _IDENTITY):
             link.set_position(path, pose.position)
             link.set_orientation(path, pose.wxyz)
-        self._drawn[key] = (node, pose, drawn)
+        self._drawn[key] = (node, pose, handle)
 
     def _panes(self) -> list[PaneDrawn]:
-        return [drawn for _, _, drawn in self._drawn.values() if isinstance(drawn, PaneDrawn)]
+        return [pane for _, _, pane in self._drawn.values() if isinstance(pane, PaneDrawn)]
 
     def remove(self, link: Adapter) -> None:
         link.deferred.drop(self._path)
-        for _, _, drawn in self._drawn.values():  # all others are below the frame of the group
-            if isinstance(drawn, PaneDrawn):
-                drawn.remove()
-            elif isinstance(drawn, LabelsDrawn):
-                drawn.forget()
+        for _, _, handle in self._drawn.values():  # all others are below the frame of the group
+            if isinstance(handle, PaneDrawn):
+                handle.remove()
+            elif isinstance(handle, LabelsDrawn):
+                handle.forget()
         if self._handle is not None:
             self._handle.remove()
             link.count_removals(1 + len(self._drawn))

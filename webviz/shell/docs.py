@@ -64,10 +64,10 @@ def pages() -> dict[str, str]:
     """Return the text of each page by file name."""
     notes = read_notes()
     types = built_in(Display)
-    found = {
+    texts = {
         page_name(name): page(name, cls, notes.get(name, Notes())) for name, cls in types.items()
     }
-    return found | {
+    return texts | {
         "README.md": index(types, notes["every display"]),
         "tools.md": tools_page(built_in(Tool)),
         "reference.md": reference.reference_page(),
@@ -82,12 +82,12 @@ def groups(types: Mapping[str, type[Display]]) -> dict[str, list[str]]:
         ValueError: a group names a display that does not exist, or that another one has.
     """
     text = (PAGES / "groups.yaml").read_text(encoding="utf-8")
-    found = msgspec.convert(plain_yaml.read_plain(text), dict[str, list[str]])
-    listed = [name for names in found.values() for name in names]
+    by_group = msgspec.convert(plain_yaml.read_plain(text), dict[str, list[str]])
+    listed = [name for names in by_group.values() for name in names]
     if wrong := {name for name in listed if listed.count(name) > 1 or name not in types}:
         raise ValueError(f"groups.yaml is wrong about {', '.join(sorted(wrong))}.")
     others = [name for name in types if name not in listed]
-    return found | ({"Others": others} if others else {})
+    return by_group | ({"Others": others} if others else {})
 
 
 def built_in(base: type[P]) -> dict[str, type[P]]:
@@ -114,9 +114,9 @@ def snake_case(name: str) -> str:
 
 def page(name: str, cls: type[Display], notes: Notes) -> str:
     """Return the page of a display."""
-    shown = pictures(snake_case(name))
+    images = pictures(snake_case(name))
     lines = [f"# {name}", "", *paragraphs(cls), ""]
-    lines += [f"![{name}]({shown.pop('default')})", ""] if "default" in shown else []
+    lines += [f"![{name}]({images.pop('default')})", ""] if "default" in images else []
     origin = f"RViz2's `{cls.rviz}`." if cls.rviz else "RViz2 has no such display."
     lines += [f"{origin} In a config file: `- type: {name}`.", ""]
     lines += inputs_table(cls)
@@ -128,8 +128,8 @@ def page(name: str, cls: type[Display], notes: Notes) -> str:
     if notes.differs:
         lines += ["## Differs from RViz2, because", ""]
         lines += [f"- {sentence}" for sentence in notes.differs] + [""]
-    if shown:
-        lines += ["## Pictures", "", *gallery(shown), ""]
+    if images:
+        lines += ["## Pictures", "", *gallery(images), ""]
     return "\n".join([*lines, f"Written by `{COMMAND}`.", ""])
 
 
@@ -185,9 +185,9 @@ def paragraphs(cls: type[Declared]) -> list[str]:
 
 def pictures(folder: str) -> dict[str, str]:
     """Links to the pictures of a display by caption."""
-    found = sorted((PICTURES / folder).rglob("*.png"))
+    images = sorted((PICTURES / folder).rglob("*.png"))
     return {
-        path.stem.replace("_", " "): f"../../{path.relative_to(ROOT).as_posix()}" for path in found
+        path.stem.replace("_", " "): f"../../{path.relative_to(ROOT).as_posix()}" for path in images
     }
 
 
@@ -289,8 +289,8 @@ def bounds(type_: Any) -> str:
     if low is not None and high is not None:
         return f", {low:g} to {high:g}"
     signs = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
-    given = ((sign, getattr(type_, name, None)) for name, sign in signs.items())
-    return "".join(f" {sign} {limit:g}" for sign, limit in given if limit is not None)
+    limits = ((sign, getattr(type_, name, None)) for name, sign in signs.items())
+    return "".join(f" {sign} {limit:g}" for sign, limit in limits if limit is not None)
 
 
 def default_of(value: Any) -> str:

@@ -40,11 +40,11 @@ def demo_domain() -> Iterator[str]:
     if lock is None and not named:
         lock, domain = reserve(DOMAINS, DEMO)
         os.environ[VARIABLE] = str(domain)
-        said = MOVED.format(VARIABLE, domain)
+        remark = MOVED.format(VARIABLE, domain)
     else:
-        said = "" if lock else MIXED.format(VARIABLE)
+        remark = "" if lock else MIXED.format(VARIABLE)
     try:
-        yield said
+        yield remark
     finally:
         if not named:
             os.environ.pop(VARIABLE, None)

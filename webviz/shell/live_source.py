@@ -67,10 +67,10 @@ def bridge_source(
     if is_zenoh(url):
         if headers:
             raise Error("Zenoh has no headers. Name credentials in a session config (.json5).")
-        found = zenoh_address(url)
+        zenoh = zenoh_address(url)
         from webviz.sources.zenoh.source import ZenohSource
 
-        return ZenohSource(found, remappings(ros_args, "Zenoh"))
+        return ZenohSource(zenoh, remappings(ros_args, "Zenoh"))
     renamed = remappings(ros_args, "a bridge")
     return BridgeSource(address(url, Path(headers) if headers else None), renamed)
 

@@ -81,8 +81,8 @@ class TopicRecorder:
         megabytes, seconds = recorder.bytes_written / 1e6, recorder.seconds
         messages = counted(recorder.messages, "message")
         topics = counted(len(self._channels), "topic")
-        lost = f", {recorder.dropped} dropped" if recorder.dropped else ""
-        return f"recorded {messages} of {topics} in {seconds:.0f} s, {megabytes:.1f} MB{lost}"
+        dropped = f", {recorder.dropped} dropped" if recorder.dropped else ""
+        return f"recorded {messages} of {topics} in {seconds:.0f} s, {megabytes:.1f} MB{dropped}"
 
     def close(self) -> None:
         """Write what is left, and end the recording.
@@ -99,15 +99,15 @@ class TopicRecorder:
             raise RecordingError(self._recorder.problem)
 
     def _wanted(self, offers: Mapping[str, Offer]) -> dict[str, Subscription]:
-        wanted = {}
+        subscriptions = {}
         for topic, offer in offers.items():
             if not offer.publishers or not self._is_chosen(topic):
                 continue
             if offer.problem:
                 reason = offer.problem.rstrip(".")
                 self._problems[topic] = f"{topic} is not recorded: {reason}."
-            wanted[topic] = Subscription(offer.publishers[0].type, Topic(topic, depth=DEPTH))
-        return wanted
+            subscriptions[topic] = Subscription(offer.publishers[0].type, Topic(topic, depth=DEPTH))
+        return subscriptions
 
     def _is_chosen(self, topic: str) -> bool:
         if self._patterns:

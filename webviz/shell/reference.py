@@ -48,11 +48,11 @@ ENVIRONMENT = {
 def reference_page() -> str:
     """Commands with their options, keys of the config file, and environment variables."""
     lines = ["# Reference", "", "## Commands", ""]
-    known: set[str] = set()
+    global_options: set[str] = set()
     for words, command in _commands(app, ("webviz",)):
         arguments = command.assemble_argument_collection(parse_docstring=True)
-        rows = list(_options(arguments, known))
-        known |= {name for name, *_ in rows} if words == ("webviz",) else set()
+        rows = list(_options(arguments, global_options))
+        global_options |= {name for name, *_ in rows} if words == ("webviz",) else set()
         summary = command.help.partition("\n")[0]
         more = " Besides, options of `webviz`." if len(words) > 1 and _shares(arguments) else ""
         lines += [f"### {' '.join(words)}", "", summary + more, ""]
@@ -76,13 +76,13 @@ def _options(arguments: ArgumentCollection, known: set[str]) -> Iterator[tuple[s
     for each in sorted(arguments, key=_place):
         # Assembled apart from the program, subcommands lack its rule against negative names.
         names = [each.names[0], *(name for name in each.names if name[:2] != "--")]
-        shown = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
-        if each.show and shown not in known:
+        flags = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
+        if each.show and flags not in known:
             value = each.field_info.default
             has_default = each.parameter.show_default is None and value not in (None, "")
             is_given = isinstance(value, int | float | str) and not isinstance(value, bool)
             default = f"`{value}`" if has_default and is_given else ""
-            yield shown, default, " ".join((each.parameter.help or "").split()).replace("|", "\\|")
+            yield flags, default, " ".join((each.parameter.help or "").split()).replace("|", "\\|")
 
 
 def _place(argument: Argument) -> int:
@@ -135,8 +135,8 @@ def _is_property(member: object) -> bool:
 
 def _parameters(function: Callable[..., object]) -> str:
     """Return the parameters of a method by name, without annotations."""
-    given = list(inspect.signature(function).parameters.values())[1:]
-    plain = [each.replace(annotation=inspect.Parameter.empty) for each in given]
+    parameters = list(inspect.signature(function).parameters.values())[1:]
+    plain = [each.replace(annotation=inspect.Parameter.empty) for each in parameters]
     # Those have addresses.
     plain = [
         each.replace(default=...)

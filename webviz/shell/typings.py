@@ -44,8 +44,8 @@ _NAMED = {
 
 def files() -> dict[Path, str]:
     """Return the text of each generated file."""
-    made = {"constants": _constants, "contents": _stores, "messages": _messages}
-    typings = {FOLDER / f"{name}.d.ts": text() for name, text in made.items()}
+    makers = {"constants": _constants, "contents": _stores, "messages": _messages}
+    typings = {FOLDER / f"{name}.d.ts": text() for name, text in makers.items()}
     return {**typings, STUBS: stubs()}
 
 
@@ -150,8 +150,8 @@ def _field(
 
 
 def _structs(base: type[msgspec.Struct]) -> Iterator[type[msgspec.Struct]]:
-    found = {struct for module in _MODULES for _, struct in getmembers(module, isclass)}
-    for struct in sorted(found, key=lambda one: one.__name__):
+    structs = {struct for module in _MODULES for _, struct in getmembers(module, isclass)}
+    for struct in sorted(structs, key=lambda one: one.__name__):
         if issubclass(struct, base) and struct is not base:
             yield struct
 

@@ -137,9 +137,9 @@ class Inbox:
     def drain(self) -> dict[str, deque[Raw]]:
         """Take all messages by topic, oldest first."""
         with self._lock:
-            taken, self._queues, self._bytes, self._total = self._queues, {}, {}, 0
+            queues, self._queues, self._bytes, self._total = self._queues, {}, {}, 0
             self._held_drops = None
-        return taken
+        return queues
 
     def hold(self) -> int:
         """Let messages wait until the next `drain`, such as while paused.

@@ -101,8 +101,8 @@ class Player:
     @property
     def position_ns(self) -> int:
         """The position that is shown, or that is being approached."""
-        shown = self.reached_ns if self._target_ns is None else self._target_ns
-        return max(shown, self.history.start_ns)
+        position_ns = self.reached_ns if self._target_ns is None else self._target_ns
+        return max(position_ns, self.history.start_ns)
 
     @property
     def reached_ns(self) -> int:
@@ -303,7 +303,7 @@ class Player:
 
     def now_ns(self) -> int:
         """ROS time of what is shown."""
-        return shown.now_ns() if (shown := self._playhead or self.live) else 0
+        return playing.now_ns() if (playing := self._playhead or self.live) else 0
 
     def clock_messages(self) -> int | None:
         """Those of live topics; of a recording, /clock is not counted, but sets the time."""

@@ -150,11 +150,13 @@ class BagSlice(msgspec.Struct, frozen=True):
         first_ns, last_ns = self.span_ns
         history = BagHistory(self.paths, ghost=self.ghost)
         try:
-            found = {HistoryChannel(each.topic, each.type): each for each in history.files.channels}
-            chosen = {each: own for each, own in found.items() if self._is_chosen(each)}
-            wanted = {each.topic: self._wish(history, each, own) for each, own in chosen.items()}
-            before = [each for each in chosen if wanted[each.topic].lookbacks]
-            for recorded in NeededMessages(history, before, wanted, first_ns).messages():
+            by_channel = {
+                HistoryChannel(each.topic, each.type): each for each in history.files.channels
+            }
+            chosen = {each: own for each, own in by_channel.items() if self._is_chosen(each)}
+            wishes = {each.topic: self._wish(history, each, own) for each, own in chosen.items()}
+            before = [each for each in chosen if wishes[each.topic].lookbacks]
+            for recorded in NeededMessages(history, before, wishes, first_ns).messages():
                 if recorded.stamp_ns < first_ns:
                     yield self._message(chosen, recorded, first_ns)
             for recorded in history.messages(chosen, first_ns, last_ns):
@@ -303,8 +305,8 @@ def slice_around(player: Player, around: Margins | None = None) -> tuple[Slice, 
         first_ns, last_ns = min(first_ns, at_ns), max(last_ns, at_ns)
         span_ns = max(first_ns, history.start_ns), min(last_ns, history.end_ns)
         renamed = {ours: theirs for theirs, ours in history.remappings.items()}
-        wanted = dict(player.subscriptions)
-        part = BagSlice(history.paths, wanted, renamed, span_ns, at_ns, history.ghost)
+        subscriptions = dict(player.subscriptions)
+        part = BagSlice(history.paths, subscriptions, renamed, span_ns, at_ns, history.ghost)
         return part, ", ".join(history.names)
     memory = player.memory
     if around is not None and player.is_live and memory is not None:

@@ -47,13 +47,13 @@ def merged(subscriptions: Iterable[Mapping[str, Subscription]]) -> dict[str, Sub
     so that none of them misses messages for the choice of another. Best effort meets all
     publishers, so it holds beside readers that chose nothing.
     """
-    wanted: dict[str, Subscription] = {}
+    by_name: dict[str, Subscription] = {}
     for subscription in subscriptions:
         for topic, other in subscription.items():
-            first = wanted.setdefault(topic, other)
+            first = by_name.setdefault(topic, other)
             if first is not other:
-                wanted[topic] = _shared(first, other)
-    return wanted
+                by_name[topic] = _shared(first, other)
+    return by_name
 
 
 def _shared(first: Subscription, other: Subscription) -> Subscription:
@@ -152,13 +152,13 @@ class Subscriber:
             The same subscriptions with `asked`, which is higher for topics and types that were not
             in the previous call.
         """
-        known, self._asked = self._asked, {}
-        found = {}
+        former, self._asked = self._asked, {}
+        counted_subscriptions = {}
         for name, subscription in wanted.items():
             key = name, subscription.type
-            self._asked[key] = asked = known.get(key) or next(_COUNT)
-            found[name] = replace(subscription, asked=asked)
-        return found
+            self._asked[key] = count = former.get(key) or next(_COUNT)
+            counted_subscriptions[name] = replace(subscription, asked=count)
+        return counted_subscriptions
 
     def ask(self) -> None:
         """Request all latched messages again."""

@@ -98,22 +98,22 @@ class ObjectsDisplay(Display):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw the objects, in the frame and at the stamp of the header."""
-        given: Sequence[Any] = sample.message.objects
-        wanted = [(number, each) for number, each in enumerate(given) if self.is_wanted(each)]
-        found = [seen(number, each) for number, each in wanted[:MAX_OBJECTS]]
-        shown = [each for each in found if each is not None]
-        self._report(len(given), len(wanted), len(found) - len(shown), ctx)
-        if not shown:
+        objects: Sequence[Any] = sample.message.objects
+        chosen = [(number, each) for number, each in enumerate(objects) if self.is_wanted(each)]
+        candidates = [seen(number, each) for number, each in chosen[:MAX_OBJECTS]]
+        valid = [each for each in candidates if each is not None]
+        self._report(len(objects), len(chosen), len(candidates) - len(valid), ctx)
+        if not valid:
             return
         sketch = ObjectSketch()
-        for each in shown:
+        for each in valid:
             color = self.per_class_color.of(each.name) if self.per_class_color.value else self.color
             self._sketch_shape(each, color, sketch)
             self._sketch_vectors(each, sketch)
             self._sketch_covariances(each, sketch)
             self.sketch_texts(each, color, sketch)
             self.sketch_more(each, sketch)
-        origin = np.array(origin_near([each.xyz for each in shown]))
+        origin = np.array(origin_near([each.xyz for each in valid]))
         group = ctx.follow(None, offset=compose(sample.pose, Pose(tuple(origin.tolist()))))
         self._draw(sketch, origin, group)
 
@@ -130,18 +130,18 @@ class ObjectsDisplay(Display):
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return an object: its class, how sure it is, its size and speed."""
-        given = hit.sample.message.objects[hit.id]
-        found = seen(hit.id, given)
-        if found is None:
+        message_object = hit.sample.message.objects[hit.id]
+        detected = seen(hit.id, message_object)
+        if detected is None:
             return None
         values: dict[str, object] = {
-            "Probability": f"{100 * found.probability:.0f} %",
-            "Size": " x ".join(f"{metres:g}" for metres in found.size.tolist()) + " m",
-            "Speed": f"{found.speed:.2f} m/s",
+            "Probability": f"{100 * detected.probability:.0f} %",
+            "Size": " x ".join(f"{metres:g}" for metres in detected.size.tolist()) + " m",
+            "Speed": f"{detected.speed:.2f} m/s",
         }
-        if found.uuid:
-            values["Id"] = found.uuid
-        return Details(found.title, values)
+        if detected.uuid:
+            values["Id"] = detected.uuid
+        return Details(detected.title, values)
 
     def _sketch_shape(self, each: SeenObject, color: Rgb, sketch: ObjectSketch) -> None:
         look = self.shape
@@ -172,15 +172,15 @@ class ObjectsDisplay(Display):
         look, number = self.covariance, each.number
         angles, areas = ANGLES[look.confidence_interval], AREAS[look.confidence_interval]
         yaw = math.atan2(each.turn[1, 0], each.turn[0, 0])
-        if look.pose and (found := ellipse(each.pose_covariance[:2, :2])):
-            first, second, angle = found
+        if look.pose and (ellipse_of := ellipse(each.pose_covariance[:2, :2])):
+            first, second, angle = ellipse_of
             axes = areas * first, areas * second, angle
-            sketch.ellipses.append((each.xyz, axes, _density(3.0, found), POSITION, number))
-        if look.twist and (found := ellipse(each.twist_covariance[:2, :2])):
-            first, second, angle = found
+            sketch.ellipses.append((each.xyz, axes, _density(3.0, ellipse_of), POSITION, number))
+        if look.twist and (ellipse_of := ellipse(each.twist_covariance[:2, :2])):
+            first, second, angle = ellipse_of
             axes = areas * first, areas * second, angle + yaw
             tip = each.placed(each.velocity * (1.0, 1.0, 0.0))
-            sketch.ellipses.append((tip, axes, _density(1.0, found), VELOCITY, number))
+            sketch.ellipses.append((tip, axes, _density(1.0, ellipse_of), VELOCITY, number))
         if look.yaw and (half := angles * _deviation(each.pose_covariance[5, 5])):
             half, radius = min(half, math.pi), max(0.65 * each.size[0], 1.0)
             sketch.add("yaws", each.placed(sector(-half, half, radius)), WHITE, number)

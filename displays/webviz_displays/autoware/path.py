@@ -95,21 +95,21 @@ class AutowarePathDisplay(Display):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw the path, in the frame and at the stamp of the header."""
-        given = sample.message.points
-        if not len(given):
+        message_points = sample.message.points
+        if not len(message_points):
             ctx.warn("Path", "The path is empty. Check the planner's log.")
             return
-        points = _Points(given[:MAX_POINTS])
+        points = _Points(message_points[:MAX_POINTS])
         if not points.ok:
             text = "A pose or velocity is not finite or too large. Fix the planner."
             ctx.error("Path", text)
             return
         least, most = points.speeds.min(), points.speeds.max()
-        shown = f"{counted(len(points.xyz), 'point')}, {least:.2f} to {most:.2f} m/s"
-        if len(given) > MAX_POINTS:
-            ctx.warn("Path", f"Showing the first {shown}; the path has {len(given)}.")
+        amounts = f"{counted(len(points.xyz), 'point')}, {least:.2f} to {most:.2f} m/s"
+        if len(message_points) > MAX_POINTS:
+            ctx.warn("Path", f"Showing the first {amounts}; the path has {len(message_points)}.")
         else:
-            ctx.ok("Path", f"{shown}.")
+            ctx.ok("Path", f"{amounts}.")
         origin = np.array(origin_near(points.xyz))
         points.xyz = points.xyz - origin
         group = ctx.follow(None, offset=compose(sample.pose, Pose(tuple(origin.tolist()))))
@@ -299,8 +299,8 @@ def slopes(xyz: F64) -> F64:
     Up is positive.
     """
     steps = np.diff(xyz, axis=0)
-    found = np.arctan2(steps[:, 2], np.linalg.norm(steps[:, :2], axis=1))
-    return np.append(found, found[-1])
+    angles = np.arctan2(steps[:, 2], np.linalg.norm(steps[:, :2], axis=1))
+    return np.append(angles, angles[-1])
 
 
 def add_texts(key: str, texts: Sequence[str], height: float, xyz: F64, group: Group) -> None:

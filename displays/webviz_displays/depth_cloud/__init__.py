@@ -202,10 +202,10 @@ class DepthCloud(PointsDisplay):
             number: self._drawn(number, points, state.poses[number], ctx)
             for number, points in state.clouds.items()
         }
-        for drawn in state.drawn.values():
-            ctx.groups.update(drawn.groups)
-            ctx.statuses.update(drawn.statuses)
-            ctx.color_scale = drawn.scale
+        for cloud in state.drawn.values():
+            ctx.groups.update(cloud.groups)
+            ctx.statuses.update(cloud.statuses)
+            ctx.color_scale = cloud.scale
         doubt = calibration_problem(infos[-1].message) or optical_problem(images[-1].frame)
         self._report(newest[1], doubt, ctx)
 
@@ -238,19 +238,21 @@ class DepthCloud(PointsDisplay):
         self, number: int, points: DepthPoints, images: Sequence[Sample], state: _State
     ) -> None:
         """Hold the newest points, and those of images that are held."""
-        held = {each.number for each in images} if self.decay_time else set()
+        image_numbers = {each.number for each in images} if self.decay_time else set()
         state.clouds[number] = points
-        state.clouds = {n: each for n, each in state.clouds.items() if n in held | {number}}
+        state.clouds = {
+            n: each for n, each in state.clouds.items() if n in image_numbers | {number}
+        }
         newest = images[-1].number
-        kept = {number, newest} | held
-        state.poses = {n: pose for n, pose in state.poses.items() if n in kept or n > number}
+        numbers = {number, newest} | image_numbers
+        state.poses = {n: pose for n, pose in state.poses.items() if n in numbers or n > number}
 
     def _drawn(self, number: int, points: DepthPoints, pose: Pose, ctx: Context) -> _Drawn:
         """Draw the points of an image, unless they are drawn already."""
         look = pose, msgspec.structs.astuple(self)
-        known: _Drawn | None = ctx.state.drawn.get(number)
-        if known and known.points is points and known.look == look:
-            return known
+        former: _Drawn | None = ctx.state.drawn.get(number)
+        if former and former.points is points and former.look == look:
+            return former
         own = Context(ctx.frames, ctx.background, None)
         # Without a decay time a new cloud replaces the one before in place.
         key = str(number) if self.decay_time else "newest"

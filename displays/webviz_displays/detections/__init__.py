@@ -36,19 +36,19 @@ class _Detections(BoxesDisplay):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw each in the colour of its likeliest class."""
-        found = self.detections_of(sample.message)
-        best = [_best(each) for each in found]
-        boxes, colors = [each.bbox for each in found], [_color(each) for each in best]
+        detections = self.detections_of(sample.message)
+        best = [_best(each) for each in detections]
+        boxes, colors = [each.bbox for each in detections], [_color(each) for each in best]
         self.draw_boxes(boxes, colors, [self._text(each) for each in best], sample, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return the classes of a detection by their scores, and its size."""
-        found = self.detections_of(hit.sample.message)[hit.id]
-        known = sorted(found.results, key=lambda each: -each.hypothesis.score)[:5]
-        size = found.bbox.size
+        detection = self.detections_of(hit.sample.message)[hit.id]
+        results = sorted(detection.results, key=lambda each: -each.hypothesis.score)[:5]
+        size = detection.bbox.size
         values: dict[str, object] = {"Size": f"{size.x:g} x {size.y:g} x {size.z:g} m"}
-        values |= {each.hypothesis.class_id: f"{each.hypothesis.score:.2f}" for each in known}
-        return Details(f"Detection {found.id or hit.id}", values)
+        values |= {each.hypothesis.class_id: f"{each.hypothesis.score:.2f}" for each in results}
+        return Details(f"Detection {detection.id or hit.id}", values)
 
     def _text(self, best: Any | None) -> str:
         if best is None:
@@ -84,8 +84,8 @@ class Detection3D(_Detections):
 
 def _best(detection: Any) -> Any | None:
     """Return the likeliest hypothesis, None without any."""
-    known = [each.hypothesis for each in detection.results]
-    return max(known, key=lambda each: each.score, default=None)
+    hypotheses = [each.hypothesis for each in detection.results]
+    return max(hypotheses, key=lambda each: each.score, default=None)
 
 
 def _color(best: Any | None) -> tuple[int, int, int]:

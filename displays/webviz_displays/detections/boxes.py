@@ -65,16 +65,16 @@ class BoxesDisplay(Display):
         if self.alpha == 0:
             ctx.warn("Boxes", "Invisible: alpha is 0. Increase it to show the boxes.", opaque())
             return
-        shown = boxes[:MAX_BOXES]
-        centers = np.array([(*_xyz(box.center.position),) for box in shown], np.float64)
-        sizes = np.array([_xyz(box.size) for box in shown], np.float64)
-        turns = np.array([_xyzw(box.center.orientation) for box in shown], np.float64)
+        drawn_boxes = boxes[:MAX_BOXES]
+        centers = np.array([(*_xyz(box.center.position),) for box in drawn_boxes], np.float64)
+        sizes = np.array([_xyz(box.size) for box in drawn_boxes], np.float64)
+        turns = np.array([_xyzw(box.center.orientation) for box in drawn_boxes], np.float64)
         turns, is_turn = normalized(turns)
         is_valid = is_drawable(centers) & is_turn
         with np.errstate(invalid="ignore"):
             is_valid &= ((sizes >= 0) & (sizes <= LONGEST)).all(axis=1) & (sizes > 0).any(axis=1)
         rows = np.flatnonzero(is_valid)
-        self._report(len(boxes), len(shown), len(rows), ctx)
+        self._report(len(boxes), len(drawn_boxes), len(rows), ctx)
         if not len(rows):
             return
         centers, sizes, wxyzs = centers[rows], sizes[rows], w_first(turns[rows])

@@ -63,9 +63,9 @@ def faces_of(is_valid: Mask) -> U32:
     four = np.stack([numbers[corner] for corner in corners], axis=-1)
     missing = 4 - is_there.sum(axis=-1)
     cases = np.where(missing == 0, 0, np.where(missing == 1, 1 + np.argmin(is_there, axis=-1), -1))
-    found = [four[cases == case][:, triangles].reshape(-1, 3)
+    faces = [four[cases == case][:, triangles].reshape(-1, 3)
              for case, triangles in enumerate(map(np.array, _TRIANGLES))]  # fmt: skip
-    return np.concatenate(found)
+    return np.concatenate(faces)
 
 
 def lines_of(points: F32, is_valid: Mask, step: int) -> F32:
@@ -76,15 +76,15 @@ def lines_of(points: F32, is_valid: Mask, step: int) -> F32:
         is_valid: (rows, columns), which of them there are.
         step: at least 1.
     """
-    found = []
+    lines = []
     for axis in (0, 1):
         across = points.shape[axis]
         chosen = np.unique(np.append(np.arange(0, across, step), across - 1))
         some = np.take(points, chosen, axis).swapaxes(0, axis)
         there = np.take(is_valid, chosen, axis).swapaxes(0, axis)
         segments = np.stack((some[:, :-1], some[:, 1:]), axis=2)
-        found.append(segments[there[:, :-1] & there[:, 1:]])
-    return np.concatenate(found)
+        lines.append(segments[there[:, :-1] & there[:, 1:]])
+    return np.concatenate(lines)
 
 
 U8 = NDArray[np.uint8]
@@ -243,10 +243,10 @@ class GridMap(Display):
 
     def _report(self, layers: Layers, is_valid: Mask, step: int, ctx: Context) -> None:
         rows, columns = layers.shape
-        shown = int(is_valid.sum())
+        count = int(is_valid.sum())
         size = f"{rows} x {columns} cells of {layers.resolution:g} m"
         ctx.ok("Layers", f"{listed(layers.names, NAMED)}.")
-        if not shown:
+        if not count:
             ctx.warn("Grid map", f"None of the {size} has a value. Check the publisher.")
         elif self.alpha == 0:
             ctx.warn(
@@ -265,4 +265,4 @@ class GridMap(Display):
                 f"{MAX_CELLS} cells. Publish a smaller map to see all.",
             )
         else:
-            ctx.ok("Grid map", f"Showing {shown} of {size}.")
+            ctx.ok("Grid map", f"Showing {count} of {size}.")

@@ -74,8 +74,10 @@ class Layers(msgspec.Struct, frozen=True, eq=False):
         """
         if name not in self.names:
             purpose = path.replace("_", " ").title() or "layer"
-            known = listed([f"'{each}'" for each in self.names], NAMED)
-            text = f"The grid map has no layer '{name}', but {known}. Choose another {purpose}."
+            names_text = listed([f"'{each}'" for each in self.names], NAMED)
+            text = (
+                f"The grid map has no layer '{name}', but {names_text}. Choose another {purpose}."
+            )
             raise GridMapFault(text, self._other(name, path))
         matrix = _matrix(self.message.data[self.names.index(name)], name)
         if matrix.shape != self.shape:
@@ -98,11 +100,11 @@ class Layers(msgspec.Struct, frozen=True, eq=False):
             GridMapFault: see `layer`.
         """
         names = [name for name in self.message.basic_layers if name in self.names]
-        found = [self.layer(name) for name in dict.fromkeys(names)]
+        layers = [self.layer(name) for name in dict.fromkeys(names)]
         if height_layer is not None:
-            found.append(self.layer(height_layer, "height_layer"))
+            layers.append(self.layer(height_layer, "height_layer"))
         is_valid = np.ones(self.shape, np.bool_)
-        for values in found:
+        for values in layers:
             is_valid &= np.abs(values) < FARTHEST
         return is_valid
 

@@ -63,21 +63,21 @@ class Image(AnnotatedImage):
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
         """Return the newest image or all packets of a video since its last key frame, annotated."""
-        held: _ImageHeld = state or _ImageHeld()
+        content: _ImageHeld = state or _ImageHeld()
         if name == INPUT:
-            return msgspec.structs.replace(held, annotations=held.annotations.taken(sample))
+            return msgspec.structs.replace(content, annotations=content.annotations.taken(sample))
         if sample.type in video.TYPES:
-            before = held.image.message if held.image else None
+            before = content.image.message if content.image else None
             clip = video.extended(before if isinstance(before, video.Clip) else None, sample)
             sample = replace(sample, message=clip)
-        return msgspec.structs.replace(held, image=sample)
+        return msgspec.structs.replace(content, image=sample)
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Show the newest image, and what is annotated there."""
-        held: _ImageHeld = sample.message
-        if held.image is None:
+        content: _ImageHeld = sample.message
+        if content.image is None:
             return
-        sample = held.image
+        sample = content.image
         try:
             picture: Picture | None
             if isinstance(sample.message, video.Clip):
@@ -90,7 +90,9 @@ class Image(AnnotatedImage):
         if picture is None:
             return
         stamp_ns = self.stamp_of(picture, sample, ctx)
-        pane = Pane(picture, stamp_ns, ctx.order, marks=self.marks(held.annotations, stamp_ns, ctx))
+        pane = Pane(
+            picture, stamp_ns, ctx.order, marks=self.marks(content.annotations, stamp_ns, ctx)
+        )
         ctx.add("pane", self.kept(pane, ctx))
 
 

@@ -79,32 +79,32 @@ def marks_of(message: Any, type_name: str, labels: bool) -> MessageMarks:
         labels: whether the likeliest class of a detection and its score are written beside it.
     """
     if type_name == DETECTIONS:
-        count, made = len(message.detections), _detections(message.detections, labels)
+        count, mark_list = len(message.detections), _detections(message.detections, labels)
     else:
         count = len(message.points) + len(message.circles) + len(message.texts)
-        made = _annotations(message)
+        mark_list = _annotations(message)
     marks: list[Mark] = []
-    points = invalid = seen = 0
-    for mark in made:
+    points = invalid = examined = 0
+    for mark in mark_list:
         if len(marks) == MAX_MARKS:
             break
         if mark is not None and points + len(mark.points) // 2 > MAX_POINTS:
             break
-        seen += 1
+        examined += 1
         if mark is None:
             invalid += 1
         else:
             marks.append(mark)
             points += len(mark.points) // 2
-    return MessageMarks(tuple(marks), invalid, count - seen)
+    return MessageMarks(tuple(marks), invalid, count - examined)
 
 
 def _detections(detections: Sequence[Any], labels: bool) -> Iterator[Mark | None]:
     for number, each in enumerate(detections):
-        known = sorted((one.hypothesis for one in each.results), key=lambda one: -one.score)
+        hypotheses = sorted((one.hypothesis for one in each.results), key=lambda one: -one.score)
         texts = [
             f"{plain(one.class_id, MAX_TEXT) or 'no class'} {one.score:.2f}"
-            for one in known[:MAX_CLASSES]
+            for one in hypotheses[:MAX_CLASSES]
         ]
         box = each.bbox
         size = f"{box.size_x:g} x {box.size_y:g} px"
@@ -112,7 +112,7 @@ def _detections(detections: Sequence[Any], labels: bool) -> Iterator[Mark | None
         yield _checked(
             "loop",
             _corners(box),
-            _color_of(known[0].class_id if known else ""),
+            _color_of(hypotheses[0].class_id if hypotheses else ""),
             width=BOX_PX,
             text=texts[0] if labels and texts else "",
             about=" · ".join((name, *texts, size)),
@@ -125,11 +125,11 @@ def _corners(box: Any) -> list[float]:
     if not (math.isfinite(turn) and box.size_x > 0 and box.size_y > 0):
         return [math.nan]
     cos, sin = math.cos(turn), math.sin(turn)
-    found: list[float] = []
+    coordinates: list[float] = []
     for across, down in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
         right, below = across * box.size_x, down * box.size_y
-        found += (x + cos * right - sin * below, y + sin * right + cos * below)
-    return found
+        coordinates += (x + cos * right - sin * below, y + sin * right + cos * below)
+    return coordinates
 
 
 def _annotations(message: Any) -> Iterator[Mark | None]:
@@ -230,8 +230,8 @@ class Annotations(msgspec.Struct, frozen=True):
         """
         if not self.newest:
             raise LookupError("no annotations")
-        found = next((each for each in self.newest if each[0] == stamp_ns), self.newest[-1])
-        stamp, message, type_name = found
+        match = next((each for each in self.newest if each[0] == stamp_ns), self.newest[-1])
+        stamp, message, type_name = match
         return message, type_name, (stamp - stamp_ns) / 1e9 if stamp and stamp_ns else 0.0
 
 
@@ -285,11 +285,11 @@ class AnnotatedImage(ImageDisplay):
             message, type_name, newer_s = known.of(stamp_ns)
         except LookupError:
             return ()  # the status of the topic says why
-        made = ctx.state.made
-        if made is None or made[0] is not message or made[1] != self.show_labels:
+        cached = ctx.state.made
+        if cached is None or cached[0] is not message or cached[1] != self.show_labels:
             marks = marks_of(message, type_name, self.show_labels)
-            made = ctx.state.made = message, self.show_labels, marks
-        found: MessageMarks = made[2]
+            cached = ctx.state.made = message, self.show_labels, marks
+        drawn_marks: MessageMarks = cached[2]
         apart = "" if not newer_s else f"{abs(newer_s):.2g} s {_older_or_newer(newer_s)}"
         if abs(newer_s) > TOLERANCE_S:
             ctx.warn(
@@ -298,18 +298,18 @@ class AnnotatedImage(ImageDisplay):
                 "Compare the stamps of both topics.",
             )
             return ()
-        count = counted(len(found.marks), "annotation")
-        if found.invalid:
+        count = counted(len(drawn_marks.marks), "annotation")
+        if drawn_marks.invalid:
             ctx.error(
                 "Annotations",
-                f"{found.invalid} of {found.invalid + len(found.marks)} annotations have a place, "
-                "size or kind that is not valid. Fix the publisher.",
+                f"{drawn_marks.invalid} of {drawn_marks.invalid + len(drawn_marks.marks)} "
+                "annotations have a place, size or kind that is not valid. Fix the publisher.",
             )
-        elif found.left_out:
-            ctx.warn("Annotations", f"Showing {count}; {found.left_out} more are left out.")
+        elif drawn_marks.left_out:
+            ctx.warn("Annotations", f"Showing {count}; {drawn_marks.left_out} more are left out.")
         else:
             ctx.ok("Annotations", f"{count}, {apart} than the image." if apart else f"{count}.")
-        return found.marks
+        return drawn_marks.marks
 
 
 def _older_or_newer(newer_s: float) -> str:

@@ -30,9 +30,9 @@ class RunningRange:
             window: number of images.
         """
         if not self._seen or self._seen[-1][0] != number:
-            found = value_range(values(image), image.layout.zero_is_invalid)
-            if found is not None:
-                self._seen.append((number, found))
+            own_range = value_range(values(image), image.layout.zero_is_invalid)
+            if own_range is not None:
+                self._seen.append((number, own_range))
         while len(self._seen) > window:
             self._seen.popleft()
         if not self._seen:
@@ -104,12 +104,14 @@ class ImageDisplay(Display):
         Raises:
             ImageError: it cannot be shown.
         """
-        found, state, number = transports.read(sample), ctx.state, sample.number
+        content, state, number = transports.read(sample), ctx.state, sample.number
         state.number = number
-        if isinstance(found, Encoded):
-            ctx.ok("Image", f"{found.width} x {found.height}, {found.mime.partition('/')[2]}.")
-            return found
-        image, remark = found, ""
+        if isinstance(content, Encoded):
+            ctx.ok(
+                "Image", f"{content.width} x {content.height}, {content.mime.partition('/')[2]}."
+            )
+            return content
+        image, remark = content, ""
         if isinstance(image, transports.Decompression):
             run = image.run
             newest = state.decompressed.of(number, lambda: (number, run()), ctx)

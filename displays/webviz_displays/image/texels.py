@@ -26,9 +26,9 @@ def texels(picture: Pixels | Encoded, alpha: float = 1.0) -> NDArray[np.uint8]:
     """
     factor = max(1, -(-max(picture.size) // MAX_TEXELS))
     if isinstance(picture, Pixels):
-        shown = render(picture.image, picture.tone, factor)
+        image = render(picture.image, picture.tone, factor)
     else:
-        shown = opened(picture).reduce(factor)
-    shown = shown.convert("RGB")
-    shown.putalpha(round(255 * alpha))
-    return np.asarray(shown)
+        image = opened(picture).reduce(factor)
+    image = image.convert("RGB")
+    image.putalpha(round(255 * alpha))
+    return np.asarray(image)

@@ -100,12 +100,12 @@ def codec_of(name: str) -> str:
         ImageError: browsers cannot decode it.
     """
     words = name.lower().partition(";")[0].strip()
-    known = next((codec for key, codec in _CODECS.items() if key in words), "")
-    if not known:
+    codec_name = next((codec for key, codec in _CODECS.items() if key in words), "")
+    if not codec_name:
         raise ImageError(
             f"Unsupported video codec {name[:40]!a}: browsers decode h264, h265, vp9 and av1."
         )
-    return known
+    return codec_name
 
 
 def stands_alone(message: Any, type_name: str) -> bool:

@@ -160,9 +160,9 @@ class Imu(Display):
         (wxyz,), _ = normalized([(xyzw[3], *xyzw[:3])])
         is_fixed = self.fixed_frame_orientation
         group = ctx.follow(None, offset=Pose(sample.pose.position) if is_fixed else sample.pose)
-        shown = [self._box(wxyz, group), self._axes(wxyz, group)]
-        shown.append(self._acceleration(wxyz, acceleration, group, ctx))
-        if not any(shown):
+        nodes_drawn = [self._box(wxyz, group), self._axes(wxyz, group)]
+        nodes_drawn.append(self._acceleration(wxyz, acceleration, group, ctx))
+        if not any(nodes_drawn):
             ctx.warn(
                 "Imu",
                 "Nothing is drawn. Enable the box, the axes or the acceleration, and raise alpha.",

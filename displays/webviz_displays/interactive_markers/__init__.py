@@ -85,27 +85,27 @@ def _key(name: str, ctx: Context) -> str:
 
 def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[bool, str]]:
     """Return the problems of markers by name: an error or not, and a sentence."""
-    found = {name: (True, text) for name, text in server.ignored.items()}
+    troubles = {name: (True, text) for name, text in server.ignored.items()}
     frames = ctx.frames
     for name, marker in server.markers.items():
-        if name in found:
+        if name in troubles:
             continue
         place, source = marker.place(frames), marker.source
         if not source.frame:
-            found[name] = True, "Its header has no frame id. Correct the server."
+            troubles[name] = True, "Its header has no frame id. Correct the server."
         elif place is None:
-            found[name] = True, frames.why_not(source.frame, source.stamp_ns)
-        elif lost := server.shown[name].lost:
-            found[name] = True, lost
+            troubles[name] = True, frames.why_not(source.frame, source.stamp_ns)
+        elif problem := server.shown[name].lost:
+            troubles[name] = True, problem
         elif fault := server.shown[name].fault:
-            found[name] = True, fault
+            troubles[name] = True, fault
         elif marker.made.problems:
-            found[name] = False, marker.made.problems[0]
+            troubles[name] = False, marker.made.problems[0]
         elif not marker.made.parts:
-            found[name] = False, "It has no controls, so only its title is shown."
+            troubles[name] = False, "It has no controls, so only its title is shown."
         elif frames.latest(place.frame) is None:
-            found[name] = True, frames.why_not(place.frame)
-    return found
+            troubles[name] = True, frames.why_not(place.frame)
+    return troubles
 
 
 _KEY = re.compile(r"(?:c(\d+)|\w+)/(m\d+)")
@@ -113,18 +113,18 @@ _KEY = re.compile(r"(?:c(\d+)|\w+)/(m\d+)")
 
 def part_of(key: str) -> tuple[str, int | None] | None:
     """Return the key of the marker that a node belongs to, and the index of its control, if any."""
-    found = _KEY.match(key)
-    return (found[2], None if found[1] is None else int(found[1])) if found else None
+    match = _KEY.match(key)
+    return (match[2], None if match[1] is None else int(match[1])) if match else None
 
 
 def details(marker: Tracked, index: int | None) -> Details:
     """Return a marker, and one of its controls."""
-    made, place = marker.made, marker.source
-    values: dict[str, object] = {"Marker": made.name}
-    if made.description:
-        values["Description"] = made.description
-    if index is not None and index < len(made.parts):
-        part = made.parts[index]
+    completed, place = marker.made, marker.source
+    values: dict[str, object] = {"Marker": completed.name}
+    if completed.description:
+        values["Description"] = completed.description
+    if index is not None and index < len(completed.parts):
+        part = completed.parts[index]
         values["Control"] = part.control.name or "(no name)"
         values["Interaction"] = part.control.mode.replace("_", " ")
         if part.control.help:
@@ -132,8 +132,8 @@ def details(marker: Tracked, index: int | None) -> Details:
         if turned := marker.turned.get(part.control.name):
             values["Turned by"] = f"{math.degrees(turned):.1f}°"
     values[f"Pose in {place.frame}"] = place.pose
-    values["Scale"] = made.scale
-    return Details(f"Interactive marker {made.name}", values)
+    values["Scale"] = completed.scale
+    return Details(f"Interactive marker {completed.name}", values)
 
 
 NO_NAMESPACE = "No namespace. Choose that of an interactive marker server."
@@ -301,9 +301,9 @@ class InteractiveMarkers(Display, Draggable):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a marker and its control: where it is and what it can do."""
         state: _State = ctx.state
-        found = part_of(hit.key)
-        marker = state.server.find(found[0]) if state.server and found else None
-        return None if marker is None or found is None else details(marker, found[1])
+        place = part_of(hit.key)
+        marker = state.server.find(place[0]) if state.server and place else None
+        return None if marker is None or place is None else details(marker, place[1])
 
 
 def _moves(mode: str) -> bool:

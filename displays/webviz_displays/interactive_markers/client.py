@@ -147,7 +147,7 @@ class Client(msgspec.Struct):
 
     def _follow(self, connection: GraphConnection) -> list[News]:
         """Apply the updates that wait, in order, until one is still being read."""
-        found: list[News] = []
+        news: list[News] = []
         while True:
             if self._reading is None and self._waiting:
                 self._reading = _started(read_update, self._waiting.popleft(), connection)
@@ -158,7 +158,7 @@ class Client(msgspec.Struct):
                 self.problem = joined(f"An update cannot be read: {error}", "Correct the server.")
                 continue
             if update is None:
-                return found
+                return news
             if update.news is None or (self._is_early and update.number <= self.sequence):
                 continue
             if update.number != self.sequence + 1:
@@ -168,10 +168,10 @@ class Client(msgspec.Struct):
                 )
                 self._restart()
                 connection.wake()
-                return found
+                return news
             self.sequence += 1
             self.problem = ""
-            found.append(update.news)
+            news.append(update.news)
 
     def _read(self) -> ServerMessage | None:
         """Return the message that is being read, once it is.
@@ -182,8 +182,8 @@ class Client(msgspec.Struct):
         """
         if self._reading is None or not self._reading.done():
             return None
-        done, self._reading = self._reading, None
-        return done.result()
+        future, self._reading = self._reading, None
+        return future.result()
 
 
 def _started(
@@ -192,9 +192,9 @@ def _started(
     """Read a message, a large one in a worker."""
     if len(cdr) >= SLOW_BYTES:
         return connection.run(read, cdr)
-    done: Future[ServerMessage] = Future()
+    future: Future[ServerMessage] = Future()
     try:
-        done.set_result(read(cdr))
+        future.set_result(read(cdr))
     except MessageError as error:
-        done.set_exception(error)
-    return done
+        future.set_exception(error)
+    return future

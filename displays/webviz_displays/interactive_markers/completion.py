@@ -146,14 +146,14 @@ def pose_of(message: Any) -> Pose | None:
 
 def unique_names(names: Sequence[str]) -> Iterator[str]:
     """Names, of which repeated ones get `_u0`, `_u1` and so on; feedback has them like that."""
-    taken: set[str] = set()
+    used: set[str] = set()
     count = 0
     for name in names:
         unique = name
-        while unique in taken:
+        while unique in used:
             unique = f"{name}_u{count}"
             count += 1
-        taken.add(unique)
+        used.add(unique)
         yield unique
 
 
@@ -203,7 +203,7 @@ def _part(name: str, control: Any, scale: float) -> CompleteControl:
         if mode == "menu":
             facing, is_independent = "view_facing", False
     _check_size(shapes)
-    made = Control(
+    completed = Control(
         name=name,
         mode=mode,
         facing=facing,
@@ -211,7 +211,7 @@ def _part(name: str, control: Any, scale: float) -> CompleteControl:
         is_always_visible=bool(control.always_visible),
         help=help,
     )
-    return CompleteControl(made, is_independent, _with_sizes(shapes))
+    return CompleteControl(completed, is_independent, _with_sizes(shapes))
 
 
 def _check_size(shapes: MarkerSequence) -> None:

@@ -96,12 +96,12 @@ class ShownMarker:
         self._groups = dict(itertools.islice(reversed(ctx.groups.items()), added))
 
     def _make(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
-        made = marker.made
-        if self._parts is not made.parts or self._look != look or self.lost:
+        completed = marker.made
+        if self._parts is not completed.parts or self._look != look or self.lost:
             self._renew(marker, place, look, ctx.frames)
         whole = self._group(ctx, place, marker.key, place.pose.wxyz)
         whole.lines(f"place/{marker.key}", (), (0, 0, 0))  # for pages, even if it is empty
-        for index, (part, nodes) in enumerate(zip(made.parts, self._nodes, strict=True)):
+        for index, (part, nodes) in enumerate(zip(completed.parts, self._nodes, strict=True)):
             group = whole
             if has_own_group(part):
                 wxyz = orientation(part, place.pose, marker.turned.get(part.control.name, 0.0))
@@ -110,13 +110,16 @@ class ShownMarker:
             group.nodes.update(nodes)
         if look.axes:
             zero, unit = np.zeros((1, 3), np.float32), np.array([(1, 0, 0, 0)], np.float32)
-            whole.add(f"axes/{marker.key}", Axes(zero, unit, made.scale, AXES_RADIUS * made.scale))
-        if look.titles and made.description:
+            whole.add(
+                f"axes/{marker.key}",
+                Axes(zero, unit, completed.scale, AXES_RADIUS * completed.scale),
+            )
+        if look.titles and completed.description:
             title = self._group(ctx, place, f"{marker.key}.{TITLE}", (1.0, 0.0, 0.0, 0.0))
-            at = np.array([(0.0, 0.0, TITLE_AT * made.scale)], np.float32)
+            at = np.array([(0.0, 0.0, TITLE_AT * completed.scale)], np.float32)
             title.add(
                 f"{TITLE}/{marker.key}",
-                Labels(at, (made.description,), TITLE_HEIGHT * abs(made.scale)),
+                Labels(at, (completed.description,), TITLE_HEIGHT * abs(completed.scale)),
             )
 
     def _group(

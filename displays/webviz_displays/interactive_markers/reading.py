@@ -84,18 +84,18 @@ def read_update(cdr: bytes) -> ServerMessage:
 
 def _markers(messages: Sequence[Any]) -> tuple[dict[str, Completed | RefusedMarker], int]:
     """Complete the markers of a message; how many are beyond the limit."""
-    found: dict[str, Completed | RefusedMarker] = {}
+    by_name: dict[str, Completed | RefusedMarker] = {}
     counts: dict[str, int] = {}
     for message in messages[:MAX_MARKERS]:
-        made = completed(message)
-        counts[made.name] = counts.get(made.name, 0) + 1
-        found[made.name] = made
+        marker = completed(message)
+        counts[marker.name] = counts.get(marker.name, 0) + 1
+        by_name[marker.name] = marker
     for name, count in counts.items():
-        made = found[name]
-        if count > 1 and isinstance(made, Completed):
+        marker = by_name[name]
+        if count > 1 and isinstance(marker, Completed):
             text = f"{count} markers of a message have this name. Correct the server."
-            found[name] = replace(made, problems=(text, *made.problems))
-    return found, max(0, len(messages) - MAX_MARKERS)
+            by_name[name] = replace(marker, problems=(text, *marker.problems))
+    return by_name, max(0, len(messages) - MAX_MARKERS)
 
 
 def _place(message: Any) -> Place | None:

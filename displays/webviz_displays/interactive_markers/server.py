@@ -71,7 +71,9 @@ class InteractiveMarkerServer:
 
     def requests(self) -> set[LoadRequest]:
         """Return the files that shapes name."""
-        return {request for shown in self.shown.values() for request in shown.requests}
+        return {
+            request for drawn_marker in self.shown.values() for request in drawn_marker.requests
+        }
 
     def take(self, news: Sequence[News]) -> None:
         """Apply changes in order; within one, markers, then poses, then erased ones."""
@@ -81,8 +83,8 @@ class InteractiveMarkerServer:
                 self.ignored.clear()
                 self.left_out = 0
             self.left_out += each.ignored
-            for name, made in each.markers.items():
-                self._add(name, made)
+            for name, marker in each.markers.items():
+                self._add(name, marker)
             for name, place in each.poses.items():
                 self._move(name, place)
             self._erase(self.markers.keys() & each.erased)
@@ -97,25 +99,25 @@ class InteractiveMarkerServer:
         self.is_waiting = False
         stale: list[tuple[Tracked, Place, ShownMarker]] = []
         for name, marker in self.markers.items():
-            shown, place = self.shown[name], marker.place(ctx.frames)
-            shown.forget(arrived)
+            drawn_marker, place = self.shown[name], marker.place(ctx.frames)
+            drawn_marker.forget(arrived)
             if place is None:
                 self.is_waiting = True
-            elif shown.is_current(marker, place, look, ctx.frames):
-                shown.show(ctx)
+            elif drawn_marker.is_current(marker, place, look, ctx.frames):
+                drawn_marker.show(ctx)
             else:
-                stale.append((marker, place, shown))
+                stale.append((marker, place, drawn_marker))
         stale.sort(key=lambda each: each[2].drawn_in)
-        until, drawn = time.monotonic() + DRAWING_S, 0
-        for marker, place, shown in stale:
-            if drawn and time.monotonic() > until:
-                shown.show(ctx)
+        until, count = time.monotonic() + DRAWING_S, 0
+        for marker, place, drawn_marker in stale:
+            if count and time.monotonic() > until:
+                drawn_marker.show(ctx)
                 continue
-            shown.draw(marker, place, look, ctx)
-            shown.drawn_in = self.drawings
-            drawn += 1
-        self.undrawn = len(stale) - drawn
-        self.is_waiting |= any(shown.lost for shown in self.shown.values())
+            drawn_marker.draw(marker, place, look, ctx)
+            drawn_marker.drawn_in = self.drawings
+            count += 1
+        self.undrawn = len(stale) - count
+        self.is_waiting |= any(drawn_marker.lost for drawn_marker in self.shown.values())
         self.assets.start(ctx)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:
@@ -123,7 +125,7 @@ class InteractiveMarkerServer:
         of = self.version, frames.fixed_frame, aids, refusal
         if self._handles_of != of:
             self._handles_of = of
-            found: dict[str, Handle] = {}
+            handles: dict[str, Handle] = {}
             for marker in self.markers.values():
                 if (place := marker.place(frames)) is None:
                     self._handles_of = None  # until its transform is known
@@ -132,25 +134,25 @@ class InteractiveMarkerServer:
                 looked, handle = self._looks.get(marker.key, (None, None))
                 if looked != looks or handle is None:
                     handle = _handle(marker, place, aids, refusal)
-                found[marker.key] = handle
+                handles[marker.key] = handle
                 self._looks[marker.key] = looks, handle
-            if found != self._handles:
-                self._handles = found
+            if handles != self._handles:
+                self._handles = handles
         return self._handles
 
     def _add(self, name: str, made: Completed | RefusedMarker) -> None:
-        known = self.markers.get(name)
+        former = self.markers.get(name)
         if isinstance(made, RefusedMarker):
             self._ignore(name, made.reason)
-        elif known is None and len(self.markers) >= MAX_MARKERS:
+        elif former is None and len(self.markers) >= MAX_MARKERS:
             self.left_out += 1
-        elif self._size - (known.made.size if known else 0) + made.size > MAX_BYTES:
+        elif self._size - (former.made.size if former else 0) + made.size > MAX_BYTES:
             self._ignore(name, f"The markers of this server exceed {MAX_BYTES // 1_000_000} MB.")
         else:
             self.ignored.pop(name, None)
-            self._size += made.size - (known.made.size if known else 0)
-            if known is not None:
-                known.update(made)
+            self._size += made.size - (former.made.size if former else 0)
+            if former is not None:
+                former.update(made)
                 return
             self._made += 1
             marker = Tracked(f"m{self._made}", made)
@@ -182,15 +184,15 @@ class InteractiveMarkerServer:
 
 
 def _handle(marker: Tracked, place: Place, aids: bool, refusal: str) -> Handle:
-    made = marker.made
+    completed = marker.made
     return Handle(
-        name=made.name,
+        name=completed.name,
         frame=place.frame,
         controls=tuple(
             replace(part.control, turned=marker.turned.get(part.control.name, 0.0))
-            for part in made.parts
+            for part in completed.parts
         ),
-        menu=made.menu,
+        menu=completed.menu,
         aids=aids,
         refusal=refusal,
     )

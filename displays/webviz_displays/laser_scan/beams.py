@@ -101,9 +101,9 @@ def _directions(angle_min: float, angle_increment: float, count: int) -> F32:
 
 def _unit_vectors(angles: NDArray[np.floating]) -> F32:
     """Return unit vectors (N, 3) in the x-y plane at angles (N,) from x towards y, in rad."""
-    found = np.zeros((len(angles), 3), np.float32)
-    found[:, 0], found[:, 1] = np.cos(angles), np.sin(angles)
-    return found
+    vectors = np.zeros((len(angles), 3), np.float32)
+    vectors[:, 0], vectors[:, 1] = np.cos(angles), np.sin(angles)
+    return vectors
 
 
 def _reasons(scan: messages.LaserScan, ranges: F32) -> dict[str, int]:
@@ -135,15 +135,15 @@ def deskew(points: BeamPoints, sample: Sample, frames: Frames) -> tuple[F32 | F6
         without a transform of their own.
     """
     ahead_ns = np.round(points.beams * (sample.message.time_increment * 1e9)).astype(np.int64)
-    positions, wxyzs, known = frames.along(sample.frame, sample.stamp_ns + ahead_ns)
-    known &= is_drawable(positions)
-    missing = int(len(known) - known.sum())
-    if missing == len(known):
+    positions, wxyzs, is_known = frames.along(sample.frame, sample.stamp_ns + ahead_ns)
+    is_known &= is_drawable(positions)
+    missing = int(len(is_known) - is_known.sum())
+    if missing == len(is_known):
         return points.xyz, missing
     if missing:
-        has = np.flatnonzero(known)
+        has = np.flatnonzero(is_known)
         middles = (has[1:] + has[:-1] + 1) // 2
-        nearest = has[np.searchsorted(middles, np.arange(len(known)), side="right")]
+        nearest = has[np.searchsorted(middles, np.arange(len(is_known)), side="right")]
         positions, wxyzs = positions[nearest], wxyzs[nearest]
     fixed = np.einsum("nij,nj->ni", matrices(wxyzs), points.xyz) + positions
     return (fixed - sample.pose.position) @ matrices(sample.pose.wxyz), missing

@@ -100,12 +100,12 @@ def tiled(message: Any, frame: str, before: TiledGrid | None = None) -> TiledGri
             f"{SMALLEST_CELL:g} m, and the map smaller than {FARTHEST:g} m."
         )
     cells = data.reshape(height, width)
-    known = before.tiles if before else {}
+    tiles_before = before.tiles if before else {}
     tiles = {}
     rows, columns = shape = tile_shape(height, width)
     for row, column in _corners((0, height), (0, width), shape):
         tile = cells[row : row + rows, column : column + columns]
-        old = known.get((row, column))
+        old = tiles_before.get((row, column))
         # A copy: a view would keep the whole message alive.
         tiles[row, column] = old if old is not None and np.array_equal(old, tile) else tile.copy()
     q = info.origin.orientation

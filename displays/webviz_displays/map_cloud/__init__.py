@@ -208,43 +208,43 @@ class MapCloud(PointsDisplay, ProtocolClient):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw the clouds, in the frame and at the stamp of the newest graph."""
-        known: KnownMap = sample.message
+        map_data: KnownMap = sample.message
         state: _State = ctx.state
-        state.missing = tuple(known.missing)
-        rows = self._rows(known)
-        ids = known.ids[rows].tolist()
-        state.total = sum(len(known.clouds[id].xyz) for id in ids)
+        state.missing = tuple(map_data.missing)
+        rows = self._rows(map_data)
+        ids = map_data.ids[rows].tolist()
+        state.total = sum(len(map_data.clouds[id].xyz) for id in ids)
         limit = min(state.held, DOTS_LIMIT) if self.style == "Points" else state.held
         # A power of two, so that a cloud changes seldom while the map grows.
         step = 1 << max(0, math.ceil(math.log2(max(state.total, 1) / max(limit, 1))))
         poses = [
             compose(sample.pose, Pose(tuple(position), tuple(wxyz)))
             for position, wxyz in zip(
-                known.positions[rows].tolist(), known.wxyzs[rows].tolist(), strict=True
+                map_data.positions[rows].tolist(), map_data.wxyzs[rows].tolist(), strict=True
             )
         ]
-        clouds = [known.clouds[id][::step] for id in ids]
-        shown = sum(len(cloud.xyz) for cloud in clouds)
-        self._report(known, len(ids), shown, state, ctx)
-        if not shown or self.alpha == 0:
+        clouds = [map_data.clouds[id][::step] for id in ids]
+        shown_ids = sum(len(cloud.xyz) for cloud in clouds)
+        self._report(map_data, len(ids), shown_ids, state, ctx)
+        if not shown_ids or self.alpha == 0:
             return
         ends = np.cumsum([len(cloud.xyz) for cloud in clouds])[:-1]
         colors = self._colors(clouds, poses, ctx)
         parts = [colors] * len(clouds) if isinstance(colors, tuple) else np.split(colors, ends)
-        starts = _starts(known)
+        starts = _starts(map_data)
         for id, pose, cloud, own in zip(ids, poses, clouds, parts, strict=True):
             group = ctx.follow(None, offset=pose, key=str(id), is_rigid=True)
             numbers = starts[id] + step * np.arange(len(cloud.xyz))
-            self.draw_points(cloud.xyz, own, group, ctx, ids=numbers, of=shown)
+            self.draw_points(cloud.xyz, own, group, ctx, ids=numbers, of=shown_ids)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a point: which node has seen it, and when."""
-        known: KnownMap = hit.sample.message
-        for id, start in _starts(known).items():
-            cloud = known.clouds[id]
+        map_data: KnownMap = hit.sample.message
+        for id, start in _starts(map_data).items():
+            cloud = map_data.clouds[id]
             if start <= hit.id < start + len(cloud.xyz):
                 values: dict[str, object] = {
-                    "Seen": f"{known.stamps[id]:.3f} s",
+                    "Seen": f"{map_data.stamps[id]:.3f} s",
                     "Points of the node": len(cloud.xyz),
                 }
                 if cloud.intensities is not None:

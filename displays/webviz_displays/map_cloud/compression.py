@@ -56,8 +56,8 @@ def colors_of(data: U8) -> U8:
     Raises:
         ImageError: it is damaged.
     """
-    found = inspect_compressed("", data)
-    return np.asarray(opened(Encoded(found.mime, data, found.width, found.height)))
+    header = inspect_compressed("", data)
+    return np.asarray(opened(Encoded(header.mime, data, header.width, header.height)))
 
 
 def matrix_of(data: U8) -> F32:

@@ -111,11 +111,11 @@ class KnownMap(msgspec.Struct, frozen=True, eq=False):
         """
         if not radius_m or not angle:
             return np.arange(len(self.ids))
-        kept: list[int] = []
+        chosen: list[int] = []
         closest = np.cos(angle / 2)
         for row in np.argsort(-self.ids, kind="stable").tolist():
-            away = np.linalg.norm(self.positions[kept] - self.positions[row], axis=1)
-            turned = np.abs(self.wxyzs[kept] @ self.wxyzs[row])
+            away = np.linalg.norm(self.positions[chosen] - self.positions[row], axis=1)
+            turned = np.abs(self.wxyzs[chosen] @ self.wxyzs[row])
             if not ((away <= radius_m) & (turned >= closest)).any():
-                kept.append(row)
-        return np.array(sorted(kept), np.intp)
+                chosen.append(row)
+        return np.array(sorted(chosen), np.intp)

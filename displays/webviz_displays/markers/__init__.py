@@ -145,10 +145,10 @@ class Markers(Display, SelfPlacing):
             return
         now_ns, before_ns = ctx.frames.now_ns, state.ticked_ns
         state.ticked_ns = now_ns
-        made = state.readout[0]
+        readout = state.readout[0]
         moment = now_ns, state.store.table.changes, state.store.waiting_count
-        is_other_second = made[0] // SECOND != now_ns // SECOND
-        if made[1:] != moment[1:] or is_other_second or (before_ns == now_ns != made[0]):
+        is_other_second = readout[0] // SECOND != now_ns // SECOND
+        if readout[1:] != moment[1:] or is_other_second or (before_ns == now_ns != readout[0]):
             report_namespaces(state.store, self._off, ctx)
             report_waiting(state.store, ctx)
             state.readout = moment, dict(ctx.statuses)

@@ -42,13 +42,13 @@ class Effect(msgspec.Struct):
         """Return the known markers that are deleted for good."""
         if self.deletes_all or self.deleted_namespaces:
             named = self.deleted_namespaces
-            gone = [
+            keys = [
                 key for key in known if self.deletes_all or key[0] in named or key in self.deleted
             ]
         else:
-            gone = [key for key in self.deleted if key in known]
+            keys = [key for key in self.deleted if key in known]
         added = self.added
-        return [key for key in gone if key[1] not in added.get(key[0], ())]
+        return [key for key in keys if key[1] not in added.get(key[0], ())]
 
 
 def deletes_all(message: Any, _: str) -> bool:

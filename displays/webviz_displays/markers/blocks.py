@@ -129,14 +129,14 @@ class Blocks:
         else:
             rows = np.arange(number * BLOCK, min((number + 1) * BLOCK, len(table.keys)))
             rows = rows[table.counts[rows] <= LARGE]
-        drawn = rows[is_drawn[rows]]
-        if not len(drawn):
+        drawn_rows = rows[is_drawn[rows]]
+        if not len(drawn_rows):
             return None
         nodes: dict[Place, Mapping[str, Node]] = {}
         faults: dict[int, tuple[Level, str]] = {}
         requests: set[LoadRequest] = set()
         left_out = 0
-        for place, some in _by_group(table, drawn):
+        for place, some in _by_group(table, drawn_rows):
             if place not in places and len(places) >= MAX_PLACES:
                 left_out += len(some)
                 continue
@@ -144,12 +144,12 @@ class Blocks:
             batch = table.batch(some, place[1])
             files, missing, named = assets.of(batch)
             requests |= named
-            made = nodes_of(batch, files)
-            if made:
-                nodes[place] = made
+            block_nodes = nodes_of(batch, files)
+            if block_nodes:
+                nodes[place] = block_nodes
             for row, level, text in (*faults_of(batch), *missing):
                 faults[int(some[row])] = level, text
-        return Block(nodes, faults, len(drawn) - len(faults) - left_out, requests, left_out)
+        return Block(nodes, faults, len(drawn_rows) - len(faults) - left_out, requests, left_out)
 
 
 def _by_group(table: Table, rows: NDArray[np.intp]) -> Iterator[tuple[Place, NDArray[np.intp]]]:
@@ -164,10 +164,10 @@ def _by_group(table: Table, rows: NDArray[np.intp]) -> Iterator[tuple[Place, NDA
     frames = [""] * len(rows)
     for index in locked:
         frames[index] = table.shown_frames[int(rows[index])]
-    found: dict[Place, list[int]] = {}
+    by_group: dict[Place, list[int]] = {}
     for frame, cell, row in zip(frames, cells, rows.tolist(), strict=True):
-        found.setdefault((frame, _origin(cell)), []).append(row)
-    for place, group in found.items():
+        by_group.setdefault((frame, _origin(cell)), []).append(row)
+    for place, group in by_group.items():
         yield place, np.array(group)
 
 

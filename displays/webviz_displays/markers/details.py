@@ -21,8 +21,8 @@ def serial_of(hit: Hit) -> int | None:
     """Return the serial number of the marker that was selected, None if it cannot be told."""
     if hit.id is not None:
         return int(hit.id)
-    found = _COLORFUL.match(hit.key)
-    return int(found[1]) if found else None
+    match = _COLORFUL.match(hit.key)
+    return int(match[1]) if match else None
 
 
 def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
@@ -30,17 +30,19 @@ def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
     table = store.table
     rows = np.flatnonzero(table.serials == serial)
     if not len(rows) or (key := table.keys[row := int(rows[0])]) is None:
-        gone = store.remarks.gone.get(serial)
-        return gone and Details(f"Marker {name_of(gone.key)}", {gone.how: gone.age(now_ns)})
-    wanted, content = table.wanted[row], table.wanted_contents[row]
+        deletion = store.remarks.gone.get(serial)
+        return deletion and Details(
+            f"Marker {name_of(deletion.key)}", {deletion.how: deletion.age(now_ns)}
+        )
+    record, content = table.wanted[row], table.wanted_contents[row]
     values: dict[str, object] = {
         "Namespace": key[0],
         "Id": key[1],
-        "Type": type_name(int(wanted["type"])),
+        "Type": type_name(int(record["type"])),
         "Frame": table.frames[row],
-        "Age": f"{(now_ns - int(wanted['received_ns'])) / SECOND:.1f} s",
+        "Age": f"{(now_ns - int(record['received_ns'])) / SECOND:.1f} s",
     }
-    if (expires_ns := int(wanted["expires_ns"])) != FOREVER:
+    if (expires_ns := int(record["expires_ns"])) != FOREVER:
         values["Expires in"] = f"{(expires_ns - now_ns) / SECOND:.1f} s"
     if content.text:
         values["Text"] = content.text
@@ -48,14 +50,14 @@ def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
         values["Mesh"] = content.mesh_resource
     if len(content.points):
         values["Points"] = len(content.points)
-    pose = Pose(tuple(wanted["position"].tolist()), tuple(wanted["wxyz"].tolist()))
+    pose = Pose(tuple(record["position"].tolist()), tuple(record["wxyz"].tolist()))
     return Details(
         f"Marker {name_of(key)}",
         values
         | {
             f"Pose in {table.frames[row] or 'the fixed frame'}": pose,
-            "Scale": tuple(wanted["scale"].tolist()),
-            "Color": ", ".join(f"{value:.3g}" for value in wanted["color"].tolist()),
-            "Locked to its frame": bool(wanted["locked"]),
+            "Scale": tuple(record["scale"].tolist()),
+            "Color": ", ".join(f"{value:.3g}" for value in record["color"].tolist()),
+            "Locked to its frame": bool(record["locked"]),
         },
     )

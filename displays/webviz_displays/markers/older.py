@@ -47,7 +47,7 @@ class Versions(msgspec.Struct, frozen=True):
     def of(cls, table: Table, place: Place, rows: NDArray[np.intp]) -> Versions:
         """Return the newest versions of markers."""
         numbers, contents = rows.tolist(), table.wanted_contents
-        kept = [contents[row] for row in numbers]
+        chosen = [contents[row] for row in numbers]
         return cls(
             place,
             rows,
@@ -55,8 +55,8 @@ class Versions(msgspec.Struct, frozen=True):
             table.versions[rows],
             table.wanted[rows],
             [table.frames[row] for row in numbers],
-            kept,
-            sum(map(size_of, kept)),
+            chosen,
+            sum(map(size_of, chosen)),
         )
 
     def undrawn(self, table: Table) -> Versions | None:

@@ -46,8 +46,8 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         for key, why in remarks.refused.items()
     }
     faults = {**refused, **faults}
-    shown = sum(block.shown for block in blocks)
-    _report_total(store, shown, off, ctx)
+    count = sum(block.shown for block in blocks)
+    _report_total(store, count, off, ctx)
     worst = sorted(faults.items(), key=lambda item: -item[1][0])
     for key, (level, text) in worst[:NAMED]:
         (ctx.error if level is Level.ERROR else ctx.warn)(f"Marker {name_of(key)}", text)
@@ -65,7 +65,7 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         )
     if loading:
         text = f"Loading {counted(loading, 'file')}."
-        ctx.ok("Loading", text) if shown else ctx.loading(text)
+        ctx.ok("Loading", text) if count else ctx.loading(text)
     if remarks.duplicates:
         names = listed([name_of(key) for key in dict.fromkeys(remarks.duplicates)], NAMED)
         ctx.warn(

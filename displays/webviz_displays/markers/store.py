@@ -147,26 +147,29 @@ class Store:
         received_ns: int,
     ) -> None:
         """Add markers of these numbers, or new versions of them, as far as they are `ok`."""
-        table, wanted = self.table, self.table.wanted_contents
+        table, wanted_contents = self.table, self.table.wanted_contents
         numbered = numbers.tolist()
         namespaces = [markers.namespaces[i] for i in numbered]
         keys = list(zip(namespaces, markers.ids[numbers].tolist(), strict=True))
         contents = [markers.contents[i] for i in numbered]
-        found = [table.rows.get(key) for key in keys]
-        self._older.keep(table, np.array([row for row in found if row is not None], np.intp))
-        each = zip(found, contents, ok[numbers].tolist(), strict=True)
+        rows_before = [table.rows.get(key) for key in keys]
+        self._older.keep(table, np.array([row for row in rows_before if row is not None], np.intp))
+        each = zip(rows_before, contents, ok[numbers].tolist(), strict=True)
         # Most are there, with what they have; a step each in the interpreter is most of the time.
         is_easy = [
-            row is not None and content is wanted[row] and is_ok for row, content, is_ok in each
+            row is not None and content is wanted_contents[row] and is_ok
+            for row, content, is_ok in each
         ]
         for place in [place for place, easy in enumerate(is_easy) if not easy]:
             i = numbered[place]
-            found[place] = self._row_for(keys[place], contents[place], bool(ok[i]), received_ns)
-        rows = [row for row in found if row is not None]
-        taken = [i for i, row in zip(numbered, found, strict=True) if row is not None]
+            rows_before[place] = self._row_for(
+                keys[place], contents[place], bool(ok[i]), received_ns
+            )
+        rows = [row for row in rows_before if row is not None]
+        free_rows = [i for i, row in zip(numbered, rows_before, strict=True) if row is not None]
         if not rows:
             return
-        new = self._looks(markers, np.array(taken), received_ns)
+        new = self._looks(markers, np.array(free_rows), received_ns)
         where = _span(np.array(rows))
         is_new = ~table.is_shown[where] | _is_other(new, table.wanted[where])
         is_new |= new["stamp_ns"] != table.wanted["stamp_ns"][where]
@@ -175,11 +178,15 @@ class Store:
         table.wanted[where] = new
         self._next_expiry = min(self._next_expiry, int(new["expires_ns"].min()))
         self._todo.update(itertools.compress(rows, is_new.tolist()))
-        frames, wanted, shown = table.frames, table.wanted_contents, table.shown_contents
+        frames, wanted_contents, are_shown = (
+            table.frames,
+            table.wanted_contents,
+            table.shown_contents,
+        )
         named = {frame: frame.removeprefix("/") for frame in set(markers.frame_ids)}
-        given = [named[markers.frame_ids[i]] for i in taken]
-        for row, frame in zip(rows, given, strict=True):
-            if frame != frames[row] or wanted[row] is not shown[row]:
+        contents_given = [named[markers.frame_ids[i]] for i in free_rows]
+        for row, frame in zip(rows, contents_given, strict=True):
+            if frame != frames[row] or wanted_contents[row] is not are_shown[row]:
                 frames[row] = frame
                 self._todo.add(row)
         self._number += 1
@@ -317,7 +324,7 @@ class Store:
         table.shown_versions[where] = table.versions[where] if older is None else older.numbers
         self.changed.update(rows[changed].tolist())
         is_locked = bool(new["locked"].any())
-        shown_frames, shown = table.shown_frames, table.shown_contents
+        shown_frames, shown_contents = table.shown_frames, table.shown_contents
         numbers = rows.tolist()
         frames = [table.frames[row] for row in numbers] if older is None else older.frames
         contents = (
@@ -328,7 +335,7 @@ class Store:
                 shown_frames[row] = frame
                 if is_locked:
                     self.changed.add(row)
-            if content is not shown[row]:
+            if content is not shown_contents[row]:
                 table.show_content(row, content)
                 self.changed.add(row)
         self.version += 1
@@ -340,11 +347,11 @@ class Store:
         """
         former, self._fixed_frame = self._fixed_frame, frames.fixed_frame
         table = self.table
-        shown = [row for row in table.rows.values() if table.is_shown[row]]
-        if not shown:
+        shown_rows = [row for row in table.rows.values() if table.is_shown[row]]
+        if not shown_rows:
             return
         shift = frames.latest(former)
-        loose = [row for row in shown if not table.shown["locked"][row]]
+        loose = [row for row in shown_rows if not table.shown["locked"][row]]
         for place, rows in by_place(table, loose).items():
             if _pose(place, frames) is not None:
                 self._todo.update(rows)
@@ -370,11 +377,11 @@ def _span(rows: NDArray[np.intp]) -> slice | NDArray[np.intp]:
 
 def _is_other(new: NDArray[Any], old: NDArray[Any]) -> NDArray[np.bool_]:
     """Return which looks (N,) differ."""
-    found = np.zeros(len(new), np.bool_)
+    is_different = np.zeros(len(new), np.bool_)
     for name in LOOK_NAMES:
         differs = new[name] != old[name]
-        found |= differs if differs.ndim == 1 else differs.any(axis=1)
-    return found
+        is_different |= differs if differs.ndim == 1 else differs.any(axis=1)
+    return is_different
 
 
 def _pose(place: Place, frames: Frames) -> Pose | None:

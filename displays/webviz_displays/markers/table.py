@@ -166,12 +166,12 @@ class Table:
 def by_place(table: Table, rows: Sequence[int]) -> dict[Place, list[int]]:
     """Return rows by what the pose of their newest versions depends on; locked ones need none."""
     frames, some = table.frames, table.wanted[np.array(rows, np.intp)]
-    found: dict[Place, list[int]] = {}
+    rows_by_place: dict[Place, list[int]] = {}
     stamps, names = some["stamp_ns"], {frames[row] for row in rows}
     if len(names) == 1 and not some["locked"].any() and (stamps == stamps[0]).all():
         return {(names.pop(), int(stamps[0])): list(rows)}  # as most arrays have them
     each = zip(rows, some["locked"].tolist(), some["stamp_ns"].tolist(), strict=True)
     for row, is_locked, stamp_ns in each:
         place = ("", 0) if is_locked else (frames[row], stamp_ns)
-        found.setdefault(place, []).append(row)
-    return found
+        rows_by_place.setdefault(place, []).append(row)
+    return rows_by_place

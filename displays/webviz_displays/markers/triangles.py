@@ -65,10 +65,12 @@ def triangles_of(batch: MarkerBatch, pictures: Mapping[int, bytes]) -> dict[str,
 
 def corner_colors(content: Content) -> F32 | None:
     """Return the colour of each corner (N, 4), None if the triangles have one colour."""
-    corners, given = len(content.points), len(content.colors)
-    if given and given == corners:
+    corners, color_count = len(content.points), len(content.colors)
+    if color_count and color_count == corners:
         return content.colors
-    return np.repeat(content.colors, 3, axis=0) if given and 3 * given == corners else None
+    return (
+        np.repeat(content.colors, 3, axis=0) if color_count and 3 * color_count == corners else None
+    )
 
 
 def _joined(

@@ -221,28 +221,28 @@ def _meshes(
 
 def _places(poses: PoseSequence, count: int, faults: list[str]) -> tuple[Any, Any, Any]:
     """Positions (count, 3), quaternions (count, 4), and which are valid; the origin by default."""
-    given = min(len(poses), count)
+    pose_count = min(len(poses), count)
     if len(poses) > count:
         faults.append("it has more poses than shapes.")
     positions, wxyzs = np.zeros((count, 3)), np.zeros((count, 4))
     wxyzs[:, 0] = 1.0
     ok = np.ones(count, bool)
-    if not given:
+    if not pose_count:
         return positions, wxyzs, ok
-    raw = w_first(poses.orientations[:given])
+    raw = w_first(poses.orientations[:pose_count])
     turns, is_turn = normalized(raw)
     is_zero = ~raw.any(axis=1)
-    ok[:given] = (is_turn | is_zero) & is_drawable(poses.positions[:given])
-    positions[:given] = np.where(ok[:given, None], poses.positions[:given], 0.0)
-    wxyzs[:given] = turns
+    ok[:pose_count] = (is_turn | is_zero) & is_drawable(poses.positions[:pose_count])
+    positions[:pose_count] = np.where(ok[:pose_count, None], poses.positions[:pose_count], 0.0)
+    wxyzs[:pose_count] = turns
     if not ok.all():
         faults.append(f"{counted(int((~ok).sum()), 'pose')} cannot be drawn.")
     return positions, wxyzs, ok
 
 
 def _subframes(names: Sequence[str], poses: PoseSequence) -> dict[str, Pose]:
-    found = {}
+    by_name = {}
     for name, position, xyzw in zip(names, poses.positions, poses.orientations, strict=False):
         if (pose := pose_of(position.tolist(), np.roll(xyzw, 1).tolist())) is not None:
-            found[name] = pose
-    return found
+            by_name[name] = pose
+    return by_name

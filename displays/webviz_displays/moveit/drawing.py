@@ -104,7 +104,7 @@ def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
     for number, (body, _, _) in enumerate(shown):
         for kind in body.solids:
             some.setdefault(kind, []).append(number)
-    found: list[Solids] = []
+    solids_list: list[Solids] = []
     for kind, numbers in some.items():
         parts = [shown[number].body.solids[kind] for number in numbers]
         local = Primitives(*map(np.concatenate, zip(*parts, strict=True)))
@@ -118,8 +118,8 @@ def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
         solids = Solids(kind, positions, wxyzs, local.scales, colors, ids)
         solids = solids.only(is_drawable(positions))
         if len(solids.positions):
-            found.append(solids)
-    return found
+            solids_list.append(solids)
+    return solids_list
 
 
 class HeldObjects(msgspec.Struct):
@@ -149,16 +149,16 @@ class HeldObjects(msgspec.Struct):
             ctx: receives the nodes.
         """
         self.places.update(scene, frame, links, ctx.frames)
-        held = self.places.attached(scene, links)
-        self.holders = {key: scene.attached[key].link for key in held}
-        shown = [
+        attached = self.places.attached(scene, links)
+        self.holders = {key: scene.attached[key].link for key in attached}
+        objects = [
             ShownObject(scene.attached[key].body, pose, scene.colors.get(key, rgba))
-            for key, pose in held.items()
+            for key, pose in attached.items()
         ]
-        nodes = drawn(shown, f"{prefix}attached ")
+        nodes = drawn(objects, f"{prefix}attached ")
         nodes.add(frame, ctx)
         self.owners = nodes.owners
-        return [key for key in scene.attached if key not in held]
+        return [key for key in scene.attached if key not in attached]
 
     def inspect(self, hit: Hit) -> Details | None:
         """Return an object, by one of its shapes."""

@@ -39,7 +39,7 @@ class Places(msgspec.Struct):
         new = [body for key, body in scene.objects.items() if key not in self.world]
         if new:
             self.world = dict(self.world)
-        lost = self._place(new, scene, frame, links, frames)
+        unplaced = self._place(new, scene, frame, links, frames)
         for key, attached in scene.attached.items():
             if key in self.held:
                 continue
@@ -48,10 +48,10 @@ class Places(msgspec.Struct):
             if body.frame in ("", attached.link):
                 self.held[key] = body, body.pose
             elif base is None or link is None:
-                lost.append(body)
+                unplaced.append(body)
             else:
                 self.held[key] = body, compose(inverse(link), compose(base, body.pose))
-        return lost
+        return unplaced
 
     def _place(
         self, bodies: list[Body], scene: KnownScene, frame: str, links: Links, frames: Frames

@@ -71,8 +71,8 @@ def poses_of(names: Sequence[str], transforms: Sequence[Any]) -> tuple[dict[str,
     poses: dict[str, Pose] = {}
     fault = ""
     if len(names) != len(transforms):
-        joints, given = counted(len(names), "name"), counted(len(transforms), "transform")
-        return {}, f"The multi-DOF joints have {joints} but {given}. Fix the publisher."
+        joints, amount = counted(len(names), "name"), counted(len(transforms), "transform")
+        return {}, f"The multi-DOF joints have {joints} but {amount}. Fix the publisher."
     for name, transform in zip(names, transforms, strict=True):
         at, turn = transform.translation, transform.rotation
         pose = pose_of((at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z))
@@ -150,14 +150,14 @@ class Poser:
 
     def stance(self, joints: JointValues) -> Stance:
         """Return where the links are, and what is odd about the joints."""
-        robot, known = self.robot, joints.positions
-        values = self.values(known)
-        assumed = [name for name in self.columns if name not in known]
+        robot, positions = self.robot, joints.positions
+        values = self.values(positions)
+        assumed = [name for name in self.columns if name not in positions]
         assumed += [name for name in self.kinematics.free if name not in joints.poses]
         return Stance(
             self.place(values, joints.poses),
             tuple(assumed),
-            tuple(name for name in known if name not in robot.joints),
+            tuple(name for name in positions if name not in robot.joints),
             tuple(
                 joint.child
                 for joint, value in zip(self._joints(), values.tolist(), strict=True)

@@ -203,10 +203,15 @@ class MotionPlanning(Display, ProtocolClient):
         self, plans: Plans, path: JointPath | None, model: PosedRobot, frame: str, ctx: Context
     ) -> None:
         """Draw the robot at the start and at the goal of the newest plan."""
-        asked = self.planning_request
+        request = self.planning_request
         ends = (
-            ("start", asked.query_start_state, asked.start_state_color, asked.start_state_alpha),
-            ("goal", asked.query_goal_state, asked.goal_state_color, asked.goal_state_alpha),
+            (
+                "start",
+                request.query_start_state,
+                request.start_state_color,
+                request.start_state_alpha,
+            ),
+            ("goal", request.query_goal_state, request.goal_state_color, request.goal_state_alpha),
         )
         for name, is_shown, color, alpha in ends:
             if not is_shown:

@@ -88,21 +88,21 @@ class Octomap(msgspec.Struct):
             )
             return
         choice = VoxelChoice(rendering, LEVELS, -FARTHEST, FARTHEST)
-        found = ctx.background((KEY, self.number, rendering), _read, message.octomap, choice)
-        self.shown = found or self.shown
-        if found is None:
+        reading = ctx.background((KEY, self.number, rendering), _read, message.octomap, choice)
+        self.shown = reading or self.shown
+        if reading is None:
             ctx.warn("Octomap", "Reading the octomap.")
-        if self.shown is None or (seen := self.shown.seen) is None:
+        if self.shown is None or (visible := self.shown.seen) is None:
             if self.shown is not None:
                 ctx.error("Octomap", self.shown.fault)
             return
-        voxels = seen.voxels
+        voxels = visible.voxels
         if not len(voxels.nodes):
             text = f"It has no {rendering.lower()}. Choose another Voxel Rendering."
             ctx.warn("Octomap", text, None if rendering == "All Voxels" else ALL_VOXELS)
             return
-        if found is not None:
-            ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {seen.wanted}.")
+        if reading is not None:
+            ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {visible.wanted}.")
         edges, heights = voxels.sizes / 2.0, voxels.centers[:, 2]
         if coloring == "Z-Axis":
             low, high = float((heights - edges).min()), float((heights + edges).max())
@@ -123,10 +123,15 @@ class Octomap(msgspec.Struct):
 
     def inspect(self, hit: Hit) -> Details | None:
         """Return a voxel."""
-        seen = self.shown and self.shown.seen
-        if hit.key != KEY or seen is None or hit.id is None or hit.id >= len(seen.voxels.nodes):
+        visible = self.shown and self.shown.seen
+        if (
+            hit.key != KEY
+            or visible is None
+            or hit.id is None
+            or hit.id >= len(visible.voxels.nodes)
+        ):
             return None
-        size = f"{seen.voxels.sizes[hit.id]:g} m"
+        size = f"{visible.voxels.sizes[hit.id]:g} m"
         return Details("Voxel of the octomap", {"Size": size})
 
     def _pose(
@@ -144,7 +149,7 @@ def _read(message: Any, choice: VoxelChoice) -> _Read:
     try:
         with memory_for(message):
             tree = read_octree(message)
-            seen = seen_of(tree, choice)
+            visible = seen_of(tree, choice)
     except OctreeFault as fault:
         return _Read(fault=str(fault))
-    return _Read(seen, tree.log_odds[seen.voxels.nodes])
+    return _Read(visible, tree.log_odds[visible.voxels.nodes])

@@ -100,7 +100,7 @@ class _Builder:
         frame = single.header.frame_id or several.header.frame_id
         self.frame = self.frame or frame.lstrip("/")
         columns = [self._poser.columns.get(name) for name in single.joint_names]
-        known = [index for index, column in enumerate(columns) if column is not None]
+        indices = [index for index, column in enumerate(columns) if column is not None]
         targets = [column for column in columns if column is not None]
         count = max(len(single.points), len(several.points))
         begin = self.times[-1] if self.times else 0.0
@@ -112,9 +112,9 @@ class _Builder:
                 self.faults.append(f"Only the first {MAX_POINTS} points are kept.")
                 return
             row = rows.get(index)
-            if row is not None and known:
+            if row is not None and indices:
                 self._values = self._values.copy()
-                self._values[targets] = row[known]
+                self._values[targets] = row[indices]
             if index < len(several.points):
                 transforms = several.points[index].transforms
                 poses, fault = poses_of(several.joint_names, transforms)

@@ -231,8 +231,8 @@ class MotionPlanningTasks(Display, ProtocolClient):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a link, an object of the scene, or a marker."""
         state: TasksDrawing = ctx.state
-        found = state.view.inspect(hit, ctx) or state.world.inspect(hit)
-        return found or state.markers.inspect(hit, ctx)
+        details = state.view.inspect(hit, ctx) or state.world.inspect(hit)
+        return details or state.markers.inspect(hit, ctx)
 
     def _playback(self) -> Playback:
         robot = self.robot

@@ -126,8 +126,8 @@ class RobotState(Display):
             return
         scene = received.scene
         stance = model.poser.stance(scene.joints)
-        known = len(scene.joints.positions) + len(scene.joints.poses)
-        report_names(known, stance.assumed, stance.unknown_joints, "The state", ctx)
+        known_count = len(scene.joints.positions) + len(scene.joints.poses)
+        report_names(known_count, stance.assumed, stance.unknown_joints, "The state", ctx)
         if scene.faults:
             ctx.warn("State", joined(*scene.faults[:3]))
         look = self._look(self._highlights(received, model.robot.links, ctx))
@@ -136,9 +136,11 @@ class RobotState(Display):
         robots.report(look, ctx)
         if self.visual_enabled or self.collision_enabled:
             rgba = with_alpha(self.attached_body_color, self.robot_alpha)
-            lost = state.held.draw(scene, stance.poses, rgba, frame, "", ctx)
-            if lost:
-                ctx.error("Objects", f"The link or frame of object {named(lost[0])} is unknown.")
+            unplaced = state.held.draw(scene, stance.poses, rgba, frame, "", ctx)
+            if unplaced:
+                ctx.error(
+                    "Objects", f"The link or frame of object {named(unplaced[0])} is unknown."
+                )
 
     def tick(self, ctx: Context) -> None:
         """Draw the trails of links."""

@@ -125,8 +125,8 @@ class Robots(msgspec.Struct):
             self.model = None
             return None
         if robot is not None:
-            known = self.model is not None and self.model.robot is robot
-            poser = self.model.poser if known and self.model else Poser(robot)
+            is_known = self.model is not None and self.model.robot is robot
+            poser = self.model.poser if is_known and self.model else Poser(robot)
             self.model = PosedRobot(robot, full, poser)
         if self.model is not None:
             report_robot(self.model.robot, self.model.full, ctx)

@@ -222,11 +222,13 @@ class _Edit:
     def _detach(self, message: Any) -> None:
         """Back into the world: one object, all of a link, or all."""
         key, link = message.object.id, message.link_name.lstrip("/")
-        held = self._held()
-        keys = [key] if key else [k for k, each in held.items() if link in ("", each.link)]
+        attached_objects = self._held()
+        keys = (
+            [key] if key else [k for k, each in attached_objects.items() if link in ("", each.link)]
+        )
         for each in keys:
             self._loose.add(each)
-            if (attached := held.pop(each, None)) is not None:
+            if (attached := attached_objects.pop(each, None)) is not None:
                 self._put(replace(attached.body, frame=attached.body.frame or attached.link))
 
     def _move(self, message: Any) -> None:

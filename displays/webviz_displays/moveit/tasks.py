@@ -69,10 +69,10 @@ class KnownTasks(msgspec.Struct, frozen=True, eq=False):
 
     def stages(self, task: str) -> list[TaskStage]:
         """Return the stages of a task, each before those within it."""
-        plan, known = self.plans.get(task), self.statistics.get(task)
+        plan, statistics = self.plans.get(task), self.statistics.get(task)
         if plan is None:
             return []
-        counts = {each.id: each for each in known.stages} if known is not None else {}
+        counts = {each.id: each for each in statistics.stages} if statistics is not None else {}
         return list(_ordered(plan.stages[:MAX_STAGES], counts))
 
     def task_of(self, solution: int) -> str:
@@ -81,17 +81,17 @@ class KnownTasks(msgspec.Struct, frozen=True, eq=False):
         "" without one.
         """
         for task in reversed(list(self.plans)):
-            known = self.statistics.get(task)
-            for stage in known.stages if known is not None else ():
+            statistics = self.statistics.get(task)
+            for stage in statistics.stages if statistics is not None else ():
                 if solution in stage.solved or solution in stage.failed:
                     return task
         return next(reversed(list(self.plans)), "")
 
 
 def _newest(known: Mapping[str, Any], message: Any) -> dict[str, Any]:
-    found = {key: each for key, each in known.items() if key != message.task_id}
-    found[message.task_id] = message
-    return dict(list(found.items())[-MAX_TASKS:])
+    newest = {key: each for key, each in known.items() if key != message.task_id}
+    newest[message.task_id] = message
+    return dict(list(newest.items())[-MAX_TASKS:])
 
 
 def _ordered(stages: Any, counts: Mapping[int, Any]) -> Iterator[TaskStage]:

@@ -62,14 +62,14 @@ class PathTrail(msgspec.Struct):
         count = sum(row <= last for row in self._rows)
         group = ctx.follow(frame, key=KEY)
         self.owners.clear()
-        made, self._made = self._made, {}
+        made_before, self._made = self._made, {}
         for part in parts_of(model.robot, model.full, look.choices, robots.paint):
             node = robots.paint(part.node, color=look.color_of(part.link))
             if not isinstance(node, Mesh | Glb) or part.link not in self._poses:
                 continue
             xyz, wxyz = (each[:count] for each in self._poses[part.link])
             here = _moved(xyz, wxyz, part.pose)
-            before = made.get(id(node))
+            before = made_before.get(id(node))
             same = before[1] if before and before[0] is node else _repeatable(node)
             self._made[id(node)] = node, same
             for number, each in enumerate(_repeated(node, same, here)):

@@ -121,7 +121,7 @@ class DrawnWorld(msgspec.Struct):
         look = look_of(robot)
         self.robots.draw(links, look, frame, "", ctx)
         self.robots.report(look, ctx)
-        lost = self.held.places.update(scene, frame, links, ctx.frames)
+        unplaced = self.held.places.update(scene, frame, links, ctx.frames)
         self.owners = {}
         if geometry.show_scene_geometry:
             color = with_alpha(geometry.scene_color, geometry.scene_alpha)
@@ -134,7 +134,7 @@ class DrawnWorld(msgspec.Struct):
         if robot.show_robot_visual or robot.show_robot_collision:
             color = with_alpha(robot.attached_body_color, robot.robot_alpha)
             lost_held = self.held.draw(scene, links, color, frame, "", ctx)
-        report_objects(scene, lost, lost_held, ctx)
+        report_objects(scene, unplaced, lost_held, ctx)
 
     def _objects(self, scene: KnownScene, default: Rgba, ctx: Context) -> DrawnObjects:
         """Return the objects as nodes, made anew only if one of them or its colour has changed.
@@ -148,8 +148,8 @@ class DrawnWorld(msgspec.Struct):
         if self._made[0] is not look:
             if len(world) <= MAX_AT_ONCE:
                 self._made = look, look.drawn()
-            elif (made := ctx.background(look, look.drawn)) is not None:
-                self._made = look, made
+            elif (objects := ctx.background(look, look.drawn)) is not None:
+                self._made = look, objects
         return self._made[1]
 
     def _posed(self, poser: Poser, interval_s: float, now_ns: int) -> Stance:
@@ -188,8 +188,8 @@ def report_joints(
     scene: KnownScene, assumed: tuple[str, ...], unknown_joints: tuple[str, ...], ctx: Context
 ) -> None:
     """Report joints that the scene or the robot does not know."""
-    known = len(scene.joints.positions) + len(scene.joints.poses)
-    report_names(known, assumed, unknown_joints, "The scene", ctx)
+    known_count = len(scene.joints.positions) + len(scene.joints.poses)
+    report_names(known_count, assumed, unknown_joints, "The scene", ctx)
 
 
 def report_names(

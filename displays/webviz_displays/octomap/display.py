@@ -133,16 +133,16 @@ class OctreeDisplay(Display):
         state: _State = ctx.state
         levels = self.max_octree_depth or LEVELS
         choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
-        known = state.known
-        if known.message is not sample.message or known.fault or known.choice != choice:
-            known = state.known = _read(known, sample.message, choice)
-        tree, seen = known.tree, known.seen
-        if tree is None or seen is None:
-            ctx.error("Octree", known.fault)
+        reading = state.known
+        if reading.message is not sample.message or reading.fault or reading.choice != choice:
+            reading = state.known = _read(reading, sample.message, choice)
+        tree, visible = reading.tree, reading.seen
+        if tree is None or visible is None:
+            ctx.error("Octree", reading.fault)
             return
-        state.drawn = tree, seen
-        self._report(tree, seen, levels, ctx)
-        voxels = seen.voxels
+        state.drawn = tree, visible
+        self._report(tree, visible, levels, ctx)
+        voxels = visible.voxels
         if not len(voxels.nodes) or self.voxel_alpha == 0:
             return
         origin = origin_near(voxels.centers)
@@ -151,7 +151,7 @@ class OctreeDisplay(Display):
             "box",
             voxels.centers - origin,
             np.repeat(voxels.sizes[:, None], 3, axis=1),
-            self._colors(tree, seen, known.span, ctx),
+            self._colors(tree, visible, reading.span, ctx),
             opacity=self.voxel_alpha,
             is_data=True,
             ids=places_of(tree, voxels),
@@ -162,11 +162,11 @@ class OctreeDisplay(Display):
         state: _State = ctx.state
         if state.drawn is None:
             return None
-        tree, seen = state.drawn
-        found = np.flatnonzero(places_of(tree, seen.voxels) == hit.id)
-        if not len(found):
+        tree, visible = state.drawn
+        places = np.flatnonzero(places_of(tree, visible.voxels) == hit.id)
+        if not len(places):
             return None
-        voxels = seen.voxels.only(found)
+        voxels = visible.voxels.only(places)
         node = int(voxels.nodes[0])
         log_odds = tree.log_odds[[node]]
         values: dict[str, object] = {
@@ -214,9 +214,9 @@ class OctreeDisplay(Display):
                 Remedy("voxel_coloring", "Z-Axis", "Colour by height"),
             )
         count, noun = len(seen.voxels.nodes), _NOUNS[self.voxel_rendering]
-        told = f"Showing {count} {noun}"
+        text = f"Showing {count} {noun}"
         if enclosed := seen.wanted - count:
-            told += f"; they enclose {enclosed} more"
+            text += f"; they enclose {enclosed} more"
         if not count:
             ctx.warn(
                 "Voxels",
@@ -233,12 +233,12 @@ class OctreeDisplay(Display):
         elif seen.depth < levels:
             ctx.warn(
                 "Voxels",
-                f"{told}. More than {MAX_VOXELS} would be seen below depth {seen.depth}, so "
+                f"{text}. More than {MAX_VOXELS} would be seen below depth {seen.depth}, so "
                 "smaller ones are merged. Limit the heights to see them.",
                 Remedy("max_octree_depth", seen.depth, f"Stop at depth {seen.depth}"),
             )
         else:
-            ctx.ok("Voxels", f"{told}.")
+            ctx.ok("Voxels", f"{text}.")
 
 
 class OccupancyGrid(OctreeDisplay):

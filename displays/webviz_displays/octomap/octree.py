@@ -214,17 +214,17 @@ def _ends(kinds: U8) -> I64:
     # How many records are still to come after each one, less one. The records below one end at the
     # first one from there on after which one less is to come than before it.
     awaited = np.cumsum(counts - 1)
-    done = np.flatnonzero(awaited < 0)
-    if not len(done):
+    ends = np.flatnonzero(awaited < 0)
+    if not len(ends):
         raise OctreeFault(_TOO_LARGE if len(kinds) > MAX_NODES else _INCOMPLETE)
-    total = int(done[0]) + 1
+    total = int(ends[0]) + 1
     counts, awaited = counts[:total], awaited[:total]
     if awaited.max() > 7 * LEVELS:
         raise OctreeFault(_TOO_DEEP)
     order = np.argsort(awaited.astype(np.int8), kind="stable")
     keys = awaited[order] * total + order
-    wanted = (awaited - counts) * total + np.arange(total)
-    return order[np.searchsorted(keys, wanted)] + 1
+    targets = (awaited - counts) * total + np.arange(total)
+    return order[np.searchsorted(keys, targets)] + 1
 
 
 _INCOMPLETE = "The data ends inside the tree. Publish the tree as a whole."
@@ -264,7 +264,7 @@ def _levels(kinds: U8, ends: I64) -> list[_Level]:
             records[has_record, child] = following[has_record]
             following[has_record] = ends[following[has_record]]
         codes = level.codes[inner, None] | (_CHILDREN << (3 * (LEVELS - 1 - depth)))
-        found = codes[is_there]
-        counts = np.zeros(len(found), np.int64)
-        level = _Level(found, records[is_there], _LOG_ODDS[here[is_there]], counts)
+        level_codes = codes[is_there]
+        counts = np.zeros(len(level_codes), np.int64)
+        level = _Level(level_codes, records[is_there], _LOG_ODDS[here[is_there]], counts)
     return levels

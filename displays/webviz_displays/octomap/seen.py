@@ -62,10 +62,10 @@ def seen_of(tree: Octree, choice: VoxelChoice) -> VisibleVoxels:
         is_wanted = (heights >= choice.low) & (heights <= choice.high) & ~np.isnan(log_odds)
         if choice.rendering != "All Voxels":
             is_wanted &= (log_odds >= 0) == (choice.rendering == "Occupied Voxels")
-        wanted = voxels.only(is_wanted & is_drawable(voxels.centers))
-        seen = wanted.only(is_exposed(tree, wanted))
-        if len(seen.nodes) <= MAX_VOXELS:
-            return VisibleVoxels(seen, len(wanted.nodes), depth)
+        chosen = voxels.only(is_wanted & is_drawable(voxels.centers))
+        exposed = chosen.only(is_exposed(tree, chosen))
+        if len(exposed.nodes) <= MAX_VOXELS:
+            return VisibleVoxels(exposed, len(chosen.nodes), depth)
     raise AssertionError("a tree has one root")
 
 

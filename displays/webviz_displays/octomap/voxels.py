@@ -80,7 +80,7 @@ def is_exposed(tree: Octree, voxels: Voxels) -> Mask:
 
 def _coordinate(codes: I64, axis: int) -> I64:
     """Return a coordinate (N,) of Morton codes, in smallest voxels from the corner of the tree."""
-    found = np.zeros_like(codes)
+    coordinates = np.zeros_like(codes)
     for bit in range(LEVELS):
-        found |= (codes >> (2 * bit + axis)) & (1 << bit)
-    return found
+        coordinates |= (codes >> (2 * bit + axis)) & (1 << bit)
+    return coordinates

@@ -144,11 +144,11 @@ def kept_poses(
         for message in itertools.islice(newest_first, size - len(places)):
             places.append(None if fault(message) else rule.place_of(message))
         met = _met(places, rule) or 0
-        kept = _kept(places[:met], rule)
-        if 0 < keep <= len(kept):
-            return kept
+        numbers = _kept(places[:met], rule)
+        if 0 < keep <= len(numbers):
+            return numbers
         if len(places) < size:
-            return [*range(len(places) - 1, met - 1, -1), *kept]
+            return [*range(len(places) - 1, met - 1, -1), *numbers]
     return _kept(places, rule)
 
 
@@ -186,12 +186,12 @@ def _met(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> int | No
 def _kept(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> Sequence[int]:
     """Return the numbers of the places of the trail that begins with the oldest."""
     last: TrailPlace | None = None
-    found: list[int] = []
+    numbers: list[int] = []
     for number, place in _oldest_first(newest_first):
         if last is None or rule.keeps(place, last):
             last = place
-            found.append(number)
-    return found
+            numbers.append(number)
+    return numbers
 
 
 def _oldest_first(places: Sequence[TrailPlace | None]) -> Iterator[tuple[int, TrailPlace]]:

@@ -62,7 +62,7 @@ def draw_covariances(
         return
     newest = [sample.message.pose.covariance for sample in samples[-MAX_COVARIANCES:]]
     rows, total = np.array(newest), len(samples)
-    given, ok = read(rows)
+    covariances, ok = read(rows)
     negative = has_negative_variance(rows)
     if not ok.all():
         ctx.warn(
@@ -78,13 +78,15 @@ def draw_covariances(
         )
     elif total > len(newest):
         ctx.ok("Covariance", f"Showing the newest {len(newest)} of {total} covariances.")
-    given = Covariances(given.matrices[ok], given.is_planar[ok])
-    shown, ids = poses[-len(newest) :][ok], ids[-len(newest) :][ok]
+    covariances = Covariances(covariances.matrices[ok], covariances.is_planar[ok])
+    frames_shown, ids = poses[-len(newest) :][ok], ids[-len(newest) :][ok]
     if look.position.value:
-        add_positions(group, look.position, given, shown.positions, shown.frames, ids)
+        add_positions(
+            group, look.position, covariances, frames_shown.positions, frames_shown.frames, ids
+        )
     if look.orientation.value:
-        axes = shown.rotations if look.orientation.frame == "Local" else shown.frames
-        add_orientations(group, look.orientation, given, shown.positions, axes, ids)
+        axes = frames_shown.rotations if look.orientation.frame == "Local" else frames_shown.frames
+        add_orientations(group, look.orientation, covariances, frames_shown.positions, axes, ids)
 
 
 def add_positions(

@@ -124,12 +124,12 @@ class NavSatFix(Display):
         if fault := fault_of(newest.message):
             ctx.error("Fix", fault)
             return
-        known = [each for each in samples if not fault_of(each.message)]
+        fixes = [each for each in samples if not fault_of(each.message)]
         origin = place_of(newest.message)
-        xyz = to_enu([place_of(each.message) for each in known], origin)
+        xyz = to_enu([place_of(each.message) for each in fixes], origin)
         rows = np.flatnonzero(is_drawable(xyz))
         group = ctx.follow(None, offset=Pose(newest.pose.position), key="fixes")
-        ids = np.array([each.number for each in known])[rows]
+        ids = np.array([each.number for each in fixes])[rows]
         group.instances("fixes", "sphere", xyz[rows], 2 * self.radius, self.color, ids=ids)
         if self.show_covariance and newest.message.position_covariance_type != UNKNOWN:
             ellipse = _ellipse(np.asarray(newest.message.position_covariance, float))

@@ -180,7 +180,7 @@ class AerialMap(Display):
         here = TilePlane(place, self.zoom)
         column, row = (int(each) for each in here.center)
         plane = TilePlane(_middle(column, row, here), self.zoom)
-        wanted = {(self.zoom, x % plane.count, y): (x, y) for x, y in plane.around(self.blocks)}
+        tiles = {(self.zoom, x % plane.count, y): (x, y) for x, y in plane.around(self.blocks)}
         state: _State = ctx.state
         loading = state.loading
         if loading is None or (loading.address, loading.timeout_s) != (
@@ -189,12 +189,12 @@ class AerialMap(Display):
         ):
             loading = state.loading = TileLoading(self.object_uri, self.timeout)
         try:
-            is_complete = loading.load(list(wanted), ctx)
+            is_complete = loading.load(list(tiles), ctx)
         except TileError as error:
             ctx.error("Tiles", str(error))
             return
-        self._draw(wanted, plane, here, samples[-1].pose, ctx)
-        self._report(loading, is_complete, len(wanted), ctx)
+        self._draw(tiles, plane, here, samples[-1].pose, ctx)
+        self._report(loading, is_complete, len(tiles), ctx)
 
     def _draw(
         self,
@@ -228,21 +228,21 @@ class AerialMap(Display):
             group.add(key, state.drawn[tile], Pose((*plane.corner(*at), 0.0)))
 
     def _report(self, loading: TileLoading, is_complete: bool, count: int, ctx: Context) -> None:
-        shown = sum(cells is not None for cells in loading.tiles.values())
+        count_shown = sum(cells is not None for cells in loading.tiles.values())
         credit = loading.source.attribution if loading.source else ""
-        ctx.attribution = credit if shown else ""
+        ctx.attribution = credit if count_shown else ""
         if not is_complete:
             ctx.warn("Tiles", f"Loading: {len(loading.tiles)} of {counted(count, 'tile')}.")
         elif loading.failures:
             reason = next(iter(loading.failures.values()))
-            ctx.warn("Tiles", f"Showing {shown} of {counted(count, 'tile')}. {reason}")
-        elif not shown:
+            ctx.warn("Tiles", f"Showing {count_shown} of {counted(count, 'tile')}. {reason}")
+        elif not count_shown:
             ctx.warn(
                 "Tiles",
                 f"The map has no tiles of level {self.zoom} here. Choose another zoom or map.",
             )
         else:
-            ctx.ok("Tiles", f"Showing {counted(shown, 'tile')}.")
+            ctx.ok("Tiles", f"Showing {counted(count_shown, 'tile')}.")
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return the tile, and the newest fix."""

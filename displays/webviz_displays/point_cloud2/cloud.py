@@ -147,17 +147,17 @@ class Cloud:
         """
         row, column = divmod(index, self._message.width)
         start = row * self._row_step + column * self._message.point_step
-        found: dict[str, Any] = {}
-        for field, offset, dtype in self._places(found):
+        values_by_field: dict[str, Any] = {}
+        for field, offset, dtype in self._places(values_by_field):
             values = np.ndarray(max(field.count, 1), dtype, self._message.data, start + offset)
             if field.name in ("rgb", "rgba") and dtype.itemsize == 4:
                 alpha, *channels = int(values.view(dtype.byteorder + "u4")[0]).to_bytes(4, "big")
                 channels += [alpha] * (field.name == "rgba")
                 named = zip("rgba", channels, strict=False)
-                found[field.name] = ", ".join(f"{name} {value}" for name, value in named)
+                values_by_field[field.name] = ", ".join(f"{name} {value}" for name, value in named)
             else:
-                found[field.name] = values[0] if len(values) == 1 else values
-        return found
+                values_by_field[field.name] = values[0] if len(values) == 1 else values
+        return values_by_field
 
     def _places(self, problems: dict[str, Any]) -> Iterator[tuple[Any, int, np.dtype[Any]]]:
         """Yield the fields that can be read, with offset and type; note why others cannot."""

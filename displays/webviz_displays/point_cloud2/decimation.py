@@ -50,14 +50,14 @@ def one_per_voxel(xyz: NDArray[np.float32], size: float) -> Rows:
     bits = max(len(xyz), 2).bit_length()
     table = np.empty(1 << bits, np.intp)
     left = np.arange(len(xyz))
-    found = np.zeros(len(xyz), np.bool_)
+    is_owner = np.zeros(len(xyz), np.bool_)
     spread = _SPREAD
     while len(left):
         mine = numbers[left]
         slots = ((mine.view(np.uint64) * np.uint64(spread)) >> np.uint64(64 - bits)).view(np.intp)
         table[slots[::-1]] = left[::-1]
         owners = table[slots]
-        found[owners] = True
+        is_owner[owners] = True
         left = left[numbers[owners] != mine]
         spread = spread * _SPREAD % 2**64
-    return np.flatnonzero(found)
+    return np.flatnonzero(is_owner)

@@ -212,10 +212,13 @@ class CloudDisplay(PointsDisplay):
             ctx.warn("Colors", text, None if self.color_transformer == "Auto" else BY_FIELDS)
             colors, opacities = WHITE, None
         if opacities is not None and opacities.min(initial=255) < 255:
-            seen = opacities > 0
-            xyz, rows = xyz[seen], np.flatnonzero(seen) if rows is None else rows[seen]
-            colors, opacities = np.asarray(colors)[seen], opacities[seen]
-            if hidden := len(seen) - len(xyz):
+            is_visible = opacities > 0
+            xyz, rows = (
+                xyz[is_visible],
+                np.flatnonzero(is_visible) if rows is None else rows[is_visible],
+            )
+            colors, opacities = np.asarray(colors)[is_visible], opacities[is_visible]
+            if hidden := len(is_visible) - len(xyz):
                 sentence += f" {spaced(hidden)} of them are invisible: their rgba has alpha 0."
         state.newest = sample.number  # not before, as this may have taken seconds
         (ctx.ok if len(xyz) else ctx.warn)("Points", sentence)
@@ -276,8 +279,8 @@ class CloudDisplay(PointsDisplay):
         rows = drawable(xyz)
         count = left(total, rows, "not finite or farther than 1e9 m")
         if self.voxel_size:
-            kept = one_per_voxel(picked(xyz, rows), self.voxel_size)
-            rows = kept if rows is None else rows[kept]
+            selected_rows = one_per_voxel(picked(xyz, rows), self.voxel_size)
+            rows = selected_rows if rows is None else rows[selected_rows]
             count = left(
                 count, rows, f"in voxels of {self.voxel_size:g} m that already show a point"
             )
@@ -291,8 +294,8 @@ class CloudDisplay(PointsDisplay):
         most = max(limit // shares, 1)
         if count > most:
             thins = rests and self.max_points == AS_HELD and self.style != "Points"
-            kept = in_blocks(picked(xyz, rows)) if thins else evenly(count, most)
-            rows = kept if rows is None else rows[kept]
+            selected_rows = in_blocks(picked(xyz, rows)) if thins else evenly(count, most)
+            rows = selected_rows if rows is None else rows[selected_rows]
             many = f" for {shares} clouds" if shares > 1 else ""
             count = left(count, rows, f"over {name}{many}")
         sentence = f"Showing {spaced(count)} of {spaced(total)} points"

@@ -59,13 +59,13 @@ class ParticleCloud(Display):
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame and at the stamp of its header."""
         particles = sample.message.particles
-        found = drawable_poses(
+        drawables = drawable_poses(
             particles[:, _POSITION], particles[:, _ORIENTATION], sample, ctx, "particle"
         )
-        if found is None:
+        if drawables is None:
             return
         low, high = self.min_arrow_length, self.max_arrow_length
-        weights = particles[found.ids, _WEIGHT]
+        weights = particles[drawables.ids, _WEIGHT]
         if low > high:
             ctx.warn(
                 "Length",
@@ -78,21 +78,21 @@ class ParticleCloud(Display):
             weights = np.where(np.isfinite(weights), weights, 0.0)
         lengths = low + np.clip(weights, 0.0, 1.0) * (high - low)
         if self.shape == "Axes":
-            found.draw_axes(lengths, AXES_RADIUS * lengths)
+            drawables.draw_axes(lengths, AXES_RADIUS * lengths)
         elif is_invisible(self.alpha, ctx, "particle"):
             return
         elif self.shape == "Arrow (Flat)":
-            found.draw_flat(lengths, self.color, self.alpha)
+            drawables.draw_flat(lengths, self.color, self.alpha)
         else:
             sizes = SHAFT_RADIUS * lengths, HEAD_RADIUS * lengths, HEAD_LENGTH * lengths
-            found.draw_arrows(lengths, *sizes, self.color, self.alpha)
+            drawables.draw_arrows(lengths, *sizes, self.color, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return a particle: its weight and its pose in its own frame."""
         particles = hit.sample.message.particles
         poses = PoseSequence(particles[:, _POSITION], particles[:, _ORIENTATION])
-        found = pose_details(hit, "Particle", poses[hit.id], len(particles))
-        return Details(found.title, {"Weight": particles[hit.id, _WEIGHT], **found.values})
+        details = pose_details(hit, "Particle", poses[hit.id], len(particles))
+        return Details(details.title, {"Weight": particles[hit.id, _WEIGHT], **details.values})
 
 
 BY_FLAT = ("shape", "Arrow (Flat)")
@@ -132,19 +132,19 @@ class PoseArray(Display):
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One array, in the frame and at the stamp of its header."""
         poses: messages.PoseSequence = sample.message.poses
-        found = drawable_poses(poses.positions, poses.orientations, sample, ctx, "pose")
-        if found is None:
+        drawables = drawable_poses(poses.positions, poses.orientations, sample, ctx, "pose")
+        if drawables is None:
             return
         if self.shape == "Axes":
-            found.draw_axes(self.axes_length, self.axes_radius)
+            drawables.draw_axes(self.axes_length, self.axes_radius)
         elif is_invisible(self.alpha, ctx, "pose"):
             return
         elif self.shape == "Arrow (Flat)":
-            found.draw_flat(self.arrow_length, self.color, self.alpha)
+            drawables.draw_flat(self.arrow_length, self.color, self.alpha)
         else:
             length = self.shaft_length + self.head_length
             sizes = self.shaft_radius, self.head_radius, self.head_length
-            found.draw_arrows(length, *sizes, self.color, self.alpha)
+            drawables.draw_arrows(length, *sizes, self.color, self.alpha)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return a pose in its own frame."""

@@ -34,12 +34,12 @@ class PointStamped(Display):
         """Spheres, each where its frame was at its stamp."""
         if not samples:
             return
-        given = [(each.message.point, each.pose) for each in samples]
-        points = np.array([(p.x, p.y, p.z) for p, _ in given])
+        pairs = [(each.message.point, each.pose) for each in samples]
+        points = np.array([(p.x, p.y, p.z) for p, _ in pairs])
         ids = np.flatnonzero(is_drawable(points))
         if len(ids):
-            turns = matrices([pose.wxyz for _, pose in given])[ids]
-            places = np.array([pose.position for _, pose in given])[ids]
+            turns = matrices([pose.wxyz for _, pose in pairs])[ids]
+            places = np.array([pose.position for _, pose in pairs])[ids]
             centers = np.einsum("nij,nj->ni", turns, points[ids]) + places
             origin = origin_near(centers)
             group = ctx.follow(None, offset=Pose(origin))

@@ -210,8 +210,8 @@ class RobotModel(Display):
         """
         state: RobotDrawing = ctx.state
         loading = [progress(loading) for loading in state.loading.values()]
-        lost = state.model.lost(ctx.frames) if state.model else []
-        return loading, lost, state.grey, self._round(ctx)
+        unplaced = state.model.lost(ctx.frames) if state.model else []
+        return loading, unplaced, state.grey, self._round(ctx)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """Draw the current robot; each link moves with its frame."""
@@ -236,10 +236,10 @@ class RobotModel(Display):
         paint = state.paint
         paint.begin()
         state.owners.clear()
-        lost = state.grey = set(model.lost(ctx.frames))
+        unplaced = state.grey = set(model.lost(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
             group = model.placing.group(part.link, ctx, self.update_interval)
-            color = GREY if part.link in lost else None
+            color = GREY if part.link in unplaced else None
             group.add(part.key, paint(part.node, color=color), part.pose)
             state.owners[part.key] = part.link
 
@@ -248,10 +248,10 @@ class RobotModel(Display):
         model: LoadedRobot | None = ctx.state.model
         if model is None:
             return
-        lost = model.lost(ctx.frames)
+        unplaced = model.lost(ctx.frames)
         placing = model.placing
-        reasons = self._reasons(model, lost, ctx)
-        report_places(len(model.shown), lost, reasons, placing.source, placing.lacks, ctx)
+        reasons = self._reasons(model, unplaced, ctx)
+        report_places(len(model.shown), unplaced, reasons, placing.source, placing.lacks, ctx)
         chosen = {link: self.links[link] for link in model.shown if link in self.links}
         for link in [link for link, chosen in chosen.items() if chosen.show_axes][:NAMED]:
             if pose := model.placing.pose(link, ctx.frames):
@@ -319,8 +319,8 @@ class RobotModel(Display):
                 return None
             robot, full = state.model.robot, state.model.full
         choices = self._choices()
-        shown = tuple(link for link in robot.links if choices.of(link).enabled)
-        return LoadedRobot(robot, full, self._placing(robot, samples, ctx), shown)
+        enabled_links = tuple(link for link in robot.links if choices.of(link).enabled)
+        return LoadedRobot(robot, full, self._placing(robot, samples, ctx), enabled_links)
 
     def _placing(self, robot: Robot, samples: Sequence[Sample], ctx: Context) -> Placing:
         state: RobotDrawing = ctx.state

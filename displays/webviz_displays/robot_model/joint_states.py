@@ -52,8 +52,8 @@ def positions_of(state: messages.JointState) -> tuple[dict[str, float], str]:
     if not len(positions):
         return {}, ""
     if len(names) != len(positions):
-        named, given = counted(len(names), "name"), counted(len(positions), "position")
-        return {}, f"The joint state has {named} but {given}. Fix its publisher."
+        named, amount = counted(len(names), "name"), counted(len(positions), "position")
+        return {}, f"The joint state has {named} but {amount}. Fix its publisher."
     ok = np.abs(positions) < FARTHEST  # not NaN either
     fault = ""
     if not ok.all():

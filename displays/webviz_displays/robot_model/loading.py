@@ -71,5 +71,5 @@ def load(request: LoadRequest, before: Loadings, ctx: Context, loadings: Loading
 
 def progress(loading: Loading) -> str:
     """Return loading progress for a status."""
-    done, total, link = loading.at
-    return f"Loading: {done} of {total} shapes, at link '{link}'." if total else "Loading."
+    finished, total, link = loading.at
+    return f"Loading: {finished} of {total} shapes, at link '{link}'." if total else "Loading."

@@ -110,9 +110,9 @@ class Paint:
             return node
         key = (id(node), alpha, color)
         # The unpainted node is held too, so that its id is not reused.
-        made = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, color))
-        self._made[key] = made
-        return made[1]
+        entry = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, color))
+        self._made[key] = entry
+        return entry[1]
 
 
 def parts_of(

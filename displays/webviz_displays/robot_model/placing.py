@@ -155,10 +155,12 @@ class JointPlacer:
         return self._placing
 
     def _placed(self, root: str, received: ReceivedRobot) -> ByJoints:
-        kinematics, known = self._kinematics, received.positions
-        values = np.array([known.get(joint, 0.0) for joint in kinematics.joints], float)
+        kinematics, positions = self._kinematics, received.positions
+        values = np.array([positions.get(joint, 0.0) for joint in kinematics.joints], float)
         needed = {*kinematics.joints, *kinematics.free}
-        missing = [joint for joint in self.robot.joints if joint in needed and joint not in known]
+        missing = [
+            joint for joint in self.robot.joints if joint in needed and joint not in positions
+        ]
         poses = poses_by_link(kinematics, *kinematics.places(values))
         assumed = kinematics.moved_by(missing)
         return ByJoints(root, poses, len(needed), missing, assumed, received.fault)

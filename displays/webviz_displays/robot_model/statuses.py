@@ -23,10 +23,10 @@ def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
         ctx: receives the statuses.
     """
     missing = [m for m in (full or robot).missing if full or m.kind == "visual"]
-    drawn = sum(len(link.visuals) for link in robot.links.values())
-    total = drawn + sum(m.kind == "visual" for m in missing)
+    loaded = sum(len(link.visuals) for link in robot.links.values())
+    total = loaded + sum(m.kind == "visual" for m in missing)
     text = (
-        f"'{robot.name}': {counted(len(robot.links), 'link')}, {drawn} of {total} visuals loaded."
+        f"'{robot.name}': {counted(len(robot.links), 'link')}, {loaded} of {total} visuals loaded."
     )
     (ctx.ok if total else ctx.warn)("URDF", text)
     if missing:

@@ -78,11 +78,11 @@ class GrowingTrail:
     def of(self, samples: Sequence[Sample]) -> PoseTrail:
         """`trail` of these samples; only new ones are read."""
         first = next((i for i, old in enumerate(self._samples) if old is samples[0]), None)
-        known = 0 if first is None else len(self._samples) - first
-        if first is None or self._samples[first:] != list(samples[:known]):
+        known_count = 0 if first is None else len(self._samples) - first
+        if first is None or self._samples[first:] != list(samples[:known_count]):
             self._trail = trail(samples, self._pose_of)
-        elif first or known < len(samples):
-            new = trail(samples[known:], self._pose_of)
+        elif first or known_count < len(samples):
+            new = trail(samples[known_count:], self._pose_of)
             both = zip(astuple(self._trail), astuple(new), strict=True)
             self._trail = PoseTrail(*(np.concatenate((old[first:], more)) for old, more in both))
         self._samples = list(samples)

@@ -209,14 +209,14 @@ class TF(Display):
             text = "No transforms received on /tf or /tf_static. Start robot_state_publisher."
             ctx.warn("Frames", f"No transforms yet: {recorded}." if recorded else text)
             return
-        known = self._known(ctx, poses.names)
+        selection = self._known(ctx, poses.names)
         ages = state.ages.update(poses.stamps_ns, now_ns, partial(receptions, ctx.frames.buffer))
         is_young = ages <= self.frame_timeout
-        shown = known.selected & poses.ok & is_young
+        is_shown = selection.selected & poses.ok & is_young
         # By name, as the order in which frames came depends on when somebody began to listen.
-        self._draw(known.order[shown[known.order]], poses, known.parents, ages, ctx)
-        self._report(known.selected, shown, poses, ctx)
-        ctx.ok("Tree", f"{known.tree}.")
+        self._draw(selection.order[is_shown[selection.order]], poses, selection.parents, ages, ctx)
+        self._report(selection.selected, is_shown, poses, ctx)
+        ctx.ok("Tree", f"{selection.tree}.")
         groups = dict(ctx.groups)
         state.last = _Tick(now_ns, groups, dict(ctx.statuses))
 
@@ -263,28 +263,28 @@ class TF(Display):
     def _report(
         self, selected: NDArray[np.bool_], shown: NDArray[np.bool_], poses: FramePoses, ctx: Context
     ) -> None:
-        lost = np.flatnonzero(selected & ~poses.ok)
-        count, total, wanted = int(shown.sum()), len(poses.names), int(selected.sum())
-        old = wanted - count - len(lost)
+        unplaced = np.flatnonzero(selected & ~poses.ok)
+        count, total, selected_count = int(shown.sum()), len(poses.names), int(selected.sum())
+        old = selected_count - count - len(unplaced)
         parts = [f"{count} of {total} frames shown" if count < total else f"{count} frames shown"]
-        if wanted < total:
-            parts.append(f"{total - wanted} switched off or filtered out")
-        if len(lost):
-            parts.append(f"{len(lost)} have no transform to '{ctx.frames.fixed_frame}'")
+        if selected_count < total:
+            parts.append(f"{total - selected_count} switched off or filtered out")
+        if len(unplaced):
+            parts.append(f"{len(unplaced)} have no transform to '{ctx.frames.fixed_frame}'")
         if old:
             parts.append(f"{old} not updated for more than {self.frame_timeout:g} s")
         is_off = not count and not self.all_enabled
         remedy = Remedy("all_enabled", True, "Show all frames") if is_off else None
         text = f"{', '.join(parts)}."
-        if count and not old and not len(lost):
+        if count and not old and not len(unplaced):
             ctx.ok("Frames", text)
         else:
             ctx.warn("Frames", text, remedy)
         # Explanations contain times, so they are renewed, but not on every tick.
-        moment = (lost.tobytes(), ctx.frames.now_ns // SECOND)
+        moment = (unplaced.tobytes(), ctx.frames.now_ns // SECOND)
         state: _State = ctx.state
         if state.reasons_of != moment:
-            names = sorted(poses.names[place] for place in lost)
+            names = sorted(poses.names[place] for place in unplaced)
             state.reasons_of = moment
             state.reasons = distinct(names, ctx.frames.explain, NAMED)
         for name, reason in state.reasons.items():

@@ -55,20 +55,20 @@ class Ages:
             seen_ns: the times of reception by stamp, both in nanoseconds; asked only for frames
                 that are new or that have stopped.
         """
-        known, count = len(self._stamps_ns), len(stamps_ns)
+        known_count, count = len(self._stamps_ns), len(stamps_ns)
         same = np.zeros(count, np.bool_)
-        same[:known] = stamps_ns[:known] == self._stamps_ns
+        same[:known_count] = stamps_ns[:known_count] == self._stamps_ns
         changed_ns = np.full(count, now_ns)
-        changed_ns[:known] = np.where(same[:known], self._changed_ns, now_ns)
+        changed_ns[:known_count] = np.where(same[:known_count], self._changed_ns, now_ns)
         is_exact = stamps_ns == 0
-        is_exact[:known] |= same[:known] & self._is_exact
+        is_exact[:known_count] |= same[:known_count] & self._is_exact
         is_asked = ~is_exact & (now_ns - changed_ns > STILL_S * 1e9)
-        is_asked[known:] |= ~is_exact[known:]
+        is_asked[known_count:] |= ~is_exact[known_count:]
         if is_asked.any():
             received_ns = seen_ns()
             for place in np.flatnonzero(is_asked).tolist():
                 stamp_ns = int(stamps_ns[place])
-                noticed_ns = int(changed_ns[place]) if place < known else stamp_ns
+                noticed_ns = int(changed_ns[place]) if place < known_count else stamp_ns
                 changed_ns[place] = min(received_ns.get(stamp_ns, noticed_ns), now_ns)
             is_exact |= is_asked
         self._stamps_ns, self._changed_ns, self._is_exact = stamps_ns, changed_ns, is_exact

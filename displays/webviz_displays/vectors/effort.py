@@ -92,9 +92,9 @@ def shares(efforts: F64, largest: F64) -> F64:
 
     Without a largest effort it is the effort itself.
     """
-    known = largest > 0
-    share = np.abs(efforts) / np.where(known, largest, 1.0)
-    return np.where(known, np.minimum(share, 1.0), share) + LEAST_SHARE
+    is_known = largest > 0
+    share = np.abs(efforts) / np.where(is_known, largest, 1.0)
+    return np.where(is_known, np.minimum(share, 1.0), share) + LEAST_SHARE
 
 
 def add_rings(group: Group, rings: Rings, width: float, scale: float, alpha: float) -> None:
@@ -272,8 +272,8 @@ class Effort(Display):
                 break
         if measured and newest is None:
             waiting = state.waiting[-1]
-            lost = next(f for f in waiting.frames if ctx.frames.at(f, waiting.stamp_ns) is None)
-            reason = ctx.frames.explain(lost, waiting.stamp_ns)
+            unplaced = next(f for f in waiting.frames if ctx.frames.at(f, waiting.stamp_ns) is None)
+            reason = ctx.frames.explain(unplaced, waiting.stamp_ns)
             ctx.error("Transform", reason.sentence, OtherFixedFrame.of(reason), reason)
         if newest is None:
             return
@@ -296,11 +296,11 @@ class Effort(Display):
         transforms: Frames,
     ) -> Rings:
         """Return the rings of one message; joints without a transform have none."""
-        found = [
+        poses = [
             (name, transforms.at(frame, stamp_ns))
             for name, frame in zip(efforts, frames, strict=True)
         ]
-        placed = [(name, pose) for name, pose in found if pose is not None]
+        placed = [(name, pose) for name, pose in poses if pose is not None]
         return Rings.of(
             [name for name, _ in placed],
             [pose for _, pose in placed],
@@ -327,15 +327,15 @@ class Effort(Display):
             return
         turning = [name for name in message.name if name in joints]
         invalid = [name for name in turning if self._shows(name) and name not in efforts]
-        lost = [name for name in efforts if name not in rings.names]
+        unplaced = [name for name in efforts if name not in rings.names]
         hidden = sum(not self._shows(name) for name in turning)
         off = f"; {hidden} switched off" if hidden else ""
         ctx.ok("Efforts", f"Showing {counted(len(rings.names), 'joint')}{off}.")
         if invalid:
             names = listed(invalid, NAMED)
             ctx.warn("Efforts", f"Efforts are not finite or above 1e6 Nm: {names}.")
-        elif lost:
-            ctx.warn("Efforts", f"Links have no transform: {listed(lost, NAMED)}.")
+        elif unplaced:
+            ctx.warn("Efforts", f"Links have no transform: {listed(unplaced, NAMED)}.")
         elif not turning:
             ctx.warn(
                 "Efforts",

@@ -173,8 +173,8 @@ class VectorDisplay(Display):
             ctx.error("Values", f"The message has values that are not finite: {numbers}. {remedy}")
         tails = np.array([sample.pose.position for sample in samples]) - origin
         turns = matrices([sample.pose.wxyz for sample in samples])
-        told: list[str] = []
-        shown = 0
+        texts: list[str] = []
+        count = 0
         for number, (look, add) in enumerate(
             zip(self.looks(), (add_straight, add_turning), strict=True)
         ):
@@ -182,24 +182,24 @@ class VectorDisplay(Display):
                 shafts = look.scale * np.einsum("nij,nj->ni", turns, values[:, number])
                 lengths = np.linalg.norm(shafts, axis=1)
                 fits: Mask = ok & (lengths < FARTHEST)
-                seen = np.flatnonzero(fits & ~self.hides(lengths))
+                rows = np.flatnonzero(fits & ~self.hides(lengths))
                 size = np.linalg.norm(values[-1, number])
             if ok[-1] and not fits[-1]:
                 text = f"is too large to be drawn: {size:.4g} {look.unit}. Fix the publisher."
                 ctx.error("Values", f"The {look.noun} {text}")
             elif ok[-1]:
-                hidden = "" if len(samples) - 1 in seen else ", not drawn"
-                told.append(f"{look.noun} {size:.4g} {look.unit}{hidden}")
-            if len(seen) and self.alpha > 0:
-                vectors = Vectors(tails[seen], shafts[seen], seen)
+                hidden = "" if len(samples) - 1 in rows else ", not drawn"
+                texts.append(f"{look.noun} {size:.4g} {look.unit}{hidden}")
+            if len(rows) and self.alpha > 0:
+                vectors = Vectors(tails[rows], shafts[rows], rows)
                 add(group, look.noun, vectors, self.arrow_width, look.color, self.alpha)
-                shown += len(seen)
-        if told:
-            text = "; ".join(told)
+                count += len(rows)
+        if texts:
+            text = "; ".join(texts)
             sentence = f"{text[0].upper()}{text[1:]}."
             if self.alpha == 0:
                 ctx.warn("Vectors", f"Invisible: alpha is 0. {sentence}", opaque())
-            elif shown:
+            elif count:
                 ctx.ok("Vectors", sentence)
             else:
                 reason, remedy = self.why_hidden()

@@ -118,10 +118,10 @@ def like(cls: type[V], view: View, target_frame: str | None = None) -> V:
         view: with the options.
         target_frame: in place of the view's.
     """
-    kept: dict[str, Any] = {**options_of(view)}
+    options: dict[str, Any] = {**options_of(view)}
     if target_frame is not None:
-        kept["target_frame"] = target_frame
-    return cls(**{name: value for name, value in kept.items() if name in cls.__struct_fields__})
+        options["target_frame"] = target_frame
+    return cls(**{name: value for name, value in options.items() if name in cls.__struct_fields__})
 
 
 def target_group(frame: str) -> str:

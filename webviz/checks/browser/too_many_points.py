@@ -36,19 +36,19 @@ class TooManyPoints(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such viewer."""
         slow = min((each for each in seen.browsers if each.points), key=_points, default=None)
-        wanted = {
+        points = {
             each.display.name: each.wanted_points for each in seen.displays if each.wanted_points
         }
-        if slow is None or sum(wanted.values()) <= slow.points:
+        if slow is None or sum(points.values()) <= slow.points:
             return
-        most = max(wanted, key=lambda name: wanted[name])
+        most = max(points, key=lambda name: points[name])
         yield self.found(
-            f"The clouds have {spaced(sum(wanted.values()))} points, most of them {most}; "
+            f"The clouds have {spaced(sum(points.values()))} points, most of them {most}; "
             f"{slow.name} draws {spaced(slow.points)} in time.",
             f"Set a voxel size in {most}, or show fewer clouds.",
             subject=slow.name,
             severity=Severity.WARNING
-            if sum(wanted.values()) > FAR * slow.points
+            if sum(points.values()) > FAR * slow.points
             else Severity.NOTE,
-            evidence={"points_held": slow.points, **wanted},
+            evidence={"points_held": slow.points, **points},
         )

@@ -37,9 +37,9 @@ class InvalidJointStates(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic while links of a robot lack transforms."""
-        lost = tuple(symptom for symptom, _ in seen.lost(*OF_LINKS))
+        symptoms = tuple(symptom for symptom, _ in seen.lost(*OF_LINKS))
         stateless = dict(_stateless(seen))
-        for topic, state in seen.joint_states.items() if lost else ():
+        for topic, state in seen.joint_states.items() if symptoms else ():
             names, positions = state.name, np.asarray(state.position)
             pairs = zip(names, positions, strict=False)
             invalid = [name for name, at in pairs if not np.isfinite(at)]
@@ -50,7 +50,7 @@ class InvalidJointStates(Check):
             elif invalid:
                 cause = f"has a position of {invalid[0]} that is not a finite number"
             elif stateless and names:
-                lost = tuple(stateless)
+                symptoms = tuple(stateless)
                 cause = f"has {listed(sorted(names), NAMED)}, but not "
                 cause += listed(sorted(stateless.values()), NAMED)
                 remedy = "Let its publisher send all joints, by their names in the URDF."
@@ -67,7 +67,7 @@ class InvalidJointStates(Check):
                     "invalid": len(invalid),
                 },
                 command=f"ros2 topic echo --once {topic}",
-                explains=(*lost, *seen.symptom("Transforms")),
+                explains=(*symptoms, *seen.symptom("Transforms")),
                 causes=CauseLevel.FRAMES,
             )
 
@@ -80,7 +80,7 @@ def _stateless(seen: Observation) -> Iterator[tuple[Symptom, str]]:
     publishers = [
         p for topic in seen.joint_states for p in seen.offers.get(topic, NO_OFFER).publishers
     ]
-    given = {name for state in seen.joint_states.values() for name in state.name}
+    joints = {name for state in seen.joint_states.values() for name in state.name}
     for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME) if len(publishers) == 1 else ():
-        if reason.joint and reason.joint not in given:
+        if reason.joint and reason.joint not in joints:
             yield symptom, reason.joint

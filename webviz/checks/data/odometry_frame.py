@@ -57,12 +57,12 @@ class OdometryFrame(Check):
                 continue
             stamp = odometry.header.stamp
             try:
-                found = seen.buffer.lookup(parent, child, stamp.sec * 10**9 + stamp.nanosec)
+                transform = seen.buffer.lookup(parent, child, stamp.sec * 10**9 + stamp.nanosec)
             except TransformException:
                 continue
             place, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-            turned = w_first(found.rotation)
-            apart_m = math.dist(found.translation, (place.x, place.y, place.z))
+            turned = w_first(transform.rotation)
+            apart_m = math.dist(transform.translation, (place.x, place.y, place.z))
             apart_rad = angle_between(tuple(turned.tolist()), (q.w, q.x, q.y, q.z))
             if apart_m > APART_M or apart_rad > APART_RAD:
                 node = ", ".join(sorted(nodes & senders))

@@ -26,14 +26,14 @@ class OtherMap(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, found in seen.misfits():
-            if found.fit.is_cured or found.is_placed:
+        for display, misfit in seen.misfits():
+            if misfit.fit.is_cured or misfit.is_placed:
                 continue
             yield self.found(
-                f"The scan of '{found.frame}' does not fit the map.",
+                f"The scan of '{misfit.frame}' does not fit the map.",
                 "Check that the map is of this place, and where the laser is mounted.",
                 subject=display.display.name,
-                proof=found.proof,
-                evidence={"share": found.fit.share, "cured": found.fit.cured},
+                proof=misfit.proof,
+                evidence={"share": misfit.fit.share, "cured": misfit.fit.cured},
                 explains=display.symptom("Map"),
             )

@@ -55,33 +55,35 @@ class RobotMisplaced(Check):
         """Yield a finding for each such scan."""
         before, self._shifts = self._shifts, {}
         for display in seen.displays:
-            if (found := display.fit) is None:
+            if (scan_fit := display.fit) is None:
                 continue
-            rounds = self._shifts[found.frame] = before.get(found.frame, [])[-KEPT:]
-            rounds.append(_shift(seen, found))
+            rounds = self._shifts[scan_fit.frame] = before.get(scan_fit.frame, [])[-KEPT:]
+            rounds.append(_shift(seen, scan_fit))
             shifts = [each for each in rounds if each]
             off = _of_laser(shifts)
-            is_off_now = not found.fit.is_good and found.fit.shift is not None
+            is_off_now = not scan_fit.fit.is_good and scan_fit.fit.shift is not None
             if not is_off_now and (off is None or len(shifts) < FEWEST):
                 continue
             if off is not None:
                 cause = (
-                    f"The scan of '{found.frame}' is off by ({off.real:.2f}, {off.imag:.2f}) m in "
-                    "its own frame wherever it looks: the laser is misplaced on the robot."
+                    f"The scan of '{scan_fit.frame}' is off by ({off.real:.2f}, {off.imag:.2f}) m "
+                    "in its own frame wherever it looks: the laser is misplaced on the robot."
                 )
-            elif found.is_placed:
-                cause = f"The scan of '{found.frame}' is not at the walls: it is misplaced."
+            elif scan_fit.is_placed:
+                cause = f"The scan of '{scan_fit.frame}' is not at the walls: it is misplaced."
             else:
-                cause = f"The scan of '{found.frame}' is not at the walls: the robot is misplaced."
+                cause = (
+                    f"The scan of '{scan_fit.frame}' is not at the walls: the robot is misplaced."
+                )
             yield self.found(
                 cause,
-                f"Correct the transform of '{found.frame}'."
-                if found.is_placed or off is not None
+                f"Correct the transform of '{scan_fit.frame}'."
+                if scan_fit.is_placed or off is not None
                 else "Give the pose of the robot with the tool 2D Pose Estimate. If the scan is "
                 "off in another direction after a turn, correct the transform of its laser.",
                 subject=display.display.name,
-                proof=found.proof,
-                evidence={"share": found.fit.share, "cured": found.fit.cured},
+                proof=scan_fit.proof,
+                evidence={"share": scan_fit.fit.share, "cured": scan_fit.fit.cured},
                 explains=display.symptom("Map"),
             )
 

@@ -26,14 +26,14 @@ class ScanMirrored(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, found in seen.misfits():
-            if not found.fit.is_mirrored:
+        for display, misfit in seen.misfits():
+            if not misfit.fit.is_mirrored:
                 continue
             yield self.found(
-                f"The scan of '{found.frame}' is mirrored against the map.",
-                f"Give '{found.frame}' a roll of 180° in the robot description.",
+                f"The scan of '{misfit.frame}' is mirrored against the map.",
+                f"Give '{misfit.frame}' a roll of 180° in the robot description.",
                 subject=display.display.name,
-                proof=found.proof,
-                evidence={"share": found.fit.share, "cured": found.fit.cured},
+                proof=misfit.proof,
+                evidence={"share": misfit.fit.share, "cured": misfit.fit.cured},
                 explains=display.symptom("Map"),
             )

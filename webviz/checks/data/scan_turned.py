@@ -27,15 +27,16 @@ class ScanTurned(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, found in seen.misfits():
-            if found.fit.turn is None:
+        for display, misfit in seen.misfits():
+            if misfit.fit.turn is None:
                 continue
             yield self.found(
-                f"The scan of '{found.frame}' is rotated by {-math.degrees(found.fit.turn):.0f}°.",
-                f"Correct the yaw of '{found.frame}' in the robot description.",
-                proof=found.proof,
+                f"The scan of '{misfit.frame}' is rotated by "
+                f"{-math.degrees(misfit.fit.turn):.0f}°.",
+                f"Correct the yaw of '{misfit.frame}' in the robot description.",
+                proof=misfit.proof,
                 subject=display.display.name,
-                evidence={"share": found.fit.share, "cured": found.fit.cured},
+                evidence={"share": misfit.fit.share, "cured": misfit.fit.cured},
                 explains=display.symptom("Map"),
-                button=TryYaw(found.frame, found.fit.turn),
+                button=TryYaw(misfit.frame, misfit.fit.turn),
             )

@@ -32,8 +32,8 @@ class UnknownMap(Check):
         """Yield a finding for each such map."""
         for display in seen.displays:
             status = display.problem("Map")
-            known = {each.name: each.value for each in status.values} if status else {}
-            if known.get(KNOWN) == 0.0:
+            numbers = {each.name: each.value for each in status.values} if status else {}
+            if numbers.get(KNOWN) == 0.0:
                 topic = next((each.topic for each in display.inputs), "")
                 yield self.found(
                     f"All cells of {topic} are unknown.",

@@ -21,10 +21,10 @@ class ConflictCheck(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for the frames with this sign that have the same parents."""
-        found: dict[tuple[str, ...], list[tuple[str, Problem]]] = {}
+        conflicts: dict[tuple[str, ...], list[tuple[str, Problem]]] = {}
         for frame, conflict in seen.conflicts(self.kind):
-            found.setdefault(conflict.parents, []).append((frame, conflict.problem))
-        for parents, several in found.items():
+            conflicts.setdefault(conflict.parents, []).append((frame, conflict.problem))
+        for parents, several in conflicts.items():
             frame, problem = several[0]
             others = len(several) - 1
             more = f"The same holds for {counted(others, 'other frame')}." if others else ""

@@ -27,8 +27,8 @@ class FixedFrameMisspelt(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if a known frame resembles the fixed frame."""
-        lost = list(seen.lost(Kind.UNKNOWN_FIXED_FRAME))
-        near = next((reason.near for _, reason in lost if reason.near), "")
+        unknown = list(seen.lost(Kind.UNKNOWN_FIXED_FRAME))
+        near = next((reason.near for _, reason in unknown if reason.near), "")
         if near:
             yield self.found(
                 f'The fixed frame "{seen.fixed_frame}" does not exist, but "{near}" does.',
@@ -37,5 +37,5 @@ class FixedFrameMisspelt(Check):
                 severity=Severity.ERROR,
                 evidence={"fixed_frame": seen.fixed_frame, "nearest": near},
                 button=OtherFixedFrame(near),
-                explains=tuple(symptom for symptom, _ in lost),
+                explains=tuple(symptom for symptom, _ in unknown),
             )

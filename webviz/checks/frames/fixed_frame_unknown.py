@@ -27,8 +27,8 @@ class FixedFrameUnknown(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the fixed frame is unknown."""
-        lost = [each for each in seen.lost(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near]
-        if lost:
+        unknown = [each for each in seen.lost(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near]
+        if unknown:
             root, size = seen.buffer.largest_tree()
             yield self.found(
                 f'The fixed frame "{seen.fixed_frame}" does not exist.',
@@ -37,5 +37,5 @@ class FixedFrameUnknown(Check):
                 severity=Severity.ERROR,
                 evidence={"fixed_frame": seen.fixed_frame, "root": root, "frames": size},
                 button=OtherFixedFrame(root),
-                explains=tuple(symptom for symptom, _ in lost),
+                explains=tuple(symptom for symptom, _ in unknown),
             )

@@ -33,9 +33,9 @@ class JointStatesMissing(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if links are missing and no joint state is published."""
         models = {each.id for each in seen.displays if each.type == "RobotModel"}
-        lost = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if each[0].display in models]
+        unknown = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if each[0].display in models]
         types = {p.type for offer in seen.offers.values() for p in offer.publishers}
-        if not lost or JOINT_STATES in types:
+        if not unknown or JOINT_STATES in types:
             return
         yield self.found(
             "The bag has no joint states, so the poses of movable links are unknown."
@@ -45,7 +45,7 @@ class JointStatesMissing(Check):
             if seen.is_recorded
             else "Start the driver of the joints, or joint_state_publisher.",
             severity=Severity.ERROR,
-            evidence={"links": tuple(reason.frame for _, reason in lost)[:10]},
+            evidence={"links": tuple(reason.frame for _, reason in unknown)[:10]},
             command="ros2 run joint_state_publisher joint_state_publisher",
-            explains=tuple(symptom for symptom, _ in lost),
+            explains=tuple(symptom for symptom, _ in unknown),
         )

@@ -29,7 +29,7 @@ class LoopOfFrames(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each loop."""
-        lost: list[Symptom] = [symptom for symptom, _ in seen.lost(Kind.LOOP)]
+        symptoms: list[Symptom] = [symptom for symptom, _ in seen.lost(Kind.LOOP)]
         for loop in loops(seen.buffer):
             yield self.found(
                 f"The frames {listed(loop, ' → ')} form a loop.",
@@ -38,5 +38,5 @@ class LoopOfFrames(Check):
                 severity=Severity.ERROR,
                 evidence={"loop": loop[:10], "publishers": seen.nodes_of("/tf")},
                 command="ros2 topic info /tf --verbose",
-                explains=tuple(lost),
+                explains=tuple(symptoms),
             )

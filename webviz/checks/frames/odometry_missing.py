@@ -33,9 +33,9 @@ class OdometryMissing(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if the base is the root of a tree besides that of odom."""
-        lost = list(unconnected(seen))
-        if lost:
-            _, base, odom = lost[-1]
+        gaps = list(unconnected(seen))
+        if gaps:
+            _, base, odom = gaps[-1]
             yield self.found(
                 f'Nothing publishes the transform from "{odom}" to "{base}".',
                 "Start the odometry of the robot, or let it publish its transform.",
@@ -57,9 +57,9 @@ def unconnected(seen: Observation) -> Iterator[tuple[Symptom, str, str]]:
     tree = seen.buffer.tree
     for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
         root, fixed_root = reason.roots or ("", "")
-        if (found := BASE.fullmatch(root)) is None:
+        if (base := BASE.fullmatch(root)) is None:
             continue
-        own = f"{found[1] or ''}odom"
+        own = f"{base[1] or ''}odom"
         if own in tree.names and tree.root(own) == fixed_root:
             yield symptom, root, own
     for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):

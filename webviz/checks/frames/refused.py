@@ -33,12 +33,12 @@ class RefusedTransforms(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each frame whose transform is refused, or that lacks it since."""
-        lost = [
+        refusals = [
             (reason.link, symptom)
             for symptom, reason in seen.lost(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
             if reason.kind is Kind.REFUSED or is_refused(seen, reason.link)
         ]
-        causes = {link for link, _ in lost}
+        causes = {link for link, _ in refusals}
         for frame, refused in seen.buffer.refusals.rejections.items():
             is_current = refused.is_current(seen.now_ns) or frame in causes
             if not is_current or refused.reason == OLD:
@@ -51,7 +51,7 @@ class RefusedTransforms(Check):
                 evidence={"frame": frame, "reason": refused.reason, "count": refused.count},
                 command=f"ros2 topic echo {topic}",
                 explains=(
-                    *(symptom for link, symptom in lost if link == frame),
+                    *(symptom for link, symptom in refusals if link == frame),
                     *seen.symptom("Transforms"),
                 ),
             )

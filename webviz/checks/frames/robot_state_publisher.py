@@ -34,9 +34,9 @@ class RobotStatePublisherMissing(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if frames are missing and nothing describes the robot."""
-        lost = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if not each[1].near]
+        unknown = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if not each[1].near]
         described = any(topic.endswith(DESCRIPTION) for topic in published(seen))
-        if not lost or described or seen.is_recorded or "/tf_static" in published(seen):
+        if not unknown or described or seen.is_recorded or "/tf_static" in published(seen):
             return
         if any(NODE in node for node in seen.nodes):
             return
@@ -44,9 +44,9 @@ class RobotStatePublisherMissing(Check):
             "No node publishes the links of the robot.",
             "Start robot_state_publisher with the description of the robot.",
             severity=Severity.ERROR,
-            evidence={"frames": tuple(dict.fromkeys(reason.frame for _, reason in lost))[:10]},
+            evidence={"frames": tuple(dict.fromkeys(reason.frame for _, reason in unknown))[:10]},
             command="ros2 run robot_state_publisher robot_state_publisher robot.urdf",
-            explains=tuple(symptom for symptom, _ in lost),
+            explains=tuple(symptom for symptom, _ in unknown),
         )
 
 

@@ -31,9 +31,9 @@ class VolatileStatic(Check):
         if offer is None or offer.is_recorded:
             return
         kinds = Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME, Kind.UNKNOWN_FRAME, Kind.NOT_CONNECTED
-        lost = tuple(symptom for symptom, reason in seen.lost(*kinds) if not reason.near)
+        symptoms = tuple(symptom for symptom, reason in seen.lost(*kinds) if not reason.near)
         links = map(seen.buffer.link, seen.buffer.frames())
-        explains = () if any(link and link.is_static for link in links) else lost
+        explains = () if any(link and link.is_static for link in links) else symptoms
         for publisher in offer.publishers:
             if publisher.durability == "volatile" and publisher.is_qos_known:
                 yield self.found(

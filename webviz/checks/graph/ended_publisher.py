@@ -34,35 +34,35 @@ class EndedPublisher(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each node that has ended; several that left together are one."""
-        found: dict[str, list[tuple[DisplaySeen, InputSeen]]] = {}
+        by_node: dict[str, list[tuple[DisplaySeen, InputSeen]]] = {}
         for display, each in seen.inputs():
             offer = seen.offers.get(each.topic, NO_OFFER)
             if offer.publishers:
                 self._nodes[each.topic] = seen.nodes_of(each.topic)
             elif each.received and display.problem(each.status):
                 node = self._nodes.get(each.topic, "")
-                found.setdefault(node or each.topic, []).append((display, each))
-        for lost in found.values():
-            topics = [*dict.fromkeys(each.topic for _, each in lost)]
+                by_node.setdefault(node or each.topic, []).append((display, each))
+        for inputs in by_node.values():
+            topics = [*dict.fromkeys(each.topic for _, each in inputs)]
             node = self._nodes.get(topics[0], "")
-            gone = node and not {*node.split(", ")} & {*seen.nodes}
+            has_ended = node and not {*node.split(", ")} & {*seen.nodes}
             named = listed(topics, NAMED)
             no_longer = "no longer has" if len(topics) == 1 else "no longer have"
             yield self.found(
                 f"{node} has left the graph, so {named} {no_longer} a publisher."
-                if gone
+                if has_ended
                 else f"{named} {no_longer} a publisher.",
                 "Start its node again, or restore the link to its machine.",
                 subject=topics[0],
                 evidence={
                     "topics": tuple(topics),
                     "node": node,
-                    "received": sum(each.received for _, each in lost),
+                    "received": sum(each.received for _, each in inputs),
                 },
                 command="ros2 node list",
                 explains=tuple(
                     s
-                    for display, each in lost
+                    for display, each in inputs
                     for s in (*display.symptom(each.status), *seen.outlived(display))
                 ),
             )

@@ -35,16 +35,16 @@ class NoPublisher(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic without a publisher, one for all of a bag."""
-        found = [
+        unpublished = [
             (display, each)
             for display, each, offer in seen.starved()
             if not (offer.publishers or offer.problem or each.received or suggested(display, each))
         ]
-        if seen.is_recorded and len({display.id for display, _ in found}) > 1:
-            yield self._missing(found)
+        if seen.is_recorded and len({display.id for display, _ in unpublished}) > 1:
+            yield self._missing(unpublished)
             return
         hiding = seen.environment.local_only if seen.environment else ""
-        for display, each in found:
+        for display, each in unpublished:
             status = display.problem(each.status)
             remedy = status and status.remedy
             change = ChangeDisplay(display.id, remedy) if isinstance(remedy, Remedy) else None

@@ -34,16 +34,16 @@ class OtherNamespace(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each namespace in which topics are missing, and another has them."""
-        found: dict[tuple[str, str], list[tuple[DisplaySeen, InputSeen, Remedy]]] = {}
+        by_namespaces: dict[tuple[str, str], list[tuple[DisplaySeen, InputSeen, Remedy]]] = {}
         for display, each, offer in seen.starved():
             remedy = suggested(display, each)
             if offer.publishers or each.received or not remedy:
                 continue
             if is_elsewhere(each.topic, remedy.value):
-                found.setdefault(_namespaces(each.topic, remedy.value), []).append(
+                by_namespaces.setdefault(_namespaces(each.topic, remedy.value), []).append(
                     (display, each, remedy)
                 )
-        for (_, other), missing in found.items():
+        for (_, other), missing in by_namespaces.items():
             topics = [*dict.fromkeys(each.topic for _, each, _ in missing)]
             display, each, remedy = missing[0]
             is_one = len(topics) == 1

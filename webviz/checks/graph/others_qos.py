@@ -52,14 +52,14 @@ class OthersQos(Check):
                 readers = listed([reader.label for reader, _, _ in alike], NAMED)
                 writers = listed([writer.label for _, writer, _ in alike], NAMED)
                 starving = [reader for reader, _, _ in alike if not _is_served(reader, offer)]
-                asked = " and ".join(lacking).replace("_", " ")
+                policies = " and ".join(lacking).replace("_", " ")
                 offered = " and ".join(OFFERED[policy] for policy in lacking)
                 remedy = " and ".join(REMEDIES[policy] for policy in lacking)
                 yield self.found(
-                    f"{readers} cannot receive {topic} from {writers}: requested {asked}, offered "
-                    f"{offered}.",
-                    f"Let {readers} {remedy}, or let {writers} publish as {asked}.",
-                    subject=topic if lacking == pairs[0][2] else f"{topic} as {asked}",
+                    f"{readers} cannot receive {topic} from {writers}: requested {policies}, "
+                    f"offered {offered}.",
+                    f"Let {readers} {remedy}, or let {writers} publish as {policies}.",
+                    subject=topic if lacking == pairs[0][2] else f"{topic} as {policies}",
                     severity=Severity.WARNING if starving else Severity.NOTE,
                     evidence={
                         "topic": topic,
@@ -89,8 +89,8 @@ def _lacking(reader: Endpoint, writer: Publisher) -> Policies:
     """Return the policies that a subscription asks for and a publisher does not offer."""
     if not (reader.is_qos_known and writer.is_qos_known):
         return ()
-    asked = (reader.reliability, writer.reliability), (reader.durability, writer.durability)
-    return tuple(ours for ours, theirs in asked if ours in OFFERED and ours != theirs)
+    policies = (reader.reliability, writer.reliability), (reader.durability, writer.durability)
+    return tuple(ours for ours, theirs in policies if ours in OFFERED and ours != theirs)
 
 
 def _is_served(reader: Endpoint, offer: Offer) -> bool:

@@ -28,15 +28,22 @@ class MiddlewareMissing(Check):
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
         environment = seen.environment
-        wanted = environment.variables.get("RMW_IMPLEMENTATION", "") if environment else ""
-        if not environment or not wanted or wanted in (environment.middlewares or (wanted,)):
+        middleware = environment.variables.get("RMW_IMPLEMENTATION", "") if environment else ""
+        if (
+            not environment
+            or not middleware
+            or middleware in (environment.middlewares or (middleware,))
+        ):
             return
-        package = wanted.replace("_", "-")
+        package = middleware.replace("_", "-")
         yield self.found(
-            f"The middleware {wanted} is not installed.",
+            f"The middleware {middleware} is not installed.",
             "Install it, or remove RMW_IMPLEMENTATION to use the default.",
-            subject=wanted,
+            subject=middleware,
             severity=Severity.ERROR,
-            evidence={"RMW_IMPLEMENTATION": wanted, "installed": tuple(environment.middlewares)},
+            evidence={
+                "RMW_IMPLEMENTATION": middleware,
+                "installed": tuple(environment.middlewares),
+            },
             command=f"sudo apt install ros-$ROS_DISTRO-{package}",
         )

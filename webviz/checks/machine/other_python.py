@@ -37,13 +37,13 @@ class OtherPython(Check):
         """Yield a finding for each such machine."""
         if (environment := seen.environment) is None:
             return
-        found = {}
+        versions = {}
         for entry in environment.variables.get("PYTHONPATH", "").split(":"):
             if version := VERSION.search(entry):
-                found[version[1]] = entry
-        if not found or environment.python in found:
+                versions[version[1]] = entry
+        if not versions or environment.python in versions:
             return
-        version, entry = next(iter(found.items()))
+        version, entry = next(iter(versions.items()))
         is_supported = tuple(map(int, version.split("."))) >= OLDEST
         yield self.found(
             f"ROS for Python {version} is sourced, but Python {environment.python} runs.",

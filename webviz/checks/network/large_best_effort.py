@@ -35,7 +35,7 @@ class LargeBestEffort(Check):
         environment = seen.environment
         if environment is None:
             return
-        lost = environment.lost_datagrams + environment.lost_fragments
+        losses = environment.lost_datagrams + environment.lost_fragments
         for _, each in seen.inputs():
             publishers = seen.offers.get(each.topic, NO_OFFER).publishers
             is_repeated = any(p.reliability == "reliable" for p in publishers)
@@ -43,10 +43,10 @@ class LargeBestEffort(Check):
                 continue
             yield self.found(
                 f"Messages of {each.size >> 10} kB on {each.topic} are published best effort"
-                + (f", and {lost} datagrams were lost here." if lost else "."),
+                + (f", and {losses} datagrams were lost here." if losses else "."),
                 "Publish smaller messages, or publish them reliably.",
                 subject=each.topic,
-                severity=Severity.WARNING if lost else Severity.NOTE,
-                evidence={"topic": each.topic, "bytes": each.size, "lost": lost},
+                severity=Severity.WARNING if losses else Severity.NOTE,
+                evidence={"topic": each.topic, "bytes": each.size, "lost": losses},
                 command=f"ros2 topic bw {each.topic}",
             )

@@ -31,14 +31,14 @@ class LostFragments(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        lost = seen.environment.lost_fragments if seen.environment else 0
-        if lost:
+        fragments = seen.environment.lost_fragments if seen.environment else 0
+        if fragments:
             explains = seen.unreceived()
             yield self.found(
-                f"{counted(lost, 'datagram')} arrived in part only: fragments were lost.",
+                f"{counted(fragments, 'datagram')} arrived in part only: fragments were lost.",
                 "Give fragments more memory and less time.",
                 severity=Severity.WARNING if explains else Severity.NOTE,
-                evidence={"lost": lost},
+                evidence={"lost": fragments},
                 command=REMEDY,
                 explains=explains,
             )

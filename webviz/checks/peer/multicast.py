@@ -32,21 +32,21 @@ class MulticastBlocked(Check):
         ends = seen.ends
         if ends is None or not (ends.out.addresses and ends.back.addresses):
             return
-        lost = [f"{a.host} to {b.host}" for link, a, b in ends.links() if not link.has_multicast]
-        if not lost:
+        broken = [f"{a.host} to {b.host}" for link, a, b in ends.links() if not link.has_multicast]
+        if not broken:
             return
         if all(any(end.settings("ROS_STATIC_PEERS")) for end in (ends.here, ends.there)):
             return
         ours, theirs = ends.back.addresses[0], ends.out.addresses[0]
         where = "" if ends.shares_network else " The machines are in different subnets."
         yield self.found(
-            f"Multicast does not arrive: {' and '.join(lost)}.{where}",
+            f"Multicast does not arrive: {' and '.join(broken)}.{where}",
             f"Set ROS_STATIC_PEERS to {theirs} here and to {ours} there, and start the nodes "
             "again.",
             subject=ends.there.host,
             severity=Severity.ERROR,
             evidence={
-                "lost": tuple(lost),
+                "lost": tuple(broken),
                 "networks_here": tuple(ends.here.networks),
                 "networks_there": tuple(ends.there.networks),
             },

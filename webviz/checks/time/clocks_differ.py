@@ -48,7 +48,7 @@ class ClocksDiffer(Check):
         links = [seen.buffer.tree.caches.get(reason.link) for _, reason in seen.lost(Kind.CLOCKS)]
         is_mixed = any(link is not None and link.newest_stamp < YEAR_NS for link in links)
         if problem and explains and not is_mixed:
-            lost = [
+            unconverted = [
                 symptom
                 for symptom, reason in seen.lost(*OF_LINKS)
                 if is_off(seen.buffer, reason.frame, seen.now_ns)
@@ -58,7 +58,7 @@ class ClocksDiffer(Check):
                 problem.remedy,
                 evidence={"status": str(problem)},
                 command="chronyc tracking",
-                explains=(*explains, *lost, *seen.off_map()),
+                explains=(*explains, *unconverted, *seen.off_map()),
             )
         elif together_ns is not None:
             side = "behind" if together_ns > 0 else "ahead of"

@@ -39,13 +39,13 @@ def delays_of(each: InputSeen) -> list[int]:
 
 def measured(seen: Observation) -> Mapping[str, int]:
     """Return the steady delays of what is sent as it is measured in ns, by topic."""
-    found: dict[str, int] = {}
+    delays_ns: dict[str, int] = {}
     for _, each in seen.inputs():
         delays = delays_of(each)
         is_known = each.type in MEASURED and len(delays) >= FEWEST and each.rate_hz > 1.0
         if is_known and (delay_ns := steady(delays)) is not None:
-            found[each.topic] = delay_ns
-    return found
+            delays_ns[each.topic] = delay_ns
+    return delays_ns
 
 
 def steady(delays: Sequence[int]) -> int | None:
@@ -105,14 +105,14 @@ class LateLinks:
 
     def update(self, seen: Observation) -> Mapping[str, int]:
         """Return the delay of such frames in ns, if data of sensors is on time."""
-        known, self._delays = self._delays, {}
+        earlier, self._delays = self._delays, {}
         for child, ns in linked(seen).items():
-            self._delays[child] = [*known.get(child, ()), ns][-ROUNDS:]
+            self._delays[child] = [*earlier.get(child, ()), ns][-ROUNDS:]
         if not any(abs(ns) < STEADY_NS for ns in measured(seen).values()):
             return {}
-        known = {child: ns for child, ns in self._delays.items() if len(ns) == ROUNDS}
+        earlier = {child: ns for child, ns in self._delays.items() if len(ns) == ROUNDS}
         return {
             child: ns
-            for child, delays in known.items()
+            for child, delays in earlier.items()
             if (ns := steady(delays)) is not None and OFF_NS < ns < LARGE_NS
         }

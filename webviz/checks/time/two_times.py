@@ -27,8 +27,8 @@ class TwoTimes(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield one finding for all such links."""
-        lost = list(seen.lost(Kind.CLOCKS))
-        for _, reason in lost[:1]:
+        unplaced = list(seen.lost(Kind.CLOCKS))
+        for _, reason in unplaced[:1]:
             yield self.found(
                 f'Data in "{reason.frame}" and the transform of "{reason.link}" are stamped by '
                 "different clocks.",
@@ -38,7 +38,7 @@ class TwoTimes(Check):
                 evidence={"frame": reason.frame, "link": reason.link},
                 command="for n in $(ros2 node list); do ros2 param get $n use_sim_time; done",
                 explains=(
-                    *(symptom for symptom, _ in lost),
+                    *(symptom for symptom, _ in unplaced),
                     *seen.symptom("Clocks"),
                     *(other for other, _ in seen.lost(Kind.AHEAD, Kind.NO_DATA)),
                 ),

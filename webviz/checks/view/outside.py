@@ -29,15 +29,15 @@ class OutsideView(Check):
 
     def find(self, seen: Observation) -> Iterator[Finding]:
         """Yield a finding for each such viewer."""
-        drawn = [(each, each.box) for each in seen.displays if each.box is not None]
+        boxes = [(each, each.box) for each in seen.displays if each.box is not None]
         outside = []
-        for display, box in drawn:
-            found = list(places(seen, box))
-            if found and not any(each.is_inside for each in found):
+        for display, box in boxes:
+            positions = list(places(seen, box))
+            if positions and not any(each.is_inside for each in positions):
                 outside.append(display.display.name)
         if not outside:
             return
-        is_empty = len(outside) == len(drawn)
+        is_empty = len(outside) == len(boxes)
         yield self.found(
             "The camera looks at nothing: all displays are outside the view."
             if is_empty

@@ -31,9 +31,11 @@ class TooFar(Check):
         for display in seen.displays:
             if display.box is None:
                 continue
-            found = list(places(seen, display.box))
-            if found and all(each.is_inside and each.depth_m > MAX_DEPTH_M for each in found):
-                depth_m = min(each.depth_m for each in found)
+            positions = list(places(seen, display.box))
+            if positions and all(
+                each.is_inside and each.depth_m > MAX_DEPTH_M for each in positions
+            ):
+                depth_m = min(each.depth_m for each in positions)
                 yield self.found(
                     f"{display.display.name} is {depth_m / 1000.0:.0f} km away, which is too far.",
                     "Check the unit of its coordinates and its frame.",

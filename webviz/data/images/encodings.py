@@ -98,8 +98,8 @@ def layout_of(encoding: str) -> PixelLayout:
     Raises:
         ImageError: the encoding is unknown.
     """
-    if (known := _NAMED.get(encoding)) is not None:
-        return known
+    if (layout := _NAMED.get(encoding)) is not None:
+        return layout
     if (matrix := _MATRIX.fullmatch(encoding)) is None:
         raise ImageError(_unknown(encoding))
     depth, channels = matrix[1], int(matrix[2] or 1)

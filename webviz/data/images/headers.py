@@ -86,11 +86,11 @@ def _png(data: memoryview) -> ImageHeader | None:
 def _jpeg(data: memoryview) -> ImageHeader | None:
     at = 2
     for _ in range(_MAX_SEGMENTS):
-        found = _MARKER.match(data, at)
-        if found is None:
+        match = _MARKER.match(data, at)
+        if match is None:
             return None
-        at = found.end()
-        if found[1][0] in _FRAMES:
+        at = match.end()
+        if match[1][0] in _FRAMES:
             height, width = struct.unpack_from(">HH", data, at + 3)
             return ImageHeader("JPEG", width, height)
         at += struct.unpack_from(">H", data, at)[0]

@@ -215,12 +215,12 @@ def _in_strips(shape: tuple[int, ...], make: Callable[[int, int], NDArray[Any]])
     """
     height, width = shape
     first = make(0, min(_STRIP_ROWS, height))
-    found = np.empty((height, width, 3), first.dtype)
-    found[: len(first)] = first
+    rgb = np.empty((height, width, 3), first.dtype)
+    rgb[: len(first)] = first
     for start in range(_STRIP_ROWS, height, _STRIP_ROWS):
         stop = min(start + _STRIP_ROWS, height)
-        found[start:stop] = make(start, stop)
-    return found
+        rgb[start:stop] = make(start, stop)
+    return rgb
 
 
 def _colors(mosaic: NDArray[Any], pattern: str, start: int, stop: int) -> NDArray[Any]:

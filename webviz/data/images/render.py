@@ -46,13 +46,13 @@ def _rendered(image: RawImage, tone: Tone, factor: int) -> Image.Image:
         size = image.width, image.height
         # The last row may end without its gap.
         data = image.data.tobytes() + bytes(max(0, image.step * image.height - len(image.data)))
-        shown = Image.frombuffer(modes[0], size, data, "raw", modes[1], image.step, 1)
-        return shown.reduce(factor) if factor > 1 else shown
+        image_shown = Image.frombuffer(modes[0], size, data, "raw", modes[1], image.step, 1)
+        return image_shown.reduce(factor) if factor > 1 else image_shown
     layout, pixels = image.layout, values(image)
     if layout.is_scaled:
         return Image.fromarray(to_rgb(pixels[::factor, ::factor], layout, tone))
-    shown = Image.fromarray(to_rgb(pixels, layout, tone))
-    return shown.reduce(factor) if factor > 1 else shown
+    image_shown = Image.fromarray(to_rgb(pixels, layout, tone))
+    return image_shown.reduce(factor) if factor > 1 else image_shown
 
 
 def jpeg(image: RawImage, tone: Tone, factor: int = 1) -> bytes:

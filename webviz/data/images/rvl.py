@@ -44,7 +44,7 @@ def decode_rvl(data: NDArray[np.uint8]) -> NDArray[np.uint16]:
 
 def _numbers(data: NDArray[np.uint8]) -> NDArray[np.int32]:
     """All numbers of a stream of little-endian words, whose upper nibbles come first."""
-    found: list[NDArray[np.int32]] = []
+    numbers: list[NDArray[np.int32]] = []
     rest = np.zeros(0, np.uint8)
     whole = data[: len(data) // 4 * 4]
     for at in range(0, len(whole), _PART_BYTES):
@@ -58,10 +58,10 @@ def _numbers(data: NDArray[np.uint8]) -> NDArray[np.int32]:
         if max(int((ends - starts).max(initial=0)), len(rest)) >= _LONGEST:
             raise ImageError("The RVL image is broken: a number is too long.")
         if stop:
-            found.append(_joined(nibbles[:stop], starts, ends))
-    if not found:
+            numbers.append(_joined(nibbles[:stop], starts, ends))
+    if not numbers:
         raise ImageError("The RVL image is broken: it holds no number.")
-    return np.concatenate(found)
+    return np.concatenate(numbers)
 
 
 def _joined(
@@ -97,7 +97,7 @@ def _runs(numbers: NDArray[np.int32], count: int) -> NDArray[np.intp]:
     Each says where the next one begins. They are followed from block to block, and in a block by
     doubling: who knows the places up to 2^n runs ahead knows those up to 2^(n + 1).
     """
-    found: list[NDArray[np.intp]] = []
+    run_lists: list[NDArray[np.intp]] = []
     at, left = 0, count
     while left:
         zeros, lengths = numbers[at : at + _BLOCK], numbers[at + 1 : at + 1 + _BLOCK]
@@ -110,14 +110,14 @@ def _runs(numbers: NDArray[np.int32], count: int) -> NDArray[np.intp]:
             runs = np.concatenate((runs, further))
             ahead = ahead[ahead]
         pixels = zeros[runs].astype(np.int64) + lengths[runs]
-        seen = np.cumsum(pixels)
-        enough = int(np.searchsorted(seen, left)) + 1
+        totals = np.cumsum(pixels)
+        enough = int(np.searchsorted(totals, left)) + 1
         if not pixels[0 if at else 1 : enough].all():
             # Millions of these might be no image at all.
             raise ImageError("The RVL image is broken: it holds a run without a pixel.")
-        runs, left = runs[:enough], left - int(seen[:enough][-1])
+        runs, left = runs[:enough], left - int(totals[:enough][-1])
         if left < 0:
             raise ImageError("The RVL image is broken: it has more pixels than its size says.")
-        found.append(at + runs)
+        run_lists.append(at + runs)
         at += int(runs[-1]) + 2 + int(lengths[runs[-1]])
-    return np.concatenate(found)
+    return np.concatenate(run_lists)

@@ -65,9 +65,9 @@ class OtherLayout:
 
     def __init__(self, name: str, text: str) -> None:
         types = typestore.types_in(name, text)
-        known = typestore.KNOWN
+        known_types = typestore.KNOWN
         reached: dict[str, Extent] = {}
-        extent(name, lambda key: (types.get(key) or known.get(key) or (0, None))[1], reached)
+        extent(name, lambda key: (types.get(key) or known_types.get(key) or (0, None))[1], reached)
         self.name = name
         self._fields = {key: typestore.fields_of(types[key]) for key in reached if key in types}
         self._differs = {key for key, own in self._fields.items() if _differs(key, own)}
@@ -123,15 +123,15 @@ class OtherLayout:
         """Return what takes the values of a message; those of types that do not differ stay."""
         if name not in self._differs:
             return lambda message: message
-        known = {field.name for field in typestore.fields(name)}
-        taken = [
+        names = {field.name for field in typestore.fields(name)}
+        readers = [
             (field.name, attribute(field.name), self._value_of(field))
             for field in self._fields[name]
-            if field.name in known
+            if field.name in names
         ]
 
         def values(message: Any) -> Mapping[str, Any]:
-            return {key: take(getattr(message, own)) for key, own, take in taken}
+            return {key: take(getattr(message, own)) for key, own, take in readers}
 
         return values
 
@@ -176,8 +176,8 @@ def may_differ(type_name: str) -> bool:
     """Return whether a type that is known here, or one that it contains, has changed since Foxy."""
     if not typestore.type_exists(type_name):
         return False
-    known, reached = typestore.KNOWN, dict[str, Extent]()
-    extent(type_name, lambda key: (known.get(key) or (0, None))[1], reached)
+    known_types, reached = typestore.KNOWN, dict[str, Extent]()
+    extent(type_name, lambda key: (known_types.get(key) or (0, None))[1], reached)
     return not CHANGED.isdisjoint(reached)
 
 
@@ -189,11 +189,11 @@ def definition_elsewhere(type_name: str) -> str:
 @cache
 def layouts(type_name: str) -> tuple[OtherLayout, ...]:
     """Return the layouts of a type in other distributions, the newest first."""
-    found = []
+    other_layouts = []
     for text in dict.fromkeys(_definitions(type_name)):
         with contextlib.suppress(DefinitionError):  # it became another type
-            found.append(OtherLayout(type_name, text))
-    return tuple(found)
+            other_layouts.append(OtherLayout(type_name, text))
+    return tuple(other_layouts)
 
 
 def _definitions(type_name: str) -> Iterator[str]:
@@ -209,9 +209,9 @@ def _differs(name: str, own: list[MessageField]) -> bool:
     Raises:
         DefinitionError: it has not just more or fewer of them.
     """
-    if not typestore.type_exists(name) or own == (known := typestore.fields(name)):
+    if not typestore.type_exists(name) or own == (own_fields := typestore.fields(name)):
         return False
-    ours, theirs = ({field.name: field for field in each} for each in (known, own))
+    ours, theirs = ({field.name: field for field in each} for each in (own_fields, own))
     common = ours.keys() & theirs.keys()
     if any(ours[key] != theirs[key] for key in common) or len(common) < min(len(ours), len(theirs)):
         raise DefinitionError(f"{name} differs from ROS 2's in types of fields. Rename the type.")

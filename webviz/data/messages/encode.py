@@ -188,17 +188,17 @@ def _numbers(field: MessageField, base: str, width: int = 1) -> Write:
     dtype = DTYPES[base]
 
     def write(out: bytearray, value: Any) -> None:
-        given = _array(value, base)
-        if given.size == 0:
-            given = given.reshape((0, width) if width > 1 else 0)
-        if given.shape[1:] != ((width,) if width > 1 else ()):
-            raise _expected(f"shape {'(N,)' if width == 1 else f'(N, {width})'}", given.shape)
-        _count(out, field, len(given))
+        numbers = _array(value, base)
+        if numbers.size == 0:
+            numbers = numbers.reshape((0, width) if width > 1 else 0)
+        if numbers.shape[1:] != ((width,) if width > 1 else ()):
+            raise _expected(f"shape {'(N,)' if width == 1 else f'(N, {width})'}", numbers.shape)
+        _count(out, field, len(numbers))
         with np.errstate(over="ignore", invalid="ignore"):  # checked below
-            exact = given.astype(dtype.newbyteorder("<"))
-        if given.dtype != dtype:
-            _check(given, exact, base)
-        if given.size:  # an empty array has no padding
+            exact = numbers.astype(dtype.newbyteorder("<"))
+        if numbers.dtype != dtype:
+            _check(numbers, exact, base)
+        if numbers.size:  # an empty array has no padding
             _align(out, dtype.itemsize)
             out += exact.tobytes()
 
@@ -209,23 +209,25 @@ def _array(value: Any, base: str) -> np.ndarray:
     if isinstance(value, bytes | bytearray | memoryview):
         return np.frombuffer(value, np.uint8)
     try:
-        given = np.asarray(value)
+        array = np.asarray(value)
     except ValueError:  # rows of several lengths
         raise _expected(f"an array of {base}", value) from None
-    if given.dtype.kind not in "biuf" or not given.ndim:
+    if array.dtype.kind not in "biuf" or not array.ndim:
         raise _expected(f"an array of {_range(base)}", value)
-    return given
+    return array
 
 
 def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
     """Refuse numbers out of the range of the field's type; floats may be rounded."""
     with np.errstate(invalid="ignore"):
         if exact.dtype.kind == "f":
-            lost = np.isinf(exact) & ~np.isinf(given.astype(np.float64))
+            is_lost = np.isinf(exact) & ~np.isinf(given.astype(np.float64))
         else:
-            lost = (exact != given) | ((exact < 0) != (given < 0))  # int64 as uint64 compares equal
-    if lost.any():
-        index = int(np.flatnonzero(lost)[0])
+            is_lost = (exact != given) | (
+                (exact < 0) != (given < 0)
+            )  # int64 as uint64 compares equal
+    if is_lost.any():
+        index = int(np.flatnonzero(is_lost)[0])
         misfit = _expected(_range(base), given.ravel()[index].item())
         misfit.path.append(index)
         raise misfit

@@ -121,8 +121,8 @@ def extent(
             raise DefinitionError(
                 f"{type_name} has fixed arrays of more than {MAX_FIXED_BYTES >> 20} MB."
             )
-    found = known[type_name] = Extent(count, depth, messages, size, fixed, fixed_bytes)
-    return found
+    own_extent = known[type_name] = Extent(count, depth, messages, size, fixed, fixed_bytes)
+    return own_extent
 
 
 def _split(described: Description) -> tuple[One, int | None]:

@@ -106,18 +106,18 @@ def types_in_idl(text: str) -> Types:
 
 
 def _tokens(text: str) -> list[str]:
-    found: list[str] = []
+    tokens: list[str] = []
     at = 0
     while at < len(text):
         if (match := _TOKEN.match(text, at)) is None:
             raise TextError(f"it is unclear at character {at}")
         if token := match["token"]:
-            found.append(token)
-            if len(found) > MAX_TOKENS:
+            tokens.append(token)
+            if len(tokens) > MAX_TOKENS:
                 raise TextError(f"it has more than {MAX_TOKENS} words and signs")
         at = match.end()
-    found.append("")
-    return found
+    tokens.append("")
+    return tokens
 
 
 class _Reader:
@@ -196,16 +196,16 @@ class _Reader:
     def _declared(self) -> list[tuple[str, _Kind]]:
         """Read a type, and the names that have it."""
         kind = self._kind()
-        found: list[tuple[str, _Kind]] = []
+        declarations: list[tuple[str, _Kind]] = []
         while True:
             name, own = self._name(), kind
             if self._peek() == "[":
                 self._take()
                 own = _sized(kind, self._size(1))
                 self._expect("]")
-            found.append((name, own))
+            declarations.append((name, own))
             if self._peek() != ",":
-                return found
+                return declarations
             self._take()
 
     def _kind(self) -> _Kind:
@@ -280,13 +280,13 @@ class _Reader:
             raise TextError(f"brackets are nested deeper than {MAX_DEPTH} levels")
         value = self._operand(depth)
         while True:
-            found = self._operator(is_bracketed)
-            if found not in _OPERATORS or _OPERATORS[found][0] <= above:
+            symbol = self._operator(is_bracketed)
+            if symbol not in _OPERATORS or _OPERATORS[symbol][0] <= above:
                 return value
-            precedence, apply = _OPERATORS[found]
-            self._at += 2 if found == ">>" else 1
+            precedence, apply = _OPERATORS[symbol]
+            self._at += 2 if symbol == ">>" else 1
             other = self._expression(precedence, depth + 1, is_bracketed)
-            value = _computed(found, apply, value, other)
+            value = _computed(symbol, apply, value, other)
 
     def _operator(self, is_bracketed: bool) -> str:
         token = self._peek()
@@ -347,9 +347,9 @@ class _Reader:
         return name
 
     def _expect(self, token: str) -> None:
-        found = self._take()
-        if found != token:
-            raise TextError(f"expected {token}, got {_shown(found)}")
+        actual = self._take()
+        if actual != token:
+            raise TextError(f"expected {token}, got {_shown(actual)}")
 
     def _peek(self) -> str:
         return self._tokens[self._at]

@@ -201,7 +201,7 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
     data, end, pos = reader.data, reader.size, reader.pos
     words = np.frombuffer(data, f"{reader.order}u4", len(data) // 4)
     layouts: list[_Layout] = []
-    known: dict[tuple[int, ...], int] = {}
+    by_counts: dict[tuple[int, ...], int] = {}
     next_of: dict[int, int] = {}
     starts: list[int] = []
     numbers: list[int] = []
@@ -215,7 +215,7 @@ def _walk(reader: Reader, count: int) -> tuple[list[_Layout], list[int], list[in
             expected = 0
             reader.pos = pos
             layout = _Layout(reader)
-            number = known.setdefault((layout.phase, *layout.counts), len(layouts))
+            number = by_counts.setdefault((layout.phase, *layout.counts), len(layouts))
             if number == len(layouts):
                 layouts.append(layout)
             next_of[last] = number

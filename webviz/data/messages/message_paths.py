@@ -88,15 +88,15 @@ def unit_of(type_name: str, names: Sequence[str], types: MessageTypes = KNOWN) -
     unit = ""
     for name in names:
         try:
-            known = {field.name: field for field in fields(type_name, types)}
+            by_name = {field.name: field for field in fields(type_name, types)}
         except MessageError:
             return ""
-        if name not in known:
+        if name not in by_name:
             return unit
         unit = UNITS.get(type_name, {}).get(name, unit)
-        if not known[name].is_message:
+        if not by_name[name].is_message:
             return unit
-        type_name = known[name].base
+        type_name = by_name[name].base
     return "s" if type_name in TIMES else unit
 
 
@@ -152,10 +152,10 @@ class MessagePath:
         self._functions: list[Callable[[float], float]] = []
         self._over_time: list[tuple[str, float]] = []
         self._calls: list[str] = []
-        found = _FUNCTION.findall(text, end)
-        if len(found) > MAX_FUNCTIONS:
+        function_calls = _FUNCTION.findall(text, end)
+        if len(function_calls) > MAX_FUNCTIONS:
             raise PathError(f"`{text[:80]}` has more than {MAX_FUNCTIONS} functions.")
-        for place, (name, argument) in enumerate(found):
+        for place, (name, argument) in enumerate(function_calls):
             self._add(name, argument, is_first=place == 0)
 
     def _add(self, name: str, argument: str, *, is_first: bool) -> None:
@@ -173,8 +173,8 @@ class MessagePath:
         elif name in OVER_TIME:
             self._over_time.append((name, _seconds(argument)))
         else:
-            known = ", ".join(f"@{each}" for each in (*GEOMETRIC, *FUNCTIONS, *OVER_TIME))
-            raise PathError(f"Unknown function `@{name[:40]}`. Use {known}.")
+            names = ", ".join(f"@{each}" for each in (*GEOMETRIC, *FUNCTIONS, *OVER_TIME))
+            raise PathError(f"Unknown function `@{name[:40]}`. Use {names}.")
 
     def values(self, message: Any) -> list[Any]:
         """Return the values in a message before functions over time; the message without a field.
@@ -182,10 +182,10 @@ class MessagePath:
         Raises:
             PathError: it has no such field or element, or a function does not fit it.
         """
-        found = [message] if self._field is None else self._field.values(message)
+        field_values = [message] if self._field is None else self._field.values(message)
         if not self._geometry and not self._functions:
-            return found
-        return [self._calculated(value) for value in found]
+            return field_values
+        return [self._calculated(value) for value in field_values]
 
     def one(self, message: Any) -> Any:
         """Return the only value in a message, as `values`; see `FieldPath.one`."""

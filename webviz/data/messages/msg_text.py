@@ -74,7 +74,7 @@ def types_in_msg(text: str, name: str) -> Types:
     constants: list[tuple[str, str, Value]] = []
     fields: list[tuple[str, Description]] = []
     current = name_in_text(name)
-    found: Types = {current: (constants, fields)}
+    types: Types = {current: (constants, fields)}
     is_head = False
     for number, raw in enumerate(text.split("\n"), 1):
         line = raw.rstrip("\r")
@@ -82,7 +82,7 @@ def types_in_msg(text: str, name: str) -> Types:
             if (head := _HEAD.fullmatch(line)) is None or len(head[1]) > MAX_NAME:
                 raise TextError(f"line {number} does not name a type")
             constants, fields, current = [], [], name_in_text(head[1])
-            found[current] = constants, fields
+            types[current] = constants, fields
             is_head = False
         elif line == _SEPARATOR:
             is_head = True
@@ -100,7 +100,7 @@ def types_in_msg(text: str, name: str) -> Types:
             raise TextError(f"line {number} is not a field")
     if is_head:
         raise TextError("its last type has no name")
-    return found
+    return types
 
 
 def name_in_text(name: str) -> str:

@@ -76,12 +76,12 @@ class _Filter(msgspec.Struct, frozen=True):
     def matches(self, value: Any) -> bool:
         """Return whether a value meets it; one without the field does not."""
         try:
-            found = self.path(value)
+            own_value = self.path(value)
         except PathError:
             return False
         if isinstance(self.limit, str):
-            return isinstance(found, str) and bool(self.compare(found, self.limit))
-        number = as_number(found)
+            return isinstance(own_value, str) and bool(self.compare(own_value, self.limit))
+        number = as_number(own_value)
         return number is not None and bool(self.compare(number, self.limit))
 
 
@@ -132,10 +132,10 @@ class FieldPath:
         Raises:
             PathError: it has no such field or element.
         """
-        found: list[_Found] = [(None, message)]
+        pairs: list[_Found] = [(None, message)]
         for step in self._steps:
-            found = list(islice(self._taken(found, step), MAX_FOUND))
-        return [value for _, value in found]
+            pairs = list(islice(self._taken(pairs, step), MAX_FOUND))
+        return [value for _, value in pairs]
 
     def one(self, message: Any) -> Any:
         """Return the only value in a message.
@@ -148,8 +148,8 @@ class FieldPath:
         if not values:
             raise NothingMatches(f"Nothing in the newest message matches `{self.text}`.")
         if len(values) > 1:
-            found = counted(len(values), "value")
-            raise PathError(f"{found} match `{self.text}`. Choose one with [0] or a filter.")
+            amount = counted(len(values), "value")
+            raise PathError(f"{amount} match `{self.text}`. Choose one with [0] or a filter.")
         return values[0]
 
     def number(self, message: Any) -> float:
@@ -181,8 +181,8 @@ class FieldPath:
             for letters in _COMPONENTS:
                 if 0 <= (index := letters.find(name)) < len(value):
                     return value[index]
-        known = f"one of {', '.join(names[:20])}" if names else "a path without it"
-        raise PathError(f"No field `{name}` for `{self.text}`. Choose {known}.")
+        alternatives = f"one of {', '.join(names[:20])}" if names else "a path without it"
+        raise PathError(f"No field `{name}` for `{self.text}`. Choose {alternatives}.")
 
     def _element(self, parent: Any, value: Any, key: int | tuple[str]) -> Any:
         self._check_array(value)

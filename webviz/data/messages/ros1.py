@@ -145,8 +145,8 @@ class Ros1Type:
             return ""
         store = get_typestore(Stores.EMPTY)
         for name, fields in self._defined.items():
-            known = typestore.type_exists(name)
-            store.fielddefs[name] = ([], typestore.described(name)) if known else fields
+            is_known = typestore.type_exists(name)
+            store.fielddefs[name] = ([], typestore.described(name)) if is_known else fields
         for name in _TIMES:
             store.fielddefs[name] = ([], typestore.described(name))
         return store.generate_msgdef(self.name, ros_version=2)[0]
@@ -185,22 +185,22 @@ class Ros1Type:
             return self._made[name]
         if name in _TIMES:
             return _time
-        kept = None
+        names = None
         if typestore.type_exists(target := RENAMED.get(name, name)):
-            kept = {field.name.lower(): field.name for field in typestore.fields(target)}
+            names = {field.name.lower(): field.name for field in typestore.fields(target)}
         fields: list[tuple[str | None, _Read]] = []
         for field, (kind, value) in self._defined[name][1]:
-            called = field if kept is None else kept.get(field.lower())
+            called = field if names is None else names.get(field.lower())
             fields.append((called, self._field(kind, value)))
 
         def read(message: _Message, at: int) -> tuple[Any, int]:
             message.take(1)
-            found = {}
+            items = {}
             for called, read_field in fields:
                 value, at = read_field(message, at)
                 if called is not None:
-                    found[called] = value
-            return found, at
+                    items[called] = value
+            return items, at
 
         self._made[name] = read
         return read
@@ -262,11 +262,11 @@ def _several(one: _Read, count: int | None) -> _Read:
         if count is None and size > len(message.data):
             raise ValueError
         message.take(size)
-        found = []
+        items = []
         for _ in range(size):
             value, at = one(message, at)
-            found.append(value)
-        return found, at
+            items.append(value)
+        return items, at
 
     return read
 

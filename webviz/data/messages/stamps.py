@@ -77,9 +77,9 @@ def _layout(type_name: str, types: MessageTypes) -> tuple[MessageField, ...]:
 @per_definitions
 def _stamped(type_name: str, types: MessageTypes) -> int:
     """Return the number of fields up to the last that has stamps."""
-    found = _layout(type_name, types)
+    layout = _layout(type_name, types)
     return max(
-        (n for n, each in enumerate(found, 1) if each.is_message and has_stamps(each.base, types)),
+        (n for n, each in enumerate(layout, 1) if each.is_message and has_stamps(each.base, types)),
         default=0,
     )
 
@@ -95,8 +95,8 @@ def _walk(
         places.append(reader.pos)
         reader.pos += 8
         return
-    found = _layout(type_name, types)
-    for field in found if depth else found[: _stamped(type_name, types)]:
+    layout = _layout(type_name, types)
+    for field in layout if depth else layout[: _stamped(type_name, types)]:
         _field(reader, field, places, depth, types)
 
 

@@ -108,13 +108,13 @@ class _Maker:
         return fields
 
     def _sequence(self, length: int, type_name: str, items: Iterable[Tree]) -> Tree:
-        kept: list[Tree] = []
+        branches: list[Tree] = []
         for item in items:
             if self._rest <= 0:
                 break
             self._rest -= 1
-            kept.append(item)
-        return {"length": length, "type": type_name, "items": kept}
+            branches.append(item)
+        return {"length": length, "type": type_name, "items": branches}
 
     def _number(self, value: Any) -> str:
         if isinstance(value, np.floating):

@@ -98,13 +98,13 @@ class KnownTypes:
 
         Those of `definitions` are read when they are needed: all of them take a tenth of a start.
         """
-        known = _store().fielddefs
-        if name not in known and "/msg/" in name and (text := definitions.text(name)):
+        defs = _store().fielddefs
+        if name not in defs and "/msg/" in name and (text := definitions.text(name)):
             parsed = types_in_msg(text, name)[name]
             for field in filter(lambda field: field.is_message, fields_of(parsed)):
                 self.get(field.base)  # they are looked for in the store
-            known[name] = parsed
-        return known.get(name)
+            defs[name] = parsed
+        return defs.get(name)
 
 
 KNOWN = KnownTypes()
@@ -268,12 +268,12 @@ def add(type_name: str, text: str, fixed: Container[str]) -> None:
 
 def _learnt(name: str, text: str, fixed: Container[str]) -> tuple[Types, Collection[str]]:
     """Return those types in a definition of which its type consists, and the names of all."""
-    found = types_in(name, text)
+    all_types = types_in(name, text)
     reached: dict[str, Extent] = {}
-    extent(name, lambda key: (found.get(key) or KNOWN.get(key) or (None, None))[1], reached)
+    extent(name, lambda key: (all_types.get(key) or KNOWN.get(key) or (None, None))[1], reached)
     if len(reached) > MAX_TYPES:
         raise DefinitionError(f"{name} consists of more than {MAX_TYPES} types.")
-    learnt = {key: found[key] for key in reached if key in found}
+    learnt = {key: all_types[key] for key in reached if key in all_types}
     for key in learnt:
         if key in fixed and fields_of(learnt[key]) != fields(key):
             raise DefinitionError(
@@ -292,8 +292,8 @@ def types_in(name: str, text: str) -> Types:
     Raises:
         DefinitionError: it is invalid or longer than `MAX_TEXT`.
     """
-    found = parsed(name, text)
-    return {key: (values, own or [PLACEHOLDER]) for key, (values, own) in found.items()}
+    all_types = parsed(name, text)
+    return {key: (values, own or [PLACEHOLDER]) for key, (values, own) in all_types.items()}
 
 
 def parsed(name: str, text: str) -> Types:
@@ -308,16 +308,16 @@ def parsed(name: str, text: str) -> Types:
     try:
         if language == "IDL":
             files = filter(str.strip, _IDL.split(text))
-            found = {key: each for file in files for key, each in types_in_idl(file).items()}
+            types = {key: each for file in files for key, each in types_in_idl(file).items()}
         else:
-            found = types_in_msg(text, name)
+            types = types_in_msg(text, name)
     except TextError as error:
         raise DefinitionError(
             f"The definition of {name} is not valid {language}: {error}."
         ) from error
-    if name not in found:  # such as that of a service
+    if name not in types:  # such as that of a service
         raise DefinitionError(f"The definition of {name} does not define it.")
-    return found
+    return types
 
 
 def declare(type_name: str, described: list[Any]) -> None:
@@ -356,12 +356,12 @@ def _definition(type_name: str, types: MessageTypes = KNOWN) -> Any:
     name = full_name(type_name)
     if types is KNOWN and KNOWN.get(name) is None:
         find(name)
-    if (found := types.get(name)) is None:
+    if (type_definition := types.get(name)) is None:
         raise UnknownTypeError(f"No definition of the message type {type_name} is known.")
     if name not in types.extents:
         with _lock:
             _extent(name, types)
-    return found
+    return type_definition
 
 
 def _extent(name: str, types: MessageTypes) -> Extent:
@@ -371,9 +371,9 @@ def _extent(name: str, types: MessageTypes) -> Extent:
 
 def _learn(types: Types) -> None:
     """Take types, and forget what follows from those that they replace."""
-    known = _store().fielddefs
-    is_replaced = any(KNOWN.get(name) not in (None, found) for name, found in types.items())
-    known.update(types)
+    defs = _store().fielddefs
+    is_replaced = any(KNOWN.get(name) not in (None, own) for name, own in types.items())
+    defs.update(types)
     if is_replaced:
         KNOWN.extents.clear()
         for cached in _cached:

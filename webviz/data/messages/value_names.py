@@ -84,18 +84,18 @@ def value_names(type_name: str, types: MessageTypes = KNOWN) -> Mapping[str, Val
         ]
     except MessageError:
         return {}
-    found: dict[str, ValueNames] = {}
+    names: dict[str, ValueNames] = {}
     for field, base in sorted(whole.items(), key=lambda item: -len(item[0])):
         mine = {n: v for n, b, v in constants if b == base and _prefix(n, field)}
         if len(mine) >= FEWEST:
-            found[field] = _by_value({n[len(_prefix(n, field)) :]: v for n, v in mine.items()})
+            names[field] = _by_value({n[len(_prefix(n, field)) :]: v for n, v in mine.items()})
             constants = [each for each in constants if each[0] not in mine]
-    for base, count in Counter(b for f, b in whole.items() if f not in found).items():
+    for base, count in Counter(b for f, b in whole.items() if f not in names).items():
         rest = {n: v for n, b, v in constants if b == base}
         if count == 1 and len(rest) >= FEWEST:
-            field = next(f for f, b in whole.items() if b == base and f not in found)
-            found[field] = _by_value(rest)
-    return found
+            field = next(f for f, b in whole.items() if b == base and f not in names)
+            names[field] = _by_value(rest)
+    return names
 
 
 def _prefix(constant: str, field: str) -> str:

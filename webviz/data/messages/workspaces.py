@@ -53,5 +53,5 @@ def _files(package: str, name: str) -> Iterator[Path]:
     prefixes = filter(None, os.environ.get("COLCON_PREFIX_PATH", "").split(os.pathsep))
     for workspace in (here, *(Path(prefix).parent for prefix in prefixes)):
         for depth in DEPTHS:
-            for found in workspace.glob(f"{depth}{package}/package.xml"):
-                yield found.parent / "msg" / f"{name}.msg"
+            for package_file in workspace.glob(f"{depth}{package}/package.xml"):
+                yield package_file.parent / "msg" / f"{name}.msg"

@@ -64,7 +64,7 @@ class FolderRecording:
     def losses(self) -> Losses:
         """Those of the folder and of each file; reading finds more."""
         within = {name: part.losses for name, part in self._files.items()}
-        lost = [
+        own_losses = [
             END_MISSING if losses.is_unfinished else f"in {name} {text}"
             for name, losses in within.items()
             if (text := str(losses))
@@ -72,7 +72,7 @@ class FolderRecording:
         notes = [note for losses in within.values() for note in losses.notes]
         return replace(
             self._losses,
-            others=[*self._losses.others, *lost],
+            others=[*self._losses.others, *own_losses],
             notes=[*self._losses.notes, *notes],
         )
 
@@ -82,8 +82,8 @@ class FolderRecording:
         """`Recording.messages`."""
         for run in self._runs:
             if run[0].start_ns <= end_ns and any(start_ns <= file.end_ns for file in run):
-                found = [file.part.messages(channels, start_ns, end_ns) for file in run]
-                yield from heapq.merge(*found, key=_stamp)
+                streams = [file.part.messages(channels, start_ns, end_ns) for file in run]
+                yield from heapq.merge(*streams, key=_stamp)
 
     def newest(
         self, channels: Collection[RecordedChannel], end_ns: int
@@ -91,15 +91,15 @@ class FolderRecording:
         """`Recording.newest`."""
         for run in reversed(self._runs):
             if run[0].start_ns <= end_ns:
-                found = [file.part.newest(channels, end_ns) for file in run]
-                yield from heapq.merge(*found, key=_stamp, reverse=True)
+                streams = [file.part.newest(channels, end_ns) for file in run]
+                yield from heapq.merge(*streams, key=_stamp, reverse=True)
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`."""
         for run in reversed(self._runs):
             if run[0].start_ns <= end_ns:
-                found = [file.part.newest_stamps(channels, end_ns) for file in run]
-                yield from heapq.merge(*found, reverse=True)
+                streams = [file.part.newest_stamps(channels, end_ns) for file in run]
+                yield from heapq.merge(*streams, reverse=True)
 
     @property
     def used(self) -> frozenset[RecordedChannel]:
@@ -108,11 +108,11 @@ class FolderRecording:
 
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`."""
-        found: dict[RecordedChannel, Counts] = {}
+        histogram: dict[RecordedChannel, Counts] = {}
         for file in self._files.values():
             for channel, counts in file.histogram(parts).items():
-                found[channel] = found[channel] + counts if channel in found else counts
-        return found
+                histogram[channel] = histogram[channel] + counts if channel in histogram else counts
+        return histogram
 
     def close(self) -> None:
         """Close all files."""
@@ -121,21 +121,21 @@ class FolderRecording:
     def _existing(self, folder: Path, names: Sequence[str]) -> list[Path]:
         """Return the files to read."""
         files = [folder / name for name in names]
-        found = [file for file in files if file.exists()]
-        missing = ", ".join(file.name for file in files if file not in found)
-        if not found:
-            found = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
-        if not found:
+        existing = [file for file in files if file.exists()]
+        missing = ", ".join(file.name for file in files if file not in existing)
+        if not existing:
+            existing = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
+        if not existing:
             raise RecordingError(
                 f"{folder} lacks the files that {METADATA} names ({missing}): copy them there, or "
                 f"run `ros2 bag reindex {folder}`."
             )
         if missing:
-            read = ", ".join(file.name for file in found)
+            read = ", ".join(file.name for file in existing)
             self._losses.notes.append(
                 f"{missing}, named by {METADATA}, is missing. Reading {read}."
             )
-        return found
+        return existing
 
     def _opened(self, files: Sequence[Path], stack: contextlib.ExitStack) -> dict[str, Recording]:
         parts: dict[str, Recording] = {}
@@ -184,9 +184,9 @@ def _files_in(folder: Path) -> list[Path]:
     Raises:
         RecordingError: there are none.
     """
-    found = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
-    if found:
-        return found
+    recordings = sorted(file for file in folder.iterdir() if file.suffix in ENDINGS)
+    if recordings:
+        return recordings
     raise RecordingError(
         f"{folder} is not a bag: it has no {METADATA}, MCAP or db3 file. Give an MCAP or db3 file, "
         "or a rosbag2 folder."

@@ -179,10 +179,10 @@ class RecordingFolder:
 
         Its counts are those of that moment until the end; nobody needs them to read the messages.
         """
-        told = len(self._written), self.deleted, len(self._file.counts) if self._file else -1
-        if told == self._told:
+        state = len(self._written), self.deleted, len(self._file.counts) if self._file else -1
+        if state == self._told:
             return
-        self._told = told
+        self._told = state
         path = self.path / METADATA
         text = plain_yaml.write({INFORMATION: self._information()})
         new = path.with_suffix(".new")

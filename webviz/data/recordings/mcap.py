@@ -77,16 +77,16 @@ class ChunkTimes:
 def _by_channel(chunks: Sequence[McapChunk]) -> dict[int, npt.NDArray[np.int64]]:
     """Return the indices of the chunks that have messages of a channel, by its number."""
     counts = [(index, chunk.counts) for index, chunk in enumerate(chunks)]
-    known = [(index, each["channel"]) for index, each in counts if each is not None]
-    if not known:
+    present = [(index, each["channel"]) for index, each in counts if each is not None]
+    if not present:
         return {}
-    numbers = np.concatenate([each for _, each in known])
-    sizes = [len(each) for _, each in known]
-    owners = np.repeat(np.array([index for index, _ in known], np.int64), sizes)
+    numbers = np.concatenate([each for _, each in present])
+    sizes = [len(each) for _, each in present]
+    owners = np.repeat(np.array([index for index, _ in present], np.int64), sizes)
     order = np.argsort(numbers, kind="stable")
-    found, firsts = np.unique(numbers[order], return_index=True)
+    channel_numbers, firsts = np.unique(numbers[order], return_index=True)
     parts = np.split(owners[order], firsts[1:])
-    return dict(zip(found.tolist(), parts, strict=True))
+    return dict(zip(channel_numbers.tolist(), parts, strict=True))
 
 
 MAX_INDEX = 64 << 20
@@ -152,17 +152,17 @@ class McapRecording:
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`, of chunks without an index by their messages."""
-        wanted = {number for number, each in self._numbers.items() if each in channels}
-        pending = deque(self._times.within(wanted, 0, end_ns, -1))
-        found: list[int] = []
+        numbers = {number for number, each in self._numbers.items() if each in channels}
+        pending = deque(self._times.within(numbers, 0, end_ns, -1))
+        heap: list[int] = []
         """Negative, as a heap: times of the chunks so far."""
-        while pending or found:
-            while pending and not (found and self._chunks[pending[0]].end_ns <= -found[0]):
-                for stamp_ns in self._stamps(self._chunks[pending.popleft()], wanted):
+        while pending or heap:
+            while pending and not (heap and self._chunks[pending[0]].end_ns <= -heap[0]):
+                for stamp_ns in self._stamps(self._chunks[pending.popleft()], numbers):
                     if stamp_ns <= end_ns:
-                        heapq.heappush(found, -stamp_ns)
-            if found:
-                yield -heapq.heappop(found)
+                        heapq.heappush(heap, -stamp_ns)
+            if heap:
+                yield -heapq.heappop(heap)
 
     @property
     def used(self) -> frozenset[RecordedChannel]:
@@ -194,11 +194,11 @@ class McapRecording:
                     share = np.linspace(0.0, 1.0, last - first + 2)
                     until = np.outer(chunk.counts["count"], share).round().astype(np.int64)
                     table[chunk.counts["channel"], first : last + 1] += np.diff(until)
-        found: dict[RecordedChannel, Counts] = {}
+        histogram: dict[RecordedChannel, Counts] = {}
         for number, channel in self._numbers.items():
-            before = found.get(channel)
-            found[channel] = table[number] if before is None else before + table[number]
-        return found
+            before = histogram.get(channel)
+            histogram[channel] = table[number] if before is None else before + table[number]
+        return histogram
 
     def close(self) -> None:
         """Close the file."""
@@ -213,10 +213,10 @@ class McapRecording:
     ) -> Iterator[RecordedMessage]:
         """Yield the messages of some channels within a span, by time or against it."""
         sign = -1 if is_backwards else 1
-        wanted = {number for number, each in self._numbers.items() if each in channels}
+        numbers = {number for number, each in self._numbers.items() if each in channels}
         is_wanted = np.zeros(1 << 16, bool)
-        is_wanted[list(wanted)] = True
-        pending = deque(self._times.within(wanted, start_ns, end_ns, sign))
+        is_wanted[list(numbers)] = True
+        pending = deque(self._times.within(numbers, start_ns, end_ns, sign))
         opened: list[tuple[int, int, RecordedMessage, Iterator[RecordedMessage], int]] = []
         size = 0
         while pending or opened:
@@ -272,8 +272,8 @@ class McapRecording:
             numbers = np.concatenate([content.numbers for content in contents])
             stamps = np.concatenate([content.stamps for content in contents])
             for number in np.unique(numbers).tolist():
-                if found := set_back_in(stamps[numbers == number]):
-                    return found
+                if set_back := set_back_in(stamps[numbers == number]):
+                    return set_back
         return None
 
     def _entries(
@@ -305,15 +305,15 @@ class McapRecording:
         The small ones of the last chunks are remembered: a seek reads the transforms of many chunks
         that are full of images or clouds, and the next seek is often near.
         """
-        known = self._contents.pop(chunk.offset, None)
-        self._remembered -= len(known.data) if known else 0
-        if known is None or any(is_wanted[number] for number in known.left_out):
+        cached = self._contents.pop(chunk.offset, None)
+        self._remembered -= len(cached.data) if cached else 0
+        if cached is None or any(is_wanted[number] for number in cached.left_out):
             content = self._unpacked(chunk)
-            known = content.small()
+            cached = content.small()
         else:
-            content = known
-        self._contents[chunk.offset] = known
-        self._remembered += len(known.data)
+            content = cached
+        self._contents[chunk.offset] = cached
+        self._remembered += len(cached.data)
         while len(self._contents) > 1 and self._remembered > MAX_REMEMBERED:
             self._remembered -= len(self._contents.pop(next(iter(self._contents))).data)
         return content

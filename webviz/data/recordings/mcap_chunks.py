@@ -231,13 +231,13 @@ class ChunkContent(msgspec.Struct, frozen=True):
         left_out = np.unique(self.numbers[sizes > SMALL])
         if not len(left_out):
             return self
-        kept = np.flatnonzero(~np.isin(self.numbers, left_out))
-        rows = kept.tolist()
-        bounds = [0, *itertools.accumulate(sizes[kept].tolist())]
+        remaining = np.flatnonzero(~np.isin(self.numbers, left_out))
+        rows = remaining.tolist()
+        bounds = [0, *itertools.accumulate(sizes[remaining].tolist())]
         return ChunkContent(
             b"".join(self.data[self.starts[row] : self.ends[row]] for row in rows),
-            self.numbers[kept],
-            self.stamps[kept],
+            self.numbers[remaining],
+            self.stamps[remaining],
             bounds[:-1],
             bounds[1:],
             left_out.tolist(),

@@ -127,11 +127,11 @@ class McapIndex:
 
     def channels(self) -> dict[int, RecordedChannel]:
         """All channels by their ids."""
-        found = {}
+        channels = {}
         for number, (schema, topic, encoding, profiles) in self._channels.items():
             name, definition = self._schemas.get(schema, ("", ""))
-            found[number] = RecordedChannel(topic, name, encoding, definition, profiles)
-        return found
+            channels[number] = RecordedChannel(topic, name, encoding, definition, profiles)
+        return channels
 
     def _read(self, offset: int, size: int) -> bytes:
         """Return bytes of the file, fewer behind its end, which claims in it may exceed by far."""
@@ -174,9 +174,9 @@ class McapIndex:
         if not checksum and not all(map(self._is_as_summarised, chunks)):
             return False
         self.chunks = [c for c in chunks if c.counts is not None or c.end_ns]
-        known = np.zeros(1 << 16, bool)
-        known[list(self._channels)] = True
-        return all(known[c.counts["channel"]].all() for c in chunks if c.counts is not None)
+        is_known = np.zeros(1 << 16, bool)
+        is_known[list(self._channels)] = True
+        return all(is_known[c.counts["channel"]].all() for c in chunks if c.counts is not None)
 
     def _summarised(self, summary: bytes) -> tuple[list[McapChunk], int | None]:
         """Return the chunks, and how many there must be, None if unknown."""
@@ -231,10 +231,10 @@ class McapIndex:
             try:
                 end = self._note(opcode, start, length)
             except BrokenRecord:
-                if (found := self._next_record(at + 1)) is None:
+                if (next_at := self._next_record(at + 1)) is None:
                     break
                 self._losses.skipped[at] = "a record is damaged"
-                at = found
+                at = next_at
             else:
                 is_ended = opcode == FOOTER
                 at = end
@@ -354,8 +354,8 @@ class McapIndex:
             return [chunk]
         if last_ns < 0:
             return []
-        found = counts_of(counts.items())
-        return [replace(chunk, start_ns=first_ns, end_ns=last_ns, counts=found)]
+        channel_counts = counts_of(counts.items())
+        return [replace(chunk, start_ns=first_ns, end_ns=last_ns, counts=channel_counts)]
 
     def _next_record(self, at: int) -> int | None:
         """Return where the next plausible record begins that another follows, None without one."""

@@ -167,10 +167,10 @@ class Losses(msgspec.Struct):
         if count := len(self.skipped):
             reason = next(iter(self.skipped.values()))
             if count == 1:
-                lost = f"1 {self.unit} is {self.how} ({reason})"
+                sentence = f"1 {self.unit} is {self.how} ({reason})"
             else:
-                lost = f"{count} {self.unit}s are {self.how} (the first because {reason})"
-            parts.insert(0, lost)
+                sentence = f"{count} {self.unit}s are {self.how} (the first because {reason})"
+            parts.insert(0, sentence)
         return ", and ".join(parts)
 
 

@@ -70,8 +70,8 @@ class Ros1Recording:
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
-        found = [self._within(channel, start_ns, end_ns) for channel in self._wanted(channels)]
-        for channel, place in heapq.merge(*found, key=_stamp):
+        streams = [self._within(channel, start_ns, end_ns) for channel in self._wanted(channels)]
+        for channel, place in heapq.merge(*streams, key=_stamp):
             if entry := self._entry(channel, place):
                 yield entry
 
@@ -79,15 +79,15 @@ class Ros1Recording:
         self, channels: Collection[RecordedChannel], end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.newest`."""
-        found = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
-        for channel, place in heapq.merge(*found, key=_stamp, reverse=True):
+        streams = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        for channel, place in heapq.merge(*streams, key=_stamp, reverse=True):
             if entry := self._entry(channel, place):
                 yield entry
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`."""
-        found = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
-        return map(_stamp, heapq.merge(*found, key=_stamp, reverse=True))
+        streams = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        return map(_stamp, heapq.merge(*streams, key=_stamp, reverse=True))
 
     @property
     def used(self) -> frozenset[RecordedChannel]:
@@ -96,11 +96,11 @@ class Ros1Recording:
 
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`."""
-        found: dict[RecordedChannel, Counts] = {}
+        histogram: dict[RecordedChannel, Counts] = {}
         for channel, places in self._places.items():
             numbers = parts.part_of(places["stamp_ns"])
-            found[channel] = np.bincount(numbers, minlength=parts.count).astype(np.int64)
-        return found
+            histogram[channel] = np.bincount(numbers, minlength=parts.count).astype(np.int64)
+        return histogram
 
     def close(self) -> None:
         """Close the file."""
@@ -139,8 +139,8 @@ class Ros1Recording:
 
     def _entry(self, channel: RecordedChannel, place: _Place) -> RecordedMessage | None:
         """Return a message in the form of ROS 2, None if it is damaged."""
-        if (known := self._converted.get(place)) is not None:
-            return known
+        if (converted := self._converted.get(place)) is not None:
+            return converted
         stamp_ns, chunk, at = place
         data = self._chunk(chunk)
         size = int.from_bytes(data[at : at + 4], "little")
@@ -151,17 +151,17 @@ class Ros1Recording:
             if start > len(data) or len(message) < length:
                 self.losses.skipped[place] = "its chunk is damaged"
                 return None
-            found = RecordedMessage(channel, stamp_ns, self._types[channel].to_cdr(message))
+            message_read = RecordedMessage(channel, stamp_ns, self._types[channel].to_cdr(message))
         except MessageError as error:
             self.losses.skipped[place] = str(error).rstrip(".")
             return None
-        if len(found.data) <= MAX_SMALL:
-            self._converted[place] = found
-            self._converted_bytes += len(found.data)
+        if len(message_read.data) <= MAX_SMALL:
+            self._converted[place] = message_read
+            self._converted_bytes += len(message_read.data)
             while self._converted_bytes > MAX_CONVERTED:
                 oldest = self._converted.pop(next(iter(self._converted)))
                 self._converted_bytes -= len(oldest.data)
-        return found
+        return message_read
 
     def _chunk(self, position: int) -> bytes:
         """Return the unpacked chunk at an offset of the file, or what can be unpacked of it."""

@@ -65,7 +65,7 @@ def fields_of(data: bytes) -> dict[bytes, bytes]:
     Raises:
         BrokenRecord: they are damaged.
     """
-    found: dict[bytes, bytes] = {}
+    header_fields: dict[bytes, bytes] = {}
     at = 0
     while at < len(data):
         start = at + SIZE
@@ -73,8 +73,8 @@ def fields_of(data: bytes) -> dict[bytes, bytes]:
         name, sign, value = data[start:at].partition(b"=")
         if not sign or at > len(data):
             raise BrokenRecord
-        found[name] = value
-    return found
+        header_fields[name] = value
+    return header_fields
 
 
 def record_in(data: bytes, at: int) -> Ros1Record:
@@ -223,11 +223,11 @@ class Ros1Index:
             except BrokenRecord:
                 self._end_chunk(chunk, ())
                 chunk, indexed = None, []
-                if (found := self._next_chunk(at + 1)) is None:
+                if (next_at := self._next_chunk(at + 1)) is None:
                     self._miss_end()
                     break
                 self._losses.skipped[at] = "a record is damaged"
-                at = found
+                at = next_at
                 continue
             if record.kind == INDEX and chunk is not None:
                 indexed.append(self._indexed(record, chunk))
@@ -265,10 +265,10 @@ class Ros1Index:
         data = self._read(record.start, record.end - record.start)
         whole = len(data) // _ENTRIES.itemsize * _ENTRIES.itemsize
         entries = np.frombuffer(data[:whole], _ENTRIES)
-        found = np.empty(len(entries), PLACES)
-        found["stamp_ns"] = entries["sec"].astype(np.uint64) * 10**9 + entries["nanosec"]
-        found["chunk"], found["offset"] = chunk, entries["offset"]
-        return record.number(b"conn"), found
+        entries_places = np.empty(len(entries), PLACES)
+        entries_places["stamp_ns"] = entries["sec"].astype(np.uint64) * 10**9 + entries["nanosec"]
+        entries_places["chunk"], entries_places["offset"] = chunk, entries["offset"]
+        return record.number(b"conn"), entries_places
 
     def _end_chunk(self, chunk: int | None, indexed: Sequence[tuple[int, Places]]) -> None:
         """Note the messages of a chunk, by its index if it has one."""
@@ -279,7 +279,7 @@ class Ros1Index:
 
     def _look_into(self, chunk: int) -> list[tuple[int, Places]]:
         """Return the places of the messages of a chunk by connection, and learn its connections."""
-        found: dict[int, list[tuple[int, int, int]]] = {}
+        by_number: dict[int, list[tuple[int, int, int]]] = {}
         data, at = self.unpacked(chunk), 0
         try:
             while at < len(data):
@@ -289,12 +289,12 @@ class Ros1Index:
                 elif record.kind == MESSAGE:
                     time = record.number(b"time")
                     stamp_ns = (time & 0xFFFFFFFF) * 10**9 + (time >> 32 & 0xFFFFFFFF)
-                    found.setdefault(record.number(b"conn"), []).append((stamp_ns, chunk, at))
+                    by_number.setdefault(record.number(b"conn"), []).append((stamp_ns, chunk, at))
                 at = record.end
         except BrokenRecord:
             if END_MISSING not in self._losses.others:
                 self._losses.skipped[chunk] = "its chunk is damaged"
-        return [(number, np.array(places, PLACES)) for number, places in found.items()]
+        return [(number, np.array(places, PLACES)) for number, places in by_number.items()]
 
     def _learn(self, record: Ros1Record, data: bytes) -> None:
         """Note a connection; a damaged one lacks its type."""

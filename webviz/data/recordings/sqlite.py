@@ -141,10 +141,10 @@ class SqliteRecording:
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`; of a damaged table in the order in which they were written."""
-        wanted = {number: each for number, each in self._numbers.items() if each in channels}
+        chosen = {number: each for number, each in self._numbers.items() if each in channels}
         newest: list[RecordedMessage] = []
         """The delivered messages of one stamp."""
-        rows = self._rows(wanted, start_ns, end_ns)
+        rows = self._rows(chosen, start_ns, end_ns)
         while True:
             try:
                 row = next(rows, None)
@@ -152,14 +152,14 @@ class SqliteRecording:
                 break
             if row is None:
                 return
-            if entry := self._entry(wanted, row):
+            if entry := self._entry(chosen, row):
                 if newest and newest[0].stamp_ns != entry.stamp_ns:
                     newest.clear()
                 newest.append(entry)
                 yield entry
         start_ns = newest[0].stamp_ns if newest else start_ns
         for row in self._salvaged():
-            entry = self._entry(wanted, row)
+            entry = self._entry(chosen, row)
             if entry and start_ns <= entry.stamp_ns <= end_ns and entry not in newest:
                 yield entry
 
@@ -167,8 +167,8 @@ class SqliteRecording:
         self, channels: Collection[RecordedChannel], end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.newest`; of a damaged table at most `MAX_MISSES` messages."""
-        wanted = {number: each for number, each in self._numbers.items() if each in channels}
-        rows = self._rows(wanted, 0, end_ns, is_backwards=True)
+        chosen = {number: each for number, each in self._numbers.items() if each in channels}
+        rows = self._rows(chosen, 0, end_ns, is_backwards=True)
         while True:
             try:
                 row = next(rows, None)
@@ -176,30 +176,30 @@ class SqliteRecording:
                 break
             if row is None:
                 return
-            if entry := self._entry(wanted, row):
+            if entry := self._entry(chosen, row):
                 end_ns = min(end_ns, entry.stamp_ns - 1)
                 yield entry
         yield from reversed(deque(self.messages(channels, 0, end_ns), MAX_MISSES))
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`; of a damaged table as far as it can be read."""
-        wanted = {number for number, each in self._numbers.items() if each in channels}
+        chosen = {number for number, each in self._numbers.items() if each in channels}
         with contextlib.suppress(sqlite3.Error):
-            for row in self._rows(wanted, 0, end_ns, is_backwards=True, columns=_STAMPS):
+            for row in self._rows(chosen, 0, end_ns, is_backwards=True, columns=_STAMPS):
                 if isinstance(row.stamp_ns, int):
                     yield row.stamp_ns
 
     def histogram(self, parts: TimeParts) -> dict[RecordedChannel, Counts]:
         """`Recording.histogram`, of a damaged table without what it cannot read."""
-        found = {channel: np.zeros(parts.count, np.int64) for channel in self.channels}
+        histogram = {channel: np.zeros(parts.count, np.int64) for channel in self.channels}
         with contextlib.suppress(sqlite3.Error):
             for number, counts in self._times.count(parts).items():
                 if number in self._numbers:
-                    found[self._numbers[number]] += counts
+                    histogram[self._numbers[number]] += counts
             if set_back := self._times.set_back:
                 note = set_back.note(self._path.name, parts.start_ns)
                 self.losses.notes = list(dict.fromkeys([*self.losses.notes, note]))
-        return found
+        return histogram
 
     def close(self) -> None:
         """Close the file."""
@@ -229,7 +229,7 @@ class SqliteRecording:
         definitions = self._definitions(allowance)
         names = {row[1] for row in self._db.execute("PRAGMA table_info(topics)")}
         profiles = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
-        found = {}
+        topics = {}
         for number, *texts in self._db.execute(
             f"SELECT id, name, type, serialization_format, {profiles} FROM topics "
             f"ORDER BY id LIMIT {MAX_TOPICS}"
@@ -237,22 +237,22 @@ class SqliteRecording:
             topic, type_name, encoding, qos = map(str, texts)
             if allowance.take(len(topic), len(type_name), len(encoding), len(qos)):
                 definition = definitions.get(type_name, "")
-                found[number] = RecordedChannel(topic, type_name, encoding, definition, qos)
+                topics[number] = RecordedChannel(topic, type_name, encoding, definition, qos)
         self._db.text_factory = str
-        return found
+        return topics
 
     def _definitions(self, allowance: TextAllowance) -> dict[str, str]:
         """Return the definitions by type; older bags have none."""
         if not self._db.execute("PRAGMA table_info(message_definitions)").fetchall():
             return {}
-        found = {}
+        texts = {}
         for name, encoding, text in self._db.execute(
             "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions "
             f"ORDER BY id LIMIT {MAX_TOPICS}"
         ):
             if encoding in DEFINITION_ENCODINGS and allowance.take(len(str(name)), len(str(text))):
-                found[str(name)] = str(text)
-        return found
+                texts[str(name)] = str(text)
+        return texts
 
     def _totals(self, path: Path) -> Mapping[int, int]:
         """Return the numbers of messages by topic, if metadata.yaml is of this file alone."""
@@ -366,20 +366,20 @@ class SqliteRecording:
         except sqlite3.Error:
             last = MAX_ROW
         number = misses = 0
-        lost: list[int] = []
+        unreadable: list[int] = []
         while number < last and misses < MAX_MISSES:
             number += 1
             try:
                 row = self._db.execute(f"SELECT {_COLUMNS} WHERE id = ?", (number,)).fetchone()
             except sqlite3.Error:
                 row = None
-                lost.append(number)
+                unreadable.append(number)
             misses = misses + 1 if row is None else 0
             if row is not None:
-                self._skip(lost)
+                self._skip(unreadable)
                 yield _Row(*row)
         if number == last:
-            self._skip(lost)
+            self._skip(unreadable)
         elif END_MISSING not in self.losses.others:
             self.losses.others.append(END_MISSING)
 

@@ -177,13 +177,13 @@ def slices(db: sqlite3.Connection) -> Sequence[_Span]:
 
 def _joined(spans: Iterable[_Span]) -> list[_Span]:
     """Unite spans that overlap, in the order of time."""
-    found: list[_Span] = []
+    joined_spans: list[_Span] = []
     for first_ns, last_ns in sorted(spans):
-        if found and first_ns <= found[-1][1]:
-            found[-1] = found[-1][0], max(found[-1][1], last_ns)
+        if joined_spans and first_ns <= joined_spans[-1][1]:
+            joined_spans[-1] = joined_spans[-1][0], max(joined_spans[-1][1], last_ns)
         else:
-            found.append((first_ns, last_ns))
-    return found
+            joined_spans.append((first_ns, last_ns))
+    return joined_spans
 
 
 def connected(path: Path) -> sqlite3.Connection:

@@ -42,18 +42,18 @@ def unpack(data: bytes, compression: str, limit: int) -> tuple[bytes, str]:
         return data[:limit], _too_large(limit) if len(data) > limit else ""
     if (whole := _unpacked_at_once(data, compression, limit)) is not None:
         return whole, ""
-    found = io.BytesIO()
+    output = io.BytesIO()
     fault = ""
     try:
         for block in _blocks(io.BytesIO(data), compression):
-            left = limit - found.tell()
-            found.write(block[:left])
+            left = limit - output.tell()
+            output.write(block[:left])
             if len(block) > left:
                 fault = _too_large(limit)
                 break
     except FAULTS:
         fault = f"its {compression} data is damaged"
-    return found.getvalue(), fault
+    return output.getvalue(), fault
 
 
 def unpack_message(data: bytes, encoding: str) -> tuple[bytes, str]:

@@ -75,10 +75,10 @@ class PMTiles:
             return {}
         packed = self._bytes(header["metadata_offset"], header["metadata_length"])
         try:
-            found = json.loads(self._unpacked(packed))
+            metadata = json.loads(self._unpacked(packed))
         except (ValueError, RecursionError):
             return {}
-        return found if isinstance(found, dict) else {}
+        return metadata if isinstance(metadata, dict) else {}
 
     def _unpacked(self, packed: bytes) -> bytes:
         unpacking = zlib.decompressobj(_GZIP)

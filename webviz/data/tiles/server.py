@@ -73,8 +73,8 @@ class TileServer:
 
     def read(self, zoom: int, x: int, y: int) -> bytes | None:
         """Return a tile of the cache, or else of the server; None if that has none."""
-        if (kept := self._cache.read(zoom, x, y)) is not None:
-            return kept
+        if (cached := self._cache.read(zoom, x, y)) is not None:
+            return cached
         address = filled(self._pattern, zoom, x, y)
         request = urllib.request.Request(address, headers={"User-Agent": AGENT})
         until = time.monotonic() + self._timeout_s
@@ -121,10 +121,11 @@ def is_allowed(address: str, allowed: Sequence[str]) -> bool:
     if parts.scheme not in ("http", "https") or "{" in parts.netloc:
         return False
     for each in allowed:
-        known = urlsplit(each)
-        if (known.scheme, known.netloc) == (parts.scheme, parts.netloc) and parts.path.startswith(
-            known.path
-        ):
+        allowed_parts = urlsplit(each)
+        if (allowed_parts.scheme, allowed_parts.netloc) == (
+            parts.scheme,
+            parts.netloc,
+        ) and parts.path.startswith(allowed_parts.path):
             return True
     return False
 
@@ -182,9 +183,9 @@ class TileCache:
     def prune(self) -> None:
         """Remove the oldest tiles of all servers beyond the limit."""
         with self._lock, contextlib.suppress(OSError):
-            known = [(path, path.stat()) for path in self._all.rglob("*") if path.is_file()]
-            total = sum(about.st_size for _, about in known)
-            for path, about in sorted(known, key=lambda each: each[1].st_mtime):
+            entries = [(path, path.stat()) for path in self._all.rglob("*") if path.is_file()]
+            total = sum(about.st_size for _, about in entries)
+            for path, about in sorted(entries, key=lambda each: each[1].st_mtime):
                 if total <= self._limit:
                     break
                 path.unlink(missing_ok=True)

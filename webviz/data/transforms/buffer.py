@@ -210,9 +210,9 @@ class TransformBuffer:
         if self._found_at != versions or len(self._found) >= MAX_FOUND:
             self._found_at, self._found = versions, {}
         key = target, source, stamp_ns
-        if (found := self._found.get(key)) is None:
-            found = self._found[key] = Transform.of(*self._pose(target, source, stamp_ns))
-        return found
+        if (transform := self._found.get(key)) is None:
+            transform = self._found[key] = Transform.of(*self._pose(target, source, stamp_ns))
+        return transform
 
     @_SILENT
     def lookup_many(
@@ -240,8 +240,8 @@ class TransformBuffer:
         names = self.frames() if frames is None else list(frames)
         if stamp_ns == 0 and len(names) >= many_frames.ARRAYS_PAY_FROM:
             topology = self._topology_of(target, names)
-            if topology.is_usable and (found := topology.poses()):
-                return FramesIn.of(names, *found)
+            if topology.is_usable and (poses := topology.poses()):
+                return FramesIn.of(names, *poses)
         valid = set() if self._tree.fault(target) else {n for n in names if not self._tree.fault(n)}
         return many_frames.poses_in(self._tree, target, names, valid, stamp_ns)
 

@@ -332,19 +332,19 @@ class TimeCache:
         stamps = self.stamps
         if not stamps:
             return NoDataForExtrapolationException, ""
-        asked, newest, oldest = (format_stamp(s) for s in (stamp_ns, stamps[-1], stamps[0]))
+        requested, newest, oldest = (format_stamp(s) for s in (stamp_ns, stamps[-1], stamps[0]))
         if len(stamps) == 1:
             return NoDataForExtrapolationException, (
-                f"Lookup would require extrapolation at time {asked}, "
+                f"Lookup would require extrapolation at time {requested}, "
                 f"but only time {newest} is in the buffer"
             )
         if stamp_ns > stamps[-1]:
             return ForwardExtrapolationException, (
-                f"Lookup would require extrapolation into the future.  Requested time {asked} "
+                f"Lookup would require extrapolation into the future.  Requested time {requested} "
                 f"but the latest data is at time {newest}"
             )
         return BackwardExtrapolationException, (
-            f"Lookup would require extrapolation into the past.  Requested time {asked} "
+            f"Lookup would require extrapolation into the past.  Requested time {requested} "
             f"but the earliest data is at time {oldest}"
         )
 

@@ -58,8 +58,8 @@ def clock_problem(
             "use_sim_time:=true.",
         )
     names = [f'"{child}"' for child in wrong]
-    shown = ", ".join(names[:SHOWN]) + (" …" if len(names) > SHOWN else "")
-    who = "All transforms" if len(wrong) == len(offsets) else f"The transforms of {shown}"
+    names_text = ", ".join(names[:SHOWN]) + (" …" if len(names) > SHOWN else "")
+    who = "All transforms" if len(wrong) == len(offsets) else f"The transforms of {names_text}"
     rest = "" if len(wrong) == len(offsets) else ", the others are not"
     return Problem(
         f"{who} are stamped {offset} the clock of this computer{rest}.",

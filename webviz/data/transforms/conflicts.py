@@ -80,10 +80,10 @@ class Conflicts:
         if isinstance(cache, TimeCache) and not contest and self._is_calm(cache):
             return ()
         state = id(cache), cache.newest_stamp, len(cache), contest
-        known = self._known.get(frame)
-        if known is None or known[0] != state:
-            known = self._known[frame] = state, tuple(_found(frame, cache, contest))
-        return known[1]
+        entry = self._known.get(frame)
+        if entry is None or entry[0] != state:
+            entry = self._known[frame] = state, tuple(_found(frame, cache, contest))
+        return entry[1]
 
     @staticmethod
     def _is_calm(cache: TimeCache) -> bool:

@@ -79,17 +79,17 @@ class Diagnosis(msgspec.Struct, frozen=True):
     @property
     def problems(self) -> list[str]:
         """All faults, one sentence each."""
-        found = [
+        problems = [
             f"The frames form a loop: {listed(loop, ' → ')}. Two publishers disagree about the "
             "parents; stop one of them."
             for loop in self.loops[:MAX_LISTED]
         ]
         if len(self.roots) > 1:
-            found.append(
+            problems.append(
                 f"No transform connects the {len(self.roots)} trees with the roots "
                 f"{listed(self.roots)}."
             )
-        return found + [problem for report in self.frames for problem in report.problems]
+        return problems + [problem for report in self.frames for problem in report.problems]
 
 
 def diagnose(buffer: TransformBuffer, now_ns: int = 0) -> Diagnosis:
@@ -137,8 +137,10 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
             continue
         met.add(frame)
         report = reports.get(frame)
-        shown = f"  [{', '.join(map(readable, facts(report)))}]" if report else ""
-        lines.append(f"{lead}{readable(frame)}{shown}{'  !' if report and report.problems else ''}")
+        suffix = f"  [{', '.join(map(readable, facts(report)))}]" if report else ""
+        lines.append(
+            f"{lead}{readable(frame)}{suffix}{'  !' if report and report.problems else ''}"
+        )
         forks = [("├─ ", "│  ")] * (len(children.get(frame, [])) - 1) + [("└─ ", "   ")]
         own = [
             (child, f"{below}{fork}", f"{below}{rest}")
@@ -151,16 +153,16 @@ def tree_text(buffer: TransformBuffer, now_ns: int = 0) -> str:
 def facts(report: FrameReport) -> list[str]:
     """Kind or rate of a frame, its age and its publisher, in words."""
     if report.is_static:
-        found = ["static"]
+        texts = ["static"]
     elif not report.samples:
-        found = ["no data"]
+        texts = ["no data"]
     else:
-        found = [f"{report.rate_hz:.1f} Hz"] if report.rate_hz else ["one sample"]
+        texts = [f"{report.rate_hz:.1f} Hz"] if report.rate_hz else ["one sample"]
         if report.age_ns is not None:
-            found.append(_age(report.newest_ns, report.age_ns))
+            texts.append(_age(report.newest_ns, report.age_ns))
     if report.publishers:
-        found.append(f"from {', '.join(report.publishers)}")
-    return found
+        texts.append(f"from {', '.join(report.publishers)}")
+    return texts
 
 
 def _age(stamp_ns: int, age_ns: int) -> str:
@@ -186,9 +188,9 @@ def report(buffer: TransformBuffer, frame: str, now_ns: int) -> FrameReport:
     history_ns = cache.newest_stamp - cache.oldest_stamp
     rate_hz = (len(cache) - 1) * NS_PER_S / history_ns if history_ns else 0.0
     age_ns = now_ns - cache.newest_stamp if isinstance(cache, TimeCache) and cache else None
-    found = buffer.conflicts.of(frame)
-    problems = [str(conflict.problem) for conflict in found]
-    parents = dict.fromkeys(parent for conflict in found for parent in conflict.parents)
+    conflicts = buffer.conflicts.of(frame)
+    problems = [str(conflict.problem) for conflict in conflicts]
+    parents = dict.fromkeys(parent for conflict in conflicts for parent in conflict.parents)
     if newest is None:
         problems.append(f'No transform of "{frame}" has arrived since the transforms were cleared.')
     if age_ns is not None and age_ns > STALE_NS and age_ns * rate_hz > STALE_PERIODS * NS_PER_S:

@@ -117,9 +117,9 @@ def _refused(
     buffer: TransformBuffer, fixed_frame: str, frame: str, lost: str
 ) -> Explanation | None:
     """Explain that the transform that places a frame was refused, if it was."""
-    if (found := buffer.refusals.naming(lost)) is None:
+    if (refusal := buffer.refusals.naming(lost)) is None:
         return None
-    child, rejection = found
+    child, rejection = refusal
     return Explanation(
         Kind.REFUSED,
         f'"{frame}" has no pose in "{fixed_frame}", as the transform of "{child}" was refused: '

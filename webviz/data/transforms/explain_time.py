@@ -173,10 +173,10 @@ def _behind(
         f"The stamp is {in_words(oldest_ns - stamp_ns)} older than the oldest transform kept of "
         f"{link}"
     )
-    kept = newest_ns - oldest_ns
-    if kept < buffer.cache_time_ns // 2:
+    span_ns = newest_ns - oldest_ns
+    if span_ns < buffer.cache_time_ns // 2:
         return Explanation(
-            Kind.BEHIND, f"{text}, which began only {in_words(kept)} ago: newer data will show."
+            Kind.BEHIND, f"{text}, which began only {in_words(span_ns)} ago: newer data will show."
         )
     return Explanation(
         Kind.BEHIND,

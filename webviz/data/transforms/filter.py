@@ -108,14 +108,14 @@ class MessageFilter(Generic[P]):
         if waiting:
             self._queue.clear()
         self._tried = state
-        done: list[P] = []
+        payloads: list[P] = []
         first = self._stuck_since
         for message in (*waiting, *self._new):
             if not message.frame:
                 self._give_up(message, Kind.EMPTY_FRAME)
             elif (pose := _pose(buffer, fixed_frame, message)) is not None:
                 if is_within_reach((*pose.translation, *pose.rotation)):
-                    done.append(message.payload)
+                    payloads.append(message.payload)
                     self._pass(message)
                     first = None
                     continue
@@ -130,7 +130,7 @@ class MessageFilter(Generic[P]):
         if first is None and (longest := self._longest()) is not None:
             first = longest.payload
         self._stuck_since = first
-        if done:
+        if payloads:
             self._given_up, self._lost, self._is_heavy = None, 0, False
         size = sum(message.size for message in self._queue)
         while len(self._queue) > self._queue_size or (len(self._queue) > 1 and size > MAX_BYTES):
@@ -138,7 +138,7 @@ class MessageFilter(Generic[P]):
             oldest = self._queue.popleft()
             size -= oldest.size
             self._give_up(oldest, Kind.QUEUE_FULL)
-        return done
+        return payloads
 
     def explanation(
         self, buffer: TransformBuffer, fixed_frame: str, now_ns: int = 0

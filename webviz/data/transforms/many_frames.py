@@ -143,8 +143,8 @@ def poses_in(
     """`TransformBuffer.poses_in`; `valid` are those frames that can be looked up at all."""
     links = _Links()
     out = np.full((7, len(frames)), np.nan)
-    known: dict[int, dict[str, int]] = {}
-    found: list[int] = []
+    by_stamp: dict[int, dict[str, int]] = {}
+    indices: list[int] = []
     pairs: list[tuple[int, int]] = []
     stamps = _stamps(tree, target, frames, stamp_ns)
     for i, (frame, stamp) in enumerate(zip(frames, stamps, strict=True)):
@@ -153,8 +153,8 @@ def poses_in(
             continue
         if stamp is None or frame not in valid:
             continue
-        if (at_stamp := known.get(stamp)) is None:
-            at_stamp = known[stamp] = {}
+        if (at_stamp := by_stamp.get(stamp)) is None:
+            at_stamp = by_stamp[stamp] = {}
             if links.chain(tree, target, stamp, at_stamp) < 0:
                 # Of the frames in and below a loop only those below the target have a pose.
                 at_stamp.clear()
@@ -163,20 +163,20 @@ def poses_in(
             number = links.chain(tree, frame, stamp, at_stamp)
         base = at_stamp[target]
         if number >= 0 and links.tops[number] == links.tops[base]:
-            found.append(i)
+            indices.append(i)
             pairs.append((base, number))
 
     if len(links.starts) < ARRAYS_PAY_FROM:
         floats = links.poses_by_floats()
-        for i, (base, number) in zip(found, pairs, strict=True):
+        for i, (base, number) in zip(indices, pairs, strict=True):
             pose = compose(inverse(floats[base]), floats[number])
             out[:, i] = (*pose[:3], *canonical(*pose[3:]))
-    elif found:
+    elif indices:
         arrays = links.poses_by_arrays()
         bases, numbers = np.array(pairs).T
         rows = to_rows(compose_many(inverse_many(arrays[:, bases]), arrays[:, numbers]))
-        out[:3, found] = rows[:3]
-        out[3:, found] = canonical_many(rows[3:])
+        out[:3, indices] = rows[:3]
+        out[3:, indices] = canonical_many(rows[3:])
     return FramesIn.of(frames, out, np.array([stamp or 0 for stamp in stamps], np.int64))
 
 
@@ -201,12 +201,12 @@ def _stamps(tree: FrameTree, target: str, frames: list[str], stamp_ns: int) -> S
 
     meets: dict[str, tuple[str, int | None] | None] = {frame: (frame, None) for frame in spine}
     stamps: list[int | None] = []
-    for asked in frames:
-        if asked == target:
+    for name in frames:
+        if name == target:
             stamps.append(tree.latest_common_time(target, target))
             continue
         climbed: list[tuple[str, int]] = []
-        frame = asked
+        frame = name
         while frame not in meets:
             meets[frame] = None  # stays None for other roots and loops
             cache = caches.get(frame)

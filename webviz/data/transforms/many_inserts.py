@@ -79,25 +79,25 @@ class ManyInserts:
             rotations = canonical_many(poses[:, 3:].T)
         rows = np.concatenate((poses[:, :3], rotations.T), axis=1)
         stamps = np.array(stamps_ns, np.int64)
-        known = self._list(names, authority, structure)
-        batches = known.batches
-        known.dismiss(~batches.fitting(stamps, rows))
+        entry = self._list(names, authority, structure)
+        batches = entry.batches
+        entry.dismiss(~batches.fitting(stamps, rows))
         if batches.is_followed.any():
             batches.add(stamps, rows, received_ns)
         return np.flatnonzero(~batches.is_followed).tolist()
 
     def _list(self, names: Names, authority: str, structure: int) -> _List:
         key = id(names), authority
-        known = self._lists.get(key)
-        if known is None:
+        entry = self._lists.get(key)
+        if entry is None:
             if len(self._lists) >= MAX_LISTS:
                 self._forget_all()
             batches = Batches(len(names), self._cache_time_ns, MAX_SAMPLES, self._note)
-            known = self._lists[key] = _List(names, batches)
-        if known.looked_up != (structure, self._tree.batches_version):
-            self._look_up(known, authority)
-            known.looked_up = structure, self._tree.batches_version
-        return known
+            entry = self._lists[key] = _List(names, batches)
+        if entry.looked_up != (structure, self._tree.batches_version):
+            self._look_up(entry, authority)
+            entry.looked_up = structure, self._tree.batches_version
+        return entry
 
     def _look_up(self, known: _List, authority: str) -> None:
         """Let all frames of a list follow it that can, and the others leave."""
@@ -120,6 +120,6 @@ class ManyInserts:
         return cache if cache and cache.parent == parent else None
 
     def _forget_all(self) -> None:
-        for known in self._lists.values():
-            known.dismiss(np.ones(len(known.names), np.bool_))
+        for entry in self._lists.values():
+            entry.dismiss(np.ones(len(entry.names), np.bool_))
         self._lists.clear()

@@ -129,8 +129,10 @@ class _Histories:
 
     def __init__(self, tree: FrameTree, stamps: I64) -> None:
         self.caches = tree.caches
-        asked = stamps[stamps != 0]
-        self._first, self._last = (int(asked.min()), int(asked.max())) if len(asked) else (0, 0)
+        nonzero = stamps[stamps != 0]
+        self._first, self._last = (
+            (int(nonzero.min()), int(nonzero.max())) if len(nonzero) else (0, 0)
+        )
         self._made: dict[str, _History] = {}
 
     def of(self, frame: str, cache: TimeCache) -> _History:
@@ -185,11 +187,11 @@ def _resolve(histories: _Histories, target: str, source: str, stamps: I64) -> C1
         for group in pending:
             met = top_of[group.rows] == tops.get(group.frame, -1)
             if met.any():
-                done = _part(group, met)
-                pose = in_top[:, done.rows]
-                if done.pose is not None:
-                    pose = compose_many(inverse_many(done.pose), pose)
-                out[:, done.rows] = pose
+                resolved = _part(group, met)
+                pose = in_top[:, resolved.rows]
+                if resolved.pose is not None:
+                    pose = compose_many(inverse_many(resolved.pose), pose)
+                out[:, resolved.rows] = pose
             if met.all():
                 continue
             rest = _part(group, ~met)

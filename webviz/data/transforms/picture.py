@@ -81,10 +81,10 @@ class _Drawing:
 
     def picture(self, title: str, notes: Sequence[str]) -> TreePicture:
         problems = self._diagnosis.problems
-        shown = problems[:MAX_PROBLEMS]
-        if len(problems) > len(shown):
-            shown.append(f"And {len(problems) - len(shown)} more.")
-        texts = [*((text, "problem") for text in shown), *((text, "") for text in notes)]
+        limited = problems[:MAX_PROBLEMS]
+        if len(problems) > len(limited):
+            limited.append(f"And {len(problems) - len(limited)} more.")
+        texts = [*((text, "problem") for text in limited), *((text, "") for text in notes)]
         bottom = HEAD + ROW * self._layout.rows
         height = round(bottom + LINE * len(texts) + EDGE)
         right = self._lefts[-1] + self._widths[-1] if self._widths else 0.0
@@ -157,9 +157,9 @@ def _lines(report: FrameReport | None) -> Sequence[str]:
     """Return the lines below the name of a frame."""
     if report is None:
         return ("root",)
-    found = facts(report)
-    who = [found.pop()] if report.publishers else []
-    return [_short(line) for line in (", ".join(found), *who)]
+    texts = facts(report)
+    who = [texts.pop()] if report.publishers else []
+    return [_short(line) for line in (", ".join(texts), *who)]
 
 
 def _kind(report: FrameReport | None, is_faulty: bool) -> str:

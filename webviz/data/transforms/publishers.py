@@ -70,15 +70,15 @@ class Publishers:
         if self.contest is None and not (isinstance(claim, str) and isinstance(self.claim, str)):
             self.changes += 1
         self._replaced[self.claim] = (self.current, stamp_ns)
-        kept = {
+        remaining = {
             old: (who, at)
             for old, (who, at) in self._replaced.items()
             if at > horizon_ns or not isinstance(old, str)
         }
-        if claim in kept:
-            del kept[claim]
+        if claim in remaining:
+            del remaining[claim]
             self.contest = Contest((self.claim, claim), stamp_ns)
-        self._replaced = dict(list(kept.items())[-MAX_REPLACED:])
+        self._replaced = dict(list(remaining.items())[-MAX_REPLACED:])
         self.claim, self.current = claim, authority
 
     def forget(self) -> None:

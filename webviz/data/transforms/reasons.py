@@ -88,13 +88,13 @@ def distinct(
         explain: the reason of one frame.
         most: maximum number of reasons.
     """
-    found: dict[tuple[Kind, object], tuple[str, Explanation]] = {}
+    by_cause: dict[tuple[Kind, object], tuple[str, Explanation]] = {}
     for frame in frames[:MAX_TRIED]:
         reason = explain(frame)
         if reason.kind in FOR_ALL:
             return {frame: reason}
-        found.setdefault((reason.kind, reason.roots or reason.cause or frame), (frame, reason))
-    return dict(list(found.values())[:most])
+        by_cause.setdefault((reason.kind, reason.roots or reason.cause or frame), (frame, reason))
+    return dict(list(by_cause.values())[:most])
 
 
 def listed(frames: Sequence[str], link: str = ", ") -> str:

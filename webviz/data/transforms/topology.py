@@ -145,10 +145,10 @@ class Topology:
             poses = self._in_roots(time, newest, self._asked[chosen])
             if poses is None:
                 return None
-            found = poses[:, self._asked[chosen]]
+            chosen_poses = poses[:, self._asked[chosen]]
             if self._ups[self._base] >= 0:
-                found = compose_many(inverse_many(poses[:, [self._base]]), found)
-            rows = to_rows(found)
+                chosen_poses = compose_many(inverse_many(poses[:, [self._base]]), chosen_poses)
+            rows = to_rows(chosen_poses)
             out[:3, chosen] = rows[:3]
             out[3:, chosen] = canonical_many(rows[3:])
         out[:, self._is_target] = np.array(IDENTITY)[:, None]
@@ -160,13 +160,13 @@ class Topology:
         if self._grouped_at == self._tree.batches_version:
             return
         self._grouped_at = self._tree.batches_version
-        found: dict[Batches | None, list[int]] = {None: []}
+        by_batches: dict[Batches | None, list[int]] = {None: []}
         for number, cache in enumerate(self._moving):
-            found.setdefault(cache.batches, []).append(number)
-        self._alone = found.pop(None)
+            by_batches.setdefault(cache.batches, []).append(number)
+        self._alone = by_batches.pop(None)
         self._followers = [
             (batches, np.array(numbers), np.array([self._moving[each].place for each in numbers]))
-            for batches, numbers in found.items()
+            for batches, numbers in by_batches.items()
             if batches is not None
         ]
 

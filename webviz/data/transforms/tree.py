@@ -243,26 +243,26 @@ def ancestors(tree: FrameTree, frame: str) -> list[str]:
 
 def roots(tree: FrameTree) -> dict[str, str]:
     """`FrameTree.root` of all frames; for those in or below a loop, one frame of the loop."""
-    found: dict[str, str] = {}
+    roots_by_frame: dict[str, str] = {}
     for name in tree.names:
         chain: list[str] = []
-        seen: set[str] = set()
+        visited: set[str] = set()
         frame = name
-        while frame not in found and frame not in seen:
+        while frame not in roots_by_frame and frame not in visited:
             chain.append(frame)
-            seen.add(frame)
+            visited.add(frame)
             cache = tree.caches.get(frame)
             if cache is None or cache.parent is None:
                 break
             frame = cache.parent
-        found |= dict.fromkeys(chain, found.get(frame, frame))
-    return found
+        roots_by_frame |= dict.fromkeys(chain, roots_by_frame.get(frame, frame))
+    return roots_by_frame
 
 
 def root_of(frame: str, parents: Mapping[str, str]) -> str:
     """Return the frame at the root of the transforms above a frame."""
-    seen = {frame}
-    while (parent := parents.get(frame)) is not None and parent not in seen:
-        seen.add(parent)
+    visited = {frame}
+    while (parent := parents.get(frame)) is not None and parent not in visited:
+        visited.add(parent)
         frame = parent
     return frame

@@ -84,20 +84,20 @@ class VelocityController:
         """
         if self.driver(now) not in (None, browser):
             return False
-        wanted = Velocity(*map(_part, share, self.vehicle.limits))
+        velocity = Velocity(*map(_part, share, self.vehicle.limits))
         if browser == self._holding:
-            self._holding = None if wanted == STILL else browser
+            self._holding = None if velocity == STILL else browser
             return False
-        if wanted == STILL and self._driver != browser:
+        if velocity == STILL and self._driver != browser:
             return False  # only looks at the controller
         if self._driver != browser or seen > self._seen:
             self._seen, self._heard = seen, now
         elif now >= self._heard + BEAT_S:
             return False
-        if wanted != STILL:
+        if velocity != STILL:
             self._driver, self._held = browser, now
-        before, self._wanted = self._wanted, wanted
-        return wanted != before
+        before, self._wanted = self._wanted, velocity
+        return velocity != before
 
     def halt(self) -> None:
         """Stop at once."""
@@ -120,8 +120,8 @@ class VelocityController:
         vehicle = self.vehicle
         self._velocity = Velocity(
             *(
-                _approach(value, wanted, up * seconds, down * seconds)
-                for value, wanted, up, down in zip(
+                _approach(value, target, up * seconds, down * seconds)
+                for value, target, up, down in zip(
                     self._velocity,
                     self._wanted,
                     vehicle.acceleration,

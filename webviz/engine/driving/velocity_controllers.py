@@ -74,11 +74,11 @@ class VelocityControllers:
                 )
                 controller.vehicle = vehicle
             advertisements = [controller.advertisement for controller in self._controllers.values()]
-            known = self._problems
+            problems = self._problems
             self._problems = {
-                advertisement: known[advertisement]
+                advertisement: problems[advertisement]
                 for advertisement in advertisements
-                if advertisement in known
+                if advertisement in problems
             }
 
     def attended(self) -> set[str]:
@@ -90,14 +90,14 @@ class VelocityControllers:
     def advertisements(self) -> set[Advertisement]:
         """Return the topics to advertise: where the commands of attended vehicles go."""
         now = time.monotonic()
-        taken = {
+        topics = {
             advertisement.topic for advertisement in self.stopping()
         }  # a topic has one type at a time
         with self._lock:
             return {
                 controller.advertisement
                 for tool, controller in self._controllers.items()
-                if self._is_attended(tool, now) and controller.advertisement.topic not in taken
+                if self._is_attended(tool, now) and controller.advertisement.topic not in topics
             }
 
     def stopping(self) -> set[Advertisement]:
@@ -109,8 +109,10 @@ class VelocityControllers:
         """Return the browser that drives, by tool."""
         now = time.monotonic()
         with self._lock:
-            found = {tool: controller.driver(now) for tool, controller in self._controllers.items()}
-        return {tool: driver for tool, driver in found.items() if driver is not None}
+            drivers = {
+                tool: controller.driver(now) for tool, controller in self._controllers.items()
+            }
+        return {tool: driver for tool, driver in drivers.items() if driver is not None}
 
     def halt(self) -> bool:
         """Stop all vehicles at once; whether any was driven."""
@@ -236,7 +238,9 @@ class VelocityControllers:
                 controller for controller in self._leaving if not controller.is_at_rest
             ]
         self._sent = {
-            advertisement: sent for advertisement, sent in self._sent.items() if not sent.done()
+            advertisement: future
+            for advertisement, future in self._sent.items()
+            if not future.done()
         }
         for controller, velocity in due:
             self._publish(controller.vehicle, controller.advertisement, velocity)

@@ -136,17 +136,17 @@ class FrameLoop:
         self._settings = SettingsPart(core)
         views = ViewsPart(core, self._settings, self._displays)
         first = [transforms, self._time, self._displays, self._settings, views]
-        others, kept = self._other_parts(config, path, views, player, autosave, session)
+        others, session_part = self._other_parts(config, path, views, player, autosave, session)
         core.parts = [*first, *others]
-        made = [self._guard.attempt(each.name, None, each, core) for each in features().values()]
-        core.parts += [*(make(core) for make in parts), *(each for each in made if each)]
+        own = [self._guard.attempt(each.name, None, each, core) for each in features().values()]
+        core.parts += [*(make(core) for make in parts), *(each for each in own if each)]
         self._parts = Parts(core.parts, self._guard)
         self._arrivals = Arrivals(core, self._time, transforms)
         self._showing = Showing(scene, views, self._guard)
         self._move_on()
         self.restored: Future[str] | None = None
         """The answer to what restores the last session, None if there is none."""
-        if kept and (command := kept.restored(restore)):
+        if session_part and (command := session_part.restored(restore)):
             self.restored = self._requests.put(command, PROGRAM)
 
     def _services(self, strict: bool) -> Services:
@@ -179,15 +179,15 @@ class FrameLoop:
         files = self._files = ConfigPart(
             core, displays, settings, views, core.tools, panels.list, config, path
         )
-        kept = SessionPart(core, files, session) if session else None
-        found: list[Part] = [
+        session_part = SessionPart(core, files, session) if session else None
+        parts: list[Part] = [
             panels,
             files,
             TopicsPart(core),
             *([AutosavePart(core, files, autosave)] if autosave else ()),
-            *([kept] if kept else ()),
+            *([session_part] if session_part else ()),
         ]
-        return found, kept
+        return parts, session_part
 
     @property
     def buffer(self) -> TransformBuffer:
@@ -313,11 +313,11 @@ class FrameLoop:
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
         gate, stopping = self.core.gate, self.controllers.stopping()
-        wanted = self._parts.advertisements() | self.controllers.advertisements()
-        wanted = {each for each in wanted if not gate.lasting_refusal(each.topic)} | stopping
-        if wanted != self._advertised:
-            self._advertised = wanted
-            gate.advertise(wanted, stopping)
+        every = self._parts.advertisements() | self.controllers.advertisements()
+        allowed = {each for each in every if not gate.lasting_refusal(each.topic)} | stopping
+        if allowed != self._advertised:
+            self._advertised = allowed
+            gate.advertise(allowed, stopping)
 
     def _receive(self) -> None:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""

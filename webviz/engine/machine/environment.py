@@ -31,11 +31,11 @@ def zenoh_routers(variables: Mapping[str, str]) -> Mapping[str, str]:
     """
     if variables.get("RMW_IMPLEMENTATION") != ZENOH:
         return {}
-    given = _ENDPOINTS.search(variables.get("ZENOH_CONFIG_OVERRIDE", ""))
-    if given is None and variables.get("ZENOH_SESSION_CONFIG_URI"):
+    endpoints = _ENDPOINTS.search(variables.get("ZENOH_CONFIG_OVERRIDE", ""))
+    if endpoints is None and variables.get("ZENOH_SESSION_CONFIG_URI"):
         return {}
-    text = given[1] if given else f"tcp/localhost:{ZENOH_PORT}"
-    places = {found[0]: (found[1] or found[2], int(found[3])) for found in _TCP.finditer(text)}
+    text = endpoints[1] if endpoints else f"tcp/localhost:{ZENOH_PORT}"
+    places = {match[0]: (match[1] or match[2], int(match[3])) for match in _TCP.finditer(text)}
     return {name: _tcp_problem(*place) for name, place in places.items()}
 
 
@@ -44,17 +44,17 @@ def discovery_servers(variables: Mapping[str, str]) -> Mapping[str, str]:
 
     UDP has no connections: only the machine of the server can say that nothing listens there.
     """
-    found: dict[str, str] = {}
+    servers: dict[str, str] = {}
     for entry in variables.get("ROS_DISCOVERY_SERVER", "").split(";"):
         name = entry.strip()
         if not name or name.startswith(("TCP", "[")) or name.count(":") > 1:
             continue
         host, _, port = name.partition(":")
         try:
-            found[name] = _udp_problem(host, int(port or DISCOVERY_PORT))
+            servers[name] = _udp_problem(host, int(port or DISCOVERY_PORT))
         except ValueError:
-            found[name] = "its port is not a number"
-    return found
+            servers[name] = "its port is not a number"
+    return servers
 
 
 def _tcp_problem(host: str, port: int) -> str:
@@ -100,7 +100,7 @@ def programs_apart(memory: Path) -> Sequence[str]:
         own, network = os.stat(memory).st_dev, os.readlink(PROC / "self/ns/net")
     except OSError:
         return ()
-    found: list[str] = []
+    programs: list[str] = []
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     for process in PROC.glob("[0-9]*"):
         try:
@@ -115,8 +115,8 @@ def programs_apart(memory: Path) -> Sequence[str]:
         except OSError:  # it has ended, or belongs to another user
             continue
         if any(library in maps for library in LIBRARIES):
-            found.append(words.decode(errors="replace").strip()[:LONGEST])
-    return tuple(sorted(found)[:MOST])
+            programs.append(words.decode(errors="replace").strip()[:LONGEST])
+    return tuple(sorted(programs)[:MOST])
 
 
 def _domain(process: Path) -> str:
@@ -173,7 +173,7 @@ def look_around(
     variables = {name: os.environ[name] for name in names}
     now_s, passed = time.monotonic(), traffic()
     interfaces = interfaces_since(passed, now_s, before)
-    lost = lost_so_far()
+    losses = lost_so_far()
     return Environment(
         variables=variables,
         python=".".join(platform.python_version_tuple()[:2]),
@@ -188,8 +188,8 @@ def look_around(
         receive_buffer=_receive_buffer(),
         zenoh_routers=zenoh_routers(variables),
         discovery_servers=discovery_servers(variables),
-        lost_datagrams=max(0, lost.datagrams - lost_before.datagrams),
-        lost_fragments=max(0, lost.fragmented - lost_before.fragmented),
+        lost_datagrams=max(0, losses.datagrams - lost_before.datagrams),
+        lost_fragments=max(0, losses.fragmented - lost_before.fragmented),
         multicast_interface=_multicast_interface(interfaces),
         daemon=daemon_differences(variables),
         security_problem=security_problem(variables),
@@ -287,21 +287,21 @@ def _receive_buffer() -> int:
 
 def _profiles(variables: Mapping[str, str]) -> Mapping[str, str]:
     """Return the problems of the files that variables name."""
-    found: dict[str, str] = {}
+    profiles: dict[str, str] = {}
     for name in PROFILES:
         value = variables.get(name, "").strip()
         if value.startswith("<"):
             # Cyclone DDS also reads `</>`, which closes any element.
-            found[name] = "" if "</>" in value else _xml_problem(value)
+            profiles[name] = "" if "</>" in value else _xml_problem(value)
             continue
         for entry in filter(None, value.split(",")):
             path = Path(entry.removeprefix("file://"))
             try:
                 with path.open("rb") as file:
-                    found[str(path)] = _xml_problem(file.read(MAX_PROFILE))
+                    profiles[str(path)] = _xml_problem(file.read(MAX_PROFILE))
             except OSError as error:
-                found[str(path)] = error.strerror or str(error)
-    return found
+                profiles[str(path)] = error.strerror or str(error)
+    return profiles
 
 
 def _xml_problem(text: str | bytes) -> str:

@@ -42,13 +42,13 @@ def interfaces_since(
     stats, addresses, hearing = psutil.net_if_stats(), psutil.net_if_addrs(), _hearing()
     seconds = now_s - before.at_s if before else 0.0
     nothing = InterfaceCounters(0, 0, 0, 0)
-    found: list[NetworkInterface] = []
+    interfaces: list[NetworkInterface] = []
     for name, each in sorted(stats.items()):
         if not each.isup:
             continue
         old = before.traffic.get(name) if before and seconds >= LEAST_S else None
         new = passed.get(name, nothing)
-        found.append(
+        interfaces.append(
             NetworkInterface(
                 name,
                 tuple(a.address for a in addresses.get(name, ()) if a.family == socket.AF_INET),
@@ -60,7 +60,7 @@ def interfaces_since(
                 dropped=_dropped(old, new) if old else 0.0,
             )
         )
-    return found
+    return interfaces
 
 
 def _load(old: InterfaceCounters, new: InterfaceCounters, seconds: float, mbits: int) -> float:
@@ -79,16 +79,16 @@ def _dropped(old: InterfaceCounters, new: InterfaceCounters) -> float:
 def _hearing() -> set[str]:
     """Return the interfaces on which a program listens to the group of DDS."""
     group = f"{int.from_bytes(socket.inet_aton(GROUP), sys.byteorder):08X}"
-    found: set[str] = set()
+    names: set[str] = set()
     name = ""
     try:
         lines = IGMP.read_text().splitlines()[1:]
     except OSError:
-        return found
+        return names
     for line in lines:
         words = line.replace(":", " ").split()
         if not line.startswith("\t"):
             name = words[1]
         elif words[0] == group:
-            found.add(name)
-    return found
+            names.add(name)
+    return names

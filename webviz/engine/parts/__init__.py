@@ -83,10 +83,10 @@ class Parts:
 
     def advertisements(self) -> set[Advertisement]:
         """Return the publishers that all parts need."""
-        found: set[Advertisement] = set()
+        advertisements: set[Advertisement] = set()
         for part in self._overriding["advertisements"]:
-            found.update(self._guard.attempt(part.name, (), part.advertisements))
-        return found
+            advertisements.update(self._guard.attempt(part.name, (), part.advertisements))
+        return advertisements
 
     def take(self, batches: Batches) -> None:
         """Pass on the messages since the last turn."""
@@ -110,11 +110,11 @@ class Parts:
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the viewer as a whole, by key."""
-        found: dict[str, Status] = {}
+        statuses: dict[str, Status] = {}
         for part in self._overriding["statuses"]:
             own: Mapping[str, Status] = {}
-            found |= self._guard.attempt(part.name, own, part.statuses)
-        return found
+            statuses |= self._guard.attempt(part.name, own, part.statuses)
+        return statuses
 
     def is_attended(self) -> bool:
         """Return whether somebody looks at something that changes all the time."""

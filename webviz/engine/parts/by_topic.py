@@ -47,8 +47,8 @@ def picks(
     takers: dict[str, list[tuple[str, str, str]]] = {}
     endings: dict[str, list[tuple[str, Namespace]]] = {}
     for name, cls in displays.items():
-        if (known := cls.offered_for) is not None:
-            endings.setdefault(known.type, []).append((name, known))
+        if (offer := cls.offered_for) is not None:
+            endings.setdefault(offer.type, []).append((name, offer))
         for input, spec in inputs_of(cls).items():
             # What comes beside another topic, such as updates of a map, is not shown by itself.
             if spec.is_offered and not spec.follows:
@@ -65,9 +65,9 @@ def picks(
     def fitting(topic: str, message: str) -> list[Pick]:
         of_type = from_inputs(topic, message, message)
         of_name = [
-            Pick(topic, name, known.input, message, topic.removesuffix(known.ending))
-            for name, known in endings.get(message, ())
-            if topic.endswith(known.ending) and topic != known.ending
+            Pick(topic, name, offer.input, message, topic.removesuffix(offer.ending))
+            for name, offer in endings.get(message, ())
+            if topic.endswith(offer.ending) and topic != offer.ending
         ]
         return of_type + of_name or from_inputs(topic, message, ANY)
 

@@ -75,11 +75,11 @@ class AttributionsStore(PageStore, frozen=True):
 
 def panes(rows: tuple[Row, ...]) -> PanesStore:
     """Return the captions of the panes of displays."""
-    shown = [row for row in enabled(rows) if row.display and type(row.display).has_pane]
-    titled = titles(shown)
-    hidden = hidden_in(shown, rows)
-    about = {row.id: _caption(row, titled[row.id], hidden.get(row.id)) for row in shown}
-    return PanesStore([row.id for row in shown], about)
+    pane_rows = [row for row in enabled(rows) if row.display and type(row.display).has_pane]
+    titled = titles(pane_rows)
+    hidden = hidden_in(pane_rows, rows)
+    about = {row.id: _caption(row, titled[row.id], hidden.get(row.id)) for row in pane_rows}
+    return PanesStore([row.id for row in pane_rows], about)
 
 
 def _caption(row: Row, title: str, hidden: Sequence[str] | None) -> PaneCaption:

@@ -106,8 +106,8 @@ class ConsistencyCheck:
                     maps.append(cells)
         for scan in sorted(scans, key=lambda each: -len(each.xyz)):
             for cells in maps:
-                if found := self._aligned(scan, cells):
-                    return found
+                if aligned := self._aligned(scan, cells):
+                    return aligned
         return None
 
     def _aligned(self, scan: ScanPoints, cells: OccupiedCells) -> Aligned | None:
@@ -143,13 +143,13 @@ class ConsistencyCheck:
                     maps.append(cells)
         trusted: list[ScanPoints] = []
         fits = [self._on_map(scan, maps) for _, scan in scans]
-        is_placed = any(found and found[0].is_good for found in fits)
-        for (runner, scan), found in zip(scans, fits, strict=True):
-            if found is not None:
-                runner.external_statuses[ON_MAP] = _status(*found, scan, is_placed)
-                best, cells = found
+        is_placed = any(result and result[0].is_good for result in fits)
+        for (runner, scan), result in zip(scans, fits, strict=True):
+            if result is not None:
+                runner.external_statuses[ON_MAP] = _status(*result, scan, is_placed)
+                best, cells = result
                 self.fits[runner.id] = MapFit(best, scan.frame, cells.topic, cells.frame, is_placed)
-            if found is None or found[0].is_good:
+            if result is None or result[0].is_good:
                 trusted.append(scan)
         for runner, path in paths:
             if (count := sum(self._in_the_way(scan, path) for scan in trusted)) >= FEWEST:
@@ -164,12 +164,12 @@ class ConsistencyCheck:
         self, scan: ScanPoints, maps: list[OccupiedCells]
     ) -> tuple[Fit, OccupiedCells] | None:
         """Return the fit of a scan to the best map; None if it is unknown."""
-        found: list[tuple[Fit, OccupiedCells]] = []
+        results: list[tuple[Fit, OccupiedCells]] = []
         for cells in maps:
             if placed := self._placed(scan, cells.frame, cells.origin):
                 result = fit(*placed, cells.resolution, cells.window)
-                found += [(result, cells)] if result else []
-        return max(found, key=lambda each: each[0].share, default=None)
+                results += [(result, cells)] if result else []
+        return max(results, key=lambda each: each[0].share, default=None)
 
     def _in_the_way(self, scan: ScanPoints, path: RobotPath) -> int:
         placed = self._placed(scan, path.frame, Pose())

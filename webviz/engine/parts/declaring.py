@@ -118,11 +118,11 @@ def store(
 @functools.cache
 def commands_of(part: type[object]) -> Mapping[str, DeclaredCommand]:
     """Return the commands of a part by name."""
-    found = {}
+    commands = {}
     for name, mark in _marked(part, "command").items():
         declared = _declared(part, name, mark)
-        found[declared.type.__name__] = declared
-    return found
+        commands[declared.type.__name__] = declared
+    return commands
 
 
 @functools.cache
@@ -147,7 +147,7 @@ def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
         if each.name not in (SENDER, ASKED):
             fields.append((each.name, types[each.name], *default))
     label = {"label": property(mark.label)} if mark.label else {}
-    made: Any = msgspec.defstruct(
+    struct: Any = msgspec.defstruct(
         mark.name or "".join(word.capitalize() for word in name.split("_")),
         fields,
         bases=(mark.base,),
@@ -156,4 +156,4 @@ def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
         frozen=True,
     )
     has_sender = any(each.name == SENDER for each in parameters)
-    return DeclaredCommand(made, mark.role, name, has_sender, mark.is_noted)
+    return DeclaredCommand(struct, mark.role, name, has_sender, mark.is_noted)

@@ -96,12 +96,12 @@ class DisplayList:
 
     def remove(self, id: str) -> None:
         """Remove a display, or a group with its contents."""
-        if not (gone := self.find(id)):
+        if not (removed := self.find(id)):
             return
         for entry in self._entries:
-            if entry.is_within(gone) and isinstance(entry.content, Runner):
+            if entry.is_within(removed) and isinstance(entry.content, Runner):
                 entry.content.close()
-        self._entries = [entry for entry in self._entries if not entry.is_within(gone)]
+        self._entries = [entry for entry in self._entries if not entry.is_within(removed)]
         self._number()
 
     def clear(self) -> None:

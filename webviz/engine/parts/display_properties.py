@@ -153,21 +153,21 @@ def topic_offers(
         rows: of all displays.
         offers, traffic: by topic.
     """
-    wanted = types.split(",")
+    accepted = types.split(",")
 
     def fits(publisher: Publisher) -> bool:
-        return publisher.type in wanted or types == ANY
+        return publisher.type in accepted or types == ANY
 
-    shown: dict[str, list[str]] = {}
+    displays: dict[str, list[str]] = {}
     for row in rows:
         for _, _, topic in inputs(row.display) if row.display else ():
-            shown.setdefault(topic.name, []).append(str(sendable(row.name)))
+            displays.setdefault(topic.name, []).append(str(sendable(row.name)))
     return TopicOffersStore(
         {
             str(sendable(name)): TopicOffer(
                 publishers=sum(map(fits, offer.publishers)),
                 rate=_rate(name, traffic),
-                shown=shown.get(name, []),
+                shown=displays.get(name, []),
                 problem=str(sendable(offer.problem)),
                 is_latched=offer.is_latched,
             )
@@ -197,9 +197,9 @@ def _worst(row: Row) -> WorstStatus | None:
 
 def _rate(topic: str, traffic: Mapping[str, Traffic]) -> float | None:
     """In Hz, as precise as it stays the same for a while; None without a subscription."""
-    if (known := traffic.get(topic)) is None:
+    if (rates := traffic.get(topic)) is None:
         return None
-    return round(known.rate_hz) if known.rate_hz >= 10 else round(known.rate_hz, 1)
+    return round(rates.rate_hz) if rates.rate_hz >= 10 else round(rates.rate_hz, 1)
 
 
 def _qos(topic: Topic, offer: Offer | None) -> str:

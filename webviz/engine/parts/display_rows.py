@@ -90,8 +90,8 @@ def rows(
                 if other is not entry and other.is_within(entry)
             ]
             rows[index] = replace(rows[index], statuses=_summary(inner))
-    known = {row.id: row for row in before}
-    now = tuple(_same(row, known.get(row.id)) for row in rows)
+    former = {row.id: row for row in before}
+    now = tuple(_same(row, former.get(row.id)) for row in rows)
     return before if now == before else now
 
 
@@ -107,11 +107,11 @@ def _row(entry: Entry, statuses_of: Callable[[Runner], Mapping[str, Status]]) ->
         return Row(entry.id, "", None, own.name, status, entry.depth, own.enabled)
     kind = type_name(type(own))
     statuses: Mapping[str, Status] = {}
-    said = DrawReport()
+    report = DrawReport()
     if isinstance(content, Runner) and entry.is_enabled:
-        statuses, said = statuses_of(content), content.report()
+        statuses, report = statuses_of(content), content.report()
     common = (entry.id, kind, own, own.name, statuses, entry.depth, own.enabled)
-    return Row(*common, said.color_scale, entry.revision, said.offered, said.attribution)
+    return Row(*common, report.color_scale, entry.revision, report.offered, report.attribution)
 
 
 def _summary(rows: Iterable[Row]) -> dict[str, Status]:
@@ -140,12 +140,12 @@ class TreeRows:
         before = self._known if causes == self._causes else {}
         self._causes = causes
         self._known = now = {
-            row.id: known
-            if (known := before.get(row.id)) and known[0] is row
+            row.id: entry
+            if (entry := before.get(row.id)) and entry[0] is row
             else (row, _shown(row, causes))
             for row in rows
         }
-        return {id_: shown for id_, (_, shown) in now.items()}
+        return {id_: row_view for id_, (_, row_view) in now.items()}
 
 
 def _shown(row: Row, causes: Sequence[Status]) -> DisplayRow:

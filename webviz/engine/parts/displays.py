@@ -82,10 +82,12 @@ def types_store() -> TypesStore:
 @functools.cache
 def _about(name: str, cls: type[Display]) -> DisplayType:
     text = (cls.__doc__ or "").strip()
-    shown = [type_ for spec in inputs_of(cls).values() if not spec.follows for type_ in spec.types]
+    type_names = [
+        type_ for spec in inputs_of(cls).values() if not spec.follows for type_ in spec.types
+    ]
     return DisplayType(
         help=" ".join(text.split("\n\n")[0].split()),
-        topics=["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(shown)],
+        topics=["any type" if type_ == ANY else type_ for type_ in dict.fromkeys(type_names)],
         icon=cls.icon,
         picture=_picture(name, cls.__module__.partition(".")[0]),
     )
@@ -190,8 +192,8 @@ class DisplaysPart(Part):
     @store(of=lambda part: (part.rows, part.core.statuses))
     def displays(self, argument: str) -> DisplaysStore:
         """Return the tree of displays."""
-        shown = self.tree(self.rows, causes(self.core.statuses))
-        return DisplaysStore([row.id for row in self.rows], shown)
+        tree = self.tree(self.rows, causes(self.core.statuses))
+        return DisplaysStore([row.id for row in self.rows], tree)
 
     @store(name="properties", of=lambda part: (part.rows, part.core.offers, part.traffic))
     def properties_of(self, display: str) -> PropertiesStore | None:
@@ -323,5 +325,5 @@ def _new(type_name: str, values: dict[str, Any]) -> Display:
     try:
         return make(cls, values)
     except msgspec.ValidationError as error:
-        found = mistakes(cls, values, error)
-        raise ConfigError(f"Not added: {sentences(found)}") from error
+        problems = mistakes(cls, values, error)
+        raise ConfigError(f"Not added: {sentences(problems)}") from error

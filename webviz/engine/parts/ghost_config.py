@@ -46,8 +46,8 @@ def with_ghost(config: Config, bag: BagHistory) -> Config:
     units = {DISTANCE: "m", DIFFERENCE: _unit(bag)}
     curves = {f"{topic}.data": unit for topic, unit in units.items() if bag.has(topic)}
     if curves and (plot := plugin_types(Panel).get("Plot")):
-        known = {name: unit for name, unit in curves.items() if unit}
-        values = {"name": NAME, "curves": list(curves), "units": known}
+        with_units = {name: unit for name, unit in curves.items() if unit}
+        values = {"name": NAME, "curves": list(curves), "units": with_units}
         config.panels = [*config.panels, make(plot, values)]
     return config
 

@@ -60,19 +60,19 @@ def past_messages(player: Player, topic: str, type_: str, lookback: Lookback) ->
     channel = memory.recorded_channels.find(topic) if memory else None
     if memory is None or channel is None or channel.type != type_:
         return ()
-    known = memory.recent.last(lookback.seconds or math.inf).whole
-    return deque((raw for name, raw in known if name == topic), maxlen=count)
+    raws = memory.recent.last(lookback.seconds or math.inf).whole
+    return deque((raw for name, raw in raws if name == topic), maxlen=count)
 
 
 def _recorded(player: Player, topic: str, type_: str, lookback: Lookback) -> Iterator[Raw]:
     history, at_ns = player.history, player.reached_ns
-    wanted = {topic: Subscription(type_, Topic(topic), lookbacks=(lookback,))}
-    channels = [each for each in history.channels(wanted) if each.topic == topic]
+    subscriptions = {topic: Subscription(type_, Topic(topic), lookbacks=(lookback,))}
+    channels = [each for each in history.channels(subscriptions) if each.topic == topic]
     if not channels or at_ns < history.start_ns:
         return
     clock = history.time()
     clock.seek(at_ns)
-    for recorded in NeededMessages(history, channels, wanted, at_ns).messages():
+    for recorded in NeededMessages(history, channels, subscriptions, at_ns).messages():
         received_ns = clock.at(recorded.stamp_ns)
         yield Raw(recorded.cdr, received_ns, recorded_ns=recorded.stamp_ns, types=recorded.types)
 
@@ -96,10 +96,10 @@ class PanelsPart(Part):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the subscriptions of the open panels."""
-        known, self._subscribers = self._subscribers, {}
-        wanted = []
+        former, self._subscribers = self._subscribers, {}
+        subscriptions_of_tabs = []
         for tab in self._attended():
-            subscriber = self._subscribers[tab.tab] = known.get(tab.tab) or Subscriber()
+            subscriber = self._subscribers[tab.tab] = former.get(tab.tab) or Subscriber()
             topics = self._topics(tab.panel, "subscriptions").items()
             subscriptions = {
                 topic: Subscription(
@@ -107,8 +107,8 @@ class PanelsPart(Part):
                 )
                 for topic, type_ in topics
             }
-            wanted.append(subscriber.subscribe(subscriptions))
-        return merged(wanted)
+            subscriptions_of_tabs.append(subscriber.subscribe(subscriptions))
+        return merged(subscriptions_of_tabs)
 
     def take(self, batches: Batches) -> None:
         """Pass messages on to the open panels that read them."""
@@ -127,9 +127,9 @@ class PanelsPart(Part):
         """Let a panel begin with what is remembered."""
         if not (begun := panel.begun()):
             return
-        wanted = panel.subscriptions()
+        subscriptions = panel.subscriptions()
         for topic in begun:
-            if type_ := wanted.get(topic):
+            if type_ := subscriptions.get(topic):
                 lookback = self._lookback(panel, topic)
                 for raw in past_messages(self.core.player, topic, type_, lookback):
                     _pass(panel, topic, type_, raw, is_past=True)
@@ -342,8 +342,8 @@ class PanelsPart(Part):
             raise ConfigError(f"Not called: {error}") from error
         gate = self.core.gate
         call = gate.query if type in READING else gate.call
-        sent = call(name, type, payload, timeout_s)
-        sent.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
+        response = call(name, type, payload, timeout_s)
+        response.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
 
 
 @functools.lru_cache(MAX_HOOKS)

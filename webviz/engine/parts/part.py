@@ -129,21 +129,21 @@ class Core:
         Raises:
             MissingPart: this viewer has none.
         """
-        found = self.find(kind)
-        if found is None:
+        part = self.find(kind)
+        if part is None:
             raise MissingPart(
                 f"This viewer has no {kind.name or kind.__name__}. Install webviz anew."
             )
-        return found
+        return part
 
     def find(self, kind: type[P]) -> P | None:
         """Return the part of a class, None if this viewer has none."""
-        found: P | None = self._by_kind.get(kind)
-        if found is None:
-            found = next((part for part in self.parts if isinstance(part, kind)), None)
-            if found is not None:
-                self._by_kind[kind] = found
-        return found
+        instance: P | None = self._by_kind.get(kind)
+        if instance is None:
+            instance = next((part for part in self.parts if isinstance(part, kind)), None)
+            if instance is not None:
+                self._by_kind[kind] = instance
+        return instance
 
     def fact(self, name: str, otherwise: Any) -> Any:
         """Return what a part lets others read by a name, see `Part.state`.
@@ -162,10 +162,10 @@ class Core:
 
     def state(self) -> State:
         """Return all of this for programs; what a part that fails has is as without it."""
-        found: dict[str, Any] = {}
+        fields: dict[str, Any] = {}
         for part in self.parts:
-            found |= self._state_of(part)
-        return snapshot(found)
+            fields |= self._state_of(part)
+        return snapshot(fields)
 
     def _state_of(self, part: Part) -> Mapping[str, Any]:
         own: Mapping[str, Any] = {}

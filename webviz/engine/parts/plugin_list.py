@@ -76,9 +76,9 @@ class PluginList(Generic[P]):
             if cls is None:
                 del self._items[id]
             elif cls is not type(item):
-                self._items[id], lost = made_new(item, cls)
-                if lost:
-                    log.warning("%s: values were dropped: %s.", item.name, "; ".join(lost))
+                self._items[id], losses = made_new(item, cls)
+                if losses:
+                    log.warning("%s: values were dropped: %s.", item.name, "; ".join(losses))
         for name in self._types.keys() - before.keys():
             if getattr(self._types[name], "opens", "at start") == "at start":
                 self.add(make(self._types[name], {}))

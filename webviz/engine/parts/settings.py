@@ -77,7 +77,7 @@ class SettingsPart(Part):
     def shown(self, argument: str) -> SettingsStore:
         """Return the settings, and the statuses of the viewer as a whole."""
         settings = self.settings
-        told = lines(self.core.statuses)
+        status_lines = lines(self.core.statuses)
         return SettingsStore(
             declared=form(Settings, NO_CONTROL),
             values=values_of(settings, NO_CONTROL),
@@ -85,8 +85,8 @@ class SettingsPart(Part):
             background=settings.background,
             frame_rate=settings.frame_rate,
             views=list(settings.views),
-            statuses=told.statuses,
-            more=told.more,
+            statuses=status_lines.statuses,
+            more=status_lines.more,
         )
 
     @command(Role.OPERATOR)

@@ -186,8 +186,8 @@ class TopicsPart(Part):
         self._counts.append((now, counts))
         while len(self._counts) > 2 and now - self._counts[1][0] >= SPAN_S:
             self._counts.popleft()
-        for gone in self._delays.keys() - counts.keys():
-            del self._delays[gone]
+        for obsolete in self._delays.keys() - counts.keys():
+            del self._delays[obsolete]
         then, before = self._counts[0]
         if now == then:
             return {}

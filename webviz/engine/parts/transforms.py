@@ -67,16 +67,16 @@ class TransformsPart(Part):
         """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""
         core = self.core
         fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
-        found = self._listener.statuses(core.offers, core.frames.now_ns)
-        return {"Fixed Frame": fixed, **found}
+        statuses = self._listener.statuses(core.offers, core.frames.now_ns)
+        return {"Fixed Frame": fixed, **statuses}
 
 
 def fixed_frame_status(fixed_frame: str, buffer: TransformBuffer) -> Status:
     """Return whether the fixed frame is known."""
-    known = buffer.frames()
-    if fixed_frame in known:
+    frames = buffer.frames()
+    if fixed_frame in frames:
         return Status(Level.OK, "OK")
-    if known:
+    if frames:
         reason = unknown_fixed_frame(buffer, fixed_frame)
         other = reason.near or buffer.largest_tree()[0]
         return Status(Level.ERROR, reason.sentence, OtherFixedFrame(other), reason)

@@ -126,23 +126,25 @@ class ViewsPart(Part):
     def statuses(self) -> Mapping[str, Status]:
         """Return views whose target frame has no pose."""
         frames = self.core.frames
-        lost = [
+        problems = [
             f"The view cannot follow {frame}. {frames.why_not(frame)}"
             for frame in sorted(self.followed())
             if frames.latest(frame) is None
         ]
-        return {"Target Frame": Status(Level.WARN, joined(*lost))} if lost else {}
+        return {"Target Frame": Status(Level.WARN, joined(*problems))} if problems else {}
 
     # Stores
 
     @store(is_private=True)
     def view(self, browser: str) -> ViewStore | None:
         """Return a browser's view; None before it has one."""
-        shown = self._view_of(browser)
-        if shown is None:
+        own_view = self._view_of(browser)
+        if own_view is None:
             return None
-        values = {key: _rounded(value) for key, value in values_of(shown).items()}
-        return ViewStore(form(type(shown)), list(VIEW_TYPES), {"type": type_of(shown)} | values)
+        values = {key: _rounded(value) for key, value in values_of(own_view).items()}
+        return ViewStore(
+            form(type(own_view)), list(VIEW_TYPES), {"type": type_of(own_view)} | values
+        )
 
     @store(is_private=True)
     def view_type(self, browser: str) -> ViewTypeStore:
@@ -209,8 +211,10 @@ class ViewsPart(Part):
             display: id of the display or group; "" for all.
             browser: on which it acts; by default the one that sends this, or all for a program.
         """
-        shown = self._displays.list
-        ids = shown.within(display) if display else [each.id for each in shown.active()]
+        display_list = self._displays.list
+        ids = (
+            display_list.within(display) if display else [each.id for each in display_list.active()]
+        )
         boxes = (self._scene.bounds(f"{id}/") for id in ids)
         box = union(box for box in boxes if box is not None)
         if box is None:

@@ -32,8 +32,8 @@ def enabled(rows: Iterable[Row]) -> Iterator[Row]:
 
 def names(rows: Sequence[Row], own: Row | None = None) -> Mapping[str, str]:
     """Return the names of switches, and the type of each display; its own display has none."""
-    found = {path: row.type for row, path in paths(rows) if row is not own}
-    return dict(list(found.items())[:MAX_NAMES])
+    types = {path: row.type for row, path in paths(rows) if row is not own}
+    return dict(list(types.items())[:MAX_NAMES])
 
 
 def switches_of(row: Row) -> list[Property]:
@@ -45,17 +45,17 @@ def switches_of(row: Row) -> list[Property]:
 
 def hidden_in(panes: Iterable[Row], rows: Sequence[Row]) -> dict[str, list[str]]:
     """Ids of the displays that a pane leaves out, by its own; only those that draw the scene."""
-    found: dict[str, list[str]] = {}
+    hidden_by_row: dict[str, list[str]] = {}
     for row in panes:
         for each in switches_of(row):
             assert row.display is not None
-            found[row.id] = hidden(rows, each.of(row.display))
-    return found
+            hidden_by_row[row.id] = hidden(rows, each.of(row.display))
+    return hidden_by_row
 
 
 def hidden(rows: Sequence[Row], switches: Mapping[str, bool]) -> list[str]:
     """Return the ids of the displays that are switched off, by themselves or with a group."""
-    found: list[str] = []
+    ids: list[str] = []
     off: int | None = None
     for row, path in paths(rows):
         if off is not None and row.depth <= off:
@@ -63,5 +63,5 @@ def hidden(rows: Sequence[Row], switches: Mapping[str, bool]) -> list[str]:
         if off is None and not switches.get(path, True):
             off = row.depth
         if off is not None:
-            found.append(row.id)
-    return found
+            ids.append(row.id)
+    return ids

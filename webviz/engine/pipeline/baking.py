@@ -110,9 +110,9 @@ def baked(node: Node, pose: Pose, origin: Position) -> Node:
 
 def _with(node: N, **arrays: object) -> N:
     """Return a node with other values of some fields, in a sixth of the time of `replace`."""
-    found = object.__new__(type(node))
-    found.__dict__.update(node.__dict__, **arrays)
-    return found
+    copy = object.__new__(type(node))
+    copy.__dict__.update(node.__dict__, **arrays)
+    return copy
 
 
 def _moved(xyz: F32, rotation: ArrayLike, shift: ArrayLike) -> F32:

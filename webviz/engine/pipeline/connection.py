@@ -72,10 +72,10 @@ class DisplayConnection:
         """Return the events on a topic since the last call; see `GraphConnection.listen`."""
         name = self._services.resolve(topic)
         self._named.add(name)
-        wanted = Subscription(type, Topic(name, "reliable", "volatile", depth))
+        subscription = Subscription(type, Topic(name, "reliable", "volatile", depth))
         line = self._lines.get(name)
-        if line is None or line.subscription != wanted:
-            line = self._lines[name] = _Line(wanted)
+        if line is None or line.subscription != subscription:
+            line = self._lines[name] = _Line(subscription)
         offer = self._offers.get(name)
         publishers = [each for each in (offer.publishers if offer else ()) if each.type == type]
         received = ReceivedMessages(

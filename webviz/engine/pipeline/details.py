@@ -40,14 +40,14 @@ class _Maker:
         self._rest = MAX_VALUES
 
     def fields(self, values: Mapping[str, object]) -> dict[str, Any]:
-        made: dict[str, Tree] = {}
+        branches: dict[str, Tree] = {}
         for name, value in values.items():
             if self._rest <= 0:
-                made["…"] = "more than is shown here"
+                branches["…"] = "more than is shown here"
                 break
             self._rest -= 1
-            made[str(name)[:MAX_TEXT]] = self.tree(value)
-        return {"fields": made}
+            branches[str(name)[:MAX_TEXT]] = self.tree(value)
+        return {"fields": branches}
 
     def tree(self, value: object) -> Tree:
         match value:

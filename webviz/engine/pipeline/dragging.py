@@ -105,14 +105,14 @@ class Dragging:
 
     def _place(self, frames: Frames) -> None:
         if self._framed[0] is not self.handles:
-            found = {handle.frame for handle in self.handles.values() if handle.frame}
-            self._framed = self.handles, found
-        wanted = self._framed[1]
-        for frame in wanted:
+            handle_frames = {handle.frame for handle in self.handles.values() if handle.frame}
+            self._framed = self.handles, handle_frames
+        frame_names = self._framed[1]
+        for frame in frame_names:
             if pose := frames.latest(frame):
                 self._scene.set_pose(reference_group(self._id, frame), pose)
-        self._remove(self._placed - wanted)
-        self._placed = wanted
+        self._remove(self._placed - frame_names)
+        self._placed = frame_names
 
     def _remove(self, frames: Iterable[str]) -> None:
         for frame in frames:

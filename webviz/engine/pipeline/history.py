@@ -85,7 +85,7 @@ class SampleHistory:
     def samples(self) -> Sequence[Sample]:
         """Return the samples that can be drawn, oldest first."""
         if self._samples is None:
-            self._samples = [held.sample for held in self.held if held.has_pose]
+            self._samples = [buffered.sample for buffered in self.held if buffered.has_pose]
         return self._samples
 
     def add(self, sample: Sample, size: int, keep: Keep) -> None:
@@ -133,7 +133,7 @@ class SampleHistory:
         self._drop(len(self.held) - self._most(keep))
         if keep.seconds:
             oldest = now_ns - round(min(keep.seconds * 1e9, 2**63))  # which may be infinite
-            is_young = (held.sample.received_ns >= oldest for held in self.held)
+            is_young = (buffered.sample.received_ns >= oldest for buffered in self.held)
             self._drop(next((i for i, young in enumerate(is_young) if young), len(self.held)))
 
     def _drop(self, count: int) -> None:
@@ -141,9 +141,9 @@ class SampleHistory:
         if count > 0:
             is_whole = self._samples is not None and len(self._samples) == len(self.held)
             self._samples = self._samples[count:] if self._samples and is_whole else None
-            for held in self.held[:count]:
-                heapq.heappush(self._free, held.slot)
-                self.bytes -= held.size
+            for buffered in self.held[:count]:
+                heapq.heappush(self._free, buffered.slot)
+                self.bytes -= buffered.size
             del self.held[:count]
             self.version += 1
 
@@ -164,18 +164,18 @@ class SampleHistory:
                 pose = frames.now(sample.frame) or Pose()
             else:
                 pose = frames.at(sample.frame, sample.stamp_ns) if sample.frame else sample.pose
-            if pose is None and shift is not None and held.has_pose:
+            if pose is None and shift is not None and buffered.has_pose:
                 pose = compose(shift, sample.pose)
             synced = {name: moved(other) for name, other in sample.synced.items()}
-            known = {name: other for name, other in synced.items() if other is not None}
-            if pose is None or len(known) < len(synced):
+            complete = {name: other for name, other in synced.items() if other is not None}
+            if pose is None or len(complete) < len(synced):
                 return None
-            return replace(sample, pose=pose, synced=known)
+            return replace(sample, pose=pose, synced=complete)
 
-        for held in self.held:
-            sample = moved(held.sample)
-            held.has_pose = sample is not None
-            held.sample = sample or held.sample
+        for buffered in self.held:
+            sample = moved(buffered.sample)
+            buffered.has_pose = sample is not None
+            buffered.sample = sample or buffered.sample
         self._samples = None
         self.version += 1
 

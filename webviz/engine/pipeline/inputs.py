@@ -52,7 +52,7 @@ class Inputs:
 
     def subscriptions(self) -> dict[str, Subscription]:
         """Return the subscriptions by topic."""
-        wanted: dict[str, Subscription] = {}
+        subscriptions: dict[str, Subscription] = {}
         for name, input_subscription in self.active().items():
             if input_subscription.name and input_subscription.type:
                 is_placed = self.waits(name)
@@ -60,8 +60,8 @@ class Inputs:
                 own = input_subscription.subscription(lookback, is_placed)
                 if self._placing and self._guard("places", self._placing.places, name):
                     own = replace(own, is_placed=True)
-                wanted = dict(merged([wanted, {input_subscription.name: own}]))
-        return self._subscriber.subscribe(wanted)
+                subscriptions = dict(merged([subscriptions, {input_subscription.name: own}]))
+        return self._subscriber.subscribe(subscriptions)
 
     def ask(self) -> None:
         """Request latched messages again."""
@@ -108,16 +108,16 @@ class Inputs:
         synchronizer = self._synchronizer = self._renewed(active)
         if synchronizer is None:
             return [{name: arrival} for name, arrival in arrived]
-        found: list[Set] = []
+        sets: list[Set] = []
         for name, arrival in arrived:
             if name not in synchronizer.inputs:
-                found.append({name: arrival})
+                sets.append({name: arrival})
             elif matched := synchronizer.add(name, arrival.stamp_ns, arrival):
-                found.append(matched)
+                sets.append(matched)
                 self._waiting_since = None
         if self._waiting_since is None and synchronizer.is_waiting:
             self._waiting_since = clock
-        return found
+        return sets
 
     def statuses(
         self,
@@ -132,11 +132,11 @@ class Inputs:
         for name, input_subscription in active.items():
             if self._is_replaced(input_subscription, offers.get(input_subscription.name)):
                 continue
-            said = input_subscription.statuses(
+            own_statuses = input_subscription.statuses(
                 offers, dropped(input_subscription.name), frames, clock
             )
             title = "" if name == "topic" else f" ({name})"
-            result |= {f"{key}{title}": status for key, status in said.items()}
+            result |= {f"{key}{title}": status for key, status in own_statuses.items()}
         if status := self._sync_status(clock):
             result["Sync"] = status
         return result
@@ -211,15 +211,15 @@ class Inputs:
         stamps = f"stamps within {sync.slop:g} s" if sync.slop else "equal stamps"
         sets = f"{synchronizer.sets} set{'s' if synchronizer.sets > 1 else ''}"
         text = f"{sets} of {len(synchronizer.inputs)} messages with {stamps}"
-        lost = synchronizer.dropped
-        dropped = f"; {counted(lost, 'unmatched message')} dropped" if lost else ""
+        unmatched = synchronizer.dropped
+        dropped = f"; {counted(unmatched, 'unmatched message')} dropped" if unmatched else ""
         return Status(Level.OK, f"{text}{dropped}.")
 
     def _waiting_for(self, gap: Gap, sync: Sync) -> str:
-        wanted, given = self._title(gap.missing), self._title(gap.present)
-        article = "an" if wanted[0] in "AEIOU" else "a"
+        missing, present = self._title(gap.missing), self._title(gap.present)
+        article = "an" if missing[0] in "AEIOU" else "a"
         when = f"within {sync.slop:g} s of" if sync.slop else "with the stamp of"
-        text = f"Waiting for {article} {wanted} {when} the {given}, {gap.stamp_ns / 1e9:.3f} s."
+        text = f"Waiting for {article} {missing} {when} the {present}, {gap.stamp_ns / 1e9:.3f} s."
         if gap.off_ns is None:
             return f"{text} None has arrived. Start its publisher or choose another topic."
         size = abs(gap.off_ns)

@@ -179,11 +179,11 @@ class TransformListener:
         """Return the frames of a batch by their names in the viewer, cached for equal messages."""
         if robot is None:
             return batch.names
-        known = self._names.get(topic)
-        if known is None or known[0] is not batch.names:
+        entry = self._names.get(topic)
+        if entry is None or entry[0] is not batch.names:
             names = [(robot.frame(parent), robot.frame(child)) for parent, child in batch.names]
-            known = self._names[topic] = batch.names, names
-        return known[1]
+            entry = self._names[topic] = batch.names, names
+        return entry[1]
 
     def _notice_time(self, child: str, stamp_ns: int) -> None:
         """Note whether a message is from the past, by its first transform."""
@@ -247,11 +247,11 @@ class TransformListener:
                 "new frames."
             )
         is_recorded = any(offer.is_recorded for offer in offers.values())
-        found = {
+        texts = {
             "Transforms": joined(*problems, *_few(refused)),
             "Clocks": str(clock_problem(buffer, now_ns, is_recorded) or ""),
         }
-        return {key: Status(Level.WARN, text) for key, text in found.items() if text}
+        return {key: Status(Level.WARN, text) for key, text in texts.items() if text}
 
 
 def _topics(robots: Sequence[NamespacedRobot]) -> dict[str, tuple[bool, NamespacedRobot | None]]:

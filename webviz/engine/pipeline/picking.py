@@ -88,13 +88,15 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     picks = [pick for pick in picks if all(abs(c) <= REACH_M for c in pick[2])]
     if group is None or node is None or not picks:
         return {}
-    found = _finder(shot, group, key)
+    finder = _finder(shot, group, key)
     if isinstance(node, Mesh) and node.ids is not None and len(node.faces):
         if len(node.ids) != len(node.faces):
             raise ValueError(f"a mesh has {len(node.faces)} faces, but {len(node.ids)} ids")
-        return {pick[0]: found(node.ids[_face_at(node, pick[2])].item(), pick[2]) for pick in picks}
+        return {
+            pick[0]: finder(node.ids[_face_at(node, pick[2])].item(), pick[2]) for pick in picks
+        }
     if not isinstance(node, Items):
-        return {pick[0]: found(None, pick[2]) for pick in picks}
+        return {pick[0]: finder(None, pick[2]) for pick in picks}
     rows = drawn_rows(node)
     count = count_of(node) if rows is None else len(rows)
     picks = [pick for pick in picks if pick[1] is not None and 0 <= pick[1] < count]
@@ -110,7 +112,7 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
         ]
     points = _positions(items).astype(np.float64).tolist()
     ids = _ids(node, picked_rows)
-    return {picks[i][0]: found(ids[i], points[i]) for i in np.flatnonzero(same)}
+    return {picks[i][0]: finder(ids[i], points[i]) for i in np.flatnonzero(same)}
 
 
 def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Found]:
@@ -120,15 +122,15 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
     is clicked, such as the cells of an image.
     """
     group = shot.groups[group_key]
-    node, found = group.nodes[key], _finder(shot, group, key)
+    node, finder = group.nodes[key], _finder(shot, group, key)
     if isinstance(node, Mesh) and node.ids is None:
-        return [found(None, (0.0, 0.0, 0.0))]
+        return [finder(None, (0.0, 0.0, 0.0))]
     if not isinstance(node, Items) or count_of(node) > limit:
         return []
     rows = drawn_rows(node)
     rows = np.arange(count_of(node)) if rows is None else rows
     points = _positions(_only(node, rows)).astype(np.float64).tolist()
-    return [found(*each) for each in zip(_ids(node, rows), points, strict=True)]
+    return [finder(*each) for each in zip(_ids(node, rows), points, strict=True)]
 
 
 def _finder(shot: Shot, group: Group, key: str) -> Callable[[Any, Position], Found]:
@@ -154,10 +156,10 @@ def drawn_rows(node: Items) -> NDArray[np.intp] | None:
     if isinstance(node, Points):
         return None
     arrays = [getattr(node, name, None) for name in ("segments", "positions", "scales", "wxyzs")]
-    known = [array.reshape(len(array), -1) for array in arrays if array is not None]
-    if all(math.isfinite(array.sum(dtype=np.float64)) for array in known):
+    tables = [array.reshape(len(array), -1) for array in arrays if array is not None]
+    if all(math.isfinite(array.sum(dtype=np.float64)) for array in tables):
         return None
-    return np.flatnonzero(np.all([np.isfinite(array).all(axis=1) for array in known], axis=0))
+    return np.flatnonzero(np.all([np.isfinite(array).all(axis=1) for array in tables], axis=0))
 
 
 def _only(node: N, rows: NDArray[np.intp]) -> N:

@@ -136,10 +136,10 @@ class Watcher:
 def _stamp(path: Path) -> tuple[int, ...] | None:
     """Differs after a save, in place or by replacing the file."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError:
         return None
-    return found.st_mtime_ns, found.st_size, found.st_ino
+    return status.st_mtime_ns, status.st_size, status.st_ino
 
 
 def _module_name(path: Path) -> str:
@@ -230,23 +230,23 @@ def _renew(runner: Runner, types: Mapping[str, type[Display]], path: Path) -> No
         runner.external_statuses[STATUS] = Status(Level.ERROR, text)
         log.warning("%s (%s)", text, old.name)
         return
-    display, lost = made_new(old, types[name])
+    display, losses = made_new(old, types[name])
     runner.replace(display)
-    if lost:
-        text = f"{path} has changed, values were dropped: {'; '.join(lost)}."
+    if losses:
+        text = f"{path} has changed, values were dropped: {'; '.join(losses)}."
         runner.external_statuses[STATUS] = Status(Level.WARN, text)
         log.warning("%s (%s)", text, old.name)
 
 
 def made_new(old: Declared, cls: type[P]) -> tuple[P, list[str]]:
     """Return an instance of a class with an older one's values, and those that do not fit."""
-    made = make(cls, {})
-    lost = [
+    successor = make(cls, {})
+    losses = [
         problem
         for key, value in to_values(old).items()
-        for problem in _carry_over(made, key, value)
+        for problem in _carry_over(successor, key, value)
     ]
-    return made, lost
+    return successor, losses
 
 
 def _carry_over(made: Declared, path: str, value: Any) -> list[str]:

@@ -100,9 +100,9 @@ class Renderer:
         depends = self._depends_on_news(display, guard, frames)
         self.is_stale |= depends or self._tasks.has_news()
         self._version += self.is_stale
-        held = [(history, history.version) for history in histories.values()]
+        versions = [(history, history.version) for history in histories.values()]
         changed = self._finish_job(guard, histories, frames)
-        changed |= self.is_stale or self._seen != held
+        changed |= self.is_stale or self._seen != versions
         if changed and overrides(display, "draw"):
             for name, history in histories.items():
                 self._draw_samples(name, display, guard, history, frames)
@@ -114,7 +114,7 @@ class Renderer:
             self._call("tick", guard, display.tick, self._context(frames))
         if changed:
             self._tasks.cancel_unrequested()
-        self._seen = held
+        self._seen = versions
         self.is_stale = False
         self._diff.move(frames)
         if self._is_unfinished:
@@ -133,7 +133,7 @@ class Renderer:
         """Discard the state of the display; what is drawn stays until something is drawn anew."""
         self._drop_job()
         self._diff.forget_poses()
-        self._drawn = {name: dict.fromkeys(drawn) for name, drawn in self._drawn.items()}
+        self._drawn = {name: dict.fromkeys(looks) for name, looks in self._drawn.items()}
         self._state = _NO_STATE
         self.is_stale = True
 
@@ -149,7 +149,7 @@ class Renderer:
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
         self._reports.clear()
-        samples = [_scope(name, slot) for name, drawn in self._drawn.items() for slot in drawn]
+        samples = [_scope(name, slot) for name, looks in self._drawn.items() for slot in looks]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
                 self._diff.remove(scope)
@@ -163,8 +163,8 @@ class Renderer:
 
     def has(self, sample: Sample) -> bool:
         """Return whether a sample is drawn, by itself or with others."""
-        drawn = self._drawn.get(sample.input)
-        return drawn is None or any(look and sample is look[0] for look in drawn.values())
+        looks = self._drawn.get(sample.input)
+        return looks is None or any(look and sample is look[0] for look in looks.values())
 
     def is_busy(self) -> bool:
         """Return whether the result of slow work is not drawn yet."""
@@ -210,20 +210,20 @@ class Renderer:
         self, name: str, display: Display, guard: Guard, history: SampleHistory, frames: Frames
     ) -> None:
         """Draw the new samples of one input, the large ones one after another in a worker."""
-        drawn = self._drawn.setdefault(name, {})
-        samples = {held.slot: held for held in history.held if held.has_pose}
-        for slot in drawn.keys() - samples.keys():
+        looks = self._drawn.setdefault(name, {})
+        samples = {buffered.slot: buffered for buffered in history.held if buffered.has_pose}
+        for slot in looks.keys() - samples.keys():
             self._diff.remove(_scope(name, slot))
-            del drawn[slot]
-        for slot, held in samples.items():
-            look = held.sample, self._version
-            if drawn.get(slot) == look:
+            del looks[slot]
+        for slot, buffered in samples.items():
+            look = buffered.sample, self._version
+            if looks.get(slot) == look:
                 continue
-            if not is_slow(display, held.size):
-                drawn[slot] = look
-                context = self._context(frames, Placement(offset=held.sample.pose))
+            if not is_slow(display, buffered.size):
+                looks[slot] = look
+                context = self._context(frames, Placement(offset=buffered.sample.pose))
                 scope = _scope(name, slot)
-                sample = held.sample
+                sample = buffered.sample
                 self._call(
                     scope,
                     guard,
@@ -234,7 +234,7 @@ class Renderer:
                     source=_status_source(name),
                 )
             elif self._draw_job is None:
-                self._send(name, display, held, look, frames)
+                self._send(name, display, buffered, look, frames)
         if not samples:
             self._reports.pop(_status_source(name), None)
 
@@ -262,7 +262,9 @@ class Renderer:
             return False
         self._draw_job = None
         name, slot = job.name, job.held.slot
-        is_held = any(held.slot == slot and held.has_pose for held in histories[name].held)
+        is_held = any(
+            buffered.slot == slot and buffered.has_pose for buffered in histories[name].held
+        )
         if is_held and job.context.frames.fixed_frame == frames.fixed_frame:
             self._drawn[name][slot] = job.look
             samples = (job.held.sample,)

@@ -181,8 +181,10 @@ class Runner:
 
     def report(self) -> DrawReport:
         """Return what the display says of what it draws; no colours or credits if that is empty."""
-        said = self._renderer.report()
-        return DrawReport(said.statuses, offered=said.offered) if self.drawn.is_empty() else said
+        report = self._renderer.report()
+        return (
+            DrawReport(report.statuses, offered=report.offered) if self.drawn.is_empty() else report
+        )
 
     def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
@@ -293,8 +295,8 @@ class Runner:
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
         result = self._sample_buffer.statuses(offers, frames, dropped)
-        if lost := self.drawn.lost(frames):
-            reason = frames.explain(lost[0])
+        if unplaced := self.drawn.lost(frames):
+            reason = frames.explain(unplaced[0])
             remedy = OtherFixedFrame.of(reason)
             result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
         size = self._sample_buffer.busy_with or self._renderer.busy_with

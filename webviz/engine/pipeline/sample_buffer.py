@@ -77,13 +77,13 @@ class SampleBuffer:
         """Hold the messages that arrived, or what is folded of them."""
         display, keep = self._display, self._keep()
         every_one = overrides(display, "fold") or self._selective or keep != Keep()
-        for found in arrived:
-            name = next(iter(found))
+        for arrivals in arrived:
+            name = next(iter(arrivals))
             self._ready_s[name] = self._services.tracer.clock()
             if every_one:
-                self._admit(found, keep, frames)
+                self._admit(arrivals, keep, frames)
             else:
-                self._newest[name] = found
+                self._newest[name] = arrivals
         for folded in self._folding.results(display, self._guard):
             self._add(next(iter(self.histories.values())), folded, keep)
         self._trim(keep, frames)  # also without browsers
@@ -114,8 +114,8 @@ class SampleBuffer:
         """Hold what is to be drawn now; whether all of it must be drawn anew."""
         keep = self._keep()
         newest, self._newest = self._newest, {}
-        for found in newest.values():
-            self._admit(found, keep, frames)
+        for arrivals in newest.values():
+            self._admit(arrivals, keep, frames)
         before, self._fixed_frame = self._fixed_frame, frames.fixed_frame
         is_moved = before != frames.fixed_frame
         if is_moved and before:

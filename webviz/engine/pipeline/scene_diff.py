@@ -162,13 +162,13 @@ class SceneDiff:
         """Return the items browsers picked, by id; none that was on no recent screen."""
         scope, _, group = picks.group.removeprefix(f"{self._prefix}/").partition("/")
         shots = [self._shot(scope)] if scope in self._scopes else []
-        found: dict[int, Found] = {}
+        items: dict[int, Found] = {}
         for shot in itertools.chain(shots, self._past.of(scope) if self._past else ()):
-            missing = [item for item in picks.items if item[0] not in found]
+            missing = [item for item in picks.items if item[0] not in items]
             if not missing:
                 break
-            found |= found_in(shot, group, picks.key, missing)
-        return found
+            items |= found_in(shot, group, picks.key, missing)
+        return items
 
     def shots(self) -> Iterator[tuple[str, str, Shot]]:
         """Yield the name of each group, its key, and the picture that it is a part of."""
@@ -187,27 +187,27 @@ class SceneDiff:
         for key, group in groups_of(context).items():
             if not group.nodes:
                 continue
-            name, drawn = self._name(scope, key), before.get(key)
-            if drawn is None:
-                drawn = _Drawn(group)
-            elif drawn.group is group:  # as it was drawn before
-                after[key] = drawn
+            name, entry = self._name(scope, key), before.get(key)
+            if entry is None:
+                entry = _Drawn(group)
+            elif entry.group is group:  # as it was drawn before
+                after[key] = entry
                 continue
             else:
-                for old in drawn.group.nodes.keys() - group.nodes.keys():
+                for old in entry.group.nodes.keys() - group.nodes.keys():
                     self._scene.remove(name, old)
-                if drawn.group.placement != group.placement:
-                    drawn.pose = None
-                drawn.group = group
-            self._put(name, drawn, context.frames)
-            after[key] = drawn
+                if entry.group.placement != group.placement:
+                    entry.pose = None
+                entry.group = group
+            self._put(name, entry, context.frames)
+            after[key] = entry
         for key in before.keys() - after.keys():
             self._scene.remove_group(self._name(scope, key))
         self._scopes[scope] = after
 
     def origins(self, scope: str) -> dict[str, Position]:
         """Of the coordinates that were sent last, by group; see `baking`."""
-        return {key: drawn.origin for key, drawn in self._scopes.get(scope, {}).items()}
+        return {key: entry.origin for key, entry in self._scopes.get(scope, {}).items()}
 
     def remove(self, scope: str) -> None:
         """Remove the content of a scope."""
@@ -233,23 +233,23 @@ class SceneDiff:
             is_placed = pose is each.pose and each.fixed_frame == frames.fixed_frame
             if is_placed and not each.placement.interval_s:
                 continue
-            for name, drawn in each.groups:
-                self._follow(name, drawn, frames)
+            for name, entry in each.groups:
+                self._follow(name, entry, frames)
             each.pose, each.fixed_frame = pose, frames.fixed_frame
 
     def forget_poses(self) -> None:
         """Keep no pose where frames were, such as after a jump of time back."""
         for groups in self._scopes.values():
-            for drawn in groups.values():
-                drawn.pose, drawn.fixed_frame = None, ""
+            for entry in groups.values():
+                entry.pose, entry.fixed_frame = None, ""
         self._followers = None
 
     def is_empty(self) -> bool:
         """Return whether nothing of the display is visible."""
         return not any(
-            drawn.visible and any(map(has_content, drawn.group.nodes.values()))
+            entry.visible and any(map(has_content, entry.group.nodes.values()))
             for groups in self._scopes.values()
-            for drawn in groups.values()
+            for entry in groups.values()
         )
 
     def lost(self, frames: Frames) -> list[str]:
@@ -261,15 +261,15 @@ class SceneDiff:
 
     def _following(self) -> list[_Followers]:
         if self._followers is None:
-            found: dict[object, _Followers] = {}
+            by_way: dict[object, _Followers] = {}
             for scope, groups in self._scopes.items():
-                for key, drawn in groups.items():
-                    p = drawn.group.placement
+                for key, entry in groups.items():
+                    p = entry.group.placement
                     if p.frame is not None:
                         way = p.frame, p.when, p.keep_last, p.interval_s
-                        followers = found.setdefault(way, _Followers(p))
-                        followers.groups.append((self._name(scope, key), drawn))
-            self._followers = list(found.values())
+                        followers = by_way.setdefault(way, _Followers(p))
+                        followers.groups.append((self._name(scope, key), entry))
+            self._followers = list(by_way.values())
         return self._followers
 
     def _keep(self, scope: str) -> None:
@@ -277,9 +277,9 @@ class SceneDiff:
             self._past.keep(scope, self._shot(scope))
 
     def _shot(self, scope: str) -> Shot:
-        drawn = self._scopes[scope].items()
+        entries = self._scopes[scope].items()
         samples, fixed_frame = self._drawn_from[scope]
-        return Shot({key: each.group for key, each in drawn}, samples, fixed_frame)
+        return Shot({key: each.group for key, each in entries}, samples, fixed_frame)
 
     def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
         """Send a group that is new or changed."""

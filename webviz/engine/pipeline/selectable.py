@@ -70,20 +70,20 @@ class SelectableValues:
             frames: at the time that is shown.
         """
         room = MAX_OF_DISPLAY
-        before, made = self._made.get(runner.id, {}), dict[str, tuple[_Drawn, Values]]()
-        for drawn in _nodes(runner):
-            known = before.get(drawn.path)
-            if known and drawn.is_in(known[0]) and not (drawn.is_moving and drawn.items):
-                made[drawn.path] = known
-            elif drawn.items and len(drawn.items) <= room:
-                room -= len(drawn.items)
-                made[drawn.path] = drawn, _values(runner, drawn, frames)
-            elif drawn.samples:
-                made[drawn.path] = drawn, {"#frame": drawn.frame, "#stamp": _stamp(drawn)}
-        self._made[runner.id] = made
+        before, entries = self._made.get(runner.id, {}), dict[str, tuple[_Drawn, Values]]()
+        for node in _nodes(runner):
+            entry = before.get(node.path)
+            if entry and node.is_in(entry[0]) and not (node.is_moving and node.items):
+                entries[node.path] = entry
+            elif node.items and len(node.items) <= room:
+                room -= len(node.items)
+                entries[node.path] = node, _values(runner, node, frames)
+            elif node.samples:
+                entries[node.path] = node, {"#frame": node.frame, "#stamp": _stamp(node)}
+        self._made[runner.id] = entries
         return {
             f"{path}\n{what}": value
-            for path, (_, values) in made.items()
+            for path, (_, values) in entries.items()
             for what, value in values.items()
         }
 
@@ -100,10 +100,10 @@ def _nodes(runner: Runner) -> Iterator[_Drawn]:
 
 def _values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
     details = [runner.inspect(each, frames) for each in drawn.items]
-    known = [each for each in details if each is not None]
-    if not known:
+    readable = [each for each in details if each is not None]
+    if not readable:
         return {}
-    names = dict.fromkeys(name for each in known for name in each.values)
+    names = dict.fromkeys(name for each in readable for name in each.values)
     return {
         "#frame": drawn.frame,
         "#stamp": _stamp(drawn),

@@ -92,9 +92,9 @@ class Synchronizer(Generic[P]):
         stamp_ns = waiting[present]
         offs: dict[str, int | None] = {}
         for name in self.inputs:
-            known = [*self._queues[name], *([self._last[name]] if name in self._last else [])]
+            stamps = [*self._queues[name], *([self._last[name]] if name in self._last else [])]
             if name != present:
-                offs[name] = min((s - stamp_ns for s in known), key=abs, default=None)
+                offs[name] = min((s - stamp_ns for s in stamps), key=abs, default=None)
         missing = max(offs, key=lambda name: _distance(offs[name]))
         return Gap(present, stamp_ns, missing, offs[missing])
 
@@ -116,8 +116,8 @@ class Synchronizer(Generic[P]):
             ]
             stamps = tuple(stamp for stamp in picked if stamp is not None)
             if len(stamps) == len(picked):
-                found = (sum(abs(stamp - stamp_ns) for stamp in stamps), stamps)
-                best = found if best is None else min(best, found)
+                candidate = (sum(abs(stamp - stamp_ns) for stamp in stamps), stamps)
+                best = candidate if best is None else min(best, candidate)
         return dict(zip(self.inputs, best[1], strict=True)) if best else None
 
     def _pick(self, queue: Mapping[int, P], begin: int, stamp_ns: int) -> int | None:

@@ -52,9 +52,9 @@ class Trace(msgspec.Struct, frozen=True):
         return {name: ns for name in names if (ns := getattr(self, f"{name}_ns"))}
 
     def __str__(self) -> str:
-        known = self.times()
-        first = next(iter(known.values()))
-        return ", ".join(f"{name} {(ns - first) / 1e6:+.1f} ms" for name, ns in known.items())
+        times = self.times()
+        first = next(iter(times.values()))
+        return ", ".join(f"{name} {(ns - first) / 1e6:+.1f} ms" for name, ns in times.items())
 
 
 class _Begun(msgspec.Struct):
@@ -117,10 +117,10 @@ class Tracer:
         Raises:
             Error: too many traces are requested.
         """
-        for asked, answers in list(self._asked.items()):
-            self._asked[asked] = [each for each in answers if not each.cancelled()]
-            if not self._asked[asked]:
-                del self._asked[asked]
+        for traced, answers in list(self._asked.items()):
+            self._asked[traced] = [each for each in answers if not each.cancelled()]
+            if not self._asked[traced]:
+                del self._asked[traced]
         if sum(map(len, self._asked.values())) >= MAX_ASKED:
             raise Error("Too many traces at once. Try again later.")
         if display not in self._asked:

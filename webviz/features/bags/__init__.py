@@ -151,8 +151,8 @@ class BagsFeature(PageFeature):
     def bags(self, argument: str) -> BagsStore:
         """Return the bags that pages may open."""
         player = self.core.player
-        shown = player.history if player.is_opened else None
-        bag = shown if isinstance(shown, BagHistory) else None
+        history = player.history if player.is_opened else None
+        bag = history if isinstance(history, BagHistory) else None
         return BagsStore(
             self._bags,
             player.live is not None,
@@ -197,7 +197,7 @@ class BagsFeature(PageFeature):
             align: "start" lets both begin together, "stamp" keeps its times, "path" moves it to
                 where the robots are closest.
         """
-        place, shown = Path(path), self._opened()
+        place, history = Path(path), self._opened()
         check = sender.browser is not None
         if check and not self._is_offered(place):
             raise Error(NOT_LISTED)
@@ -206,19 +206,19 @@ class BagsFeature(PageFeature):
             if check:
                 _refuse_elsewhere(place)
             ghost = Ghost(self._bag_of(place), align)
-            both = BagHistory(shown.paths, shown.extras, shown.remappings, ghost)
-            return shown, both
+            both = BagHistory(history.paths, history.extras, history.remappings, ghost)
+            return history, both
 
         return Job(opened, self._show_compared)
 
     @command(Role.OWNER, FileCommand)
     def end_comparison(self) -> Job[Compared]:
         """Show the recording alone again, at the same position."""
-        shown = self._opened()
-        if shown.ghost is None:
+        opened = self._opened()
+        if opened.ghost is None:
             raise Error("No second run is shown.")
         return Job(
-            lambda: (shown, BagHistory(shown.paths, shown.extras, shown.remappings)),
+            lambda: (opened, BagHistory(opened.paths, opened.extras, opened.remappings)),
             self._show_compared,
         )
 
@@ -255,11 +255,11 @@ class BagsFeature(PageFeature):
         displays, panels = self.core.get(DisplaysPart).list, self.core.get(PanelsPart).list
         settings = self.core.get(SettingsPart)
         config = Config(settings.settings, displays.items(), panels=panels.items())
-        known = len(config.displays), len(config.panels)
+        counts = len(config.displays), len(config.panels)
         config = with_ghost(config, both)
         settings.settings = config.settings
-        displays.add(config.displays[known[0] :])
-        for panel in config.panels[known[1] :]:
+        displays.add(config.displays[counts[0] :])
+        for panel in config.panels[counts[1] :]:
             panels.add(panel)
 
     def _remove_ghost(self) -> None:
@@ -364,14 +364,14 @@ def _refuse_elsewhere(place: Path) -> None:
 
 def _listed(folders: Sequence[Path], written: Sequence[Path]) -> Sequence[Bag]:
     """Return the bags in folders and among files that were written; blocks."""
-    found: dict[Path, Bag] = {}
+    by_path: dict[Path, Bag] = {}
     for folder in folders:
         with contextlib.suppress(OSError), os.scandir(folder) as entries:
             for entry, _ in zip(entries, range(MAX_ENTRIES), strict=False):
-                _note(Path(entry.path), found)
+                _note(Path(entry.path), by_path)
     for path in written:
-        _note(path, found)
-    bags = sorted(found.values(), key=lambda bag: (-bag.changed_s, bag.name))
+        _note(path, by_path)
+    bags = sorted(by_path.values(), key=lambda bag: (-bag.changed_s, bag.name))
     return bags[:MAX_LISTED]
 
 

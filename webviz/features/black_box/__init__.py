@@ -104,7 +104,7 @@ class BlackBoxFeature(Feature):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics of the rules, as the first type of each that can be read."""
-        wanted: dict[str, Subscription] = {}
+        subscriptions: dict[str, Subscription] = {}
         for rule in self._watcher.rules:
             name = self._resolved(rule)
             offer = self.core.offers.get(name)
@@ -113,8 +113,8 @@ class BlackBoxFeature(Feature):
             # A driver that crashes takes its topic along: that is what a rule is to notice.
             if types := types or self._types.get(name, []):
                 self._types[name] = types[:1]
-                wanted[name] = Subscription(types[0], Topic(name))
-        return self._subscriber.subscribe(wanted)
+                subscriptions[name] = Subscription(types[0], Topic(name))
+        return self._subscriber.subscribe(subscriptions)
 
     @property
     def _settings(self) -> Settings:
@@ -132,14 +132,14 @@ class BlackBoxFeature(Feature):
             self._list()
         if not self._watcher.rules:
             return
-        wanted = self._subscriber_types()
-        leveled = {t: w for t, w in wanted.items() if w in LEVEL_TYPES}
+        types = self._subscriber_types()
+        leveled = {t: w for t, w in types.items() if w in LEVEL_TYPES}
         paths = {
-            rule.path: wanted[topic]
+            rule.path: types[topic]
             for rule in self._watcher.rules
-            if rule.path and (topic := rule.watched_topic) in wanted
+            if rule.path and (topic := rule.watched_topic) in types
         }
-        self._observer.observe([*wanted], leveled, paths)
+        self._observer.observe([*types], leveled, paths)
         if self._listing is None:  # else it is not known yet how much may be saved
             for rule in self._watcher.fired(self._observation(self.core.player.is_live)):
                 self._save(rule, memory)
@@ -222,12 +222,12 @@ class BlackBoxFeature(Feature):
                 rates[rule.topic] = rates[name]
             if name in levels:
                 levels[rule.topic] = levels[name]
-        kept = {
+        hidden_skip = {
             each.rule.text: None if each.rule.subject in starting else each.holds
             for each in (self.core.verdicts if is_live else ())
         }
         numbers = self._observer.numbers()
-        return WatchedMoment(now_s, displays, rates, levels, numbers, kept)
+        return WatchedMoment(now_s, displays, rates, levels, numbers, hidden_skip)
 
     def _settled(self, now_s: float) -> Sequence[Row]:
         """Return the displays whose status counts, and the groups that contain some."""

@@ -77,8 +77,8 @@ class TopicObserver:
         """
         self._typed = paths or {}
         if self._paths.keys() != self._typed.keys():
-            known = self._paths
-            self._paths = {text: known.get(text) or PathNumbers(text) for text in self._typed}
+            former = self._paths
+            self._paths = {text: former.get(text) or PathNumbers(text) for text in self._typed}
         topics = {each.path.topic for each in self._paths.values()}
         with self._lock:
             self._counted, self._leveled = counted, leveled
@@ -87,11 +87,11 @@ class TopicObserver:
             for topic in topics:
                 self._unread.setdefault(topic, deque(maxlen=MAX_UNREAD))
             for table in (self._arrivals, self._first):
-                for gone in table.keys() - set(counted):
-                    del table[gone]
+                for removed in table.keys() - set(counted):
+                    del table[removed]
             for table in (self._waiting, self._levels):
-                for gone in table.keys() - leveled.keys():
-                    del table[gone]
+                for removed in table.keys() - leveled.keys():
+                    del table[removed]
 
     def put(self, topic: str, raw: Raw) -> None:
         """Note a message."""

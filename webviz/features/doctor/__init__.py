@@ -226,10 +226,10 @@ class DoctorFeature(Examiner, Feature):
             if looking.exception() is None:
                 self.environment = looking.result()
         if self._looking is None and time.monotonic() >= self._next_look_s:
-            before, lost = self.environment, self._lost_before
+            before, losses = self.environment, self._lost_before
             self._next_look_s = time.monotonic() + (LOOK_S if before else SECOND_LOOK_S)
             with contextlib.suppress(OSError):  # no thread is free; another time
-                self._looking = _looks.start(lambda: look_around("", lost, before))
+                self._looking = _looks.start(lambda: look_around("", losses, before))
         return self.environment
 
     def _is_due(self) -> bool:
@@ -252,38 +252,40 @@ class DoctorFeature(Examiner, Feature):
         core = self.core
         wrong = self._problems()
         load, cores = self._load.measure()
-        seen = observe(core, self._displays, self._environment(), load, cores)
+        observation = observe(core, self._displays, self._environment(), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
-        seen = replace(
-            seen, findings=others, numbers=self._numbers.numbers(), clock=self._clock.seen()
+        observation = replace(
+            observation, findings=others, numbers=self._numbers.numbers(), clock=self._clock.seen()
         )
         listened_s = time.monotonic() - self.listening_since_s
         joint_states = dict(self._clock.joint_states)
-        seen = replace(seen, joint_states=joint_states, listened_s=listened_s)
-        is_playing = seen.is_recorded or not seen.is_paused  # bags are played by hand
-        self._clock.is_wanted = is_playing and bool(seen.stalled())
-        if self._clock.is_wanted and not (seen.is_recorded or seen.bridges):
-            nodes = (node for node in seen.stalled_nodes() if not is_own(node))
-            seen = replace(seen, sim_time=self._sim_time.ask(nodes))
-        core.verdicts = self.verdicts = self._judge.judge(self._rules(), seen)
-        seen = replace(seen, verdicts=self.verdicts)
-        found: list[Finding] = []
+        observation = replace(observation, joint_states=joint_states, listened_s=listened_s)
+        is_playing = observation.is_recorded or not observation.is_paused  # bags are played by hand
+        self._clock.is_wanted = is_playing and bool(observation.stalled())
+        if self._clock.is_wanted and not (observation.is_recorded or observation.bridges):
+            nodes = (node for node in observation.stalled_nodes() if not is_own(node))
+            observation = replace(observation, sim_time=self._sim_time.ask(nodes))
+        core.verdicts = self.verdicts = self._judge.judge(self._rules(), observation)
+        observation = replace(observation, verdicts=self.verdicts)
+        findings: list[Finding] = []
         playback = core.get(TimePart).playback
         for check in self._current():
-            found += core.guard.attempt(f"Check {check.id}", [], lambda c=check: list(c.find(seen)))
+            findings += core.guard.attempt(
+                f"Check {check.id}", [], lambda c=check: list(c.find(observation))
+            )
             yield
-        before, now_ns = self._since, seen.now_ns
+        before, now_ns = self._since, observation.now_ns
         now = now_ns, playback.position_s if playback else None
-        self._since = {key: before.get(key, now) for key in map(_key, found)}
-        steady = [each for each in found if _key(each) in before]
+        self._since = {key: before.get(key, now) for key in map(_key, findings)}
+        steady = [each for each in findings if _key(each) in before]
         self._is_confirmed = all(
-            _key(each) in before for each in found if each.severity > Severity.NOTE
+            _key(each) in before for each in findings if each.severity > Severity.NOTE
         )
         self._examined_problems = *self._examined_problems[-1:], wrong
         self.findings = tuple(
             replace(
                 each,
-                command="" if seen.is_recorded else each.command,  # no node would answer
+                command="" if observation.is_recorded else each.command,  # no node would answer
                 first_ns=self._since[_key(each)][0],
                 last_ns=now_ns,
                 began_s=self._since[_key(each)][1],

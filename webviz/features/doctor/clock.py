@@ -46,10 +46,10 @@ class ClockWatch:
             self._began_s = self._time_ns = None
             self.joint_states.clear()
             return {}
-        wanted = self._joint_topics()
+        subscriptions = self._joint_topics()
         if self._has_clock():
-            wanted[CLOCK] = Subscription(TYPE, Topic(CLOCK))
-        return self._subscriber.subscribe(wanted)
+            subscriptions[CLOCK] = Subscription(TYPE, Topic(CLOCK))
+        return self._subscriber.subscribe(subscriptions)
 
     def _joint_topics(self) -> dict[str, Subscription]:
         topics = [
@@ -119,10 +119,10 @@ class SimTime:
 
     def ask(self, nodes: Iterable[str]) -> Mapping[str, bool]:
         """Ask nodes by their full names; return what those that have answered follow."""
-        wanted = [*dict.fromkeys(nodes)][:MOST]
+        names = [*dict.fromkeys(nodes)][:MOST]
         now = time.monotonic()
         before, self._asked = self._asked, {}
-        for node in wanted:
+        for node in names:
             at_s, answer = before.get(node, (-AGAIN_S, Future[bytes]()))
             if now - at_s >= AGAIN_S:
                 request = encode(interfaces.service(SERVICE).request, {"names": [PARAMETER]})

@@ -40,7 +40,7 @@ def observe(
     """
     runners = {runner.id: runner for runner in displays.list.active()}
     consistency = displays.consistency
-    seen = [
+    displays_seen = [
         DisplaySeen(
             id=row.id,
             type=row.type,
@@ -64,7 +64,7 @@ def observe(
         now_ns=core.frames.now_ns,
         fixed_frame=core.frames.fixed_frame,
         buffer=core.buffer,
-        displays=seen,
+        displays=displays_seen,
         statuses=core.statuses,
         offers=core.offers,
         nodes=core.gate.nodes(),

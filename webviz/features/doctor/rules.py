@@ -35,10 +35,10 @@ class RuleNumbers:
 
     def subscriptions(self, rules: Iterable[Rule]) -> Mapping[str, Subscription]:
         """Return the topics of the paths of rules, as the first type of each."""
-        wanted = {rule.path for rule in rules if rule.path}
-        if self._read.keys() != wanted:
-            self._read = {text: self._read.get(text) or PathNumbers(text) for text in wanted}
-            self._kept = {text: self._kept.get(text) or _empty() for text in wanted}
+        paths = {rule.path for rule in rules if rule.path}
+        if self._read.keys() != paths:
+            self._read = {text: self._read.get(text) or PathNumbers(text) for text in paths}
+            self._kept = {text: self._kept.get(text) or _empty() for text in paths}
         topics = dict(self._topics())
         self._types = {
             topic: offer.type or offer.publishers[0].type
@@ -63,9 +63,11 @@ class RuleNumbers:
 
     def numbers(self) -> Mapping[str, Sequence[float]]:
         """Return the numbers by path since the last call; without a message, the newest again."""
-        found = {text: tuple(kept) for text, kept in self._kept.items() if kept}
-        self._kept = {text: deque(list(kept)[-1:], MAX_KEPT) for text, kept in self._kept.items()}
-        return found
+        numbers = {text: tuple(values) for text, values in self._kept.items() if values}
+        self._kept = {
+            text: deque(list(values)[-1:], MAX_KEPT) for text, values in self._kept.items()
+        }
+        return numbers
 
     def _topics(self) -> Iterator[tuple[str, str]]:
         """Yield each path and the full name of its topic."""

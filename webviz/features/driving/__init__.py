@@ -117,8 +117,10 @@ class DrivingFeature(PageFeature):
     @store()
     def driving(self, tool: str) -> DrivingStore | None:
         """Return the state of the vehicle of a tool; None if no browser drives it."""
-        found = self.vehicles().get(tool)
-        return found and DrivingStore(found.speed, found.turn_rate, str(sendable(found.problem)))
+        vehicle = self.vehicles().get(tool)
+        return vehicle and DrivingStore(
+            vehicle.speed, vehicle.turn_rate, str(sendable(vehicle.problem))
+        )
 
     def vehicles(self) -> dict[str, Driving]:
         """Return the vehicles that browsers attend to, by id of their tools."""
@@ -137,15 +139,15 @@ class DrivingFeature(PageFeature):
     def _topics(self) -> dict[str, tuple[str, Topic]]:
         """Full name and QoS of the odometry of attended vehicles, by tool."""
         attended = self.core.controllers.attended()
-        found = {}
+        topics = {}
         for tool, vehicle in self._vehicles().items() if attended else ():
             topic = vehicle.odometry
             if tool in attended and topic.name:
                 try:
-                    found[tool] = self.core.player.resolve(topic.name), topic
+                    topics[tool] = self.core.player.resolve(topic.name), topic
                 except ValueError:
                     continue
-        return found
+        return topics
 
     def _driving(self, driver: int | None, name: str, topic: Topic) -> Driving:
         raw, at = self._newest.get(name, (None, -math.inf))

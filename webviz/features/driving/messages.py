@@ -56,10 +56,10 @@ class DrivingMessages:
 
     def _hear(self, browser: int, drive: Drive) -> None:
         now = self._clock()
-        held = Velocity(drive.linear, drive.lateral, drive.angular)
+        velocity = Velocity(drive.linear, drive.lateral, drive.angular)
         fresh = (at for at, beat in self._beats if beat == drive.beat and now - at < FRESH_S)
         seen = next(fresh, None)
-        answer = self._steer(drive.tool, browser, held, seen)
+        answer = self._steer(drive.tool, browser, velocity, seen)
         if answer.driver is None:
             self._drivers.pop(drive.tool, None)
         elif answer.driver == browser and self._drivers.get(drive.tool) != browser:

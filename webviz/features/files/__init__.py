@@ -99,16 +99,16 @@ class FilesFeature(Feature):
     )
     def open(self, sender: Sender, path: str) -> Job[Config]:
         """Replace the current config by that of a file."""
-        wanted = self._in_folder(path, sender)
-        check = self._check(wanted, sender)
+        file = self._in_folder(path, sender)
+        check = self._check(file, sender)
 
         def work() -> Config:
             check()
-            return opening.load(wanted)
+            return opening.load(file)
 
         def then(config: Config) -> str:
-            self._config.open(config, wanted)
-            return f"Opened {wanted.name}."
+            self._config.open(config, file)
+            return f"Opened {file.name}."
 
         return Job(work, then)
 

@@ -122,7 +122,7 @@ class GoalsFeature(Feature):
                 goal.cancel()
         self._made += 1
         frame = self.core.frames.fixed_frame
-        shown = GoalProgress(f"goal{self._made}", title, request.label, frame, request.poses)
+        progress = GoalProgress(f"goal{self._made}", title, request.label, frame, request.poses)
 
         def send(hear: Callable[[bytes], object]) -> Goal:
             return self.core.gate.send_goal(action, request.type, request.goal, hear)
@@ -130,8 +130,8 @@ class GoalsFeature(Feature):
         self._goals = {
             id: goal for id, goal in self._goals.items() if goal.is_active or goal.tool != tool
         }
-        goal = RunningGoal(tool, action, shown, request, send, before, report, ended)
-        self._goals[shown.id] = goal
+        goal = RunningGoal(tool, action, progress, request, send, before, report, ended)
+        self._goals[progress.id] = goal
         self._turn(goal)
 
     def keep_up(self, commanded: bool) -> None:
@@ -169,8 +169,8 @@ class GoalsFeature(Feature):
         goals, now = self._goals.values(), self.core.clock()
         # Those that may have ended because of a new one, which is not accepted yet.
         old = {old for goal in goals for old in goal.before if goal.is_active and not old.is_active}
-        shown = [goal for goal in goals if not goal.is_replaced and goal not in old]
-        return tuple(goal.progress(now) for goal in shown)
+        visible = [goal for goal in goals if not goal.is_replaced and goal not in old]
+        return tuple(goal.progress(now) for goal in visible)
 
     def _turn(self, goal: RunningGoal) -> None:
         self.core.guard(goal.shown.title, goal.turn, self.core.clock())
@@ -211,10 +211,10 @@ class GoalsFeature(Feature):
     @command(Role.OPERATOR)
     def dismiss_goal(self, goal: str) -> None:
         """Stop showing a goal that has ended."""
-        found, now = self._find(goal), self.core.clock()
-        if found.is_stuck(now):
-            found.give_up(now)
-        if found.is_active:
+        running, now = self._find(goal), self.core.clock()
+        if running.is_stuck(now):
+            running.give_up(now)
+        if running.is_active:
             raise Error("This goal is active. Cancel it first.")
         del self._goals[goal]
 

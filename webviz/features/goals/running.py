@@ -153,14 +153,14 @@ class RunningGoal:
 
     def progress(self, now: float) -> GoalProgress:
         """Return the progress pages show."""
-        shown = self.shown
+        progress = self.shown
         if self.outcome is not None:
-            return replace(shown, phase="ended", status=self.outcome, values={})
+            return replace(progress, phase="ended", status=self.outcome, values={})
         if not self.is_accepted:
             what = f"Waiting for {self.action}."
             if any(goal.is_active for goal in self.before) and self._sent is None:
                 what = "Waiting for the previous goal to end."
-            return replace(shown, phase="sending", status=Status(Level.OK, what))
+            return replace(progress, phase="sending", status=Status(Level.OK, what))
         phase = "canceling" if self._is_canceling else "active"
         problem = self._problem or self._unread
         if self.is_stuck(now) and self._is_canceling:
@@ -170,7 +170,7 @@ class RunningGoal:
             text = f"No feedback for {now - self._heard_s:.0f} s. Check {self.action}."
             status = Status(Level.WARN, text)
         return replace(
-            shown,
+            progress,
             phase=phase,
             status=status,
             values=self._values,
@@ -249,18 +249,18 @@ class RunningGoal:
             self._end(Status(Level.ERROR, text), now)
             return
         if status == SUCCEEDED:
-            done = Status(Level.OK, self._request.success)
+            outcome = Status(Level.OK, self._request.success)
             if fault:
-                done = Status(Level.WARN, f"Succeeded. {fault}")
+                outcome = Status(Level.WARN, f"Succeeded. {fault}")
         elif status == CANCELED:
-            done = Status(Level.OK, "Cancelled.")
+            outcome = Status(Level.OK, "Cancelled.")
         elif status == ABORTED:
-            done = Status(Level.ERROR, f"{self.action} aborted the goal without a reason.")
+            outcome = Status(Level.ERROR, f"{self.action} aborted the goal without a reason.")
             if fault:
-                done = Status(Level.ERROR, f"Aborted. {fault}")
+                outcome = Status(Level.ERROR, f"Aborted. {fault}")
         else:
-            done = Status(Level.WARN, f"{self.action} does not know this goal. Send it again.")
-        self._end(done, now)
+            outcome = Status(Level.WARN, f"{self.action} does not know this goal. Send it again.")
+        self._end(outcome, now)
 
     def _failure(self, error: BaseException) -> Status:
         text = str(error) or "The viewer has ended."

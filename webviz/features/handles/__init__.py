@@ -88,9 +88,9 @@ class DragMessages:
             hand.sent = self._send(*move)
 
     def _send(self, asked: Asked, command: Any) -> Future[str]:
-        sent = self._enqueue(command, asked.sender)
-        sent.add_done_callback(asked.refused_by)
-        return sent
+        result = self._enqueue(command, asked.sender)
+        result.add_done_callback(asked.refused_by)
+        return result
 
 
 def _most(command: Any) -> int:
@@ -208,10 +208,10 @@ class HandlesFeature(PageFeature):
     @store(name="handles")
     def shown(self, argument: str) -> HandlesStore:
         """Return the handles of all displays."""
-        found = self.found()
-        if self._shown is None or self._shown[0] is not found:
-            made = {f"{at[0]}/{at[1]}": _handle(at[0], *each) for at, each in found.items()}
-            self._shown = found, HandlesStore(made)
+        entries = self.found()
+        if self._shown is None or self._shown[0] is not entries:
+            handles = {f"{at[0]}/{at[1]}": _handle(at[0], *each) for at, each in entries.items()}
+            self._shown = entries, HandlesStore(handles)
         return self._shown[1]
 
     def found(self) -> Mapping[tuple[str, str], tuple[Handle, int | None]]:

@@ -129,12 +129,12 @@ class LatencyFeature(Feature):
             self._asked.pop(display).cancel()
             self._traces.pop(display, None)
         for display in displays:
-            asked = self._asked.get(display)
-            if asked is not None and asked.done():
-                kept = self._traces.setdefault(display, deque(maxlen=SAMPLES))
-                kept.append(_times(asked.result()))
-                asked = None
-            if asked is None:
+            trace = self._asked.get(display)
+            if trace is not None and trace.done():
+                times = self._traces.setdefault(display, deque(maxlen=SAMPLES))
+                times.append(_times(trace.result()))
+                trace = None
+            if trace is None:
                 answer = self._asked[display] = Future[Trace]()
                 try:
                     self._tracer.ask(display, answer)
@@ -165,8 +165,8 @@ class LatencyFeature(Feature):
         frames = [each.frame for each in runner.observed() if each.frame]
         waits_for = ""
         if waited >= LONG_S and frames:
-            found = slowest_link(self.core.buffer, self.core.frames.fixed_frame, frames[0])
-            waits_for = f"Waits {1000 * waited:.0f} ms for {found}." if found else ""
+            link = slowest_link(self.core.buffer, self.core.frames.fixed_frame, frames[0])
+            waits_for = f"Waits {1000 * waited:.0f} ms for {link}." if link else ""
         return Latency(
             runner.id,
             runner.display.name or type(runner.display).__name__,

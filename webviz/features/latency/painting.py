@@ -74,16 +74,16 @@ class Painting:
     def measure(self, passed_s: float) -> None:
         """Measure the bytes of each display on each link since the last call."""
         self._names = {each.id: brief(each.name) for each in self._browsers.seen()}
-        sent = self._browsers.bytes_sent()
+        bytes_sent = self._browsers.bytes_sent()
         self._rates = {
             (display, browser): (size - self._bytes.get(browser, {}).get(display, 0)) / passed_s
-            for browser, sizes in sent.items()
+            for browser, sizes in bytes_sent.items()
             if browser in self._names
             for display, size in sizes.items()
         }
-        self._bytes = sent
-        gone = [key for key in self._spans if key[1] not in self._names]
-        for key in gone:
+        self._bytes = bytes_sent
+        removed = [key for key in self._spans if key[1] not in self._names]
+        for key in removed:
             del self._spans[key]
 
     def of(self, display: str) -> tuple[BrowserLatency, ...]:
@@ -101,8 +101,8 @@ class Painting:
         acknowledged_s = max(0.0, answer.acknowledged_s - sent_s)
         painted_s = max(0.0, answer.painted_s - sent_s - acknowledged_s)
         for display, way_s in ways_s.items():
-            known = self._spans.setdefault((display, answer.browser), deque(maxlen=SAMPLES))
-            known.append((way_s, acknowledged_s, painted_s))
+            spans = self._spans.setdefault((display, answer.browser), deque(maxlen=SAMPLES))
+            spans.append((way_s, acknowledged_s, painted_s))
 
     def _latency(self, display: str, browser: int, name: str) -> BrowserLatency:
         rate = round(self._rates.get((display, browser), 0.0))

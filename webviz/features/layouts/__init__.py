@@ -156,7 +156,7 @@ class LayoutsFeature(Feature):
 
 def layout_store(settings: Settings, name: str) -> LayoutStore:
     """Return the layout that browsers show, or the saved one of this name if there is one."""
-    shown = settings.layouts.get(name, settings.layout)
+    chosen = settings.layouts.get(name, settings.layout)
     saved = [
         SavedLayout(str(sendable(each)), layout == settings.layout)
         for each, layout in settings.layouts.items()
@@ -164,9 +164,11 @@ def layout_store(settings: Settings, name: str) -> LayoutStore:
     return LayoutStore(
         saved=saved,
         templates=list(TEMPLATES),
-        beside=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.beside],
-        below=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in shown.below],
-        over=[msgspec.convert(each, FloatingOnPage, from_attributes=True) for each in shown.over],
-        width=shown.width,
-        height=shown.height,
+        beside=[
+            msgspec.convert(each, DockedOnPage, from_attributes=True) for each in chosen.beside
+        ],
+        below=[msgspec.convert(each, DockedOnPage, from_attributes=True) for each in chosen.below],
+        over=[msgspec.convert(each, FloatingOnPage, from_attributes=True) for each in chosen.over],
+        width=chosen.width,
+        height=chosen.height,
     )

@@ -212,14 +212,14 @@ class PluginPanels(PageFeature):
     @store(name="panel_properties")
     def properties(self, name: str) -> PanelPropertiesStore | None:
         """Return the properties of a panel; None if it is gone."""
-        found = next((tab for tab in self._shown if tab.tab == name), None)
-        if found is None:
+        chosen = next((tab for tab in self._shown if tab.tab == name), None)
+        if chosen is None:
             return None
-        cls, own = type(found.panel), values_of(found.panel, _SHARED)
+        cls, own = type(chosen.panel), values_of(chosen.panel, _SHARED)
         switches = [each for each in properties_of(cls) if each.widget == "displays"]
-        shown = visibility.names(self.core.get(DisplaysPart).rows) if switches else {}
-        offered = {each.path: shown for each in switches}
-        return PanelPropertiesStore(found.id, cls.__name__, form(cls, _SHARED), own, offered)
+        names = visibility.names(self.core.get(DisplaysPart).rows) if switches else {}
+        offered = {each.path: names for each in switches}
+        return PanelPropertiesStore(chosen.id, cls.__name__, form(cls, _SHARED), own, offered)
 
     @store()
     def commands(self, argument: str) -> PanelCommandsStore:
@@ -276,17 +276,17 @@ class PluginPanels(PageFeature):
 
     def _send(self, command: Any, browser: int | None = None) -> None:
         if self._dispatcher is not None:
-            done = self._dispatcher.enqueue(command, Sender(browser))
-            done.add_done_callback(_note_refusal)
+            result = self._dispatcher.enqueue(command, Sender(browser))
+            result.add_done_callback(_note_refusal)
 
 
 def _types() -> list[PanelType]:
     """Return the types of panels, in the order of their titles."""
-    found = [
+    types = [
         PanelType(name, clean(cls.title or name), _about(cls), cls.icon, cls.opens)
         for name, cls in plugin_types(Panel).items()
     ]
-    return sorted(found, key=lambda each: each.title.casefold())
+    return sorted(types, key=lambda each: each.title.casefold())
 
 
 def _about(cls: type[Panel]) -> str:

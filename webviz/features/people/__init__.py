@@ -163,7 +163,7 @@ class People(PageFeature):
             days: until it ends, None for never.
             url: of the page, to which the token is added.
         """
-        given = Role[role.upper()]
+        granted = Role[role.upper()]
 
         def answer(done: Future[Token]) -> None:
             try:
@@ -174,9 +174,9 @@ class People(PageFeature):
             import segno  # here, as it would slow down the start
 
             code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
-            asked.answer(f"Invited {name} as {given.phrase}.", link=address, code=code)
+            asked.answer(f"Invited {name} as {granted.phrase}.", link=address, code=code)
 
-        self._begin(lambda: self._make(name, given, days)).add_done_callback(answer)
+        self._begin(lambda: self._make(name, granted, days)).add_done_callback(answer)
 
     @command(Role.OWNER, PageCommand, is_noted=True)
     def dismiss(self, visitor: int, revokes: bool, asked: Asked) -> None:
@@ -186,9 +186,9 @@ class People(PageFeature):
             visitor: id of the browser whose visit ends.
             revokes: whether its link is not valid any more, either.
         """
-        known = self._channel.visitors().get(visitor)
+        visitor_entry = self._channel.visitors().get(visitor)
         grant = self._channel.grant_of(visitor)
-        if known is None or grant is None:
+        if visitor_entry is None or grant is None:
             asked.refuse("This visitor has already left.")
         elif visitor == asked.browser:
             asked.refuse("Not done: this is your own page. Close it.")
@@ -202,7 +202,7 @@ class People(PageFeature):
             task = asyncio.get_running_loop().create_task(self._channel.dismiss(visitor))
             self._dismissing.add(task)
             task.add_done_callback(self._dismissing.discard)
-            asked.answer(f"Ended a visit of {known.name or known.address}.")
+            asked.answer(f"Ended a visit of {visitor_entry.name or visitor_entry.address}.")
 
     @command(Role.OWNER, PageCommand, is_noted=True)
     def revoke(self, name: Name, asked: Asked) -> None:
@@ -241,13 +241,13 @@ class People(PageFeature):
             raise TokenError("Not revoked: this viewer requires no tokens.")
 
         def remove(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-            kept = tuple(token for token in tokens if token.name != name)
-            if len(kept) == len(tokens):
+            remaining = tuple(token for token in tokens if token.name != name)
+            if len(remaining) == len(tokens):
                 raise TokenError(
                     f"Not revoked: {name} is not in the file of tokens. Restart webviz "
                     "without it in the environment."
                 )
-            return kept
+            return remaining
 
         token_file.modify(self._access.path, remove)
         self._access.refresh()
@@ -255,16 +255,18 @@ class People(PageFeature):
     def _make(self, name: str, role: Role, days: float | None) -> Token:
         if not self._access.asks or self._access.path is None:
             raise TokenError(NOT_ASKED)
-        made = make(name, role, datetime.now(UTC), days)
+        created = make(name, role, datetime.now(UTC), days)
 
         def add(tokens: tuple[Token, ...]) -> tuple[Token, ...]:
-            if any(token.name == made.name for token in tokens):
-                raise TokenError(f"There is a link for {made.name} already. Choose another name.")
-            return (*tokens, made)
+            if any(token.name == created.name for token in tokens):
+                raise TokenError(
+                    f"There is a link for {created.name} already. Choose another name."
+                )
+            return (*tokens, created)
 
         token_file.modify(self._access.path, add)
         self._access.refresh()  # the link works at once
-        return made
+        return created
 
 
 def _link(token: Token) -> ValidLink:

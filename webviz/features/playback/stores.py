@@ -111,7 +111,7 @@ def playback_store(
         leader: the browser that looked back last.
     """
     duration_s = (recording.end_ns - recording.start_ns) / 1e9
-    told = PlaybackStore(
+    store = PlaybackStore(
         names=recording.names,
         start=recording.start_ns / 1e9,
         rate=0 if math.isinf(recording.rate) else recording.rate,
@@ -124,17 +124,17 @@ def playback_store(
     )
     position_s = round(recording.position_s, 3)
     if recording.is_live is None:
-        return replace(told, duration=duration_s, position=position_s)
-    told = replace(
-        told,
+        return replace(store, duration=duration_s, position=position_s)
+    store = replace(
+        store,
         limit=memory_s,
         ahead=round(wall_s - recording.start_ns / 1e9 - duration_s),
     )
     if recording.is_live:
-        return replace(told, held=round(duration_s - recording.first_s))
+        return replace(store, held=round(duration_s - recording.first_s))
     first_s = round(recording.first_s, 3)
     gap = recording.gap
-    return replace(told, first=first_s, position=position_s, gap=gap, leader=leader)
+    return replace(store, first=first_s, position=position_s, gap=gap, leader=leader)
 
 
 def bookmarks_store(recording: PlaybackState, bookmarks: Mapping[str, float]) -> BookmarksStore:

@@ -167,8 +167,8 @@ class RecordingFeature(Feature):
         if self._problem:
             return {"Recording": Status(Level.ERROR, self._problem)}
         if self._recorder is not None and self._recorder.dropped:
-            lost = counted(self._recorder.dropped, "message")
-            text = f"{lost} dropped, because the disk is too slow. Show fewer topics."
+            dropped = counted(self._recorder.dropped, "message")
+            text = f"{dropped} dropped, because the disk is too slow. Show fewer topics."
             return {"Recording": Status(Level.WARN, text)}
         return {}
 

@@ -94,8 +94,8 @@ def listing(moment: ReportMoment) -> list[str]:
     ]
     if moment.with_names:
         return [*lines, "Names of hosts, users and home folders are included."]
-    kept = f" except {', '.join(names.kept)}, of topics or frames" if names.kept else ""
-    return [*lines, f"Names of hosts, users and home folders are left out{kept}."]
+    exceptions = f" except {', '.join(names.kept)}, of topics or frames" if names.kept else ""
+    return [*lines, f"Names of hosts, users and home folders are left out{exceptions}."]
 
 
 def write(
@@ -189,14 +189,14 @@ def _time(event: Event) -> int:
 def picked(picks: Sequence[Picks], rows: Sequence[Row]) -> tuple[ReportedPick, ...]:
     """Return a selection, with the numbers of displays instead of their ids, which differ later."""
     places = {row.id: number for number, row in enumerate(rows)}
-    found: list[ReportedPick] = []
+    reported: list[ReportedPick] = []
     for each in picks:
         id, _, rest = each.group.partition("/")
         if (display := places.get(id)) is None:
             continue
         for _, number, at, color in each.items:
-            found.append(ReportedPick(display, rest, each.key, number, at, color))
-    return tuple(found)
+            reported.append(ReportedPick(display, rest, each.key, number, at, color))
+    return tuple(reported)
 
 
 def _graph(offers: Mapping[str, Offer]) -> dict[str, Any]:
@@ -224,13 +224,13 @@ def _graph(offers: Mapping[str, Offer]) -> dict[str, Any]:
 
 
 def _versions() -> dict[str, str]:
-    found = {"python": platform.python_version(), "system": platform.platform()}
+    versions = {"python": platform.python_version(), "system": platform.platform()}
     for name in PACKAGES:
         try:
-            found[name] = importlib.metadata.version(name)
+            versions[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
             continue
-    return found | {name: os.environ[name] for name in VARIABLES if name in os.environ}
+    return versions | {name: os.environ[name] for name in VARIABLES if name in os.environ}
 
 
 def namespaces(offers: Mapping[str, Offer]) -> set[str]:

@@ -212,11 +212,11 @@ class RightsFeature(PageFeature):
         else:
             gate.allow(name)
             self._requests = tuple(each for each in self._requests if each.name != name)
-            done = f"Allowed for this session: {self._use(name)}."
+            text = f"Allowed for this session: {self._use(name)}."
             if wanted.always:
-                self._keep(asked, name, done)
+                self._keep(asked, name, text)
             else:
-                self._answer(asked, done)
+                self._answer(asked, text)
 
     def _keep(self, asked: Asked, name: str, done: str) -> None:
         """Have the config file allow a name, too, and answer once it is saved."""
@@ -257,8 +257,8 @@ class RightsFeature(PageFeature):
         request = _Request(name, asked.browser, link, time.monotonic())
         self._requests = (*self._current(), request)
         owners = [v for v in self._dispatcher.channel.visitors().values() if v.role is Role.OWNER]
-        seen = "" if owners else " No owner is connected now; one who comes sees it."
-        self._answer(asked, f"Asked the owner: {self._use(name)}.{seen}")
+        remark = "" if owners else " No owner is connected now; one who comes sees it."
+        self._answer(asked, f"Asked the owner: {self._use(name)}.{remark}")
 
     def _decline(self, asked: Asked, wanted: Any) -> None:
         if not any(each.name == wanted.name for each in self._current()):
@@ -275,8 +275,8 @@ class RightsFeature(PageFeature):
     def _answer(self, asked: Asked, text: str) -> None:
         """Answer once the pages show what has changed."""
         assert self._dispatcher
-        shown = self._dispatcher.enqueue(_command("Refresh"), asked.sender)
-        shown.add_done_callback(lambda _: asked.answer(text))
+        result = self._dispatcher.enqueue(_command("Refresh"), asked.sender)
+        result.add_done_callback(lambda _: asked.answer(text))
 
     def _excess(self, name: str, link: str) -> str:
         """Return why a request of a link is not passed on, "" if it is."""

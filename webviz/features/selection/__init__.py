@@ -156,11 +156,11 @@ class SelectionFeature(Feature):
         runners = self._displays.list.runners()
         for runner in runners:
             runner.drawn.remember(self._is_picking)
-        known, now = set(runners), self.core.clock()
+        current, now = set(runners), self.core.clock()
         for browser, selection in self._selections.items():
-            if not known.issuperset(each.runner for each in selection.things.values()):
+            if not current.issuperset(each.runner for each in selection.things.values()):
                 things = selection.things.items()
-                selection.things = {id: each for id, each in things if each.runner in known}
+                selection.things = {id: each for id, each in things if each.runner in current}
                 selection.told_at = None
             is_few = len(selection.things) <= MAX_LIVE
             is_old = selection.told_at is None or (is_few and now >= selection.told_at + EVERY_S)
@@ -177,8 +177,8 @@ class SelectionFeature(Feature):
         """Report on the selections that pages watch."""
 
         def browsers(name: str) -> frozenset[int]:
-            found = (each.partition(":")[2] for each in stores if each.startswith(f"{name}:"))
-            return frozenset(int(each) for each in found if each.isdecimal())
+            numbers = (each.partition(":")[2] for each in stores if each.startswith(f"{name}:"))
+            return frozenset(int(each) for each in numbers if each.isdecimal())
 
         holders, viewers = browsers("selected"), browsers("selection")
         self.inspect_selections(holders, viewers, "picking" in stores)
@@ -186,14 +186,16 @@ class SelectionFeature(Feature):
     @store(is_private=True)
     def selection(self, browser: str) -> SelectionStore:
         """Return the details of what a browser has selected."""
-        known = self._selection_of(browser)
-        return known.told if known and int(browser) in self._viewers else NOTHING
+        selection = self._selection_of(browser)
+        return selection.told if selection and int(browser) in self._viewers else NOTHING
 
     @store(is_private=True)
     def selected(self, browser: str) -> SelectedStore:
         """Return what a browser has selected."""
-        known = self._selection_of(browser)
-        return SelectedStore({str(id): each for id, each in known.held.items()} if known else {})
+        selection = self._selection_of(browser)
+        return SelectedStore(
+            {str(id): each for id, each in selection.held.items()} if selection else {}
+        )
 
     @store(of=lambda part: part.rows)
     def picking(self, argument: str) -> PickingStore:
@@ -215,9 +217,9 @@ class SelectionFeature(Feature):
 
     def state(self) -> Mapping[str, Any]:
         """Return what browsers have selected, and what is known of it for those that show it."""
-        known, viewers = self._selections.items(), self._viewers
-        told = {id: each.values if id in viewers else {} for id, each in known}
-        return {"selected": {id: each.held for id, each in known}, "selections": told}
+        selections, viewers = self._selections.items(), self._viewers
+        values = {id: each.values if id in viewers else {} for id, each in selections}
+        return {"selected": {id: each.held for id, each in selections}, "selections": values}
 
     @command(None)
     def inspect_selections(
@@ -277,14 +279,14 @@ class SelectionFeature(Feature):
     @command(Role.WATCHER)
     def identify(self, picks: Picks) -> str:
         """Answer with one line about a thing, "" if it does not exist any more."""
-        found = self._find(picks)
-        return self._line(next(iter(found.values()))) if found else ""
+        things = self._find(picks)
+        return self._line(next(iter(things.values()))) if things else ""
 
     def _find(self, picks: Picks) -> dict[int, _Selected]:
         id = picks.group.partition("/")[0]
         runner = next((each for each in self._displays.list.active() if each.id == id), None)
-        found = runner.find(picks) if runner else {}
-        return {id: _Selected(runner, each) for id, each in found.items()} if runner else {}
+        hits = runner.find(picks) if runner else {}
+        return {id: _Selected(runner, each) for id, each in hits.items()} if runner else {}
 
     def _line(self, selected: _Selected) -> str:
         details = self._details(selected)
@@ -298,27 +300,27 @@ class SelectionFeature(Feature):
 
     def _told(self, selection: _Selection) -> SelectionStore:
         """Return what a page shows of each thing, and of all."""
-        told: dict[str, Thing] = {}
-        known: dict[tuple[str, str], list[Any]] = {}
+        things: dict[str, Thing] = {}
+        by_title: dict[tuple[str, str], list[Any]] = {}
         counted: dict[str, Statistics] = {}
         for id, selected in selection.things.items():
-            runner, found = selected.runner, selected.found
+            runner, hit = selected.runner, selected.found
             details = self._details(selected)
-            title = details.title if details else str(found.hit.id or found.hit.key)
+            title = details.title if details else str(hit.hit.id or hit.hit.key)
             tree = details_tree(details.values if details else {})
-            alike = known.setdefault((runner.id, title), [])
+            alike = by_title.setdefault((runner.id, title), [])
             if tree in alike:
                 continue  # another part of the same thing
             alike.append(tree)
-            note = "" if runner.shows(found) else REPLACED
+            note = "" if runner.shows(hit) else REPLACED
             if details is None:
                 note = "It no longer exists."
             own = tree["fields"]
-            fields = own | {k: v for k, v in self._whereabouts(found).items() if k not in own}
+            fields = own | {k: v for k, v in self._whereabouts(hit).items() if k not in own}
             name = runner.display.name
-            told[str(id)] = Thing(runner.id, name, title, {"fields": fields}, note)
+            things[str(id)] = Thing(runner.id, name, title, {"fields": fields}, note)
             statistics = counted.setdefault(runner.id, Statistics(runner.display.name))
-            where = found.position(self.core.frames) if found.hit.id is not None else None
+            where = hit.position(self.core.frames) if hit.hit.id is not None else None
             statistics.add(details.values if details else {}, where)
         count = len(selection.things)
         several = sum(each.count for each in counted.values()) > 1
@@ -328,21 +330,21 @@ class SelectionFeature(Feature):
         info = SelectionInfo(
             max(selection.total, count), MAX_LIVE, count, shares if several else msgspec.UNSET
         )
-        return SelectionStore(told, info)
+        return SelectionStore(things, info)
 
     def _whereabouts(self, found: Found) -> dict[str, str]:
         """Return the details known of anything that is drawn."""
         hit = found.hit
-        known: dict[str, str] = {}
+        details: dict[str, str] = {}
         if (position := found.position(self.core.frames)) is not None:
             frame, xyz = position
             name = "Position" if hit.id is not None else "Clicked point"
-            known[f"{name} in {frame}"] = f"{', '.join(f'{c:.4f}' for c in xyz)} m"
+            details[f"{name} in {frame}"] = f"{', '.join(f'{c:.4f}' for c in xyz)} m"
         if hit.frame:
-            known["Frame"] = hit.frame
+            details["Frame"] = hit.frame
         if hit.samples and (stamp_ns := hit.sample.stamp_ns):
-            known["Stamp"] = f"{format_stamp(stamp_ns)} s"
-        return known
+            details["Stamp"] = f"{format_stamp(stamp_ns)} s"
+        return details
 
 
 def _affordable(things: Mapping[int, _Selected]) -> dict[int, _Selected]:

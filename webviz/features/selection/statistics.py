@@ -51,25 +51,25 @@ class Statistics(msgspec.Struct):
             position: of the item in metres, and in which frame.
         """
         self.count += 1
-        told: dict[str, tuple[float, str]] = {}
+        numbers: dict[str, tuple[float, str]] = {}
         if position is not None:
             frame, xyz = position
-            told = {f"{a} in {frame}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
+            numbers = {f"{a} in {frame}": (v, "m") for a, v in zip("xyz", xyz, strict=True)}
         for name, number in _numbers(values):
-            told.setdefault(name, number)
-        for name, (value, unit) in told.items():
+            numbers.setdefault(name, number)
+        for name, (value, unit) in numbers.items():
             self._values.setdefault((name, unit), []).append(value)
 
     def ranges(self) -> list[ValueRange]:
         """Return the extents, but for numbers that are the same for all items."""
-        found: list[ValueRange] = []
+        ranges: list[ValueRange] = []
         for (name, unit), all_values in self._values.items():
             values = [value for value in all_values if math.isfinite(value)]
             is_told = len(values) > 1 and (unit or min(values) < max(values))
-            if is_told and len(found) < MAX_NAMES:
+            if is_told and len(ranges) < MAX_NAMES:
                 mean = math.fsum(value / len(values) for value in values)
-                found.append(ValueRange(name, unit, min(values), max(values), mean))
-        return found
+                ranges.append(ValueRange(name, unit, min(values), max(values), mean))
+        return ranges
 
 
 def _numbers(

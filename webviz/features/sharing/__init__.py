@@ -101,8 +101,8 @@ class SharingFeature(Feature):
             text = running.done.result()
             self.core.outputs.add(running.path, "shared", text, running.sender)
         else:
-            known = isinstance(error, Error)
-            text = str(error) if known else self.core.guard.note("Share", error)
+            is_expected = isinstance(error, Error)
+            text = str(error) if is_expected else self.core.guard.note("Share", error)
         self._ended = SharingState(number=self._ended.number + 1, level=level, text=text)
 
     def state(self) -> Mapping[str, Any]:
@@ -168,21 +168,21 @@ class SharingFeature(Feature):
             raise Error("Another file is being made. Wait for it, or stop it.")
         part, _ = slice_around(core.player, margins(before_s, after_s))
         config = core.get(ViewsPart).as_seen(files.config(), sender)
-        made = Path(path).absolute() if path else new_path("webviz_run", ".html")
+        output = Path(path).absolute() if path else new_path("webviz_run", ".html")
         name = files.path.name if files.path else ""
         stopped = threading.Event()
 
         def work() -> str:
-            return _made(part, config, (made, name), core.host, progress, stopped)
+            return _made(part, config, (output, name), core.host, progress, stopped)
 
         def progress(share: float) -> None:
             running.share = share
 
         try:
-            running = self._running = _Running(stopped, _exports.start(work), made, sender)
+            running = self._running = _Running(stopped, _exports.start(work), output, sender)
         except OSError as error:
             raise Error(f"Failed: {error.strerror}.") from error
-        return f"Making {made.name}. Panels and scene stay usable meanwhile."
+        return f"Making {output.name}. Panels and scene stay usable meanwhile."
 
     @command(Role.OWNER)
     def stop_sharing(self) -> str:
@@ -205,7 +205,7 @@ def _made(
     path, name = target
     try:
         with working_folder(".webviz_share_", path.parent) as folder:
-            bag, shown = folder / f"{path.stem}.mcap", folder / "config.yaml"
+            bag, config_path = folder / f"{path.stem}.mcap", folder / "config.yaml"
 
             def unchanged(data: bytes) -> bytes:
                 if stopped.is_set():
@@ -213,11 +213,13 @@ def _made(
                 return data
 
             written = write_slice(part, bag, MAX_SLICE, unchanged)
-            shown.write_text(config_file.dump(config), encoding="utf-8")
+            config_path.write_text(config_file.dump(config), encoding="utf-8")
             at_s = (written.at_ns - written.first_ns) / 1e9
-            made = folder / path.name
-            size = export(SharedMoment(bag, shown, made, name, at_s), host, progress, stopped)
-            made.replace(path)
+            temporary = folder / path.name
+            size = export(
+                SharedMoment(bag, config_path, temporary, name, at_s), host, progress, stopped
+            )
+            temporary.replace(path)
             return f"Saved {path.name}: {size}"
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)

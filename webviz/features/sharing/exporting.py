@@ -72,13 +72,13 @@ def export(
     words = {"bag": bag, "config": config, "path": path}
     order = words | {"name": moment.name, "at_s": moment.at_s, "plugins": files}
     with _process(order) as process:
-        for told in _lines(process, stopped):
-            if told.problem:
-                raise Error(told.problem)
-            if told.done:
+        for line in _lines(process, stopped):
+            if line.problem:
+                raise Error(line.problem)
+            if line.done:
                 host.offer(moment.path.name, moment.path.read_bytes())
-                return told.done
-            progress(told.share)
+                return line.done
+            progress(line.share)
         if stopped.is_set():
             raise Error("Stopped.")
         status = process.wait()

@@ -198,10 +198,10 @@ class ToolsFeature(PageFeature):
 
     def _advertisements(self, tool: Tool) -> list[Advertisement]:
         """Return the advertisements of a tool whose topics have valid names."""
-        found = [
+        advertisements = [
             advertisement_of(self.core, output.type, topic) for _, output, topic in outputs(tool)
         ]
-        return [advertisement for advertisement in found if advertisement]
+        return [advertisement for advertisement in advertisements if advertisement]
 
     @command(Role.OPERATOR)
     def set_tool_property(self, tool: str, path: str, value: Any) -> None:

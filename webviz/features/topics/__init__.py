@@ -69,9 +69,9 @@ class TopicsFeature(Feature):
 
     def update(self) -> None:
         """Forget topics that no page shows."""
-        for gone in self._last.keys() - self._inspected():
-            del self._last[gone]
-            self._read.pop(gone, None)
+        for topic in self._last.keys() - self._inspected():
+            del self._last[topic]
+            self._read.pop(topic, None)
 
     def is_attended(self) -> bool:
         """Return whether somebody looks into a topic."""

@@ -149,8 +149,8 @@ class TransformsFeature(Feature):
         frames = {report.frame: _frame(report) for report in tree.frames}
         # In a loop there is no root; it is shown from somewhere.
         roots = [*tree.roots, *(loop[0] for loop in tree.loops)]
-        told = {problem for report in tree.frames for problem in report.problems}
-        problems = [problem for problem in tree.problems if problem not in told]
+        reported = {problem for report in tree.frames for problem in report.problems}
+        problems = [problem for problem in tree.problems if problem not in reported]
         return TransformsStore(frames, roots, problems)
 
     @store()
@@ -167,8 +167,8 @@ class TransformsFeature(Feature):
     @store()
     def between(self, pair: str) -> BetweenStore | None:
         """Return the transform between two frames, given as JSON: [target, source]."""
-        found = self.transform_between(pair_of(pair) or ("", ""))
-        return found and between_store(found)
+        between = self.transform_between(pair_of(pair) or ("", ""))
+        return between and between_store(between)
 
     @command(None)
     def inspect_transforms(
@@ -185,12 +185,12 @@ class TransformsFeature(Feature):
     @command(Role.WATCHER)
     def look_up_transform(self, target: str, source: str) -> str:
         """Answer with the newest transform between two frames, in words."""
-        found = self._between(target, source)
-        if found.translation is None:
-            raise Error(found.problem)
-        x, y, z = found.translation
-        turn = ", ".join(f"{each:.5f}" for each in found.rotation)
-        age = "static" if found.age_s is None else f"{found.age_s:.2f} s old"
+        between = self._between(target, source)
+        if between.translation is None:
+            raise Error(between.problem)
+        x, y, z = between.translation
+        turn = ", ".join(f"{each:.5f}" for each in between.rotation)
+        age = "static" if between.age_s is None else f"{between.age_s:.2f} s old"
         return (
             f"{source} is at ({x:.4f}, {y:.4f}, {z:.4f}) m in {target}, rotation "
             f"(x, y, z, w) = ({turn}), {age}."
@@ -211,11 +211,11 @@ class TransformsFeature(Feature):
     def _between(self, target: str, source: str) -> Between:
         buffer, now_ns = self.core.buffer, self.core.frames.now_ns
         try:
-            found = buffer.lookup(target, source, 0)
+            transform = buffer.lookup(target, source, 0)
         except TransformException:
             return Between(problem=explain(buffer, target, source, 0, now_ns).sentence)
-        age_s = (now_ns - found.stamp_ns) / 1e9 if found.stamp_ns and now_ns else None
-        return Between(found.translation, found.rotation, age_s)
+        age_s = (now_ns - transform.stamp_ns) / 1e9 if transform.stamp_ns and now_ns else None
+        return Between(transform.translation, transform.rotation, age_s)
 
 
 def between_store(found: Between) -> BetweenStore:

@@ -76,8 +76,8 @@ class UndoFeature(Feature):
     @store()
     def history(self, argument: str = "") -> UndoHistory:
         """Return the steps that can be undone and redone."""
-        undo = tuple(done.step for done in reversed(self._undo))
-        redo = tuple(done.step for done in reversed(self._redo))
+        undo = tuple(entry.step for entry in reversed(self._undo))
+        redo = tuple(entry.step for entry in reversed(self._redo))
         return UndoHistory(undo, redo)
 
     def state(self) -> Mapping[str, Any]:
@@ -87,19 +87,19 @@ class UndoFeature(Feature):
     def after(self, command: Command, sender: Sender) -> None:
         """Note what a command has changed."""
         before, self._now = self._now, self._moment()
-        done = difference(before, self._now)
-        if not done.label:
+        change = difference(before, self._now)
+        if not change.label:
             return
-        if self._goes_on(done, sender):
+        if self._goes_on(change, sender):
             before = self._undo.pop().before
-            done = difference(before, self._now)
+            change = difference(before, self._now)
         others = [each for each in self._redo if each.step.browser != sender.browser]
         self._redo = deque(others, MAX_STEPS)
-        if done.label:  # else it is as it was before
+        if change.label:  # else it is as it was before
             self._count += 1
-            label, by = command.label or done.label, sender.browser
+            label, by = command.label or change.label, sender.browser
             restored = label.removeprefix(RESTORE) if isinstance(command, Restore) else ""
-            step = HistoryStep(self._count, label, by, done.removed, restored)
+            step = HistoryStep(self._count, label, by, change.removed, restored)
             self._undo.append(_Done(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
@@ -143,12 +143,12 @@ class UndoFeature(Feature):
         labels = []
         moment = self._now
         for _ in range(max(1, min(steps, len(back)))):
-            done = _newest(back, sender if own else None)
+            entry = _newest(back, sender if own else None)
             self._count += 1
-            step = replace(done.step, number=self._count, browser=sender.browser)
-            forth.append(_Done(step, done.after, done.before))
-            moment = rebased(moment, done.after, done.before)
-            labels.append(done.step.label)
+            step = replace(entry.step, number=self._count, browser=sender.browser)
+            forth.append(_Done(step, entry.after, entry.before))
+            moment = rebased(moment, entry.after, entry.before)
+            labels.append(entry.step.label)
         self._show(moment)
         self._now = self._moment()
         self._last = (-SAME_S, Sender(), None)
@@ -182,6 +182,6 @@ def _newest(steps: deque[_Done], of: Sender | None) -> _Done:
     """Take the newest step, or that of a sender if it has one."""
     own = (at for at in reversed(range(len(steps))) if of and steps[at].step.browser == of.browser)
     at = next(own, len(steps) - 1)
-    done = steps[at]
+    entry = steps[at]
     del steps[at]
-    return done
+    return entry

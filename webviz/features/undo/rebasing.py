@@ -40,26 +40,28 @@ def _values(
     now: Mapping[str, Any], old: Mapping[str, Any], new: Mapping[str, Any]
 ) -> dict[str, Any]:
     """Return a mapping with the changes of another: keys that went, came or have other values."""
-    kept = {key: value for key, value in now.items() if key in new or key not in old}
-    return kept | {k: value for k, value in new.items() if k not in old or old[k] != value}
+    values = {key: value for key, value in now.items() if key in new or key not in old}
+    return values | {k: value for k, value in new.items() if k not in old or old[k] != value}
 
 
 def _entries(
     now: Mapping[str, Snapshot], old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]
 ) -> dict[str, Snapshot]:
-    found: dict[str, Snapshot] = {}
+    entries_now: dict[str, Snapshot] = {}
     for id in {**now, **new}:
         if id not in new:
             if id not in old:
-                found[id] = now[id]
+                entries_now[id] = now[id]
         elif id not in old or (id in now and now[id] == old[id]):
-            found[id] = new[id]
+            entries_now[id] = new[id]
         elif id in now:
-            found[id] = _changed(now[id], old[id], new[id])
+            entries_now[id] = _changed(now[id], old[id], new[id])
     was_moved = [id for id in old if id in new] != [id for id in new if id in old]
     base, others = (new, now) if was_moved else (now, new)
-    order = _merged((id for id in base if id in found), [id for id in others if id in found])
-    return {id: found[id] for id in order}
+    order = _merged(
+        (id for id in base if id in entries_now), [id for id in others if id in entries_now]
+    )
+    return {id: entries_now[id] for id in order}
 
 
 def _changed(now: Snapshot, old: Snapshot, new: Snapshot) -> Snapshot:
@@ -85,17 +87,17 @@ def _in_groups(entries: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
     below: dict[str, list[str]] = {}
     for id, each in entries.items():
         below.setdefault(each.group if each.group in entries else "", []).append(id)
-    found: dict[str, Snapshot] = {}
+    entries_now: dict[str, Snapshot] = {}
 
     def add(group: str) -> None:
         for id in below.pop(group, ()):
             each = entries[id]
-            found[id] = each if each.group == group else replace(each, group="")
+            entries_now[id] = each if each.group == group else replace(each, group="")
             add(id)
 
     add("")
     for id in entries:  # groups in each other, which two people have made
-        if id not in found:
-            found[id] = replace(entries[id], group="")
+        if id not in entries_now:
+            entries_now[id] = replace(entries[id], group="")
             add(id)
-    return found
+    return entries_now

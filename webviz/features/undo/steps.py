@@ -58,12 +58,12 @@ def difference(before: Moment, after: Moment) -> Difference:
         (before.panels, after.panels),
     )
     for old, new in lists:
-        gone = [kept for id, kept in old.items() if id not in new]
-        come = [kept for id, kept in new.items() if id not in old]
-        if gone and come:
+        removed = [entry for id, entry in old.items() if id not in new]
+        come = [entry for id, entry in new.items() if id not in old]
+        if removed and come:
             return Difference("Open another config")
-        if gone:
-            name = _outer(old, gone)
+        if removed:
+            name = _outer(old, removed)
             return Difference(f"Remove {name}", removed=name)
         if come:
             return Difference(f"Add {_outer(new, come)}")
@@ -78,8 +78,8 @@ def difference(before: Moment, after: Moment) -> Difference:
 
 def _outer(all_: Mapping[str, Snapshot], some: Sequence[Snapshot]) -> str:
     """Return the names of the outermost entries; those in a group go without saying."""
-    groups = {id for id, kept in all_.items() if kept in some}
-    outer = [kept.name for kept in some if kept.group not in groups]
+    groups = {id for id, entry in all_.items() if entry in some}
+    outer = [entry.name for entry in some if entry.group not in groups]
     return outer[0] if len(outer) == 1 else f"{len(outer)} displays"
 
 
@@ -93,23 +93,23 @@ def _of_changes(new: Mapping[str, Snapshot], changes: list[tuple[str, str]]) -> 
     ids = list(dict.fromkeys(id for id, _ in changes))
     if len(ids) > 1:
         return Difference(f"Change {len(ids)} displays")
-    kept = new[ids[0]]
-    if len(changes) > 1 or kept.class_ is None:
-        return Difference(f"Change {kept.name}")
+    entry = new[ids[0]]
+    if len(changes) > 1 or entry.class_ is None:
+        return Difference(f"Change {entry.name}")
     name = changes[0][1]
     if name == "enabled":
-        return Difference(f"{'Show' if kept.values[name] else 'Hide'} {kept.name}", changes[0])
+        return Difference(f"{'Show' if entry.values[name] else 'Hide'} {entry.name}", changes[0])
     if name == "name":
-        return Difference(f"Rename to {kept.name}", changes[0])
-    labels = {each.path: each.label for each in properties_of(kept.class_)}
-    return Difference(f"Change {labels.get(name, name)} of {kept.name}", changes[0])
+        return Difference(f"Rename to {entry.name}", changes[0])
+    labels = {each.path: each.label for each in properties_of(entry.class_)}
+    return Difference(f"Change {labels.get(name, name)} of {entry.name}", changes[0])
 
 
 def _moved(old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]) -> str:
     """Return the name of what was moved, "" if nothing was."""
-    for id, kept in new.items():
-        if kept.group != old[id].group:
-            return kept.name
+    for id, entry in new.items():
+        if entry.group != old[id].group:
+            return entry.name
     before, after = list(old), list(new)
     if before == after:
         return ""
@@ -141,11 +141,11 @@ def _of_settings(old: Settings, new: Settings) -> Difference:
 
 
 def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> Difference:
-    gone, come = old.keys() - new.keys(), new.keys() - old.keys()
-    if gone and come:
-        return Difference(f"Rename {kind} {min(gone)}")
-    if gone:
-        name = f"{kind} {min(gone)}"
+    removed, come = old.keys() - new.keys(), new.keys() - old.keys()
+    if removed and come:
+        return Difference(f"Rename {kind} {min(removed)}")
+    if removed:
+        name = f"{kind} {min(removed)}"
         return Difference(f"Remove {name}", removed=name)
     changed = come or {name for name in new if new[name] != old[name]}
     return Difference(f"Save {kind} {min(changed)}")

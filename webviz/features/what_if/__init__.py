@@ -233,16 +233,16 @@ class WhatIfFeature(Feature):
             raise Error(NO_TRIAL)
         buffer = self.core.buffer
         below = {frame for frame in buffer.frames() if self._carries(frame)}
-        found = self._displays.consistency.aligned(below)
-        if found is None:
+        aligned = self._displays.consistency.aligned(below)
+        if aligned is None:
             raise Error(NO_SCAN)
         try:
-            parent = to_pose(buffer.lookup(found.map_frame, trial.parent, found.stamp_ns))
+            parent = to_pose(buffer.lookup(aligned.map_frame, trial.parent, aligned.stamp_ns))
         except TransformException as error:
             raise Error(NO_SCAN) from error
         # The correction in the map, applied to the tried frame as a whole.
         on_map = compose(parent, trial.pose)
-        moved = compose(compose(found.after, _inverse(found.before)), on_map)
+        moved = compose(compose(aligned.after, _inverse(aligned.before)), on_map)
         self._move(compose(_inverse(parent), moved))
 
     @command(Role.OPERATOR)

@@ -294,21 +294,21 @@ def mistakes(
         others: keys that are valid without being properties.
     """
     fields = [*cls.__struct_fields__, *others]
-    found: list[Fault] = []
+    faults: list[Fault] = []
     for key, value in values.items():
         if key not in fields:
-            found.append(Fault((key,), unknown_key(key, fields)))
+            faults.append(Fault((key,), unknown_key(key, fields)))
         elif key not in others:
             try:
                 make(cls, {key: value})
             except msgspec.ValidationError as single:
-                found.append(explain(single, cls, {key: value}))
-    return found or [explain(error, cls, values)]  # the values may contradict each other
+                faults.append(explain(single, cls, {key: value}))
+    return faults or [explain(error, cls, values)]  # the values may contradict each other
 
 
 def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
     """Errors with their places, up to a limit."""
-    told = [place.at(*path).says(clause) for path, clause in found[:MAX_MISTAKES]]
+    texts = [place.at(*path).says(clause) for path, clause in found[:MAX_MISTAKES]]
     if len(found) > MAX_MISTAKES:
-        told.append(f"{len(found) - MAX_MISTAKES} more errors.")
-    return joined(*told)
+        texts.append(f"{len(found) - MAX_MISTAKES} more errors.")
+    return joined(*texts)

@@ -107,11 +107,11 @@ def _templates(
     entries: Iterable[Repetition], items: Iterable[Item | ToolItem]
 ) -> tuple[Template, ...]:
     """Return the entries that were repeated, given what became of them."""
-    found: dict[int, tuple[Any, list[Any]]] = {}
+    by_place: dict[int, tuple[Any, list[Any]]] = {}
     for (place, entry, name), item in zip(entries, items, strict=True):
         if name:
-            found.setdefault(place, (entry, []))[1].append(entry_of(item))
-    return tuple(Template(entry, written) for entry, written in found.values())
+            by_place.setdefault(place, (entry, []))[1].append(entry_of(item))
+    return tuple(Template(entry, written) for entry, written in by_place.values())
 
 
 def _list(document: Mapping[Any, Any], key: str, top: Location) -> list[Any]:

@@ -48,17 +48,17 @@ def schema(
         displays: display classes by the name each has in config files.
         tools, panels: their classes in the same way.
     """
-    made = _Schemas()
-    top = made.properties(Settings)
+    schemas = _Schemas()
+    top = schemas.properties(Settings)
     top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
     top["displays"] = _list_of(Display, "What is shown, in the order of the list.")
     top["tools"] = _list_of(Tool, "The toolbar; without this key, all tools that are installed.")
     top["panels"] = _list_of(
         Panel, "Additional tabs; without this key, those of all installed plug-ins."
     )
-    made.add(Display, displays)
-    made.add(Tool, tools)
-    made.add(Panel, panels)
+    schemas.add(Display, displays)
+    schemas.add(Tool, tools)
+    schemas.add(Panel, panels)
     return {
         "$schema": DRAFT,
         "title": "webviz",
@@ -66,7 +66,7 @@ def schema(
         "type": "object",
         "additionalProperties": False,
         "properties": top,
-        "definitions": dict(sorted(made.definitions.items())),
+        "definitions": dict(sorted(schemas.definitions.items())),
     }
 
 
@@ -80,14 +80,14 @@ def _any(base: type[Declared], types: Mapping[str, type[Declared]], name: Schema
 
     Only what its type says is checked, so that errors are about that.
     """
-    known = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
+    named = [{"const": name, "description": _words(cls)} for name, cls in types.items()]
     schema: Schema = {
         "type": "object",
         "required": ["type"],
         "properties": {
             "type": {
                 "description": f"What kind of {base.kind} this is.",
-                "anyOf": [*known, {"type": "string"}],
+                "anyOf": [*named, {"type": "string"}],
             },
             "name": name,
         },
@@ -133,21 +133,21 @@ class _Schemas:
         return {each.path: self._property(each) for each in properties_of(cls)}
 
     def _property(self, declared: Property) -> Schema:
-        made = self._type(declared.type)
+        schema = self._type(declared.type)
         words = [declared.help] if declared.help else []
         if declared.unit:
             words.append(f"In {declared.unit}.")
         for path, values in declared.when[:1]:
-            shown = [msgspec.json.encode(value).decode() for value in values]
-            words.append(f"Where {path} is {' or '.join(shown)}.")
+            texts = [msgspec.json.encode(value).decode() for value in values]
+            words.append(f"Where {path} is {' or '.join(texts)}.")
         if words:
-            made = {**made, "description": " ".join(words)}
+            schema = {**schema, "description": " ".join(words)}
         default = declared.default
         if default is not msgspec.NODEFAULT and default not in ("", {}, []):
             is_name = isinstance(default, Topic) and default == Topic(default.name)
             plain = default.name if is_name else msgspec.to_builtins(default)
-            made = {**made, "default": plain}
-        return made
+            schema = {**schema, "default": plain}
+        return schema
 
     def _type(self, type_: inspect.Type) -> Schema:
         match type_:
@@ -178,10 +178,10 @@ class _Schemas:
             properties = self.properties(type_.cls)
             if type_.tag_field:
                 properties = {type_.tag_field: {"const": type_.tag}, **properties}
-            made = _object(properties, _words(type_.cls))
+            reference = _object(properties, _words(type_.cls))
             if type_.cls is Topic:  # the bare name is enough
-                made = {"anyOf": [{"type": "string"}, made]}
-            self.definitions[name] = made
+                reference = {"anyOf": [{"type": "string"}, reference]}
+            self.definitions[name] = reference
         return {"$ref": DEFINITION + name}
 
 

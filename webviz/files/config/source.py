@@ -56,8 +56,8 @@ class YamlDocument:
         node, line = self.node, 1
         for step in path:
             if isinstance(node, MappingNode):
-                found = [pair for pair in node.value if pair[0].value == step]
-                mark, node = found[-1] if found else (None, None)
+                pairs = [pair for pair in node.value if pair[0].value == step]
+                mark, node = pairs[-1] if pairs else (None, None)
             elif isinstance(node, SequenceNode) and isinstance(step, int):
                 mark = node = node.value[step] if step < len(node.value) else None
             else:

@@ -120,8 +120,8 @@ class WatchRule(
 
     def holds_for(self, number: float) -> bool:
         """Return whether the condition `value` holds for a number."""
-        found = VALUE.fullmatch(self.value)
-        return found is not None and COMPARISONS[found["comparison"]](number, float(found["limit"]))
+        match = VALUE.fullmatch(self.value)
+        return match is not None and COMPARISONS[match["comparison"]](number, float(match["limit"]))
 
     @property
     def condition(self) -> Rule | None:

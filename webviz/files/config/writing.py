@@ -54,15 +54,15 @@ def document(config: Config) -> dict[str, Any]:
     }
     basis |= {"view": {}, "views": {}}
     values |= {key: value for key, value in settings.items() if value != basis[key]}
-    kept = values.pop("rviz", None)
+    rviz_part = values.pop("rviz", None)
     values["displays"] = folded(list(map(entry_of, config.displays)), config.templates)
     plugins = {"tools": (config.tools, all_tools()), "panels": (config.panels, all_panels())}
     for key, (items, installed) in plugins.items():
         entries = list(map(entry_of, items))
         if entries != list(map(entry_of, installed)):
             values[key] = folded(entries, config.templates)
-    if kept:
-        values["rviz"] = kept  # last, because it is long and seldom read
+    if rviz_part:
+        values["rviz"] = rviz_part  # last, because it is long and seldom read
     return values
 
 

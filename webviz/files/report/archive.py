@@ -86,14 +86,14 @@ def read_report(path: Path, folder: Path) -> UnpackedReport:
     try:
         _refuse_large_directory(path)
         with zipfile.ZipFile(path) as archive:
-            found = _members(path, archive)
+            members = _members(path, archive)
             bag, config = folder / f"{path.stem}.mcap", folder / CONFIG
-            picture = next((folder / name for name in PICTURES if name in found), None)
-            _unpack(archive, found[SLICE], bag)
-            _unpack(archive, found[CONFIG], config)
+            picture = next((folder / name for name in PICTURES if name in members), None)
+            _unpack(archive, members[SLICE], bag)
+            _unpack(archive, members[CONFIG], config)
             if picture is not None:
-                _unpack(archive, found[picture.name], picture)
-            text = archive.read(found[REPORT])
+                _unpack(archive, members[picture.name], picture)
+            text = archive.read(members[REPORT])
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
         raise _no_report(path, str(error) or "it is damaged") from error
     except OSError as error:
@@ -117,21 +117,21 @@ def _refuse_large_directory(path: Path) -> None:
 
 def _members(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     """Return the members that are read, by name."""
-    found: dict[str, zipfile.ZipInfo] = {}
+    members: dict[str, zipfile.ZipInfo] = {}
     for info in archive.infolist():
         limit = LIMITS.get(info.filename)
         if limit is None:
             continue
-        if info.filename in found:
+        if info.filename in members:
             raise _no_report(path, f"it contains {info.filename} twice")
         if info.file_size > limit:
             megabytes = limit >> 20
             raise _no_report(path, f"{info.filename} is larger than {megabytes} MB")
-        found[info.filename] = info
+        members[info.filename] = info
     for name in (REPORT, CONFIG, SLICE):
-        if name not in found:
+        if name not in members:
             raise _no_report(path, f"{name} is missing from it")
-    return found
+    return members
 
 
 def _unpack(archive: zipfile.ZipFile, info: zipfile.ZipInfo, target: Path) -> None:

@@ -38,12 +38,12 @@ class PrivateNames:
         home: str | None = None,
     ) -> None:
         self._public = tuple(public)
-        found = dict.fromkeys(_own_words() if words is None else words)
-        wanted = [word for word in found if len(word) > 1 and word.lower() not in COMMON]
+        names = dict.fromkeys(_own_words() if words is None else words)
+        hidable = [word for word in names if len(word) > 1 and word.lower() not in COMMON]
         parts = {part for name in self._public for part in name.split("/")}
-        hidden = [word for word in wanted if word not in parts]
+        hidden = [word for word in hidable if word not in parts]
         found_in = [part for part in parts if any(_has(part, word) for word in hidden)]
-        self.kept = (*(word for word in wanted if word in parts), *sorted(found_in))
+        self.kept = (*(word for word in hidable if word in parts), *sorted(found_in))
         """Names, and names of frames and parts of topics with names in them, that stay."""
         self._whole = frozenset(part.encode() for part in found_in)
         home = str(Path.home()) if home is None else home
@@ -100,9 +100,9 @@ def _pattern(words: Iterable[str], whole: Iterable[str]) -> re.Pattern[bytes] | 
     parts = _alternatives(words)
     if not parts:
         return None
-    kept = b"".join(b"%s|" % part for part in _alternatives(whole))
+    exempt = b"".join(b"%s|" % part for part in _alternatives(whole))
     alone = rb"(?<![A-Za-z0-9])(?:%s(?i:%s))(?![A-Za-z0-9])"
-    return re.compile(alone % (kept, b"|".join(parts)))
+    return re.compile(alone % (exempt, b"|".join(parts)))
 
 
 def _alternatives(words: Iterable[str]) -> list[bytes]:

@@ -46,11 +46,11 @@ def grouped(tree: Tree) -> Tree:
     """
     moved = {key: tree[key] for key in GROUPED if key in tree}
     classes = {name: child(tree, name) for name in CLASSES if isinstance(tree.get(name), Mapping)}
-    gone = {*moved, *classes, POLYGONS, FILLING}
+    moved_keys = {*moved, *classes, POLYGONS, FILLING}
     result = {
         key: dict(value) if isinstance(value, Mapping) else value
         for key, value in tree.items()
-        if key not in gone
+        if key not in moved_keys
     }
     for key, value in moved.items():
         _put_new(result, GROUPED[key], value)

@@ -26,10 +26,10 @@ def counterpart(base: type[P], cls: str) -> type[P] | None:
 
 @functools.lru_cache(maxsize=8)
 def _classes(types: tuple[type[P], ...]) -> dict[str, type[P]]:
-    found = {cls.rviz: cls for cls in types if cls.rviz}
+    by_name = {cls.rviz: cls for cls in types if cls.rviz}
     own = {
         name.partition("/")[2]: cls
-        for name, cls in found.items()
+        for name, cls in by_name.items()
         if name.startswith(("rviz_common/", "rviz_default_plugins/"))
     }
-    return {f"rviz/{name}": cls for name, cls in own.items()} | found
+    return {f"rviz/{name}": cls for name, cls in own.items()} | by_name

@@ -54,19 +54,19 @@ def read_items(entries: list[Any], report: Report, kept: Kept, place: Location) 
 def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
-    found = counterpart(Display, cls)
-    report.count("displays", found is not None, 1)
-    if found is None:
+    own_class = counterpart(Display, cls)
+    report.count("displays", own_class is not None, 1)
+    if own_class is None:
         report.note(name or _at_line("?", place), cls or "a display without class", NO_DISPLAY)
         report.count("properties", 0, len(_effective(tree)))
         return read_display({"type": cls or "?", "name": name or cls, "rviz": entry}, Location())
-    display = _read(found, tree, name, report, place)
-    if found.rviz != cls:
-        report.note(name, cls, f"ROS 1's class, written as {found.rviz}")
+    display = _read(own_class, tree, name, report, place)
+    if own_class.rviz != cls:
+        report.note(name, cls, f"ROS 1's class, written as {own_class.rviz}")
     inner = tree.pop("Displays", []) if isinstance(display, DisplayGroup) else []
     written = bare(display)
     rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, written)
-    kept.entries.append({"Class": found.rviz, "Name": display.name, **rest})
+    kept.entries.append({"Class": own_class.rviz, "Name": display.name, **rest})
     if not isinstance(display, DisplayGroup):
         return display
     entries = inner if isinstance(inner, list) else []
@@ -86,10 +86,10 @@ def note_properties(
     """Report the properties of a display or tool that were not read, or not as they are."""
     for path, reason in reading.faults:
         report.note(_at_line(declared.name, place.at(*path)), "/".join(path), reason)
-    told = [path for path, _ in reading.faults]
+    fault_paths = [path for path, _ in reading.faults]
     for path in _effective(tree):
         report.count("properties", path in reading.used, 1)
-        if path not in reading.used and not any(path[: len(each)] == each for each in told):
+        if path not in reading.used and not any(path[: len(each)] == each for each in fault_paths):
             report.note(declared.name, "/".join(path), NO_PROPERTY)
 
 

@@ -68,7 +68,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     document = parse(source)
     if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
         raise ConfigError(f"{where} is not an RViz config: it has no `{MANAGER}`.")
-    report, kept = Report(), Kept()
+    report, unsupported = Report(), Kept()
     for kind in ("displays", "properties", "views", "tools", "panels"):
         report.count(kind, 0, 0)
     manager = dict(document[MANAGER])
@@ -79,7 +79,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
         report.note(MANAGER, "Displays", "not a list; ignored")
         entries = []
     refuse_too_many(entries, "Displays", where)
-    items = read_items(entries, report, kept, Location((MANAGER, "Displays"), source))
+    items = read_items(entries, report, unsupported, Location((MANAGER, "Displays"), source))
     place = Location((MANAGER, "Tools"), source)
     tools = read_tools(manager.get("Tools"), document.get("Panels"), report, place)
     note_rest(document, report)
@@ -89,7 +89,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     else:
         del basis[MANAGER]["Views"]["Current"]["Class"]  # the other keys are kept for this class
     rest = difference({**document, MANAGER: manager}, basis)
-    if displays := _worth_keeping(kept.entries):
+    if displays := _worth_keeping(unsupported.entries):
         rest[MANAGER] = {**rest.get(MANAGER, {}), "Displays": displays}
     settings.rviz = rest
     panels = read_panels(document.get("Panels"), manager.get("Tools"), report)
@@ -103,7 +103,7 @@ def write(config: Config) -> tuple[str, Report]:
     manager = child(rest, MANAGER)
     entries = manager.pop("Displays", None)
     entries = entries if isinstance(entries, list) else []
-    kept = Kept([dict(entry) for entry in entries if isinstance(entry, Mapping)])
+    unsupported = Kept([dict(entry) for entry in entries if isinstance(entry, Mapping)])
     kept_views = child(manager, "Views")
     current, view = child(kept_views, "Current"), config.settings.view
     tree = _bare(config.settings)
@@ -127,7 +127,7 @@ def write(config: Config) -> tuple[str, Report]:
         **{key: getattr(no_settings, key) for key in NOT_WRITTEN},
     )
     tree = restored(tree, rest, own, lambda tree: _settings(tree[MANAGER], Report()))
-    tree[MANAGER]["Displays"] = write_items(config.displays, report, kept)
+    tree[MANAGER]["Displays"] = write_items(config.displays, report, unsupported)
     kept_tools = child(rest, MANAGER).get("Tools")
     tree["Panels"] = panels = write_panels(config.panels, tree.get("Panels"), kept_tools, report)
     tools = write_tools(config.tools, kept_tools, panels, report)
@@ -198,20 +198,20 @@ def read_panels(entries: Any, tools: Any, report: Report) -> list[PanelItem]:
         tools: of the same file; those that do what a panel does open it.
         report: receives invalid values.
     """
-    found: list[PanelItem] = all_panels()
+    panel_items: list[PanelItem] = all_panels()
     for entry in entries if isinstance(entries, list) else []:
         cls = _counterpart(entry)
-        if cls is None or cls.opens == "at start" or any(type(each) is cls for each in found):
+        if cls is None or cls.opens == "at start" or any(type(each) is cls for each in panel_items):
             continue
         reading = Reading()
-        found.append(make(cls, reading.struct(cls, entry)))
+        panel_items.append(make(cls, reading.struct(cls, entry)))
         for path, reason in reading.faults:
             report.count("properties", 0, 1)
             report.note(values.text(entry.get("Name", "?")), "/".join(path), reason)
     for cls in _of_tools(tools):
-        if not any(type(each) is cls for each in found):
-            found.append(make(cls, {}))
-    return found
+        if not any(type(each) is cls for each in panel_items):
+            panel_items.append(make(cls, {}))
+    return panel_items
 
 
 def _of_tools(tools: Any) -> list[type[Panel]]:

@@ -25,12 +25,12 @@ def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Setti
     Returns:
         The displays, the settings with their parts kept for export, and what was skipped.
     """
-    report, kept = Report(), Kept()
-    revived = [_revived(item, report, kept) for item in items]
-    if kept.entries:
+    report, unsupported = Report(), Kept()
+    revived = [_revived(item, report, unsupported) for item in items]
+    if unsupported.entries:
         manager = child(settings.rviz, MANAGER)
         before = manager.get("Displays")
-        manager["Displays"] = [*(before if isinstance(before, list) else []), *kept.entries]
+        manager["Displays"] = [*(before if isinstance(before, list) else []), *unsupported.entries]
         settings = msgspec.structs.replace(settings, rviz={**settings.rviz, MANAGER: manager})
     return revived, settings, report
 
@@ -44,8 +44,8 @@ def _revived(item: Item, report: Report, kept: Kept) -> Item:
     cls = values.text(entry.get("Class", "")) if isinstance(entry, Mapping) else ""
     if counterpart(Display, cls) is None:
         return item
-    (made,) = read_items([_plain(entry)], report, kept, Location())
-    return made
+    (revived,) = read_items([_plain(entry)], report, kept, Location())
+    return revived
 
 
 def _plain(entry: Mapping) -> Tree:

@@ -40,13 +40,13 @@ class Reading(msgspec.Struct):
     def struct(self, cls: type[msgspec.Struct], tree: Tree, above: Path = ()) -> dict[str, Any]:
         """Plain values for `cls` from a tree; `above` is its path in the display's tree."""
         result = {}
-        found = properties(cls)
-        own = [place for place in found if _is_said(place, tree)]
+        places = properties(cls)
+        own = [place for place in places if _is_said(place, tree)]
         for place in own:
             result[place.name], used = topics.read(tree, place, self.faults)
             self.used |= {(*above, *path) for path in used}
         topics.complete(result, own)
-        for place in found:
+        for place in places:
             if place.port:
                 continue
             raw = _at(tree, place.path)
@@ -58,7 +58,7 @@ class Reading(msgspec.Struct):
             elif raw is not None:
                 path = (*above, *place.path)
                 try:
-                    result[place.name] = self._value(place, raw, path, found)
+                    result[place.name] = self._value(place, raw, path, places)
                 except Unfit as error:
                     self.faults.append((path, f"{error}; using the default"))
         return result

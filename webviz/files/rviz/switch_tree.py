@@ -23,9 +23,9 @@ def read(raw: Any) -> dict[str, bool]:
     """
     if not isinstance(raw, Mapping):
         raise Unfit("expected a switch for each display")
-    found: dict[str, bool] = {}
-    _collect(raw, (), found)
-    return found
+    switches: dict[str, bool] = {}
+    _collect(raw, (), switches)
+    return switches
 
 
 def write(switches: Mapping[str, bool]) -> Tree:
@@ -39,8 +39,8 @@ def write(switches: Mapping[str, bool]) -> Tree:
             if not isinstance(inner, dict):
                 inner = branch[group] = {OWN: True if inner is None else inner}
             branch = inner
-        known = branch.get(name)
-        branch[name] = {**known, OWN: is_on} if isinstance(known, dict) else is_on
+        former = branch.get(name)
+        branch[name] = {**former, OWN: is_on} if isinstance(former, dict) else is_on
     return {**tree, OWN: True}
 
 

@@ -76,9 +76,9 @@ def write_tools(
         cls = _counterpart(entry)
         if cls is None:
             written.append(entry)
-        elif found := next((tool for tool in waiting if type(tool) is cls), None):
-            waiting.remove(found)
-            written.append(_write(found, entry))
+        elif matching := next((tool for tool in waiting if type(tool) is cls), None):
+            waiting.remove(matching)
+            written.append(_write(matching, entry))
     return written + [_bare(tool) for tool in waiting]
 
 

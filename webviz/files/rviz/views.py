@@ -66,24 +66,24 @@ def read(tree: Any, report: Report, place: str = "current view") -> View | None:
         if key in tree and not is_same(values.own_value(tree[key]), default):
             report.note(place, key, f"{reason}; kept for export")
             report.count("properties", 0, int(key not in AIDS))
-    given = {
+    fields = {
         field.path: _read_field(field, tree[KEYS[field.path]], report, place)
         for field in properties_of(cls)
         if KEYS[field.path] in tree
     }
-    return cls(**given)
+    return cls(**fields)
 
 
 def read_saved(trees: Any, report: Report) -> dict[str, View]:
     """Return the saved views by name; duplicates get a number."""
-    found: dict[str, View] = {}
+    views: dict[str, View] = {}
     for tree in trees if isinstance(trees, list) else []:
         if not isinstance(tree, Mapping):
             continue
         view = read(tree, report, f"saved view {_name(tree)}")
         if view is not None:
-            found[free_name(_name(tree), found)] = view
-    return found
+            views[free_name(_name(tree), views)] = view
+    return views
 
 
 def free_name(name: str, taken: Mapping[str, Any]) -> str:

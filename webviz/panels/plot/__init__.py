@@ -88,8 +88,8 @@ class Plot(Panel):
 
     def subscriptions(self) -> Mapping[str, str]:
         """Return the topics of the curves, and the one whose fields are offered."""
-        wanted = {each.topic for each in self.series.values()} | {self.chooser.topic}
-        return {topic: self.types[topic] for topic in wanted if topic in self.types}
+        topics = {each.topic for each in self.series.values()} | {self.chooser.topic}
+        return {topic: self.types[topic] for topic in topics if topic in self.types}
 
     def lookback(self, topic: str) -> Lookback:
         """Return the messages of the window."""
@@ -147,7 +147,7 @@ class Plot(Panel):
         if self.time == "Header Stamp" or not now_s:
             now_s = max(ends, default=now_s)
         axes = self._axes()
-        shown = [
+        curves = [
             Curve(
                 name,
                 each.history.chunks(),
@@ -157,7 +157,7 @@ class Plot(Panel):
             )
             for name, each in self.series.items()
         ]
-        self.chart.show(shown, self.window, now_s, self.across)
+        self.chart.show(curves, self.window, now_s, self.across)
         if not self.curves:
             self.note.text("Add a field with +, or drag one here from Topics.")
         else:
@@ -168,9 +168,9 @@ class Plot(Panel):
         """Have the curves that the properties name, with the values of those that stay."""
         how, before = (self.window, self.time), self.series
         self.series = {
-            text: known
-            if (known := self.series.get(text)) and known.how == how
-            else Series(text, how, known)
+            text: former
+            if (former := self.series.get(text)) and former.how == how
+            else Series(text, how, former)
             for text in list(dict.fromkeys([*self._across(), *self.curves]))[:MAX_CURVES]
         }
         new = (each for text, each in self.series.items() if text not in before)

@@ -106,10 +106,10 @@ class CurveHistory:
 
     def _pending(self) -> list[Point]:
         """Return the points kept of the newest interval, in order of time, each value once."""
-        kept = sorted(set(self._bucket or ()), key=lambda point: point[0])
-        if kept and self._has_gap:
-            kept.append((kept[-1][0], math.nan))
-        return kept
+        points = sorted(set(self._bucket or ()), key=lambda point: point[0])
+        if points and self._has_gap:
+            points.append((points[-1][0], math.nan))
+        return points
 
     def _append(self, point: Point) -> None:
         if self._open and point[0] - self._open[0][0] >= self._chunk_s:

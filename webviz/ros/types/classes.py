@@ -190,8 +190,8 @@ def message_class(type_name: str) -> type:
         case [package, "msg", name] if package.isidentifier() and name.isidentifier():
             installed = _installed(package, "msg", name)
         case [package, "action", name] if name.endswith(_FEEDBACK):
-            found = _installed(package, "action", name.removesuffix(_FEEDBACK))
-            installed = found.Impl.FeedbackMessage if found else None
+            action = _installed(package, "action", name.removesuffix(_FEEDBACK))
+            installed = action.Impl.FeedbackMessage if action else None
         case _:
             raise MessageTypeError(
                 f"{type_name!r} is not a message type name. Write package/msg/Name."
@@ -215,8 +215,8 @@ def service_class(type_name: str) -> Any:
             installed = _installed(package, "srv", name)
         case [package, "action", name] if package.isidentifier() and name.isidentifier():
             action, _, part = name.rpartition("_")
-            found = _installed(package, "action", action)
-            installed = getattr(found.Impl, f"{part}Service") if found else None
+            action_class = _installed(package, "action", action)
+            installed = getattr(action_class.Impl, f"{part}Service") if action_class else None
         case _:
             raise MessageTypeError(
                 f"{type_name!r} is not a service type name. Write package/srv/Name."

@@ -87,17 +87,17 @@ def _nested(cls: Any) -> list[str]:
 
 
 def _item(kind: str) -> str:
-    found = _REPEATED.fullmatch(kind)
-    return (found["inner"] or found["item"]) if found else kind
+    match = _REPEATED.fullmatch(kind)
+    return (match["inner"] or match["item"]) if match else kind
 
 
 def _type(kind: str) -> str:
     """Return a type name of rosidl's Python classes in the syntax of .msg files."""
-    if found := _REPEATED.fullmatch(kind):
-        if found["item"]:
-            return f"{_type(found['item'])}[{found['size']}]"
-        bound = f"<={found['bound']}" if found["bound"] else ""
-        return f"{_type(found['inner'])}[{bound}]"
+    if match := _REPEATED.fullmatch(kind):
+        if match["item"]:
+            return f"{_type(match['item'])}[{match['size']}]"
+        bound = f"<={match['bound']}" if match["bound"] else ""
+        return f"{_type(match['inner'])}[{bound}]"
     if bounded := re.fullmatch(r"(w?string)<(\d+)>", kind):
         return f"{bounded[1]}<={bounded[2]}"
     return _PRIMITIVES.get(kind, kind)

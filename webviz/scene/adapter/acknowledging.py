@@ -70,16 +70,16 @@ class Acknowledgements:
         )
         answered = {token: set[int]() for token in tokens}
         self._answered |= answered
-        asked = self._server.get_clients()
+        clients = self._server.get_clients()
         if browser is not None:
-            asked = {id_: client for id_, client in asked.items() if id_ == browser}
+            clients = {id_: client for id_, client in clients.items() if id_ == browser}
         deadline = time.monotonic() + timeout
         try:
             if not self._deferred.wait(timeout):
                 raise TimeoutError(f"Pictures were not encoded within {timeout:g} s.")
             socket.queue_message(shared)
             self._server.flush()
-            for client in asked.values():
+            for client in clients.values():
                 connection = client._websock_connection
                 # It may be gone by now, which viser would warn of.
                 with connection.get_message_buffer().sanctioned_dead_writes():
@@ -87,7 +87,7 @@ class Acknowledgements:
                 client.flush()
                 self._server.channel.send(Ask(tokens[2]), client.client_id)
             with self._changed:
-                while (asked.keys() & self._server.get_clients().keys()) - set.intersection(
+                while (clients.keys() & self._server.get_clients().keys()) - set.intersection(
                     *answered.values()
                 ):
                     if time.monotonic() > deadline:

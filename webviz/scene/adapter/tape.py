@@ -64,8 +64,8 @@ class SceneTape:
             self._cursor = self._buffer.message_counter - 1
             self._buffer.generator_cursors[TAPE] = self._cursor
         new = {n: m for n, m in live.items() if n not in self._known}
-        gone = self._known.keys() - live.keys()
-        for number in gone:
+        removed = self._known.keys() - live.keys()
+        for number in removed:
             del self._known[number]
         self._known |= dict.fromkeys(new)
         added = [
@@ -73,7 +73,7 @@ class SceneTape:
             for number, message in new.items()
             if not isinstance(message, NOT_RECORDED)
         ]
-        return SceneChange(added, gone)
+        return SceneChange(added, removed)
 
     def close(self) -> None:
         """Let go of the messages."""

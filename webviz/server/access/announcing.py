@@ -87,12 +87,12 @@ def reachable(url: str, host: str, names: Sequence[str]) -> str:
     """
     if is_local(host):
         return url
-    found = names[0] if names else host
-    if found in EVERY_INTERFACE:
-        found = next(iter(_own_addresses()), socket.gethostname())
+    address = names[0] if names else host
+    if address in EVERY_INTERFACE:
+        address = next(iter(_own_addresses()), socket.gethostname())
     parts = urlsplit(url)
-    shown = f"[{found}]" if ":" in found else found
-    return parts._replace(netloc=f"{shown}:{parts.port}").geturl()
+    host_text = f"[{address}]" if ":" in address else address
+    return parts._replace(netloc=f"{host_text}:{parts.port}").geturl()
 
 
 def _own_addresses() -> list[str]:

@@ -92,8 +92,8 @@ def welcome(
         NoCookies: the browser keeps none.
     """
     fields = _fields(path) or []
-    given = [(LINKS[name], value) for name, value in fields if name in LINKS]
-    if len(given) != 1 or (grant := access.by_secret(given[0][1], given[0][0])) is None:
+    secrets = [(LINKS[name], value) for name, value in fields if name in LINKS]
+    if len(secrets) != 1 or (grant := access.by_secret(secrets[0][1], secrets[0][0])) is None:
         return None
     site = headers.get("Sec-Fetch-Site")  # by https and on loopback only
     before = grant_of(access, headers, port)

@@ -22,8 +22,8 @@ NAMES = {Role.WATCHER: "watcher", Role.OPERATOR: "operator", Role.OWNER: "owner"
 def is_local(host: str) -> bool:
     """Return whether only programs of this machine reach an address."""
     try:
-        found = socket.getaddrinfo(host or "0.0.0.0", None, flags=socket.AI_PASSIVE)
-        return all(ipaddress.ip_address(entry[4][0]).is_loopback for entry in found)
+        addresses = socket.getaddrinfo(host or "0.0.0.0", None, flags=socket.AI_PASSIVE)
+        return all(ipaddress.ip_address(entry[4][0]).is_loopback for entry in addresses)
     except (OSError, ValueError):
         return False
 

@@ -69,10 +69,12 @@ def doubts(context: ssl.SSLContext, certfile: Path, now_s: float | None = None) 
     trusting.load_verify_locations(cadata=_certificate(context))
     trusting.verify_flags |= ssl.VERIFY_X509_PARTIAL_CHAIN | IGNORE_TIME
     try:
-        found = _handshake(context, trusting).getpeercert() or {}
+        certificate = _handshake(context, trusting).getpeercert() or {}
     except ssl.SSLError as error:
         return [f"Browsers will reject the certificate in {certfile}: {_sentence(error)}."]
-    starts, ends = (ssl.cert_time_to_seconds(str(found[key])) for key in ("notBefore", "notAfter"))
+    starts, ends = (
+        ssl.cert_time_to_seconds(str(certificate[key])) for key in ("notBefore", "notAfter")
+    )
     if now_s < starts:
         return [f"The certificate in {certfile} is not valid before {_date(starts)}."]
     if now_s > ends:

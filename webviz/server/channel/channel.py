@@ -183,28 +183,28 @@ class Channel:
     def visitors(self) -> dict[int, Visitor]:
         """Return who is connected, by viser's id of the browser; from any thread."""
         with self._lock:
-            known = list(self._visitors.items())
+            entries = list(self._visitors.items())
         return {
             browser: msgspec.structs.replace(visitor, latency_s=connection.latency or None)
-            for browser, (visitor, connection) in known
+            for browser, (visitor, connection) in entries
         }
 
     def grant_of(self, browser: int) -> Grant | None:
         """Return the grant of a browser, None if it is gone; from any thread."""
         with self._lock:
-            known = self._visitors.get(browser)
-        return None if known is None else known[1].grant
+            entry = self._visitors.get(browser)
+        return None if entry is None else entry[1].grant
 
     async def dismiss(self, browser: int) -> None:
         """End the visit of a browser; what it has sent counts no more. On the event loop."""
         with self._lock:
-            known = self._visitors.get(browser)
-        if known is not None:
-            known[1].is_expelled = True
+            entry = self._visitors.get(browser)
+        if entry is not None:
+            entry[1].is_expelled = True
             await self.end_scene(browser)
             with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(known[1].close(), FAREWELL_S)
-            known[1].transport.abort()
+                await asyncio.wait_for(entry[1].close(), FAREWELL_S)
+            entry[1].transport.abort()
 
     def on(self, kind: type[M], listener: Callable[[int, M], object]) -> None:
         """Call `listener` with a browser, by viser's id of it, and each message of a kind.
@@ -213,8 +213,8 @@ class Channel:
         """
         with self._lock:
             self._listeners.setdefault(kind, []).append(listener)
-            known = reduce(or_, self._listeners, _OWN)
-            self._decoder = msgspec.json.Decoder[FromPage](known)
+            message_types = reduce(or_, self._listeners, _OWN)
+            self._decoder = msgspec.json.Decoder[FromPage](message_types)
 
     # Called on the event loop
 

@@ -33,13 +33,13 @@ class Links:
 
     def tell(self) -> None:
         """Send each page what has changed for it."""
-        told: dict[int, str] = {}
+        texts: dict[int, str] = {}
         for browser in self._channel.browsers():
             congestion = self._channel.congestion(browser)
-            told[browser] = "" if congestion is None else reduced(congestion)
-            if told[browser] != self._told.get(browser, ""):
-                self._channel.send(SlowLink(told[browser]), browser)
-        self._told = told
+            texts[browser] = "" if congestion is None else reduced(congestion)
+            if texts[browser] != self._told.get(browser, ""):
+                self._channel.send(SlowLink(texts[browser]), browser)
+        self._told = texts
 
 
 def reduced(congestion: CongestionControl) -> str:

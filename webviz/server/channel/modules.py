@@ -45,8 +45,8 @@ class Modules:
             browser: viser's id of the page.
             key: for the channel.
         """
-        told = json.dumps({"browser": browser, "key": key, "version": self._version})
-        return f"window.webviz?.connect({told});"
+        facts = json.dumps({"browser": browser, "key": key, "version": self._version})
+        return f"window.webviz?.connect({facts});"
 
     def answer(self, token: str) -> str:
         """Return a script that makes a page send an `Answer` with this token."""

@@ -45,9 +45,9 @@ class Pack(msgspec.Struct, frozen=True):
 
     def source_map(self, sources: Mapping[str, str]) -> bytes:
         """Return the source map with the sources, which developer tools show."""
-        made = json.loads(self.map)
-        made["sourcesContent"] = [sources.get(name) for name in made["sources"]]
-        return json.dumps(made).encode()
+        decoded = json.loads(self.map)
+        decoded["sourcesContent"] = [sources.get(name) for name in decoded["sources"]]
+        return json.dumps(decoded).encode()
 
 
 def digest(modules: Mapping[str, str]) -> str:

@@ -35,13 +35,13 @@ class Stores:
         changed: list[str] = []
         for name, value in values.items():
             key = _sendable(name)
-            known = old.get(key)
-            if known is None or made_of.get(name) is not value:
+            encoded_before = old.get(key)
+            if encoded_before is None or made_of.get(name) is not value:
                 encoded = _encoded(value)
-                if encoded != known:
+                if encoded != encoded_before:
                     changed.append(key)
-                known = encoded
-            new[key] = known
+                encoded_before = encoded
+            new[key] = encoded_before
         self._content[store], self._made_of[store] = new, dict(values)
         return changed + [key for key in old if key not in new]
 
@@ -100,9 +100,9 @@ class Watched:
                 return Values(store, True, dict(content), ())
             if dirty:
                 present = {key: content[key] for key in dirty if key in content}
-                gone = tuple(key for key in dirty if key not in content)
+                removed = tuple(key for key in dirty if key not in content)
                 dirty.clear()
-                return Values(store, False, present, gone)
+                return Values(store, False, present, removed)
         return None
 
 

@@ -97,11 +97,11 @@ class SpentRates:
 
     def note(self, sender: Hashable, rate_limit: RateLimit) -> None:
         """Remember what a sender has spent; of too many, what is paid for first is forgotten."""
-        if rate_limit.paid_until <= (kept := self._paid_until).get(sender, -float("inf")):
+        if rate_limit.paid_until <= (times := self._paid_until).get(sender, -float("inf")):
             return
-        kept[sender] = rate_limit.paid_until
-        if len(kept) > MAX_REMEMBERED:
-            del kept[min(kept, key=kept.__getitem__)]
+        times[sender] = rate_limit.paid_until
+        if len(times) > MAX_REMEMBERED:
+            del times[min(times, key=times.__getitem__)]
 
     def resume(self, sender: Hashable, rate_limit: RateLimit, now: float) -> None:
         """Let the rate_limit of a new connection go on from what its sender has spent."""

@@ -57,14 +57,14 @@ def _smaller(picture: Encoded, factor: int) -> File:
     file = File(picture.mime, np.ascontiguousarray(picture.data).data)
     if factor == 1:
         return file
-    made = io.BytesIO()
+    buffer = io.BytesIO()
     try:
         with open_compressed(picture.data) as image:
             size = max(1, image.width // factor), max(1, image.height // factor)
             image.draft("RGB", size)  # decodes fewer pixels of a JPEG
             with decoding(*image.size, PIXEL_BYTES):
                 smaller = image.convert("RGB").resize(size, Image.Resampling.BOX)
-        smaller.save(made, "JPEG", quality=QUALITY)
+        smaller.save(buffer, "JPEG", quality=QUALITY)
     except (OSError, SyntaxError, ValueError, Warning):
         return file  # the page says what is wrong with it
-    return File("image/jpeg", made.getvalue())
+    return File("image/jpeg", buffer.getvalue())

@@ -148,8 +148,8 @@ class Pictures:
     def panes(self) -> dict[str, Pane]:
         """Return the panes shown now by display id, in the order of the displays."""
         with self._lock:
-            shown = {display: each.pane for display, each in self._shown.items()}
-        return dict(sorted(shown.items(), key=lambda item: item[1].order))
+            panes = {display: each.pane for display, each in self._shown.items()}
+        return dict(sorted(panes.items(), key=lambda item: item[1].order))
 
     # Called on the event loop
 
@@ -161,8 +161,8 @@ class Pictures:
                 display: before.get(display) or _Look(width)
                 for display, width in message.widths.items()
             }
-            for gone in self._looks.keys() - self._channel.browsers():
-                del self._looks[gone]
+            for left in self._looks.keys() - self._channel.browsers():
+                del self._looks[left]
             if not looks:
                 return
             self._looks[browser] = looks
@@ -186,10 +186,10 @@ class Pictures:
     def _read(self, browser: int, message: ReadPixel) -> None:
         with self._lock:
             before = self._reading.get(browser)
-            shown = self._shown.get(message.display)
-            if (before and not before.done()) or shown is None:
+            entry = self._shown.get(message.display)
+            if (before and not before.done()) or entry is None:
                 return
-            self._reading[browser] = self._pool.submit(self._answer, browser, message, shown.pane)
+            self._reading[browser] = self._pool.submit(self._answer, browser, message, entry.pane)
 
     def _send_ready(self, display: str) -> None:
         """Send a picture that is a file already to the pages that can take it."""
@@ -211,12 +211,12 @@ class Pictures:
         Returns:
             Whether it is a file already, which `_send_ready` sends.
         """
-        shown = self._shown.get(display)
-        if shown is None or shown.number == look.sent:
+        entry = self._shown.get(display)
+        if entry is None or entry.number == look.sent:
             return False
         if look.is_busy or len(look.waiting) >= MAX_IN_FLIGHT:
             return False
-        picture = shown.pane.picture
+        picture = entry.pane.picture
         is_file = isinstance(picture, Encoded | Video) or look.has.has(picture)
         if is_file and self._rate(browser) is None:
             return True
@@ -227,28 +227,28 @@ class Pictures:
     def _send(self, browser: int, display: str, look: _Look) -> None:
         """Send the newest picture."""
         with self._lock:
-            shown = self._shown.get(display)
+            entry = self._shown.get(display)
             has = look.has
             rate = self._rate(browser)
         data = b""
-        if shown is not None:
+        if entry is not None:
             try:
-                is_same, now_has = has.has(shown.pane.picture), has
+                is_same, now_has = has.has(entry.pane.picture), has
                 for _ in range(2):
-                    file = None if is_same else self._file(shown, display, look)
-                    data, now_has = frame(display, shown.number, shown.pane, file, has)
-                    if is_same or not self._fit(look, shown, len(data), rate):
+                    file = None if is_same else self._file(entry, display, look)
+                    data, now_has = frame(display, entry.number, entry.pane, file, has)
+                    if is_same or not self._fit(look, entry, len(data), rate):
                         break
                 has = now_has
             except Exception:
                 log.exception("A picture of %r could not be made", display)
         with self._lock:
             look.is_busy = False
-            if shown is None or self._looks.get(browser, {}).get(display) is not look:
+            if entry is None or self._looks.get(browser, {}).get(display) is not look:
                 return
-            look.sent, look.has = shown.number, has
+            look.sent, look.has = entry.number, has
             if data:
-                look.waiting.append(shown.number)
+                look.waiting.append(entry.number)
                 # Two at most are on their way, neither of which may replace the other there: later
                 # ones go on from what they say.
                 look.turn = not look.turn
@@ -292,18 +292,18 @@ class Pictures:
             return file_of(picture, factor)
         key = display, factor
         with self._lock:
-            number, made = self._made.get(key, (0, None))
-            if made is not None and number == shown.number:
+            number, encoding = self._made.get(key, (0, None))
+            if encoding is not None and number == shown.number:
                 mine = None
             else:
-                mine = made = Future()
-                self._made[key] = shown.number, made
+                mine = encoding = Future()
+                self._made[key] = shown.number, encoding
         if mine is not None:
             try:
                 mine.set_result(file_of(picture, factor))
             except Exception as error:
                 mine.set_exception(error)
-        return made.result()
+        return encoding.result()
 
     def _answer(self, browser: int, message: ReadPixel, pane: Pane) -> None:
         try:

@@ -192,7 +192,7 @@ class CongestionControl:
 
         `queue_s` is by how much longer a pong took than the shortest.
         """
-        known = self._known()
+        known_rate = self._known()
         if marker.is_limited:
             self._limited_at = self._acknowledged
         elif (
@@ -200,8 +200,8 @@ class CongestionControl:
             and marker.in_flight > self._window / 4
             and queue_s < QUEUE_S / 2
         ):
-            rate = max(rate, known * 1.25)  # nobody waits: the link may have become faster
-        if marker.is_limited or rate > known:
+            rate = max(rate, known_rate * 1.25)  # nobody waits: the link may have become faster
+        if marker.is_limited or rate > known_rate:
             while self._rates and self._rates[0][0] < self._acknowledged - MEMORY_S:
                 self._rates.popleft()
             self._rates.append((self._acknowledged, rate))

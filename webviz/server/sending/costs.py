@@ -17,9 +17,9 @@ class Costs:
     def add(self, browser: int, sizes: Mapping[str, int]) -> None:
         """Add bytes sent to a browser, by id of the display."""
         with self._lock:
-            known = self._bytes.setdefault(browser, {})
+            of_browser = self._bytes.setdefault(browser, {})
             for display, size in sizes.items():
-                known[display] = known.get(display, 0) + size
+                of_browser[display] = of_browser.get(display, 0) + size
 
     def by_browser(self) -> Mapping[int, Mapping[str, int]]:
         """Return the bytes so far, by id of the browser and of the display."""

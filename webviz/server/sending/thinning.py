@@ -70,8 +70,8 @@ class Thinning:
             self.every = 1
         elif self._sizes:
             ratio = sum(size for _, size in self._sizes.values()) / (rate * PATIENCE_S)
-            wanted = 2 ** math.ceil(math.log2(min(max(ratio, 1.0), MAX_RATIO)))
+            step = 2 ** math.ceil(math.log2(min(max(ratio, 1.0), MAX_RATIO)))
             # Rates vary: back only to what still fits with some room.
-            if wanted > self.every or ratio < 0.45 * self.every:
-                self.every = wanted
+            if step > self.every or ratio < 0.45 * self.every:
+                self.every = step
         return self.every

@@ -144,8 +144,8 @@ def made(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]
         """Pictures of the scene with camera images beside it. Each view is null for the start view,
         the name of a saved one, or values such as {"type": "Orbit", "distance": 5, "yaw": 0.8,
         "pitch": 0.8, "focal_point": [0, 0, 0]} or {"type": "TopDownOrtho", "scale": 50}."""
-        found = await called(tools.see, views or [None], width, height)
-        return [_encoded(each) for each in found]
+        images = await called(tools.see, views or [None], width, height)
+        return [_encoded(each) for each in images]
 
     @server.tool(annotations=READS)
     async def select(

@@ -22,13 +22,13 @@ MAX_NODES = 4
 
 def bounded(lines: Iterable[str]) -> str:
     """Lines as one text, without what would be too long."""
-    kept: list[str] = []
+    bounded_lines: list[str] = []
     for number, line in enumerate(lines):
         if number == MAX_LINES:
-            kept.append("… and more.")
+            bounded_lines.append("… and more.")
             break
-        kept.append(line if len(line) <= MAX_LINE else f"{line[:MAX_LINE]}…")
-    return "\n".join(kept)
+        bounded_lines.append(line if len(line) <= MAX_LINE else f"{line[:MAX_LINE]}…")
+    return "\n".join(bounded_lines)
 
 
 def explanation(viewer: Viewer, display: str = "") -> Iterator[str]:
@@ -58,15 +58,15 @@ def explanation(viewer: Viewer, display: str = "") -> Iterator[str]:
 def _findings(findings: Sequence[Finding], names: dict[str, str]) -> Iterator[str]:
     yield "Findings, in the order of repair:" if findings else "The doctor found no problems."
     for each in findings:
-        told = f"{each.severity.name} {each.id}: {joined(each.cause, each.proof, each.remedy)}"
+        line = f"{each.severity.name} {each.id}: {joined(each.cause, each.proof, each.remedy)}"
         command = f" Command: `{each.command}`." if each.command else ""
         explained = [f"{names.get(s.display, 'viewer')}/{s.status}" for s in each.explains]
-        yield told + command + (f" Explains {', '.join(explained)}." if explained else "")
+        yield line + command + (f" Explains {', '.join(explained)}." if explained else "")
 
 
 def _row(row: Row) -> Iterator[str]:
-    shown = "" if row.enabled else ", switched off"
-    yield f"{row.level.name} {row.name} ({row.type}, id {row.id}{shown})"
+    suffix = "" if row.enabled else ", switched off"
+    yield f"{row.level.name} {row.name} ({row.type}, id {row.id}{suffix})"
     for key, status in row.statuses.items():
         yield f"  {status.level.name} {key}: {status.text}"
 

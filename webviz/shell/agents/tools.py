@@ -83,8 +83,8 @@ class AgentTools:
             raise Error(f"Ask for 1 to {MAX_PICTURES} views at once, not {len(views)}.")
         self._check_size(width, height)
         self._begin(caller, f"took {len(views)} pictures")
-        wanted = [view or None for view in views]
-        return self._viewer.screenshots(wanted, size=(width, height))
+        views_or_none = [view or None for view in views]
+        return self._viewer.screenshots(views_or_none, size=(width, height))
 
     def select(
         self, caller: AgentCaller, x: int, y: int, view: Wanted, width: int, height: int
@@ -96,8 +96,8 @@ class AgentTools:
         """
         self._check_size(width, height)
         self._begin(caller, f"selected at ({x}, {y})")
-        found = self._viewer.select(x, y, size=(width, height), view=view or None)
-        return texts.bounded(texts.selection(found)) or "There is nothing to select there."
+        selection = self._viewer.select(x, y, size=(width, height), view=view or None)
+        return texts.bounded(texts.selection(selection)) or "There is nothing to select there."
 
     def topics(self, caller: AgentCaller) -> str:
         """All topics."""
@@ -111,13 +111,13 @@ class AgentTools:
         self._begin(caller, f"read {topic}")
         self._viewer.do(commands.InspectTopic(topic))
         try:
-            found = self._received(topic)
+            inspected = self._received(topic)
         finally:
             self._viewer.do(commands.InspectTopic(""))
-        if found is None:
+        if inspected is None:
             raise Error(f"The viewer is reading other topics. Read {topic} again.")
-        hint = "" if found.type else nearest(topic, list(self._viewer.topics)).capitalize()
-        return texts.bounded((*texts.message(topic, found), *([hint] if hint else ())))
+        hint = "" if inspected.type else nearest(topic, list(self._viewer.topics)).capitalize()
+        return texts.bounded((*texts.message(topic, inspected), *([hint] if hint else ())))
 
     def transform(self, caller: AgentCaller, target: str, source: str) -> str:
         """Return the newest pose of a frame in another.
@@ -142,27 +142,27 @@ class AgentTools:
         Raises:
             Error: it is unknown, needs another role, or failed.
         """
-        said: Future[Status] = Future()
+        reply: Future[Status] = Future()
 
         def report(status: Status) -> None:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
-                said.set_result(status)
+                reply.set_result(status)
 
         if command not in known():
             raise Error(f"Unknown command `{command}`: {nearest(command, sorted(known()))}")
         try:
-            made = command_of(command, dict(fields), report=report)
+            built = command_of(command, dict(fields), report=report)
         except ValueError as error:
             raise Error(str(error)) from None
-        assert isinstance(made, Command), "known"
-        if refusal := caller.refusal(type(made)):
+        assert isinstance(built, Command), "known"
+        if refusal := caller.refusal(type(built)):
             self._note(caller, f"was refused {command}")
             raise Error(refusal)
         self._begin(caller, f"{command} {dict(fields)}")
-        answer = self._viewer.do(made, caller.sender())
+        answer = self._viewer.do(built, caller.sender())
         if command == "UseTool":
             with contextlib.suppress(TimeoutError):
-                return said.result(MESSAGE_S).text
+                return reply.result(MESSAGE_S).text
         return answer or "Done."
 
     @staticmethod
@@ -180,9 +180,9 @@ class AgentTools:
         deadline = time.monotonic() + MESSAGE_S
         while True:
             self._viewer.do(Refresh())
-            found = self._viewer.fact("inspected", {}).get(topic)
-            if (found and found.message is not None) or time.monotonic() > deadline:
-                return found
+            inspected = self._viewer.fact("inspected", {}).get(topic)
+            if (inspected and inspected.message is not None) or time.monotonic() > deadline:
+                return inspected
             time.sleep(REST_S)
 
     def _is_loading(self) -> bool:

@@ -43,8 +43,8 @@ def config_of(bag: BagHistory) -> Config:
         for topic, offer in bag.offers({}).items()
         if bag.has(topic) and not (bag.ghost and topic.startswith(f"{ROOT}/"))
     }
-    config, shown = displays_of(offers)
-    links = bag.links() or [(frame, frame) for frame in bag.frames(shown)]
+    config, drawn_topics = displays_of(offers)
+    links = bag.links() or [(frame, frame) for frame in bag.frames(drawn_topics)]
     if frame := fixed_frame_of(links):
         config.set_fixed_frame(frame)
     if robot := robot_frame_of(links, frame):
@@ -59,13 +59,13 @@ def displays_of(offers: Mapping[str, Offer]) -> tuple[Config, set[str]]:
         topic: tuple(dict.fromkeys(publisher.type for publisher in offer.publishers))
         for topic, offer in offers.items()
     }
-    found = sorted(_chosen(picks(topics, types)), key=_place)[:MAX_DISPLAYS]
+    chosen_picks = sorted(_chosen(picks(topics, types)), key=_place)[:MAX_DISPLAYS]
     names = ["Grid"]
     if any(TF in messages for messages in topics.values()):
         names.append("TF")
     config = Config(displays=[make(types[name], {}) for name in names if name in types])
-    config.displays += _displays(found, types)
-    return config, {pick.topic for pick in found}
+    config.displays += _displays(chosen_picks, types)
+    return config, {pick.topic for pick in chosen_picks}
 
 
 def _chosen(fits: Iterable[Pick]) -> Iterable[Pick]:
@@ -74,12 +74,12 @@ def _chosen(fits: Iterable[Pick]) -> Iterable[Pick]:
     for pick in fits:
         if pick.display not in ON_REQUEST and (pick.display, pick.input) != JOINTS:
             by_topic[pick.topic].append(pick)
-    seen = set[str]()
+    bases = set[str]()
     for topic, several in sorted(by_topic.items()):
         folder, _, last = topic.rpartition("/")
         base = folder if last in TRANSPORTS else topic
-        if base not in seen:
-            seen.add(base)
+        if base not in bases:
+            bases.add(base)
             yield min(several, key=_rank)
 
 
@@ -95,10 +95,10 @@ def _place(pick: Pick) -> tuple[int, str, str]:
 
 def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iterable[Item]:
     counts = Counter(pick.display for pick in found)
-    made = Counter[str]()
+    totals = Counter[str]()
     for pick in found:
-        made[pick.display] += 1
-        values = {**pick.values, "enabled": made[pick.display] <= MAX_ENABLED}
+        totals[pick.display] += 1
+        values = {**pick.values, "enabled": totals[pick.display] <= MAX_ENABLED}
         if counts[pick.display] > 1:
             values["name"] = pick.topic
         yield make(types[pick.display], values)

@@ -143,9 +143,9 @@ class DisplayHandle:
 
     def duplicate(self) -> DisplayHandle:
         """Add a copy below the display; that of a group includes its contents."""
-        made: list[str] = []
-        self._do(DuplicateDisplay(self.id, made.append))
-        return DisplayHandle(self._viewer, made[0])
+        ids: list[str] = []
+        self._do(DuplicateDisplay(self.id, ids.append))
+        return DisplayHandle(self._viewer, ids[0])
 
     def move(
         self, *, group: DisplayHandle | None = None, before: DisplayHandle | None = None

@@ -137,5 +137,5 @@ def checked_view(view: View | Mapping[str, Any]) -> View:
     try:
         return msgspec.convert(values, View)
     except msgspec.ValidationError as error:
-        found = config_file.explain(error, View, values)
-        raise Error(f"Invalid view: {config_file.sentences([found])}") from error
+        fault = config_file.explain(error, View, values)
+        raise Error(f"Invalid view: {config_file.sentences([fault])}") from error

@@ -100,30 +100,30 @@ class Running(PictureControls):
             watcher = starting.loaded_plugins(plugins)
             path = None if config is None else Path(config)
             # Report errors in files before importing viser, which is slow.
-            shown = None if path is None else read(path, None)
+            initial = None if path is None else read(path, None)
             tls = starting.tls_context(certfile, keyfile)
             embedders = notebook.embedders(embed_in)
             server = self._open_server(
                 host, port, allow_hosts, tls, trust_proxies, token, link_rate, embedders
             )
             node_control = None
-            if source is None and not (shown and is_alone(shown.settings.robots)):
+            if source is None and not (initial and is_alone(initial.settings.robots)):
                 source = ros_source(ros_args)
                 closing.add("The ROS node", source.close)
                 node_control = source.control
                 file = node_control.initial["config_file"]
                 path = path or (Path(file) if file else None)
                 fixed_frame = fixed_frame or node_control.initial["fixed_frame"]
-            shown = shown or read(path, source)
+            initial = initial or read(path, source)
             from webviz.sources.player import Player
 
             if not isinstance(source, Player):
-                source = with_robots(source, shown.settings.robots)
+                source = with_robots(source, initial.settings.robots)
                 closing.add("The connections of robots", source.close)
             if publish:
-                report_everything((*(shown.settings.publish or ()), *allow_publish))
+                report_everything((*(initial.settings.publish or ()), *allow_publish))
             if fixed_frame:
-                shown.set_fixed_frame(fixed_frame)
+                initial.set_fixed_frame(fixed_frame)
             session = sessions.claim(path) if sessions else None
             if session is not None:
                 closing.add("The session", session.close)
@@ -135,7 +135,7 @@ class Running(PictureControls):
             closing.add("The look backs of pages", pasts.close)
 
             self._loop = FrameLoop(
-                shown,
+                initial,
                 source,
                 self._scene,
                 lambda: self._pages.update(),

@@ -93,12 +93,12 @@ class TimeControls(ABC):
         Raises:
             Error: nothing is remembered, or a bag is played.
         """
-        seconds, shown = number(seconds, "seconds"), self._playback
-        if shown.is_opened:
+        seconds, playback = number(seconds, "seconds"), self._playback
+        if playback.is_opened:
             raise Error("A recording is shown. Return to live first.")
-        if shown.is_live is None:
+        if playback.is_live is None:
             raise Error("A bag has no present. Use `seek`.")
-        self.do(commands.Seek((time.time_ns() - shown.start_ns) / 1e9 - seconds))
+        self.do(commands.Seek((time.time_ns() - playback.start_ns) / 1e9 - seconds))
 
     def open_recording(self, path: str | os.PathLike[str]) -> None:
         """Play a recording in the place of live topics, until `return_to_live`.
@@ -141,9 +141,9 @@ class TimeControls(ABC):
         Raises:
             Error: the time is outside of the bag, or nothing of live topics is remembered.
         """
-        shown = self._playback
-        name = ", ".join(shown.names)
-        self.do(commands.Seek(seconds_from_start(position_ns(at, shown, name), shown)))
+        playback = self._playback
+        name = ", ".join(playback.names)
+        self.do(commands.Seek(seconds_from_start(position_ns(at, playback, name), playback)))
 
     @property
     def span(self) -> tuple[float, float]:
@@ -152,8 +152,8 @@ class TimeControls(ABC):
         Raises:
             Error: topics are live.
         """
-        shown = self._playback
-        return shown.start_ns / 1e9, shown.end_ns / 1e9
+        playback = self._playback
+        return playback.start_ns / 1e9, playback.end_ns / 1e9
 
     @property
     def position(self) -> float:
@@ -166,7 +166,7 @@ class TimeControls(ABC):
 
     @property
     def _playback(self) -> PlaybackState:
-        shown: PlaybackState | None = self.fact("playback")
-        if shown is None:
+        playback: PlaybackState | None = self.fact("playback")
+        if playback is None:
             raise Error(MEMORY_OFF)
-        return shown
+        return playback

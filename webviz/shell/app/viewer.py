@@ -235,9 +235,9 @@ class Viewer(Running, TimeControls):
         if type is None:
             type, properties = by_topic(properties, self.topics)
         check_properties(type, properties)
-        made: list[str] = []
-        self.do(AddDisplay(type, properties, self._group_id(group), made.append))
-        return DisplayHandle(self, made[0])
+        ids: list[str] = []
+        self.do(AddDisplay(type, properties, self._group_id(group), ids.append))
+        return DisplayHandle(self, ids[0])
 
     @property
     def fixed_frame(self) -> str:
@@ -277,9 +277,9 @@ class Viewer(Running, TimeControls):
 
     @view.setter
     def view(self, view: View | str | Mapping[str, Any]) -> None:
-        wanted = view if isinstance(view, str) else checked_view(view)
-        self.do(StartWithView(view=wanted))
-        self.do(ShowView(wanted))
+        chosen_view = view if isinstance(view, str) else checked_view(view)
+        self.do(StartWithView(view=chosen_view))
+        self.do(ShowView(chosen_view))
 
     @property
     def views(self) -> dict[str, View]:

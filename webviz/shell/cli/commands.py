@@ -83,12 +83,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
     terminal.setFormatter(LogFormatter())
     logging.basicConfig(handlers=[terminal], level=logging.WARNING)
     try:
-        command, given, unparsed = app.parse_args(
+        command, bound, unparsed = app.parse_args(
             with_openers(own), exit_on_error=False, print_error=False, verbose=False
         )
         if "ros" in unparsed:
-            given.arguments["ros"] = ros
-        return command(*given.args, **given.kwargs) or 0
+            bound.arguments["ros"] = ros
+        return command(*bound.args, **bound.kwargs) or 0
     except CycloptsError as error:
         warn(f"webviz: {_mistake(error)}")
         return WRONG_USAGE
@@ -127,13 +127,13 @@ def with_openers(arguments: Sequence[str]) -> list[str]:
     first = arguments[0] if arguments else ""
     if first.lower().endswith(".zip") and not first.startswith("-"):
         return ["open", *arguments]
-    known = OPENING.get(first, (CONFIG, BAG))
+    openers = OPENING.get(first, (CONFIG, BAG))
     opened = [first] if first in OPENING else []
     begin = len(opened)
     for place, word in enumerate(arguments[begin:], begin):
         path = Path(word)
         option = OPENERS.get(path.suffix.lower(), BAG if path.is_dir() else "")
-        if option not in known or word.startswith("-") or word in app:
+        if option not in openers or word.startswith("-") or word in app:
             return [*opened, *arguments[place:]]
         opened += [option, word]
     return opened

@@ -36,11 +36,13 @@ def standard_config(robots: int) -> Iterator[Path]:
     names = ", ".join(f"robot{number}" for number in range(1, robots + 1))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, FLEET.name)
-        shown, _, tools = FLEET.read_text().partition("tools:\n")
+        displays_part, _, tools = FLEET.read_text().partition("tools:\n")
         if robots > MAX_WITH_TOOLS:
             some = range(1, MAX_WITH_TOOLS + 1)
             tools = "".join(tools.replace("{robot}", f"robot{number}") for number in some)
-        path.write_text(shown.replace(_NO_ROBOTS, f"robots: [{names}]") + "tools:\n" + tools)
+        path.write_text(
+            displays_part.replace(_NO_ROBOTS, f"robots: [{names}]") + "tools:\n" + tools
+        )
         yield path
 
 

@@ -56,9 +56,9 @@ def piped(command: Callable[[], int]) -> int:
 
 def say(line: str) -> None:
     """Write a line to standard error, if that is still open; it may begin with a line break."""
-    shown = "\n".join(map(readable, line.split("\n")))
+    text = "\n".join(map(readable, line.split("\n")))
     with contextlib.suppress(OSError):
-        os.write(sys.stderr.fileno(), f"{shown}\n".encode(errors="replace"))
+        os.write(sys.stderr.fileno(), f"{text}\n".encode(errors="replace"))
 
 
 _has_said_end = threading.Lock()

@@ -75,31 +75,31 @@ def _make(bag: Path, options: ExportOptions) -> int:
         plugins.load(path)
     with contextlib.closing(options.beside(bag)) as source:
         config = options.config_of(source)
-        shown = options.display_config
+        config_path = options.display_config
         order = ExportOrder(
             config,
             source,
             str(bag),
-            shown.name if shown else "",
+            config_path.name if config_path else "",
             options.first,
             options.last,
             options.rate,
             options.max_size,
             options.at,
         )
-        made = write(order, options.output, lambda share: progress("webviz: exporting", share))
+        written = write(order, options.output, lambda share: progress("webviz: exporting", share))
         for warning in source.warnings:
             warn(f"webviz: {bag}: {warning}")
-    for note in made.notes:
+    for note in written.notes:
         warn(f"webviz: to stay below --max-size: {note}")
-    if made.bytes > options.max_size:
+    if written.bytes > options.max_size:
         warn(
             "webviz: the file is larger than --max-size, even without everything large. "
             "Choose a shorter span, or fewer displays."
         )
-    size, page = (f"{count / 1e6:.1f} MB" for count in (made.bytes, made.client_bytes))
+    size, page = (f"{count / 1e6:.1f} MB" for count in (written.bytes, written.client_bytes))
     say(
-        f"webviz: wrote {options.output}: {made.seconds:g} s, {made.frames} frames, {size} "
+        f"webviz: wrote {options.output}: {written.seconds:g} s, {written.frames} frames, {size} "
         f"({page} of it the page)."
     )
     return 0

@@ -99,9 +99,9 @@ class ConfigOptions:
         for root in self.mesh_root:
             if not root.is_dir():
                 raise Error(f"--mesh-root {root} is not a folder.")
-        known = os.environ.get(MESH_ROOT, "")
+        former = os.environ.get(MESH_ROOT, "")
         roots = [str(root.absolute()) for root in self.mesh_root]
-        os.environ[MESH_ROOT] = os.pathsep.join([*roots, *filter(None, [known])])
+        os.environ[MESH_ROOT] = os.pathsep.join([*roots, *filter(None, [former])])
 
 
 @Parameter(name="*")

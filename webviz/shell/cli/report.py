@@ -75,8 +75,12 @@ def _check(
     connect.check(options.bag is not None)
     options.check_ghost(options.bag is not None)
     if options.bag is None:
-        given = {"from": options.first != "start", "to": options.last != "end", "at": options.at}
-        for flag, value in given.items():
+        defaults_changed = {
+            "from": options.first != "start",
+            "to": options.last != "end",
+            "at": options.at,
+        }
+        for flag, value in defaults_changed.items():
             if value not in (None, False):
                 raise ValueError(f"--{flag} needs --bag.")
     if (options.output is None) is not options.list:

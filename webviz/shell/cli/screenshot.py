@@ -140,8 +140,8 @@ def _write(options: ScreenshotOptions, order: Order) -> int:
     columns = views if min(times, views) > 1 else math.ceil(math.sqrt(times * views))
     if options.contact_sheet:
         picture_files.sheet_size(order.size, times * views, columns)
-    with contextlib.closing(pictures(order)) as made:
-        checked = report.follow(made)
+    with contextlib.closing(pictures(order)) as taken_pictures:
+        checked = report.follow(taken_pictures)
         if options.contact_sheet:
             captioned = [(_caption(picture), image_of(picture)) for picture in checked]
             picture_files.save(picture_files.contact_sheet(captioned, columns), path)

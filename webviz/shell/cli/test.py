@@ -148,11 +148,11 @@ def _examined(options: RuleOptions, connect: ConnectOptions, ros: "Sequence[str]
             results = _rules(options, config)
             examine_bag(bag, config, str(options.bag), progress, results)
             return results
-    given = read_config(path) if path else None
-    results = _rules(options, given)
-    with contextlib.closing(connect.source(ros, given)) as source:
+    chosen_config = read_config(path) if path else None
+    results = _rules(options, chosen_config)
+    with contextlib.closing(connect.source(ros, chosen_config)) as source:
         until_s = time.monotonic() + DISCOVERY_S + options.seconds
-        examine_live(source, given, until_s, progress, results)
+        examine_live(source, chosen_config, until_s, progress, results)
     return results
 
 

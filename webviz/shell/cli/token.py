@@ -65,7 +65,7 @@ def make_token(
         days: Time until the link ends (default: never).
         url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
-    made = make(name, Role[role.upper()], datetime.now(UTC), days)
+    created = make(name, Role[role.upper()], datetime.now(UTC), days)
 
     def add(tokens: Tokens) -> Tokens:
         if any(token.name == name for token in tokens):
@@ -73,10 +73,10 @@ def make_token(
                 f"There is a token {name!r} already. Choose another name, or run `webviz token "
                 f"rotate {name!r}`."
             )
-        return (*tokens, made)
+        return (*tokens, created)
 
     token_file.modify(token_file.standard_path(), add)
-    _print(made, url)
+    _print(created, url)
 
 
 @app.command(name="rotate")
@@ -88,15 +88,15 @@ def rotate_token(name: str, /, *, days: Days = None, url: Url = "") -> None:
         days: Time until the new link ends (default: never).
         url: Address of the viewer (default: those of the viewers that run and ask for tokens).
     """
-    made: list[Token] = []
+    rotated: list[Token] = []
 
     def renew(tokens: Tokens) -> Tokens:
         old = _find(tokens, name)
-        made.append(make(name, Role[old.role.upper()], datetime.now(UTC), days))
-        return tuple(made[-1] if token is old else token for token in tokens)
+        rotated.append(make(name, Role[old.role.upper()], datetime.now(UTC), days))
+        return tuple(rotated[-1] if token is old else token for token in tokens)
 
     token_file.modify(token_file.standard_path(), renew)
-    _print(made[-1], url)
+    _print(rotated[-1], url)
 
 
 @app.command(name="revoke")
@@ -108,8 +108,8 @@ def revoke_token(name: str, /) -> None:
     """
 
     def remove(tokens: Tokens) -> Tokens:
-        gone = _find(tokens, name)
-        return tuple(token for token in tokens if token is not gone)
+        revoked = _find(tokens, name)
+        return tuple(token for token in tokens if token is not revoked)
 
     token_file.modify(token_file.standard_path(), remove)
     say(f"webviz: revoked {name}.")
@@ -130,8 +130,8 @@ def _print(token: Token, url: str) -> None:
 
 def _addresses(url: str) -> list[str]:
     """Return the addresses of the viewers that links are for, at least one."""
-    if found := [url] if url else announced():
-        return found
+    if urls := [url] if url else announced():
+        return urls
     guess = f"http://{socket.gethostname()}:8080"
     warn(
         f"No running viewer requires tokens. Links work once one serves {guess}; for another "

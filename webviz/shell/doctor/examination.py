@@ -200,8 +200,8 @@ class Examination:
         doctor = self._loop.doctor
         for each in doctor.findings:
             key = each.id, each.subject
-            known = self._seen.get(key, each)
-            self._seen[key] = replace(each, first_ns=known.first_ns or each.first_ns)
+            former = self._seen.get(key, each)
+            self._seen[key] = replace(each, first_ns=former.first_ns or each.first_ns)
         if self._results and doctor.rounds != self._rounds:
             self._rounds = doctor.rounds
             playback = self._loop.fact("playback")
@@ -253,8 +253,8 @@ def examine_live(
     while (passed_s := time.monotonic() - began_s) < discovery_s:
         progress("discovering", passed_s / discovery_s)
         time.sleep(REST_S)
-    shown = live_config(source.offers()) if config is None else config
-    examination = Examination(shown, source, progress, results, environment, began_s)
+    chosen_config = live_config(source.offers()) if config is None else config
+    examination = Examination(chosen_config, source, progress, results, environment, began_s)
     return examination.watch(until_s, config is not None)
 
 
@@ -283,7 +283,7 @@ def examine_bag(
 
 def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> DoctorReport:
     """Examine this machine alone, such as when ROS does not start, or with its peer."""
-    seen = Observation(
+    observation = Observation(
         now_ns=time.time_ns(),
         fixed_frame="",
         buffer=TransformBuffer(),
@@ -293,9 +293,9 @@ def examine_machine(environment: Environment, ends: TwoEnds | None = None) -> Do
     )
     levels = OF_MACHINE | {CauseLevel.TIME} if ends else OF_MACHINE
     checks = [check for check in known_checks() if CauseLevel.of(check.id) in levels]
-    found = [finding for check in checks for finding in check().find(seen)]
+    findings = [finding for check in checks for finding in check().find(observation)]
     source = f"live, with {ends.there.host}" if ends else "live"
-    return report_of(source, (), {}, ordered(found), len(checks))
+    return report_of(source, (), {}, ordered(findings), len(checks))
 
 
 def live_config(offers: Mapping[str, Offer]) -> Config:

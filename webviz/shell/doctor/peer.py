@@ -141,8 +141,8 @@ class _There:
         assert self._process.stderr is not None
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(5.0)
-        said = self._process.stderr.read(4096).strip().splitlines()
-        reason = f": {said[-1].rstrip('.')}" if said else ""
+        lines = self._process.stderr.read(4096).strip().splitlines()
+        reason = f": {lines[-1].rstrip('.')}" if lines else ""
         return PeerError(
             f"{self._host} cannot be examined{reason}. Check that `ssh {self._host} python3` works."
         )
@@ -241,22 +241,22 @@ def _end(looked: Any, host: str) -> End:
     Raises:
         PeerError: that is something else.
     """
-    found = _read_as(_Looked, looked)
+    facts = _read_as(_Looked, looked)
     try:
         networks = [
             str(ipaddress.ip_network(f"{address}/{mask}", strict=False))
-            for each in found.interfaces
+            for each in facts.interfaces
             for address, mask in each.addresses
             if not each.is_loopback
         ]
     except ValueError as error:
         raise PeerError(f"{host} sent an invalid answer: {error}.") from None
     return End(
-        host=found.host,
-        python=found.python,
-        distributions=found.distributions,
-        variables=found.variables,
-        nodes=found.nodes,
+        host=facts.host,
+        python=facts.python,
+        distributions=facts.distributions,
+        variables=facts.variables,
+        nodes=facts.nodes,
         interfaces=[
             NetworkInterface(
                 each.name,
@@ -265,10 +265,10 @@ def _end(looked: Any, host: str) -> End:
                 each.is_loopback,
                 each.mtu,
             )
-            for each in found.interfaces
+            for each in facts.interfaces
         ],
         networks=tuple(dict.fromkeys(networks)),
-        receive_buffer=found.receive_buffer,
+        receive_buffer=facts.receive_buffer,
     )
 
 
@@ -303,10 +303,10 @@ def _clocks(there: _Machine) -> tuple[float, float]:
     """
     best = (float("inf"), 0.0)
     for _ in range(ROUND_TRIPS):
-        asked, began = time.time(), time.perf_counter()
+        sent_s, began = time.time(), time.perf_counter()
         theirs = _read_as(float, there.ask("time"))
         took = time.perf_counter() - began
-        best = min(best, (took, theirs - (asked + took / 2)))
+        best = min(best, (took, theirs - (sent_s + took / 2)))
     return best[1], best[0] / 2
 
 

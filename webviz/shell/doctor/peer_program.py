@@ -142,9 +142,9 @@ class Agent:
             token = data.rstrip(b".").decode("ascii", "replace")[:64]
             with self._lock:
                 if token in self._heard or len(self._heard) < MAX_HEARD:
-                    known = self._heard.setdefault(token, {"senders": set(), "sizes": set()})
-                    known["senders"].add(address)
-                    known["sizes"].add(len(data))
+                    received = self._heard.setdefault(token, {"senders": set(), "sizes": set()})
+                    received["senders"].add(address)
+                    received["sizes"].add(len(data))
 
 
 def _relevant(variables: dict[str, str]) -> dict[str, str]:
@@ -157,9 +157,9 @@ def _nodes() -> list[dict[str, Any]]:
 
     A shell that ssh starts often does not have those that a terminal or a service has.
     """
-    found: list[dict[str, Any]] = []
+    nodes: list[dict[str, Any]] = []
     for pid in sorted(filter(str.isdecimal, _folders("/proc")), key=int):
-        if int(pid) == os.getpid() or len(found) >= MAX_NODES:
+        if int(pid) == os.getpid() or len(nodes) >= MAX_NODES:
             continue
         if not any(library in _read(f"/proc/{pid}/maps") for library in LIBRARIES):
             continue
@@ -168,8 +168,8 @@ def _nodes() -> list[dict[str, Any]]:
         pairs = (each.partition("=") for each in _read(f"/proc/{pid}/environ").split("\0"))
         variables = _relevant({name: value for name, _, value in pairs if name})
         command = " ".join(_read(f"/proc/{pid}/cmdline").split("\0")).strip()
-        found.append({"pid": int(pid), "command": command[:200], "variables": variables})
-    return found
+        nodes.append({"pid": int(pid), "command": command[:200], "variables": variables})
+    return nodes
 
 
 def _is_same(kind: str, pid: str) -> bool:
@@ -185,19 +185,19 @@ def _interfaces() -> list[dict[str, Any]]:
     addresses: dict[str, list[tuple[str, str]]] = {}
     for name, address, mask in _addresses():
         addresses.setdefault(name.split(":")[0], []).append((address, mask))
-    found: list[dict[str, Any]] = []
+    interfaces: list[dict[str, Any]] = []
     # Not by /sys, which may be that of another network namespace.
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
         for _, name in sorted(socket.if_nameindex(), key=lambda each: each[1]):
-            asked = struct.pack("256s", name.encode()[:15])
+            request = struct.pack("256s", name.encode()[:15])
             try:
-                flagged = fcntl.ioctl(any_socket.fileno(), SIOCGIFFLAGS, asked)
-                sized = fcntl.ioctl(any_socket.fileno(), SIOCGIFMTU, asked)
+                flagged = fcntl.ioctl(any_socket.fileno(), SIOCGIFFLAGS, request)
+                sized = fcntl.ioctl(any_socket.fileno(), SIOCGIFMTU, request)
             except OSError:
                 continue
             flags = struct.unpack_from("H", flagged, 16)[0]
             if flags & IFF_UP:
-                found.append(
+                interfaces.append(
                     {
                         "name": name,
                         "addresses": addresses.get(name, []),
@@ -206,12 +206,12 @@ def _interfaces() -> list[dict[str, Any]]:
                         "mtu": struct.unpack_from("i", sized, 16)[0],
                     }
                 )
-    return found
+    return interfaces
 
 
 def _addresses() -> list[tuple[str, str, str]]:
     """Name, address and netmask of all IPv4 addresses."""
-    found: list[tuple[str, str, str]] = []
+    addresses: list[tuple[str, str, str]] = []
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
         names = array.array("B", bytes(128 * 40))
         place, _ = names.buffer_info()
@@ -220,14 +220,14 @@ def _addresses() -> list[tuple[str, str, str]]:
         data = names.tobytes()[:size]
         for at in range(0, size, 40):
             name = data[at : at + 16].split(b"\0")[0].decode()
-            asked = struct.pack("256s", name.encode()[:15])
+            packed = struct.pack("256s", name.encode()[:15])
             try:
-                mask = fcntl.ioctl(any_socket.fileno(), SIOCGIFNETMASK, asked)[20:24]
+                mask = fcntl.ioctl(any_socket.fileno(), SIOCGIFNETMASK, packed)[20:24]
             except OSError:
                 continue
             address = socket.inet_ntoa(data[at + 20 : at + 24])
-            found.append((name, address, socket.inet_ntoa(mask)))
-    return found
+            addresses.append((name, address, socket.inet_ntoa(mask)))
+    return addresses
 
 
 def _senders() -> list[str]:

@@ -181,8 +181,8 @@ def to_text(report: DoctorReport, is_colored: bool) -> str:
         report: the report.
         is_colored: whether the terminal knows ANSI colours.
     """
-    shown = msgspec.convert(_readable(msgspec.to_builtins(report)), DoctorReport)
-    return "\n".join(_lines(shown, is_colored))
+    readable_report = msgspec.convert(_readable(msgspec.to_builtins(report)), DoctorReport)
+    return "\n".join(_lines(readable_report, is_colored))
 
 
 def _readable(value: Any) -> Any:

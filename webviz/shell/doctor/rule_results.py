@@ -97,9 +97,9 @@ class RuleResults:
             else f"ok     {readable(each.rule.text)} ({each.extent})"
             for each in self.all.values()
         ]
-        held = len(self.all) - len(self.failed)
-        hold = "rule holds" if held == len(self.all) == 1 else "rules hold"
-        return "\n".join([*lines, f"{held} of {len(self.all)} {hold}."])
+        passed = len(self.all) - len(self.failed)
+        hold = "rule holds" if passed == len(self.all) == 1 else "rules hold"
+        return "\n".join([*lines, f"{passed} of {len(self.all)} {hold}."])
 
     def to_junit(self) -> str:
         """Return the results as JUnit XML: a test case for each rule."""

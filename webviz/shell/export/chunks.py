@@ -208,12 +208,12 @@ def _points_of(message: SceneMessage) -> int:
 
 def _dtypes(value: Any) -> list[str]:
     """Return the types of the arrays of a message, in the order of their numbers."""
-    found: dict[int, str] = {}
+    by_index: dict[int, str] = {}
 
     def walk(each: Any) -> None:
         if isinstance(each, Mapping):
             if "__binary_index" in each:
-                found[each["__binary_index"]] = each["dtype"]
+                by_index[each["__binary_index"]] = each["dtype"]
             else:
                 for inner in each.values():
                     walk(inner)
@@ -222,7 +222,7 @@ def _dtypes(value: Any) -> list[str]:
                 walk(inner)
 
     walk(value)
-    return [found[number] for number in sorted(found)]
+    return [by_index[number] for number in sorted(by_index)]
 
 
 def _plain(value: Any, numbers: Sequence[int], buffers: Buffers) -> Any:

@@ -125,23 +125,23 @@ def export(
     span = order.span()
     order.begin_s(span)  # an error before the work
     with writing(path) as file:
-        made = RunFile(file)
-        if order.max_bytes < made.client_bytes:
+        run_file = RunFile(file)
+        if order.max_bytes < run_file.client_bytes:
             raise UsageError(
-                f"--max-size is less than the {made.client_bytes / 1e6:.1f} MB of the page itself. "
-                "Choose a larger one."
+                f"--max-size is less than the {run_file.client_bytes / 1e6:.1f} MB of the page "
+                "itself. Choose a larger one."
             )
         limit = SizeLimit(order.max_bytes, (span.last_ns - span.first_ns) / 1e9)
-        tape = Tape(made.write_chunk, limit, made.bytes)
+        tape = Tape(run_file.write_chunk, limit, run_file.bytes)
         with contextlib.closing(RunRecorder(order.config, order.source)) as recorder:
             for frame in recorder.frames(span, tell):
                 tape.add(frame)
             tape.finish()
             facts = about(order, span, recorder, tape.index, limit.notes())
-            made.finish(facts)
+            run_file.finish(facts)
     seconds = (span.last_ns - span.first_ns) / 1e9
     frames = sum(len(chunk.times) for chunk in tape.index)
-    return ExportedFile(seconds, frames, made.bytes, made.client_bytes, limit.notes())
+    return ExportedFile(seconds, frames, run_file.bytes, run_file.client_bytes, limit.notes())
 
 
 def about(
@@ -204,11 +204,11 @@ def _density(density: Mapping[str, Any], first_s: float, last_s: float) -> Mappi
 def _recorded(channel: RecordingChannel, first_s: float, last_s: float) -> Mapping[str, Any]:
     density = channel.content("density")
     low, high = density.get("first", 0.0), density.get("last", 0.0)
-    found: dict[str, Any] = {}
+    recorded: dict[str, Any] = {}
     for topic, counts in channel.content("recorded").items():
         begin, end = _buckets(len(counts), low, high, first_s, last_s)
-        found[topic] = counts[begin:end]
-    return found
+        recorded[topic] = counts[begin:end]
+    return recorded
 
 
 def _buckets(count: int, low: float, high: float, first_s: float, last_s: float) -> tuple[int, int]:

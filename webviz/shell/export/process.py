@@ -77,8 +77,8 @@ def _make(order: ExportRequest, tell: Callable[[float], object]) -> str:
     text = Path(order.config).read_text(encoding="utf-8")
     with contextlib.closing(bag_player(Path(order.bag))) as source:
         run = ExportOrder(parse(text, "config.yaml"), source, order.bag, order.name, at=order.at_s)
-        made = export(run, Path(order.path), tell)
-    return " ".join([f"{made.seconds:.1f} s, {made.bytes / 1e6:.1f} MB.", *made.notes])
+        exported = export(run, Path(order.path), tell)
+    return " ".join([f"{exported.seconds:.1f} s, {exported.bytes / 1e6:.1f} MB.", *exported.notes])
 
 
 if __name__ == "__main__":

@@ -53,30 +53,32 @@ class PaneTape:
 
         None if one is gone.
         """
-        made: dict[str, tuple[bytes, bool] | None] = {}
-        for gone in self._shown.keys() - panes.keys():
-            del self._shown[gone]
-            self._sent.pop(gone, None)
-            made[gone] = None
+        changes: dict[str, tuple[bytes, bool] | None] = {}
+        for removed in self._shown.keys() - panes.keys():
+            del self._shown[removed]
+            self._sent.pop(removed, None)
+            changes[removed] = None
         for display, pane in panes.items():
             if self._shown.get(display) is pane:
                 continue
             self._shown[display] = pane
             self._number += 1
-            picture, sent, file = pane.picture, self._sent.get(display, Sent()), None
+            picture, sent_picture, file = pane.picture, self._sent.get(display, Sent()), None
             marked = self._marked.get(display, 0) + 1
             if isinstance(picture, Video):
-                is_whole = sent.packet < picture.packets[0].number
-            elif sent.has(picture) and marked <= MAX_MARKED:
+                is_whole = sent_picture.packet < picture.packets[0].number
+            elif sent_picture.has(picture) and marked <= MAX_MARKED:
                 is_whole = False
             else:
-                is_whole, sent = True, Sent()
+                is_whole, sent_picture = True, Sent()
                 file = file_of(picture, factor_for(picture, WIDTH))
             self._marked[display] = 0 if is_whole else marked
-            data, self._sent[display] = frame(display, self._number, pane, file, sent, False)
+            data, self._sent[display] = frame(
+                display, self._number, pane, file, sent_picture, False
+            )
             if data:
-                made[display] = data, is_whole
-        return made
+                changes[display] = data, is_whole
+        return changes
 
 
 SLOW_S = 1.0
@@ -213,11 +215,11 @@ class RunRecorder:
         """Record the poses of all frames that have one, as far as there are not too many."""
         loop = self.viewer.loop
         frames = self._frames()
-        wanted = [view.target_frame for view in loop.settings.views.values()]
-        known = dict.fromkeys([*wanted, *sorted(loop.buffer.frames())])
-        found = (frame for frame in known if frame != FIXED_FRAME and frames.latest(frame))
+        targets = [view.target_frame for view in loop.settings.views.values()]
+        candidates = dict.fromkeys([*targets, *sorted(loop.buffer.frames())])
+        valid = (frame for frame in candidates if frame != FIXED_FRAME and frames.latest(frame))
         room = MAX_FOLLOWED - len(self.followed)
-        new = itertools.islice((frame for frame in found if frame not in self.followed), room)
+        new = itertools.islice((frame for frame in valid if frame not in self.followed), room)
         self._scene.cameras.followed = frozenset((*self.followed, *new))
 
     def _show(self) -> None:

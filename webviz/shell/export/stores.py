@@ -62,8 +62,8 @@ class RecordingChannel(Channel):
         displays = {f"{name}:{row.id}" for name in OF_EACH_DISPLAY for row in fact("rows", ())}
         panels = {f"{name}:{tab.tab}" for name in OF_EACH_PANEL for tab in fact("panels", ())}
         tools = {f"{name}:{tool.id}" for name in OF_EACH_TOOL for tool in fact("tools", ())}
-        for gone in self._names - (names := {*SHARED, *displays, *panels, *tools}) - {*SLOW}:
-            self.show(gone, {})
+        for removed in self._names - (names := {*SHARED, *displays, *panels, *tools}) - {*SLOW}:
+            self.show(removed, {})
         self._names = names
 
     def watched(self) -> set[str]:

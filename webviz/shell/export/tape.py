@@ -91,14 +91,14 @@ class Tape:
                 self._pack(chunk, frame.at_s)
         is_key = self._chunk is None
         chunk = self._chunk = self._chunk or TapeChunk(self._messages, self._values, self._pictures)
-        added, gone = self._add_scene(chunk, frame.scene)
+        added, removed = self._add_scene(chunk, frame.scene)
         values = self._add_values(chunk, frame.stores)
         pictures = self._add_pictures(chunk, frame.pictures)
         self._times.append(frame.at_s)
         if is_key:
             chunk.start = self._start()
-            added, gone, values, pictures = [], [], [], []
-        chunk.frames.append([frame.at_s, frame.ros_s, added, gone, values, pictures])
+            added, removed, values, pictures = [], [], [], []
+        chunk.frames.append([frame.at_s, frame.ros_s, added, removed, values, pictures])
 
     def finish(self) -> None:
         """Hand on the last chunk."""
@@ -122,13 +122,13 @@ class Tape:
     def _add_scene(self, chunk: TapeChunk, change: SceneChange) -> tuple[list[int], list[int]]:
         added: list[int] = []
         messages = [message for message in change.added if not self._is_left_out(message)]
-        gone = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
+        removed = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
         for message in messages:
             chunk.add_message(message)
             self._numbers[message.number] = self._messages
             added.append(self._messages)
             self._messages += 1
-        return added, gone
+        return added, removed
 
     def _is_left_out(self, message: SceneMessage) -> bool:
         """Return whether the version before is shown instead of a message, since both are large."""
@@ -136,8 +136,8 @@ class Tape:
             return False
         before = self._by_key.get(message.key)
         self._by_key[message.key] = message.number
-        shown = None if before is None else self._numbers.get(before)
-        if before is None or shown is None or not self._is_skipped(message.key):
+        former = None if before is None else self._numbers.get(before)
+        if before is None or former is None or not self._is_skipped(message.key):
             return False
         self._numbers[message.number] = self._numbers.pop(before)
         return True
@@ -147,16 +147,16 @@ class Tape:
         return count % self._limit.skip != 0
 
     def _add_values(self, chunk: TapeChunk, changes: Changes) -> list[Any]:
-        told: list[Any] = []
+        entries: list[Any] = []
         for (store, key), value in changes.items():
             if value is None or (store.startswith(VALUES) and self._limit.is_exceeded):
                 self._stores.pop((store, key), None)
-                told.append([store, key, -1])
+                entries.append([store, key, -1])
                 continue
             number = self._number(chunk, f"{store} {key}", value)
             self._stores[store, key] = number
-            told.append([store, key, number])
-        return told
+            entries.append([store, key, number])
+        return entries
 
     def _number(self, chunk: TapeChunk, kind: str, value: msgspec.Raw) -> int:
         encoded = bytes(value)
@@ -172,12 +172,12 @@ class Tape:
     def _add_pictures(
         self, chunk: TapeChunk, pictures: Mapping[str, tuple[bytes, bool] | None]
     ) -> list[Any]:
-        told: list[Any] = []
+        entries: list[Any] = []
         for display, picture in pictures.items():
             if picture is None:
                 self._panes.pop(display, None)
                 self._left_out.discard(display)
-                told.append([display, []])
+                entries.append([display, []])
                 continue
             data, is_whole = picture
             if is_whole and display in self._panes:
@@ -190,9 +190,9 @@ class Tape:
             chunk.add_picture(data)
             before = [] if is_whole else self._panes.get(display, [])
             self._panes[display] = [*before, self._pictures]
-            told.append([display, self._panes[display]])
+            entries.append([display, self._panes[display]])
             self._pictures += 1
-        return told
+        return entries
 
     def _start(self) -> Mapping[str, Any]:
         stores: dict[str, dict[str, int]] = {}

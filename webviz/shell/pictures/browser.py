@@ -131,13 +131,13 @@ def executable_of(kind: playwright.BrowserType) -> str:
     """
     chosen = os.environ.get(VARIABLE)
     if chosen:
-        found = shutil.which(chosen)
-        if found is None:
+        path = shutil.which(chosen)
+        if path is None:
             raise NoBrowser(f"{VARIABLE} is {chosen!r}, which is not a program. Fix or unset it.")
-        return found
+        return path
     for name in (*NAMES, kind.executable_path):
-        if found := shutil.which(name):
-            return found
+        if path := shutil.which(name):
+            return path
     raise NoBrowser(f"No browser found. {HOW_TO_GET_ONE}")
 
 
@@ -278,8 +278,8 @@ class Page:
         url = f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
         camera = pane.camera
         how = camera and camera_of(camera), camera and warp_of(camera.warp)
-        found = msgspec.to_builtins([*size, *how, [*hidden], pane.marks, url])
-        png = base64.b64decode(self.evaluate(PANE, found).split(",")[1])
+        arguments = msgspec.to_builtins([*size, *how, [*hidden], pane.marks, url])
+        png = base64.b64decode(self.evaluate(PANE, arguments).split(",")[1])
         return PIL.Image.open(io.BytesIO(png)).convert("RGB")
 
     def pixel_of(self, x: float, y: float, z: float = 0.0) -> tuple[float, float]:

@@ -174,13 +174,13 @@ def capture(
         with one_sentence():
             for path in plugin:
                 plugins.load(Path(path))
-            shown = _read(config)
+            picture_config = _read(config)
             if fixed_frame:
-                shown.set_fixed_frame(fixed_frame)
+                picture_config.set_fixed_frame(fixed_frame)
             times = at if isinstance(at, Sequence) and not isinstance(at, str) else (at,)
             with opened(bag, extras, ros_args) as source:
                 order = Order(
-                    shown,
+                    picture_config,
                     source,
                     str(bag),
                     times,
@@ -227,16 +227,16 @@ def pictures(order: Order, renderer: HeadlessRenderer | None = None) -> Generato
             if isinstance(order.source, Player) and position is not None:
                 viewer.seek(order.source, position, deadline)
                 at_s = seconds_from_start(position, order.source.history)
-            shown = viewer.wait(awaited, deadline)
+            readiness = viewer.wait(awaited, deadline)
             for name, view in looks:
                 renderer.look(viewer.focused(view, order.focus) if order.focus else view)
                 pixels = renderer.image() if order.is_image else None
                 if pixels is None:
                     if order.is_image:
-                        reasons = [status.text for status in shown.statuses.values()]
+                        reasons = [status.text for status in readiness.statuses.values()]
                         raise Error(joined("No image to write.", *reasons))
                     pixels = renderer.capture(order.transparent, viewer.hidden())
-                yield Picture(pixels, name, at_s, shown)
+                yield Picture(pixels, name, at_s, readiness)
 
 
 def image_alone(topic: str) -> Config:

@@ -103,11 +103,11 @@ def with_panes(
         assert isinstance(pane.picture, Pixels | Encoded)
         own = opened(pane.picture)
         if pane.camera or pane.marks:
-            shown = page.pane(own, pane, room, hidden.get(display, ()))
+            pane_image = page.pane(own, pane, room, hidden.get(display, ()))
         else:
-            shown = _fitting(own, room)
-        place = GAP + (room[0] - shown.width) // 2, top + (room[1] - shown.height) // 2
-        sheet.paste(shown, place)
+            pane_image = _fitting(own, room)
+        place = GAP + (room[0] - pane_image.width) // 2, top + (room[1] - pane_image.height) // 2
+        sheet.paste(pane_image, place)
     whole = np.full_like(scene, 255)
     left = dock // 2
     whole[:, : width - dock] = scene[:, left : left + width - dock]

@@ -118,11 +118,11 @@ class OfflineViewer:
         answer = self._viewer.enqueue(commands.Seek(seconds_from_start(at_ns, source.history)))
         while not answer.done():
             if time.monotonic() > deadline:
-                reached, wanted = (
+                reached, target = (
                     seconds_from_start(each, source.history) for each in (source.reached_ns, at_ns)
                 )
                 raise Error(
-                    f"The time-out passed after {max(reached, 0.0):.1f} s of {wanted:.1f} s of "
+                    f"The time-out passed after {max(reached, 0.0):.1f} s of {target:.1f} s of "
                     "the bag. Choose a longer time-out or an earlier time."
                 )
             source.inbox.arrived.clear()
@@ -153,9 +153,9 @@ class OfflineViewer:
             late_s = time.monotonic() - deadline
             is_over = late_s > (LOADING_S if is_loading else 0.0)
             awaits = is_loading or not is_bag
-            shown = Readiness(_summaries(rows), self._viewer.statuses, tuple(names), awaits)
-            if is_over or (not is_loading and (is_bag or shown.is_ok)):
-                return shown
+            readiness = Readiness(_summaries(rows), self._viewer.statuses, tuple(names), awaits)
+            if is_over or (not is_loading and (is_bag or readiness.is_ok)):
+                return readiness
             self._source.inbox.arrived.wait(LOOK_S)
 
     def names(self) -> list[str]:

@@ -113,15 +113,15 @@ class Snapshots:
         self._pool.shutdown(cancel_futures=True)
 
     def _take(self, url: str, size: tuple[int, int], views: Sequence[View | None]) -> list[Pixels]:
-        found: dict[int, Pixels] = {}
+        by_number: dict[int, Pixels] = {}
         with self._shown(url, size) as (page, client):
             # The default view is that of a new browser, hence first.
             for number in sorted(range(len(views)), key=lambda number: views[number] is not None):
                 self._show(page, client, views[number])
                 rows = self._rows()
                 panes = self._scene.link.pictures.panes()
-                found[number] = with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
-        return [found[number] for number in range(len(views))]
+                by_number[number] = with_panes(page, page.pixels(), panes, hidden_in(rows, rows))
+        return [by_number[number] for number in range(len(views))]
 
     def _select(
         self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]

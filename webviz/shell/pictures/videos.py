@@ -37,12 +37,12 @@ def encoder() -> tuple[str, str]:
         return "", "ffmpeg is not installed"
     command = [program, "-hide_banner", "-encoders"]
     try:
-        told = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S).stdout
+        listing = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S).stdout
     except (OSError, subprocess.SubprocessError) as error:
         return "", f"ffmpeg does not start ({error})"
-    known = set(told.split())
-    found = next((name for name in ENCODERS if name in known), "")
-    return found, "" if found else "this ffmpeg encodes neither H.264 nor AV1"
+    supported = set(listing.split())
+    encoder_name = next((name for name in ENCODERS if name in supported), "")
+    return encoder_name, "" if encoder_name else "this ffmpeg encodes neither H.264 nor AV1"
 
 
 def save_video(images: Iterable[PIL.Image.Image], path: Path, fps: float, name: str) -> None:
@@ -99,7 +99,7 @@ def _ffmpeg(size: tuple[int, int], part: Path, fps: float, name: str) -> Iterato
                 process.kill()
                 raise
         errors.seek(0)
-        told = errors.read().decode(errors="replace")
+        message = errors.read().decode(errors="replace")
     if process.returncode:
-        reason = " ".join(told.split())[-MAX_REASON:] or f"it ended with {process.returncode}"
+        reason = " ".join(message.split())[-MAX_REASON:] or f"it ended with {process.returncode}"
         raise OutputError(f"ffmpeg failed: {reason.rstrip('.')}.")

@@ -105,14 +105,16 @@ def _times(
     """First, last and shown time of a bag, in seconds from its start."""
     first_ns, last_ns = (position_ns(each, bag.history, name) for each in span)
     at_ns = last_ns if at is None else position_ns(at, bag.history, name)
-    first, last, shown = (
+    first, last, moment = (
         seconds_from_start(each, bag.history) for each in (first_ns, last_ns, at_ns)
     )
     if not first < last:
         raise TimeError(f"--from {first:g} s must be before --to {last:g} s.")
-    if not first <= shown <= last:
-        raise TimeError(f"--at {shown:g} s must be between --from {first:g} s and --to {last:g} s.")
-    return first, last, shown
+    if not first <= moment <= last:
+        raise TimeError(
+            f"--at {moment:g} s must be between --from {first:g} s and --to {last:g} s."
+        )
+    return first, last, moment
 
 
 class _Maker:

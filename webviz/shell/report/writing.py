@@ -129,8 +129,10 @@ def _draw(unpacked: UnpackedReport, path: Path) -> None:
 
     from webviz.shell.pictures.capture import capture
 
-    shown = capture(unpacked.config, bag=unpacked.bag, at=max(0.0, unpacked.report.at_s), size=SIZE)
-    picture_files.save(PIL.Image.fromarray(shown.pixels), path)
+    captured = capture(
+        unpacked.config, bag=unpacked.bag, at=max(0.0, unpacked.report.at_s), size=SIZE
+    )
+    picture_files.save(PIL.Image.fromarray(captured.pixels), path)
 
 
 def _make_folder(path: Path) -> None:

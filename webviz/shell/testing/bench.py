@@ -115,8 +115,8 @@ class DisplayBench:
     def offer(self, topic: str, type_name: str, publishers: int = 1) -> None:
         """Publish a topic that the display finds at run time."""
         publisher = Publisher("/test", type_name, "reliable", "volatile")
-        known = Offer((publisher,) * publishers, ("reliable", "volatile"), type=type_name)
-        self.offers[topic] = known
+        offer = Offer((publisher,) * publishers, ("reliable", "volatile"), type=type_name)
+        self.offers[topic] = offer
 
     def set(self, path: str, value: Any) -> None:
         """Change a property, and draw."""
@@ -160,15 +160,15 @@ class DisplayBench:
 
     def remedy(self, key: str) -> Remedy | None:
         """Return the property that would help, according to a status."""
-        found = self._statuses()[key].remedy
-        assert found is None or isinstance(found, Remedy)
-        return found
+        remedy = self._statuses()[key].remedy
+        assert remedy is None or isinstance(remedy, Remedy)
+        return remedy
 
     def fixed_frame_remedy(self, key: str) -> OtherFixedFrame | None:
         """Return the fixed frame that would help, according to a status."""
-        found = self._statuses()[key].remedy
-        assert found is None or isinstance(found, OtherFixedFrame)
-        return found
+        remedy = self._statuses()[key].remedy
+        assert remedy is None or isinstance(remedy, OtherFixedFrame)
+        return remedy
 
     def pick(self, key: str, number: int | None, point: Any = None) -> Details:
         """Select an item of a node, as the tool Select does.
@@ -189,9 +189,9 @@ class DisplayBench:
             point = tuple(map(float, place[0] if place.ndim > 1 else place))
             if isinstance(node, Points) and not isinstance(node.colors, tuple):
                 color = tuple(node.colors[number].tolist())
-        found = self.runner.find(Picks(group, key, ((7, number, point, color),)))
+        hits = self.runner.find(Picks(group, key, ((7, number, point, color),)))
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
-        details = self.runner.inspect(found[7], frames)
+        details = self.runner.inspect(hits[7], frames)
         assert details is not None, f"{key} cannot be selected."
         return details
 
@@ -219,5 +219,5 @@ def check_details(details: Details, title: str, values: Mapping[str, Any]) -> No
         AssertionError: a title or a value is another one.
     """
     assert details.title == title
-    shown = details_tree(details.values)["fields"]
-    assert {name: shown.get(name) for name in values} == values
+    fields = details_tree(details.values)["fields"]
+    assert {name: fields.get(name) for name in values} == values

@@ -51,8 +51,8 @@ def difference_image(actual: Pixels, reference: Pixels) -> Pixels:
 def _steps(actual: Pixels, reference: Pixels) -> NDArray[np.int16]:
     """Return the blurred difference of each pixel, ignoring the few colours of the reference."""
     stored = np.asarray(_of_few_colors(actual).convert("RGB"))
-    wanted = _blurred(reference)
-    steps = (np.abs(_blurred(each) - wanted) for each in (actual, stored))
+    expected = _blurred(reference)
+    steps = (np.abs(_blurred(each) - expected) for each in (actual, stored))
     return np.minimum(*map(_largest, steps))
 
 

@@ -84,15 +84,15 @@ def changed(values: Values, case: Case) -> Values:
     Only the parts on the way there are copied.
     """
     (*path, last), value = case
-    part: Any = (found := dict(values))
+    part: Any = (copy := dict(values))
     for key in path:
         if isinstance(key, int) and key >= len(part):
-            return found
+            return copy
         below = part[key] if isinstance(key, int) else part.get(key, {})
         part[key] = dict(below) if isinstance(below, Mapping) else list(below)
         part = part[key]
     part[last] = value
-    return found
+    return copy
 
 
 def send(at: DisplayBench, name: str, values: Mapping[str, Any]) -> None:
@@ -109,21 +109,21 @@ def send(at: DisplayBench, name: str, values: Mapping[str, Any]) -> None:
 
 def faults(at: DisplayBench) -> list[str]:
     """Return violations of what must hold however odd a message is."""
-    found, nodes = [], at.nodes()
+    faults_seen, nodes = [], at.nodes()
     for key, node in nodes.items():
-        found += [f"{key}.{name} is not finite" for name in infinite(node)]
+        faults_seen += [f"{key}.{name} is not finite" for name in infinite(node)]
     for key, pose in at.poses().items():
         if not np.isfinite([*pose.position, *pose.wxyz]).all():
-            found.append(f"the pose of {key} is not finite")
-    box = None if found else at.scene.bounds("")
+            faults_seen.append(f"the pose of {key} is not finite")
+    box = None if faults_seen else at.scene.bounds("")
     if box is not None and not np.abs([box.low, box.high]).max() < FARTHEST:
-        found.append(f"it reaches to {box}")
-    said = at.statuses()
-    silent = all(level == "OK" or text == NOTHING_TO_DRAW.text for level, text in said.values())
+        faults_seen.append(f"it reaches to {box}")
+    statuses = at.statuses()
+    silent = all(level == "OK" or text == NOTHING_TO_DRAW.text for level, text in statuses.values())
     is_blank = not type(at.display).reports_only and not any(map(has_content, nodes.values()))
     if is_blank and silent:
-        found.append(f"nothing is drawn, and the only status is: {said}")
-    return found
+        faults_seen.append(f"nothing is drawn, and the only status is: {statuses}")
+    return faults_seen
 
 
 def infinite(node: Node) -> Iterator[str]:
@@ -164,20 +164,20 @@ class Change:
         if isinstance(value, bool):
             return [not value]
         if isinstance(value, int):
-            found: list[Any] = [value * 3 + 1, value // 2]
+            candidates: list[Any] = [value * 3 + 1, value // 2]
         elif isinstance(value, float):
-            found = [value * 3 + 50.0, value / 2]
+            candidates = [value * 3 + 50.0, value / 2]
         elif isinstance(value, Topic):
-            found = [Topic("/somewhere_else")]
+            candidates = [Topic("/somewhere_else")]
         elif isinstance(value, tuple):
             is_color = isinstance(value[0], int)
-            found = [tuple(255 - each for each in value)] if is_color else [(1.0, 2.0, 3.0)]
+            candidates = [tuple(255 - each for each in value)] if is_color else [(1.0, 2.0, 3.0)]
         elif hint == dict[str, bool]:
-            found = [{"robot": False}]
+            candidates = [{"robot": False}]
         else:
             assert isinstance(value, str), f"Name other values of {self.path} in `values`."
-            found = ["robot"]
-        return [each for each in found if each != value]
+            candidates = ["robot"]
+        return [each for each in candidates if each != value]
 
 
 def changes(cls: type[Display]) -> Iterator[Change]:
@@ -203,13 +203,13 @@ def _add_condition(name: str, hints: dict[str, Any], prefix: str, needs: dict[st
     """Add what a property declares as `when`."""
     for item in getattr(hints[name], "__metadata__", ()):
         if isinstance(item, msgspec.Meta) and (when := (item.extra or {}).get("when")):
-            other, wanted = when
-            wanted = wanted[0] if isinstance(wanted, tuple) else wanted
+            other, condition = when
+            condition = condition[0] if isinstance(condition, tuple) else condition
             _add_condition(other, hints, prefix, needs)
             plain = _plain(hints[other])
             is_group = isinstance(plain, type) and issubclass(plain, msgspec.Struct)
-            inner = isinstance(wanted, bool) and not prefix and is_group
-            needs[f"{prefix}{other}{'.value' if inner else ''}"] = wanted
+            inner = isinstance(condition, bool) and not prefix and is_group
+            needs[f"{prefix}{other}{'.value' if inner else ''}"] = condition
 
 
 def _plain(hint: Any) -> Any:
@@ -257,8 +257,10 @@ class DisplayChecks:
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """One test for each property, and for each input of each variant."""
         if "changed" in metafunc.fixturenames:
-            found = [each for each in changes(self.display) if each.path not in self.elsewhere]
-            metafunc.parametrize("changed", found, ids=lambda each: each.path)
+            own_changes = [
+                each for each in changes(self.display) if each.path not in self.elsewhere
+            ]
+            metafunc.parametrize("changed", own_changes, ids=lambda each: each.path)
         if "made" in metafunc.fixturenames:
             metafunc.parametrize(("made", "name"), list(self.read_inputs()))
 
@@ -308,13 +310,13 @@ class DisplayChecks:
         """Infinite, huge, negative and empty values of every field of a message."""
         monkeypatch.setattr(PATIENCE_S, -1.0)
         type_name = inputs_of(type(made()))[name].type
-        known = list(cases(type_name, self.messages[type_name]))
-        found = []
-        for case in known[:: len(known) // MAX_CASES or 1]:
+        all_cases = list(cases(type_name, self.messages[type_name]))
+        problems = []
+        for case in all_cases[:: len(all_cases) // MAX_CASES or 1]:
             bench = self.at_work(webviz_bench, made, name)
             send(bench, name, changed(self.messages[type_name], case))
-            found += [f"{case[0]} = {str(case[1])[:40]}: {fault}" for fault in faults(bench)]
-        assert found == []
+            problems += [f"{case[0]} = {str(case[1])[:40]}: {fault}" for fault in faults(bench)]
+        assert problems == []
 
     @classmethod
     def at_work(cls, benches: Benches, made: Callable[[], Display], name: str) -> DisplayBench:
@@ -356,5 +358,7 @@ def _set(bench: DisplayBench, path: str, value: Any) -> None:
 def _picture(bench: DisplayBench) -> tuple[Any, ...]:
     """Everything a user sees but counts and ages of messages."""
     statuses = bench.statuses().items()
-    shown = {key: said for key, said in statuses if not key.startswith(("Topic", "Message"))}
-    return bench.nodes(), bench.poses(), bench.runner.handles(), shown
+    own_statuses = {
+        key: status for key, status in statuses if not key.startswith(("Topic", "Message"))
+    }
+    return bench.nodes(), bench.poses(), bench.runner.handles(), own_statuses

@@ -96,18 +96,18 @@ class ReferenceImages:
     ) -> str:
         output = self.output / f"{name}.png"
         store(actual, output)
-        shown, reference = self.shown(output), self.shown(path)
+        link, reference = self.shown(output), self.shown(path)
         remedy = f"If it is correct, run pytest with {UPDATE} and check the picture."
         if actual.shape != expected.shape:
             sizes = [f"{p.shape[1]} x {p.shape[0]}" for p in (actual, expected)]
             return (
-                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}. See {shown}. "
+                f"The picture has {sizes[0]} pixels, {reference} has {sizes[1]}. See {link}. "
                 f"{remedy}"
             )
         marked = output.with_suffix(".difference.png")
         store(difference_image(actual, expected), marked)
         return (
-            f"{100 * share:.2f} % of the picture differ from {reference}. See {shown} and "
+            f"{100 * share:.2f} % of the picture differ from {reference}. See {link} and "
             f"{self.shown(marked)}. {remedy}"
         )
 

@@ -65,9 +65,9 @@ class RememberingGraph:
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Remember a goal, whose answers a test gives."""
-        sent = SentGoal(action, type, decode(f"{type}_Goal", goal), feedback)
-        self.goals.append(sent)
-        return Goal(bytes(16), sent.accepted, sent.result, sent.cancel)
+        goal_sent = SentGoal(action, type, decode(f"{type}_Goal", goal), feedback)
+        self.goals.append(goal_sent)
+        return Goal(bytes(16), goal_sent.accepted, goal_sent.result, goal_sent.cancel)
 
     def nodes(self) -> tuple[str, ...]:
         """Return no nodes."""

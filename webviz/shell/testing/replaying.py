@@ -37,10 +37,11 @@ class Replayed:
         Raises:
             KeyError: there is no such display.
         """
-        found = self.statuses[display]
-        keys = [status, *(key for key in found if key.startswith("Topic"))]
+        statuses = self.statuses[display]
+        keys = [status, *(key for key in statuses if key.startswith("Topic"))]
         return next(
-            (found[k].text for k in keys if k in found and found[k].level >= Level.WARN), ""
+            (statuses[k].text for k in keys if k in statuses and statuses[k].level >= Level.WARN),
+            "",
         )
 
 
@@ -56,10 +57,10 @@ def replay(bag: Path, config: Path, at_s: float) -> Replayed:
         webviz.Error: a file cannot be read.
     """
     with contextlib.closing(Player(BagHistory(bag))) as source:
-        rows, found = play_through(load_config(config), source, at_s)
+        rows, bag_statuses = play_through(load_config(config), source, at_s)
     return Replayed(
         {row.name: row.statuses for row in rows if row.type != "Group"},
-        {each.name: each.text for each in found},
+        {each.name: each.text for each in bag_statuses},
     )
 
 
@@ -72,9 +73,9 @@ def looks_like(bag: Path, config: Path, at_s: float, picture: Path) -> bool:
     """
     from webviz.shell.pictures.capture import capture
 
-    wanted = load(picture)
-    height, width = wanted.shape[:2]
+    expected = load(picture)
+    height, width = expected.shape[:2]
     with contextlib.closing(Player(BagHistory(bag))) as source:
         end_s = (source.history.end_ns - source.history.start_ns) / 1e9
-    shown = capture(config, bag=bag, at=min(at_s, end_s), size=(width, height)).pixels
-    return share_of_difference(shown, wanted) <= TOLERANCE
+    pixels = capture(config, bag=bag, at=min(at_s, end_s), size=(width, height)).pixels
+    return share_of_difference(pixels, expected) <= TOLERANCE

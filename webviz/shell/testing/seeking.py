@@ -147,21 +147,21 @@ def check_seeks(
     with _opened(bag, config) as sought, _opened(bag, config) as played:
         duration_s = (sought.source.history.end_ns - sought.source.history.start_ns) / 1e9
         chance = random.Random(seed)
-        wanted = times or [round(chance.uniform(0, duration_s), 3) for _ in range(count)]
+        targets = times or [round(chance.uniform(0, duration_s), 3) for _ in range(count)]
         truth: dict[float, tuple[dict[str, Any], Mapping[str, str]]] = {}
-        for at_s in sorted(set(wanted)):
+        for at_s in sorted(set(targets)):
             played.play_to(at_s)
             played.settle()
             truth[at_s] = played.shown(), _statuses(played)
-        for before_s, at_s in zip([0.0, *wanted], wanted, strict=False):
+        for before_s, at_s in zip([0.0, *targets], targets, strict=False):
             sought.do(commands.Seek(at_s))
             nodes, statuses = truth[at_s]
             when = f"differs at {at_s:g} s after a seek from {before_s:g} s"
-            for display, found in sought.shown().items():
-                if plain(found) != plain(nodes[display]):
+            for display, sought_nodes in sought.shown().items():
+                if plain(sought_nodes) != plain(nodes[display]):
                     raise AssertionError(
                         f"{display} {when}:\n"
-                        f"  sought: {_summary(found)}\n  played: {_summary(nodes[display])}"
+                        f"  sought: {_summary(sought_nodes)}\n  played: {_summary(nodes[display])}"
                     )
             reported = _statuses(sought)
             for key in sorted(reported.keys() | statuses.keys()):
@@ -174,12 +174,12 @@ def check_seeks(
 
 def shown(loop: FrameLoop, scene: RecordingScene) -> dict[str, Any]:
     """Return the nodes that are seen of each display, with their poses in the fixed frame."""
-    found: dict[str, Any] = {}
+    by_display: dict[str, Any] = {}
     for row in loop.state().rows:
         nodes = [(pose, node) for _, pose, node in scene.visible(f"{row.id}/")]
         # In which slot of a display a sample is drawn makes no difference.
-        found[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
-    return found
+        by_display[f"{row.id} {row.name}"] = sorted(nodes, key=repr)
+    return by_display
 
 
 def plain(value: Any) -> Any:
@@ -213,16 +213,16 @@ def _statuses(viewer: BagViewer) -> Mapping[str, str]:
     """Return the level and text of each status, without durations."""
     state = viewer.loop.state()
     # Of a file, more becomes known the more of it was read.
-    found = {key: status for key, status in state.statuses.items() if key != "Bag"}
+    statuses = {key: status for key, status in state.statuses.items() if key != "Bag"}
     # How well displays agree is looked at once a second.
     others = {runner.id: runner.external_statuses.keys() for runner in viewer.loop.runners()}
     for row in state.rows:
-        found |= {
+        statuses |= {
             f"{row.id} {row.name}: {key}": status
             for key, status in row.statuses.items()
             if key not in others.get(row.id, ())
         }
-    return {key: f"{s.level.name} {_DURATION.sub('_', s.text)}" for key, s in found.items()}
+    return {key: f"{s.level.name} {_DURATION.sub('_', s.text)}" for key, s in statuses.items()}
 
 
 def _summary(nodes: Any) -> str:

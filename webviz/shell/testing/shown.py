@@ -243,9 +243,9 @@ class Shown(ABC):
             value: as in a config file.
             display: name; None for the first in the list.
         """
-        done = self.viewer.enqueue(SetProperty(self._row(display).id, path, value))
+        result = self.viewer.enqueue(SetProperty(self._row(display).id, path, value))
         self._catch_up()
-        done.result(0)
+        result.result(0)
 
     def set_fixed_frame(self, frame: str) -> None:
         """Change the fixed frame."""

@@ -29,7 +29,7 @@ class ComputedFile:
     warnings: Sequence[str] = ()
 
     def __init__(self, messages: Mapping[BagChannel, tuple[Times, Serialized]]) -> None:
-        self._messages = {channel.topic: found for channel, found in messages.items()}
+        self._messages = {channel.topic: content for channel, content in messages.items()}
         self.channels = tuple(messages)
         self.start_ns = min(int(times[0]) for times, _ in messages.values())
         self.end_ns = max(int(times[-1]) for times, _ in messages.values())
@@ -40,13 +40,15 @@ class ComputedFile:
     ) -> Iterator[Recorded]:
         """See `BagFile.messages`."""
         until_ns = self.end_ns if end_ns is None else end_ns
-        found = [self._of_channel(channel, start_ns, until_ns) for channel in channels]
-        return heapq.merge(*found, key=_stamp)
+        streams = [self._of_channel(channel, start_ns, until_ns) for channel in channels]
+        return heapq.merge(*streams, key=_stamp)
 
     def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
         """See `BagFile.newest`."""
-        found = [self._of_channel(channel, self.start_ns, end_ns, step=-1) for channel in channels]
-        return heapq.merge(*found, key=_stamp, reverse=True)
+        streams = [
+            self._of_channel(channel, self.start_ns, end_ns, step=-1) for channel in channels
+        ]
+        return heapq.merge(*streams, key=_stamp, reverse=True)
 
     def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
         """See `BagFile.newest_stamps`."""

@@ -47,7 +47,7 @@ class Extra(msgspec.Struct, frozen=True):
 
 def extras_file(extras: Sequence[Extra], start_ns: int) -> ComputedFile:
     """Return messages as a file of a bag, all at the time of recording of its start."""
-    found: dict[BagChannel, tuple[npt.NDArray[np.int64], Callable[[int], bytes]]] = {}
+    by_channel: dict[BagChannel, tuple[npt.NDArray[np.int64], Callable[[int], bytes]]] = {}
     topics = dict.fromkeys((extra.topic, extra.type) for extra in extras)
     for topic, type_name in topics:
         own = [extra for extra in extras if (extra.topic, extra.type) == (topic, type_name)]
@@ -55,8 +55,8 @@ def extras_file(extras: Sequence[Extra], start_ns: int) -> ComputedFile:
         publishers = tuple(extra.publisher for extra in own)
         channel = BagChannel(topic, type_name, publishers, len(own), recorded)
         times = np.full(len(own), start_ns, np.int64)
-        found[channel] = times, [extra.cdr for extra in own].__getitem__
-    return ComputedFile(found)
+        by_channel[channel] = times, [extra.cdr for extra in own].__getitem__
+    return ComputedFile(by_channel)
 
 
 def map_of_file(path: Path) -> Extra:

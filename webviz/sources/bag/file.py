@@ -73,8 +73,8 @@ class BagChannel(msgspec.Struct, frozen=True):
         """As it is written to other files, in CDR."""
         if self.conversion is None and self.layout is None and self.recorded.definition:
             return self.recorded
-        known = type_exists(self.type)
-        text = definition(self.type) if known else definition_elsewhere(self.type)
+        is_known = type_exists(self.type)
+        text = definition(self.type) if is_known else definition_elsewhere(self.type)
         return replace(self.recorded, type=self.type, encoding="cdr", definition=text)
 
     def cdr(self, data: bytes) -> bytes:
@@ -111,10 +111,10 @@ class BagFile:
         except OSError as error:
             raise BagError(self._unreadable(error)) from error
         if self._recording.span_ns is None:
-            lost = str(self._recording.losses)
+            losses = str(self._recording.losses)
             self.close()
-            if lost:
-                raise BagError(f"{path} is damaged, and no message in it is whole: {lost}.")
+            if losses:
+                raise BagError(f"{path} is damaged, and no message in it is whole: {losses}.")
             raise BagError(f"{path} contains no messages. Record it again or choose another bag.")
         self.start_ns, self.end_ns = self._recording.span_ns
         """Stamps of the first and the last message."""
@@ -139,9 +139,9 @@ class BagFile:
                 "recover` completes a copy."
             )
             return [*losses.notes, *misfits, unfinished]
-        lost = str(losses)
-        damage = f"{self.name} is damaged: {lost}; everything else is shown."
-        return [*losses.notes, *misfits, *([damage] if lost else [])]
+        loss_text = str(losses)
+        damage = f"{self.name} is damaged: {loss_text}; everything else is shown."
+        return [*losses.notes, *misfits, *([damage] if loss_text else [])]
 
     def messages(
         self, channels: Collection[BagChannel], start_ns: int, end_ns: int | None = None
@@ -196,12 +196,14 @@ class BagFile:
         Raises:
             OSError: the file cannot be read.
         """
-        found: dict[str, Counts] = {}
+        histogram: dict[str, Counts] = {}
         counts = self._recording.histogram(parts)
         for channel in self.channels:
             own = counts[channel.recorded]
-            found[channel.topic] = found[channel.topic] + own if channel.topic in found else own
-        return found
+            histogram[channel.topic] = (
+                histogram[channel.topic] + own if channel.topic in histogram else own
+            )
+        return histogram
 
     def close(self) -> None:
         """Close the file."""
@@ -258,9 +260,9 @@ def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
     Raises:
         MessageError: its messages cannot be read; why, as a sentence.
     """
-    known = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
-    type_name = known.type if known else full_name(recorded.type)
-    types, layout = (KNOWN, None) if known else _types(type_name, recorded.definition)
+    conversion_of = conversion(recorded.type) if is_own(recorded.type, recorded.encoding) else None
+    type_name = conversion_of.type if conversion_of else full_name(recorded.type)
+    types, layout = (KNOWN, None) if conversion_of else _types(type_name, recorded.definition)
     profiles = profiles_of(recorded.profiles)
     publishers = tuple(Publisher(who, type_name, p.reliability, p.durability) for p in profiles)
     return BagChannel(
@@ -269,7 +271,7 @@ def _channel(topic: str, recorded: RecordedChannel, who: str) -> BagChannel:
         publishers or (Publisher(who, type_name, "reliable", "volatile"),),
         sum(max(profile.depth, KEEP_LAST) for profile in profiles) or KEEP_LAST,
         recorded,
-        known,
+        conversion_of,
         types,
         layout,
     )

@@ -120,8 +120,8 @@ class BagFiles:
             BagError: a file can no longer be read.
         """
         until_ns = self.end_ns if end_ns is None else end_ns
-        found = [file.messages(own, start_ns, until_ns) for file, own in self._by_file(channels)]
-        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp)
+        streams = [file.messages(own, start_ns, until_ns) for file, own in self._by_file(channels)]
+        return streams[0] if len(streams) == 1 else heapq.merge(*streams, key=_stamp)
 
     def newest(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[Recorded]:
         """Return the messages of channels until a time of recording, the newest first.
@@ -129,8 +129,8 @@ class BagFiles:
         Raises:
             BagError: a file can no longer be read.
         """
-        found = [file.newest(own, end_ns) for file, own in self._by_file(channels)]
-        return found[0] if len(found) == 1 else heapq.merge(*found, key=_stamp, reverse=True)
+        streams = [file.newest(own, end_ns) for file, own in self._by_file(channels)]
+        return streams[0] if len(streams) == 1 else heapq.merge(*streams, key=_stamp, reverse=True)
 
     def newest_stamps(self, channels: Collection[BagChannel], end_ns: int) -> Iterator[int]:
         """Return the times of `newest`, without reading the messages.
@@ -138,16 +138,16 @@ class BagFiles:
         Raises:
             BagError: a file can no longer be read.
         """
-        found = [file.newest_stamps(own, end_ns) for file, own in self._by_file(channels)]
-        return heapq.merge(*found, reverse=True)
+        streams = [file.newest_stamps(own, end_ns) for file, own in self._by_file(channels)]
+        return heapq.merge(*streams, reverse=True)
 
     def _by_file(
         self, channels: Collection[BagChannel]
     ) -> Iterator[tuple[MergedFile, Sequence[BagChannel]]]:
         """Yield the files that have some of the channels, and which."""
-        wanted = frozenset(channels)
+        chosen = frozenset(channels)
         for file in self._files:
-            if own := [channel for channel in file.channels if channel in wanted]:
+            if own := [channel for channel in file.channels if channel in chosen]:
                 yield file, own
 
     def is_used(self, topic: str) -> bool:
@@ -157,11 +157,11 @@ class BagFiles:
     def histogram(self, count: int) -> Mapping[str, Sequence[int]]:
         """Count the messages of each topic in equal parts of the span, from any thread."""
         parts = TimeParts(self.start_ns, self.end_ns, count)
-        found: dict[str, Counts] = {}
+        histogram: dict[str, Counts] = {}
         for file in self._files:
             for topic, own in file.histogram(parts).items():
-                found[topic] = found[topic] + own if topic in found else own
-        return {topic: counts.tolist() for topic, counts in found.items() if counts.any()}
+                histogram[topic] = histogram[topic] + own if topic in histogram else own
+        return {topic: counts.tolist() for topic, counts in histogram.items() if counts.any()}
 
     def close(self) -> None:
         """Close all files."""
@@ -185,12 +185,12 @@ class BagFiles:
         for file in filter(_name, self._files):
             for channel in file.channels:
                 types.setdefault(channel.topic, {}).setdefault(channel.type, file.name)
-        found = {topic: names for topic, names in types.items() if len(set(names.values())) > 1}
-        if not found:
+        conflicts = {topic: names for topic, names in types.items() if len(set(names.values())) > 1}
+        if not conflicts:
             return ""
-        topic, names = next(iter(found.items()))
+        topic, names = next(iter(conflicts.items()))
         where = " and ".join(f"{type_name} in {name}" for type_name, name in names.items())
-        others = len(found) - 1
+        others = len(conflicts) - 1
         verb = "does" if others == 1 else "do"
         more = f", and so {verb} {counted(others, 'more topic')}" if others else ""
         return f"{topic} differs between the bags, {where}{more}: a display reads one type only."

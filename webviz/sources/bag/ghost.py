@@ -125,16 +125,16 @@ def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | Compute
         here, there = Track.of(own), Track.of(other)
         offset_ns = _offset_ns(own, other, here, there, ghost.align)
         ros_ns = _ros_offset_ns(other) - _ros_offset_ns(own)
-        found: dict[str, tuple[npt.NDArray[np.int64], Floats]] = {}
+        numbers_by_topic: dict[str, tuple[npt.NDArray[np.int64], Floats]] = {}
         if here is not None and there is not None and here.root == there.root:
             distance = np.hypot(*(here.xy - there.at(here.times - offset_ns)).T)
-            _add(found, DISTANCE, here.times, distance)
+            _add(numbers_by_topic, DISTANCE, here.times, distance)
         if ghost.difference:
             times, values = _numbers(own, ghost.difference)
             ghost_times, ghost_values = _numbers(other, ghost.difference)
             there_values = _interpolated(times - offset_ns, ghost_times, ghost_values)
-            _add(found, DIFFERENCE, times, values - there_values)
-    numbers = [_numbers_file(found)] if found else []
+            _add(numbers_by_topic, DIFFERENCE, times, values - there_values)
+    numbers = [_numbers_file(numbers_by_topic)] if numbers_by_topic else []
     return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
 
 
@@ -157,7 +157,7 @@ class Track(msgspec.Struct, frozen=True):
         channels = [c for c in files.channels if c.type == TF and c.topic in ("/tf", "/tf_static")]
         links: dict[str, tuple[str, PoseTuple]] = {}
         times: list[int] = []
-        found: list[tuple[str, str, float, float]] = []
+        places: list[tuple[str, str, float, float]] = []
         for recorded in files.messages(channels, files.start_ns):
             _learn(links, recorded)
             if times and recorded.stamp_ns - times[-1] < SAMPLE_S * 1e9:
@@ -165,13 +165,13 @@ class Track(msgspec.Struct, frozen=True):
             place = _place(links)
             if place is not None and len(times) < MAX_SAMPLES:
                 times.append(recorded.stamp_ns)
-                found.append(place)
-        if not found:
+                places.append(place)
+        if not places:
             return None
-        kind = found[-1][:2]  # frames may become known one by one
-        kept = [n for n, each in enumerate(found) if each[:2] == kind]
-        xy = np.array([found[n][2:] for n in kept], float)
-        return Track(kind[0], np.array([times[n] for n in kept], np.int64), xy)
+        kind = places[-1][:2]  # frames may become known one by one
+        indices = [n for n, each in enumerate(places) if each[:2] == kind]
+        xy = np.array([places[n][2:] for n in indices], float)
+        return Track(kind[0], np.array([times[n] for n in indices], np.int64), xy)
 
     def at(self, times: npt.NDArray[np.int64]) -> Floats:
         """Positions at other times, (N, 2); NaN outside of the path."""
@@ -195,12 +195,12 @@ def _place(links: dict[str, tuple[str, PoseTuple]]) -> tuple[str, str, float, fl
     frame = next((name for name in BASES if name in links), None)
     if frame is None:
         return None
-    pose, root, seen = IDENTITY, frame, {frame}
+    pose, root, visited = IDENTITY, frame, {frame}
     while root in links:
         root, link = links[root]
-        if root in seen:
+        if root in visited:
             return None
-        seen.add(root)
+        visited.add(root)
         pose = compose(link, pose)
     return root, frame, pose[0], pose[1]
 
@@ -307,9 +307,9 @@ def _add(
     values: Floats,
 ) -> None:
     """Add the numbers that are known, if any."""
-    known = np.isfinite(values)
-    if known.any():
-        found[topic] = times[known], values[known]
+    is_finite = np.isfinite(values)
+    if is_finite.any():
+        found[topic] = times[is_finite], values[is_finite]
 
 
 def _numbers_file(found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> ComputedFile:

@@ -100,7 +100,7 @@ of a rare topic would take reading all of it."""
 
 def links_of(file: BagFiles) -> Sequence[tuple[str, str]]:
     """Parents and children of the first transforms, each once."""
-    found: dict[tuple[str, str], None] = {}
+    links: dict[tuple[str, str], None] = {}
     for topic in ("/tf_static", "/tf"):
         channels = [c for c in file.channels if (c.topic, c.type) == (topic, TF)]
         for recorded in _first(file, channels):
@@ -109,21 +109,21 @@ def links_of(file: BagFiles) -> Sequence[tuple[str, str]]:
             except MessageError:
                 continue
             for each in message.transforms:
-                found[each.parent.removeprefix("/"), each.child.removeprefix("/")] = None
-    return list(found)
+                links[each.parent.removeprefix("/"), each.child.removeprefix("/")] = None
+    return list(links)
 
 
 def frames_of(file: BagFiles, channels: Collection[BagChannel]) -> Sequence[str]:
     """Return the frames of the first messages of some channels, each once."""
-    found: dict[str, None] = {}
+    names: dict[str, None] = {}
     for recorded in _first(file, channels):
         try:
             header = peek_header(recorded.type, recorded.cdr, recorded.types)
         except MessageError:
             continue
         if header and header[0]:
-            found[header[0].removeprefix("/")] = None
-    return list(found)
+            names[header[0].removeprefix("/")] = None
+    return list(names)
 
 
 def _first(file: BagFiles, channels: Collection[BagChannel]) -> Iterator[Recorded]:
@@ -212,9 +212,9 @@ class BagHistory:
     def channels(self, subscriptions: Mapping[str, Subscription]) -> Sequence[HistoryChannel]:
         """`History.channels`: those that can be read, and always the clock."""
         wished = (HistoryChannel(topic, each.type) for topic, each in subscriptions.items())
-        found = [each for each in wished if each in self._own and not self._problem(each)]
-        has_clock = CLOCK_CHANNEL in self._own and CLOCK_CHANNEL not in found
-        return [*found, CLOCK_CHANNEL] if has_clock else found
+        chosen = [each for each in wished if each in self._own and not self._problem(each)]
+        has_clock = CLOCK_CHANNEL in self._own and CLOCK_CHANNEL not in chosen
+        return [*chosen, CLOCK_CHANNEL] if has_clock else chosen
 
     def channels_of(self, topic: str) -> Sequence[HistoryChannel]:
         """`History.channels_of`."""

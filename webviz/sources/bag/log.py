@@ -99,7 +99,7 @@ def read_log(paths: Sequence[Path]) -> BagLog:
 
 def _read(files: BagFiles) -> BagLog:
     until_s = time.monotonic() + PATIENCE_S
-    kept: list[tuple[int, float, int, Event]] = []
+    heap: list[tuple[int, float, int, Event]] = []
     chance = random.Random(0)  # the same sample each time
     count = size = 0
     warning = ""
@@ -115,16 +115,16 @@ def _read(files: BagFiles) -> BagLog:
         is_short = len(recorded.cdr) <= LEVEL_AT
         if recorded.type == LOG and (is_short or recorded.cdr[LEVEL_AT] < WARN):
             continue
-        if (found := event_of(recorded)) is None:
+        if (record := event_of(recorded)) is None:
             continue
-        level, event = found
+        level, event = record
         count += 1
         entry = (level, chance.random(), count, event)
-        if len(kept) < MAX_EVENTS:
-            heapq.heappush(kept, entry)
+        if len(heap) < MAX_EVENTS:
+            heapq.heappush(heap, entry)
         else:
-            heapq.heappushpop(kept, entry)
-    events = tuple(event for *_, event in sorted(kept, key=lambda entry: entry[2]))
+            heapq.heappushpop(heap, entry)
+    events = tuple(event for *_, event in sorted(heap, key=lambda entry: entry[2]))
     return BagLog(events, warning)
 
 
@@ -138,8 +138,8 @@ def event_of(recorded: Recorded) -> tuple[int, Event] | None:
     if level < WARN:
         return None
     name, text = shortened(message.name, MAX_NAME), _first_line(message.msg)
-    shown = Level.ERROR if level >= ERROR else Level.WARN
-    return level, Event(recorded.stamp_ns, shown, name, text)
+    shown_level = Level.ERROR if level >= ERROR else Level.WARN
+    return level, Event(recorded.stamp_ns, shown_level, name, text)
 
 
 def _channels(files: BagFiles) -> Sequence[BagChannel]:

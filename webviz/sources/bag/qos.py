@@ -40,8 +40,8 @@ def profiles_of(text: str) -> tuple[BagProfile, ...]:
         unreadable.
     """
     try:
-        given = read_plain(text, LIMITS)
-        return tuple(map(_profile, given[:MAX_PROFILES] if isinstance(given, list) else ()))
+        profiles = read_plain(text, LIMITS)
+        return tuple(map(_profile, profiles[:MAX_PROFILES] if isinstance(profiles, list) else ()))
     except (ValueError, OverflowError):
         return ()
 

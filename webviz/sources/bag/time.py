@@ -64,7 +64,7 @@ class BagTime:
         return recorded_ns - self._offset_ns if self._clock_ns is None else self._clock_ns
 
     def _follow_transforms(self, file: BagFiles) -> None:
-        found: list[tuple[int, int]] = []
+        offsets: list[tuple[int, int]] = []
         starts = file.start_ns + 1, file.start_ns
         for recorded in itertools.chain.from_iterable(_first(file, start) for start in starts):
             try:
@@ -74,13 +74,13 @@ class BagTime:
             stamps = [t.stamp_ns for t in message.transforms if t.stamp_ns]
             if not stamps:
                 continue
-            found.append((recorded.stamp_ns - stamps[0], stamps[0]))
-            if abs(found[-1][0]) <= FOREIGN_NS:
+            offsets.append((recorded.stamp_ns - stamps[0], stamps[0]))
+            if abs(offsets[-1][0]) <= FOREIGN_NS:
                 return
-        if not found:
+        if not offsets:
             return
-        least_ns = min(abs(offset_ns) for offset_ns, _ in found)
-        near = [each for each in found if abs(each[0]) - least_ns <= FOREIGN_NS]
+        least_ns = min(abs(offset_ns) for offset_ns, _ in offsets)
+        near = [each for each in offsets if abs(each[0]) - least_ns <= FOREIGN_NS]
         self._offset_ns = near[0][0]
         first_ns = min(stamp_ns for _, stamp_ns in near)
         self.warning = (

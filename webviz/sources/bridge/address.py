@@ -102,10 +102,10 @@ def _lines(path: Path) -> list[str]:
 
 
 def _header(line: str) -> tuple[str, str]:
-    found = _HEADER.fullmatch(line.strip())
-    if not found:  # without its value, which may be a secret
+    match = _HEADER.fullmatch(line.strip())
+    if not match:  # without its value, which may be a secret
         raise Error(
             f"The header {line.partition(':')[0][:40]!r} is invalid. Write one `Name: value` a "
             "line, such as `Authorization: Bearer TOKEN`."
         )
-    return found[1], found[2]
+    return match[1], match[2]

@@ -50,11 +50,11 @@ class BulkConnection(BridgeConnection):
             return
         with contextlib.suppress(OSError):  # it is being closed
             least = max(MIN_BUFFER, SEGMENTS * _segment(sock))
-            wanted = self.pacer.rate * (self.pacer.trip_s + QUEUE_S)
-            wanted = round(min(max(wanted, least), MAX_BUFFER))
-            if wanted != self._buffer:
-                self._buffer = wanted
-                sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, wanted)
+            size = self.pacer.rate * (self.pacer.trip_s + QUEUE_S)
+            size = round(min(max(size, least), MAX_BUFFER))
+            if size != self._buffer:
+                self._buffer = size
+                sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, size)
 
     def data_received(self, data: bytes) -> None:
         """Count the bytes, and pause if they exceed the rate."""

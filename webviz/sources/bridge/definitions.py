@@ -73,10 +73,10 @@ class Definitions:
         Returns:
             Why its messages cannot be read, "" if they can.
         """
-        known = self._topics.get(topic, TopicTypes())
-        if not text or known[:2] != (type, text):
-            known = self._topics[topic] = _types(type, text, self._undefined)
-        return known.problem
+        topic_types = self._topics.get(topic, TopicTypes())
+        if not text or topic_types[:2] != (type, text):
+            topic_types = self._topics[topic] = _types(type, text, self._undefined)
+        return topic_types.problem
 
     def learn_service(self, type: str, request: str, response: str) -> None:
         """Register a service type, unless it is known; what is invalid stays unknown.
@@ -100,11 +100,11 @@ class Definitions:
 
         One that does not fit its definition stays as it is.
         """
-        known = self._topics.get(topic, TopicTypes())
-        if known.layout is not None:
+        topic_types = self._topics.get(topic, TopicTypes())
+        if topic_types.layout is not None:
             with contextlib.suppress(MessageError):
-                cdr = known.layout.to_cdr(cdr)
-        return cdr, known.types
+                cdr = topic_types.layout.to_cdr(cdr)
+        return cdr, topic_types.types
 
     def problem(self, topic: str) -> str:
         """Return why messages of a topic cannot be read, "" if they can or it is not read."""

@@ -146,8 +146,8 @@ class FoxgloveSession:
         ended: list[int] = []
         for line in self._lines:
             channel = self._channel(line.topic)
-            wanted = channel and (channel.id, wishes[line.topic].asked)
-            if wanted != (line.channel, line.asked):
+            target = channel and (channel.id, wishes[line.topic].asked)
+            if target != (line.channel, line.asked):
                 self._lines.end(line)
                 ended.append(line.id)
         begun: list[tuple[int, int]] = []
@@ -164,9 +164,9 @@ class FoxgloveSession:
         self._to_advertise = frozenset(advertisements)
         if self._info is None:
             return  # they follow once it is known what the server can do
-        gone = [each for each in self._advertised if each not in advertisements]
-        if gone:
-            self._host.send(wire.unadvertise([self._advertised.pop(each) for each in gone]))
+        obsolete = [each for each in self._advertised if each not in advertisements]
+        if obsolete:
+            self._host.send(wire.unadvertise([self._advertised.pop(each) for each in obsolete]))
         for each in advertisements:
             self._advertise(each)
 
@@ -233,11 +233,11 @@ class FoxgloveSession:
     def _cdr(self, topic: str, payload: bytes) -> bytes:
         """Return a message in CDR, of which others than Foxglove's own are made already."""
         channel = self._foreign.get(topic)
-        known = channel and conversion(channel.schema_name)
-        if channel is None or known is None:
+        converter = channel and conversion(channel.schema_name)
+        if channel is None or converter is None:
             return payload
         try:
-            return known.convert(channel.encoding, payload)
+            return converter.convert(channel.encoding, payload)
         except ConversionError as error:
             raise WireError(str(error)) from error
 
@@ -259,8 +259,8 @@ class FoxgloveSession:
                     if (texts := service.definitions) is not None:
                         self._host.learn_service(service.type, *texts)
             case wire.UnadvertiseServices():
-                gone = set(message.service_ids)
-                self._services = {n: s for n, s in self._services.items() if s.id not in gone}
+                removed = set(message.service_ids)
+                self._services = {n: s for n, s in self._services.items() if s.id not in removed}
             case wire.ServiceCallFailure():
                 if answer := self._pending.pop(message.call_id, None):
                     reason = plain(message.message, 300) or "the bridge gives no reason"
@@ -297,8 +297,8 @@ class FoxgloveSession:
         if answer is None:
             return
         if response.encoding != "cdr":
-            said = plain(response.encoding, 40)
-            fail(answer, f"The bridge answers in the encoding {said!r}, webviz reads cdr only.")
+            encoding = plain(response.encoding, 40)
+            fail(answer, f"The bridge answers in the encoding {encoding!r}, webviz reads cdr only.")
         else:
             succeed(answer, response.payload)
 
@@ -358,9 +358,9 @@ class FoxgloveSession:
 
     def _advertise(self, advertisement: Advertisement) -> int:
         self._require("clientPublish", NO_PUBLISHING)
-        known = self._advertised.get(advertisement)
-        if known is not None:
-            return known
+        former = self._advertised.get(advertisement)
+        if former is not None:
+            return former
         try:
             text = definition(advertisement.type)
         except MessageError:

@@ -209,5 +209,5 @@ def is_foreign(channel: ServerChannel) -> bool:
 
 def type_of(channel: ServerChannel) -> str:
     """Return the message type of ROS of what a channel has."""
-    known = conversion(channel.schema_name) if is_foreign(channel) else None
-    return known.type if known else channel.schema_name
+    converter = conversion(channel.schema_name) if is_foreign(channel) else None
+    return converter.type if converter else channel.schema_name

@@ -80,9 +80,9 @@ class ParameterServices:
             raise NotConnected(f"The bridge owes {MAX_PENDING} answers. Try again later.")
         node, _, name = service.rpartition("/")
         parts = interfaces.service(type)
-        asked = decode(parts.request, request)
+        decoded = decode(parts.request, request)
         if name == "describe_parameters":
-            about = [{"name": each, **self._about(_full(node, each))} for each in asked.names]
+            about = [{"name": each, **self._about(_full(node, each))} for each in decoded.names]
             succeed(answer, encode(parts.response, {"descriptors": about}))
             return
         id, self._next_id = str(self._next_id), self._next_id + 1
@@ -91,13 +91,13 @@ class ParameterServices:
                 frame = wire.get_parameters([], id)
                 take = self._names_of(node)
             case "get_parameters":
-                names = [_full(node, each) for each in asked.names]
+                names = [_full(node, each) for each in decoded.names]
                 frame = wire.get_parameters(names, id)
                 take = _values_of(names)
             case _:
-                wanted = [_wanted(node, each) for each in asked.parameters]
-                frame = wire.set_parameters(wanted, id)
-                take = _results_of(wanted)
+                assignments = [_wanted(node, each) for each in decoded.parameters]
+                frame = wire.set_parameters(assignments, id)
+                take = _results_of(assignments)
         self._pending[id] = answer, parts.response, take
         self._send(frame)
 
@@ -182,8 +182,8 @@ def _result(wanted: wire.ServerParameter, found: wire.ServerParameter | None) ->
         return {"successful": False, "reason": "The bridge does not return this parameter."}
     if _value(wanted)[0] == _value(found)[0]:
         return {"successful": True}
-    kept = printable(str(found.value), 80)
-    return {"successful": False, "reason": f"The bridge keeps it at {kept}."}
+    current = printable(str(found.value), 80)
+    return {"successful": False, "reason": f"The bridge keeps it at {current}."}
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -213,10 +213,10 @@ def _value(parameter: wire.ServerParameter) -> tuple[dict[str, Any], str]:
     """Return a rcl_interfaces/msg/ParameterValue, and why it cannot be set, "" if it can."""
     value, type = parameter.value, parameter.type
     try:
-        kind, found = _known(value, type)
+        kind, parameter_value = _known(value, type)
     except (TypeError, ValueError, OverflowError, binascii.Error):
         return {"type": STRING, "string_value": _text(value)}, "ROS has no type for this value."
-    return ({"type": kind, KINDS[kind][1]: found} if kind else {"type": 0}), ""
+    return ({"type": kind, KINDS[kind][1]: parameter_value} if kind else {"type": 0}), ""
 
 
 def _text(value: Any) -> str:

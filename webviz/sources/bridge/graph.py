@@ -54,8 +54,8 @@ class BridgeGraph:
 
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Make the advertised publishers exactly these; anew after the link was broken."""
-        self._advertised = wanted = frozenset(advertisements)
-        return self._do(lambda: self._line.session.advertise(wanted))
+        self._advertised = frozen = frozenset(advertisements)
+        return self._do(lambda: self._line.session.advertise(frozen))
 
     def readvertise(self, session: BridgeSession) -> None:
         """Advertise in a new session what was in the last one."""
@@ -140,16 +140,16 @@ class BridgeGraph:
 
     def _do(self, do: Callable[[], T]) -> Future[T]:
         """Call `do` in the thread of the connection."""
-        done: Future[T] = Future()
+        future: Future[T] = Future()
 
         def run() -> None:
-            if not done.set_running_or_notify_cancel():
+            if not future.set_running_or_notify_cancel():
                 return
             try:
-                done.set_result(do())
+                future.set_result(do())
             except Exception as error:
-                done.set_exception(error)
+                future.set_exception(error)
 
         if not self._line.soon(run):
-            done.set_exception(NotConnected("The viewer has ended."))
-        return done
+            future.set_exception(NotConnected("The viewer has ended."))
+        return future

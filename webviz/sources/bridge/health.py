@@ -107,11 +107,11 @@ class LinkHealth:
 
     def remarks(self) -> Sequence[str]:
         """Sentences about what is wrong, none if all is well."""
-        found = self._late()
+        remarks = self._late()
         if self._malformed:
             ignored = f"{counted(self._malformed, 'frame')} of the bridge ignored"
-            found.append(joined(ignored, self._malformation))
-        return found
+            remarks.append(joined(ignored, self._malformation))
+        return remarks
 
     def _late(self) -> list[str]:
         """Return the messages that the bridge dropped, or else how late they come."""
@@ -129,7 +129,7 @@ class LinkHealth:
 
     def _recent(self) -> list[tuple[int, str]]:
         """Return the number of messages that were dropped lately, by topic."""
-        now_s, found = time.monotonic(), []
+        now_s, recent = time.monotonic(), []
         for topic, backlog in self._backlogs.items():
             before, total, at_s = self._drops.get(topic, (0, 0, 0.0))
             if backlog.dropped != total:
@@ -138,5 +138,5 @@ class LinkHealth:
                 before = total
             self._drops[topic] = before, total, at_s
             if total > before:
-                found.append((total - before, topic))
-        return found
+                recent.append((total - before, topic))
+        return recent

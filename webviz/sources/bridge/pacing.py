@@ -159,19 +159,23 @@ class Pacer:
 
     def large(self, wishes: Mapping[str, Subscription]) -> dict[str, Subscription]:
         """Return the wishes with large messages, and forget the flows of others."""
-        found = {t: w for t, w in wishes.items() if w.type in LARGE_TYPES or t in self._moved}
+        large_wishes = {
+            t: w for t, w in wishes.items() if w.type in LARGE_TYPES or t in self._moved
+        }
         self._moved &= wishes.keys()
-        self._thin = {topic: is_thinnable(wish) for topic, wish in found.items()}
-        taken = min((flow.taken for flow in self._flows.values()), default=0.0)
+        self._thin = {topic: is_thinnable(wish) for topic, wish in large_wishes.items()}
+        least_taken = min((flow.taken for flow in self._flows.values()), default=0.0)
         sizes = {topic: moments[-1][1] for topic, moments in self._small.items()}
         self._flows = {
-            topic: self._flows.get(topic) or Flow(size=sizes.get(topic, 0), taken=taken)
-            for topic in found
+            topic: self._flows.get(topic) or Flow(size=sizes.get(topic, 0), taken=least_taken)
+            for topic in large_wishes
         }
-        self._small = {t: d for t, d in self._small.items() if t in wishes and t not in found}
-        if self._turn not in found:
+        self._small = {
+            t: d for t, d in self._small.items() if t in wishes and t not in large_wishes
+        }
+        if self._turn not in large_wishes:
             self._turn = ""
-        return found
+        return large_wishes
 
     def subscribed(self) -> Collection[str]:
         """Return the large topics that are subscribed to now."""
@@ -299,13 +303,13 @@ class Pacer:
 
     def _move_largest(self, now_s: float) -> None:
         """Let the topic with the most bytes take turns with the large ones."""
-        found = {
+        rates = {
             topic: sum(size for at_s, size in sizes if now_s - at_s < RECENT_S)
             for topic, sizes in self._small.items()
             if topic not in self._moved
         }
-        if found and max(found.values()):
-            self._moved.add(max(found, key=found.__getitem__))
+        if rates and max(rates.values()):
+            self._moved.add(max(rates, key=rates.__getitem__))
             self._back_s = now_s + self._stay_s
             self._stay_s = min(MAX_STAY_S, 2 * self._stay_s)
 

@@ -72,7 +72,7 @@ def _network(error: OSError, place: str) -> Problem:
 
 def _status(error: InvalidStatus, place: str) -> Problem:
     status = error.response.status_code
-    said = plain(bytes(error.response.body or b"").decode("utf-8", "replace"), 200)
+    body = plain(bytes(error.response.body or b"").decode("utf-8", "replace"), 200)
     if status in (401, 403):
         return Problem(
             f"{place} asks for credentials (HTTP {status}).",
@@ -81,7 +81,7 @@ def _status(error: InvalidStatus, place: str) -> Problem:
     if status == 400:
         return Problem(
             f"{place} refuses the protocols foxglove.sdk.v1 and foxglove.websocket.v1 (HTTP 400"
-            + (f": {said.rstrip('.')})." if said else ")."),
+            + (f": {body.rstrip('.')})." if body else ")."),
             "Update foxglove_bridge on the robot, or check that this port is of a bridge.",
         )
     return Problem(f"{place} answers with HTTP {status} instead of a websocket.", REMEDY)
@@ -95,8 +95,8 @@ def _closed(error: ConnectionClosed) -> str:
         return f"The bridge sent a frame above the limit of {MAX_TOTAL >> 20} MB."
     if closing is None:
         return "The link to the bridge broke."
-    said = plain(closing.reason, 200).rstrip(".")
-    return f"The bridge closed the link (code {closing.code}{': ' + said if said else ''})."
+    reason = plain(closing.reason, 200).rstrip(".")
+    return f"The bridge closed the link (code {closing.code}{': ' + reason if reason else ''})."
 
 
 def _line(error: BaseException) -> str:

@@ -91,8 +91,8 @@ class Rosapi:
             self._changed()
             return
         self._problem = ""
-        found = wire.converted(response.values, wire.Topics)
-        types = dict(zip(found.topics, found.types, strict=False))
+        topics = wire.converted(response.values, wire.Topics)
+        types = dict(zip(topics.topics, topics.types, strict=False))
         is_new = types != self.types
         self.types = self._bounded(types)
         if not self.texts.keys() >= set(self.types.values()):
@@ -101,9 +101,9 @@ class Rosapi:
             self._changed()
 
     def _take_definitions(self, response: wire.RosbridgeResponse) -> None:
-        found = wire.converted(response.values, wire.Topics) if response.result else wire.Topics()
+        topics = wire.converted(response.values, wire.Topics) if response.result else wire.Topics()
         size = 0
-        for type, text in zip(found.types, found.typedefs_full_text, strict=False):
+        for type, text in zip(topics.types, topics.typedefs_full_text, strict=False):
             size += len(text)
             if size <= MAX_TEXTS:
                 self.texts[type] = "" if text.startswith(NO_DEFINITION) else text
@@ -114,14 +114,14 @@ class Rosapi:
 
     def _take_nodes(self, response: wire.RosbridgeResponse) -> None:
         if response.result:
-            found = wire.converted(response.values, wire.Names)
-            self.nodes = tuple(sorted(set(filter(is_full_name, found.nodes[:MAX_TOPICS]))))
+            names = wire.converted(response.values, wire.Names)
+            self.nodes = tuple(sorted(set(filter(is_full_name, names.nodes[:MAX_TOPICS]))))
             self._changed()
 
     def _take_services(self, response: wire.RosbridgeResponse) -> None:
         if response.result:
-            found = wire.converted(response.values, wire.Names)
-            nodes = {name.rpartition("/")[0] for name in found.services[:MAX_TOPICS]}
+            names = wire.converted(response.values, wire.Names)
+            nodes = {name.rpartition("/")[0] for name in names.services[:MAX_TOPICS]}
             self.with_parameters = tuple(sorted(filter(is_full_name, nodes)))
             self._changed()
 
@@ -129,8 +129,8 @@ class Rosapi:
         """Return the topics that are kept, and note what is left out."""
         valid = {t: type for t, type in types.items() if is_full_name(t) and len(type) <= MAX_NAME}
         misnamed = [plain(topic, 40) for topic in types if topic not in valid]
-        kept = dict(list(valid.items())[:MAX_TOPICS])
-        more = len(valid) - len(kept)
+        bounded = dict(list(valid.items())[:MAX_TOPICS])
+        more = len(valid) - len(bounded)
         self._left_out = [
             *([f"The bridge offers {more} topics more than webviz reads."] if more else []),
             *(
@@ -139,4 +139,4 @@ class Rosapi:
                 else []
             ),
         ]
-        return kept
+        return bounded

@@ -139,10 +139,10 @@ class RosbridgeSession:
     ) -> None:
         """Make the subscriptions exactly these, as far as they are offered."""
         self._wishes, self._resting = wishes, resting
-        wanted = {topic: (wish.type, wish.asked) for topic, wish in wishes.items()}
+        targets = {topic: (wish.type, wish.asked) for topic, wish in wishes.items()}
         if self._is_first and self._api.types.get(CLOCK) == CLOCK_TYPE:
-            wanted.setdefault(CLOCK, (CLOCK_TYPE, 0))
-        lines = {topic: line for topic, line in wanted.items() if self._can_read(topic, line[0])}
+            targets.setdefault(CLOCK, (CLOCK_TYPE, 0))
+        lines = {topic: line for topic, line in targets.items() if self._can_read(topic, line[0])}
         for topic, line in list(self._lines.items()):
             if lines.get(topic) != line:
                 self._host.send(wire.unsubscribe(topic))
@@ -156,9 +156,9 @@ class RosbridgeSession:
         is_resting = topic in self._resting
         if is_resting and topic not in self._lines:
             return  # the first message would come at once
-        known = self._throttles.get(topic)
-        throttle = RESTING_MS if is_resting else AWAKE_MS if known else 0
-        if throttle != known:
+        former = self._throttles.get(topic)
+        throttle = RESTING_MS if is_resting else AWAKE_MS if former else 0
+        if throttle != former:
             self._host.send(wire.subscribe(topic, line[0], throttle))
             self._lines[topic], self._throttles[topic] = line, throttle
 

@@ -73,9 +73,9 @@ def _given(type: str, values: Any) -> Any:
     """Return values as the encoder takes them; what does not fit is left to it."""
     if not isinstance(values, Mapping):
         return values
-    known = {field.name: field for field in fields(type)}
+    by_name = {field.name: field for field in fields(type)}
     return {
-        name: _given_value(known[name], value) if name in known else value
+        name: _given_value(by_name[name], value) if name in by_name else value
         for name, value in values.items()
     }
 

@@ -110,11 +110,13 @@ def read_binary(frame: bytes) -> RosbridgeMessage:
     try:
         values = cbor2.loads(frame, max_depth=MAX_DEPTH)
         # Texts are not taken for bytes in base64.
-        found = msgspec.convert(values, _Publish, builtin_types=(bytes,))
+        publication = msgspec.convert(values, _Publish, builtin_types=(bytes,))
     except (cbor2.CBORDecodeError, msgspec.ValidationError) as error:
         raise WireError("A binary frame is not a message in cbor-raw") from error
     return RosbridgeMessage(
-        found.topic, found.msg.secs * 1_000_000_000 + found.msg.nsecs, found.msg.cdr
+        publication.topic,
+        publication.msg.secs * 1_000_000_000 + publication.msg.nsecs,
+        publication.msg.cdr,
     )
 
 

@@ -40,13 +40,13 @@ class CarriedTopic(msgspec.Struct, frozen=True):
             problem: why no message can arrive, "" if it can.
         """
         count = None if self.readers is None else len(self.readers)
-        known = Offer(self.publishers, None, problem, "", count, readers=self.readers or ())
+        offer = Offer(self.publishers, None, problem, "", count, readers=self.readers or ())
         matching = [p for p in self.publishers if wish is not None and p.type == wish.type]
         if wish is None or not matching:
-            return known
+            return offer
         is_latched = all(p.durability == "transient_local" for p in matching)
         policies = "reliable", "transient_local" if is_latched else "volatile"
-        return replace(known, requested=policies, type=wish.type)
+        return replace(offer, requested=policies, type=wish.type)
 
 
 class Host(Protocol):

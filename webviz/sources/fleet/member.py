@@ -107,8 +107,8 @@ class FleetMember:
     def bridge(self) -> Bridge:
         """The link to its bridge."""
         (link,) = self.source.bridges
-        known, ahead_ns, named = self._bridge
-        if named is None or known is not link or ahead_ns != self.ahead_ns:
+        former, ahead_ns, named = self._bridge
+        if named is None or former is not link or ahead_ns != self.ahead_ns:
             ahead_ns = self.ahead_ns
             nodes = tuple(self.outer(node) for node in link.parameters.nodes)
             named = replace(
@@ -132,11 +132,13 @@ class FleetMember:
 
     def offers(self) -> Mapping[str, Offer]:
         """All topics, by names of the fleet; another object only after a change."""
-        known, named = self._offers
-        found = self.source.offers()
-        if found is not known:
-            named = {self.outer(topic): self._outer(offer) for topic, offer in found.items()}
-            self._offers = found, named
+        former, named = self._offers
+        source_offers = self.source.offers()
+        if source_offers is not former:
+            named = {
+                self.outer(topic): self._outer(offer) for topic, offer in source_offers.items()
+            }
+            self._offers = source_offers, named
         return named
 
     def nodes(self) -> Sequence[str]:

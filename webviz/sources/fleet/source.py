@@ -63,8 +63,8 @@ class FleetGraph:
         member = self._member(advertisement.topic)
         if member is None:
             return self._base.publish(advertisement, cdr)
-        sent = member.sent(advertisement.type, cdr)
-        return member.source.graph.publish(_renamed(advertisement, member), sent)
+        sent_cdr = member.sent(advertisement.type, cdr)
+        return member.source.graph.publish(_renamed(advertisement, member), sent_cdr)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Call a service of the robot that offers it."""
@@ -84,18 +84,18 @@ class FleetGraph:
 
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of all graphs, sorted."""
-        found = [*self._base.nodes()]
+        names = [*self._base.nodes()]
         for member in self._members:
-            found += member.nodes()
-        return tuple(sorted(found))
+            names += member.nodes()
+        return tuple(sorted(names))
 
     def services(self) -> Mapping[str, str]:
         """Types of the services by name; bridges are only asked for what is called."""
-        found = dict(self._base.services())
+        services = dict(self._base.services())
         for member in self._members:
             for name, type in member.source.graph.services().items():
-                found[member.outer(name)] = type
-        return found
+                services[member.outer(name)] = type
+        return services
 
     @property
     def _base(self) -> Graph:
@@ -116,19 +116,19 @@ def _renamed(advertisement: Advertisement, member: FleetMember) -> Advertisement
 
 def _all(futures: Sequence[Future[None]]) -> Future[None]:
     """Return a future that is done when all are; it has the first error."""
-    done: Future[None] = Future()
+    result: Future[None] = Future()
 
     def look(future: Future[None]) -> None:
         # Connections have threads of their own: the last two may see at once that all are done.
         with contextlib.suppress(InvalidStateError):
             if error := future.exception():
-                done.set_exception(error)
+                result.set_exception(error)
             elif all(each.done() for each in futures):
-                done.set_result(None)
+                result.set_result(None)
 
     for future in futures:
         future.add_done_callback(look)
-    return done
+    return result
 
 
 ALONE = (
@@ -173,11 +173,11 @@ class FleetSource:
 
     def follow(self, robots: Sequence[NamespacedRobot]) -> None:
         """Make the connections exactly those of these robots; existing ones stay open."""
-        known = {_link(m.robot): m for m in self._members}
+        former = {_link(m.robot): m for m in self._members}
         members: list[FleetMember] = []
         refused: list[Bridge] = []
         for robot in _connected(robots):
-            member = known.pop(_link(robot), None)
+            member = former.pop(_link(robot), None)
             try:
                 member = member or self._member(robot)
             except Error as error:
@@ -185,7 +185,7 @@ class FleetSource:
                 continue
             member.robot = robot
             members.append(member)
-        for member in known.values():
+        for member in former.values():
             member.leave()
         self._members, self._refused = members, refused
         self._graph.follow(members)
@@ -219,14 +219,16 @@ class FleetSource:
 
     def offers(self) -> Mapping[str, Offer]:
         """All topics; those in the namespace of a connected robot come over its connection."""
-        known, merged = self._offers
-        found = [member.offers() for member in self._members]
-        found = [*([] if self._base is None else [self._base.offers()]), *found]
-        if len(found) == 1:
-            return found[0]
-        if len(known) != len(found) or any(a is not b for a, b in zip(known, found, strict=True)):
-            merged = {topic: offer for offers in found for topic, offer in offers.items()}
-            self._offers = found, merged
+        former, merged = self._offers
+        offer_lists = [member.offers() for member in self._members]
+        offer_lists = [*([] if self._base is None else [self._base.offers()]), *offer_lists]
+        if len(offer_lists) == 1:
+            return offer_lists[0]
+        if len(former) != len(offer_lists) or any(
+            a is not b for a, b in zip(former, offer_lists, strict=True)
+        ):
+            merged = {topic: offer for offers in offer_lists for topic, offer in offers.items()}
+            self._offers = offer_lists, merged
             self._doubled = self._both_ways()
         return merged
 
@@ -263,12 +265,12 @@ class FleetSource:
             return {}
         offers = self._base.offers().items()
         names = [name for name, o in offers if any(not is_own(p.node) for p in o.publishers)]
-        found: dict[str, tuple[str, ...]] = {}
+        topics: dict[str, tuple[str, ...]] = {}
         for member in self._members:
             own = member.offers()
             doubled = [n for n in names if n.startswith(member.robot.root) and n in own]
-            found[member.robot.root] = tuple(sorted(doubled))
-        return found
+            topics[member.robot.root] = tuple(sorted(doubled))
+        return topics
 
     def _member(self, robot: NamespacedRobot) -> FleetMember:
         return FleetMember(robot, self._address(robot), self.inbox, self.now_ns)

@@ -226,10 +226,10 @@ class NeededMessages:
         for recorded in self._history.newest(moving, self._at_ns) if children else ():
             if recorded.stamp_ns < self._at_ns - GAP_NS:
                 return
-            found = children.intersection(child for _, child in links_in(recorded.cdr))
-            if found:
+            reached = children.intersection(child for _, child in links_in(recorded.cdr))
+            if reached:
                 yield recorded.stamp_ns
-                children -= found
+                children -= reached
             if not children:
                 return
 

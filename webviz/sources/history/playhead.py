@@ -47,8 +47,8 @@ class EarlierMessages:
         for channel in channels:
             if channel.type in FOLLOWED or (channel.topic in self._known and not is_new):
                 continue
-            found = self._history.newest_stamps([channel], at_ns)
-            stamps = list(itertools.islice(found, LAST))
+            newest = self._history.newest_stamps([channel], at_ns)
+            stamps = list(itertools.islice(newest, LAST))
             if stamps:
                 first_ns = self._history.first_ns(channel)
                 first_ns = stamps[-1] if first_ns is None else first_ns
@@ -177,11 +177,11 @@ class Playhead:
         history = self.history
         channels = history.channels_of(topic) if topic else self._displayed()
         if is_forward:
-            found = next(history.messages(channels, self.position_ns + 1), None)
+            neighbour = next(history.messages(channels, self.position_ns + 1), None)
         else:
             before_ns = min(self.position_ns, history.last_ns) - 1
-            found = next(history.newest(channels, before_ns), None)
-        return None if found is None else found.stamp_ns
+            neighbour = next(history.newest(channels, before_ns), None)
+        return None if neighbour is None else neighbour.stamp_ns
 
     def _subscribed(self) -> Sequence[HistoryChannel]:
         """Return the channels of subscriptions, without a clock that is none."""
@@ -214,8 +214,8 @@ class Playhead:
         lookbacks = (*(subscription.lookbacks if is_new else ()), *([latched] if depth else []))
         if not lookbacks:
             return
-        asked = {**self._subscriptions, topic: replace(subscription, lookbacks=lookbacks)}
-        needed = NeededMessages(self.history, channels, asked, self.position_ns)
+        subscriptions = {**self._subscriptions, topic: replace(subscription, lookbacks=lookbacks)}
+        needed = NeededMessages(self.history, channels, subscriptions, self.position_ns)
         for recorded in needed.messages():
             self._put(recorded)
 

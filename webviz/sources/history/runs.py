@@ -59,22 +59,22 @@ class Runs:
             frame: frame id.
             at_ns: of the transforms until then; None stands for less than `GAP_NS` before.
         """
-        found: dict[str, int | None] = {}
-        seen = set[str]()
-        while frame in self._parents and frame not in seen:
-            seen.add(frame)
+        ends: dict[str, int | None] = {}
+        visited = set[str]()
+        while frame in self._parents and frame not in visited:
+            visited.add(frame)
             number = bisect.bisect_right(self._begins.get(frame, ()), at_ns) - 1
             if number >= 0:
                 end_ns = self._ends[frame][number]
-                found[frame] = end_ns if end_ns < at_ns else None
+                ends[frame] = end_ns if end_ns < at_ns else None
             frame = self._parents[frame]
-        return found
+        return ends
 
     def ended_ns(self, before_ns: int) -> Sequence[int]:
         """Return when all frames without a transform at a time had their last, in order."""
-        found = set[int]()
+        ends = set[int]()
         for child, begins in self._begins.items():
             number = bisect.bisect_right(begins, before_ns) - 1
             if number >= 0 and (end_ns := self._ends[child][number]) < before_ns:
-                found.add(end_ns)
-        return sorted(found)[-MAX_ENDS:]
+                ends.add(end_ns)
+        return sorted(ends)[-MAX_ENDS:]

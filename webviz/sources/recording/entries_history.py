@@ -65,8 +65,8 @@ class EntriesHistory:
 
     def channels(self, subscriptions: Mapping[str, Subscription]) -> Sequence[HistoryChannel]:
         """`History.channels`: those that are remembered as the type of the subscription."""
-        found = (each for topic in subscriptions for each in self.channels_of(topic))
-        return [each for each in found if each.type == subscriptions[each.topic].type]
+        candidates = (each for topic in subscriptions for each in self.channels_of(topic))
+        return [each for each in candidates if each.type == subscriptions[each.topic].type]
 
     def channels_of(self, topic: str) -> Sequence[HistoryChannel]:
         """`History.channels_of`."""
@@ -77,13 +77,13 @@ class EntriesHistory:
         self, channels: Collection[HistoryChannel], start_ns: int, end_ns: int | None = None
     ) -> Iterator[Recorded]:
         """`History.messages`."""
-        found = [self._of_channel(each, start_ns, end_ns) for each in channels]
-        return map(_recorded, heapq.merge(*found))
+        streams = [self._of_channel(each, start_ns, end_ns) for each in channels]
+        return map(_recorded, heapq.merge(*streams))
 
     def newest(self, channels: Collection[HistoryChannel], end_ns: int) -> Iterator[Recorded]:
         """`History.newest`."""
-        found = [self._newest_of(each, end_ns) for each in channels]
-        return map(_recorded, heapq.merge(*found, reverse=True))
+        streams = [self._newest_of(each, end_ns) for each in channels]
+        return map(_recorded, heapq.merge(*streams, reverse=True))
 
     def newest_stamps(self, channels: Collection[HistoryChannel], end_ns: int) -> Iterator[int]:
         """`History.newest_stamps`."""
@@ -109,8 +109,8 @@ class EntriesHistory:
     def offers(self, subscriptions: Mapping[str, Subscription]) -> Mapping[str, Offer]:
         """Those of the live source, which say why a topic may have no message."""
         live = self.live.offers()
-        known, for_, offers = self._offers
-        if known is not live or for_ is not subscriptions:
+        former, for_, offers = self._offers
+        if former is not live or for_ is not subscriptions:
             offers = {
                 topic: replace(offer, begins=NOT_REMEMBERED) if topic in subscriptions else offer
                 for topic, offer in live.items()

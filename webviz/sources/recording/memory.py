@@ -50,8 +50,8 @@ class LiveLog:
         while self._new:
             raw = self._new.popleft()
             stamp_ns = self._clock.stamp_ns(raw.arrived_s)
-            if found := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns, raw.types)):
-                events.append(found[1])
+            if event := event_of(Recorded(ROSOUT, LOG, raw.cdr, stamp_ns, raw.types)):
+                events.append(event[1])
         while events and events[0].at_ns < start_ns:
             events.popleft()
             is_changed = True
@@ -92,19 +92,19 @@ class LiveHistogram:
         Args:
             now_ns: time of recording.
         """
-        part_s, found = self._memory.counts() if self._memory.is_on else (1.0, {})
+        part_s, by_topic = self._memory.counts() if self._memory.is_on else (1.0, {})
         if self._held and self._held_part_s == part_s:
             for topic, own in self._held.items():
-                found[topic] = own | found.get(topic, Counter())  # the greater of each part
+                by_topic[topic] = own | by_topic.get(topic, Counter())  # the greater of each part
         end = int(self._clock.arrived_s(now_ns) // part_s)
-        first = min((part for own in found.values() for part in own), default=end)
+        first = min((part for own in by_topic.values() for part in own), default=end)
         first = max(first, end - MAX_HELD_PARTS)
-        key = first, end, part_s, len(found)
+        key = first, end, part_s, len(by_topic)
         if key != self._key:
             self._key = key
             self.span_ns = self._clock.stamp_ns(first * part_s), self._clock.stamp_ns(end * part_s)
             self._counts = {
-                topic: [own[part] for part in range(first, end)] for topic, own in found.items()
+                topic: [own[part] for part in range(first, end)] for topic, own in by_topic.items()
             }
         return self._counts
 
@@ -232,10 +232,10 @@ class MemoryHistory(EntriesHistory):
         if subscriptions is not self._subscriptions:
             before, self._subscriptions = self._subscriptions, subscriptions
             self._passed_on = {
-                topic: wanted
-                if topic not in before or (is_live and wanted.asked != before[topic].asked)
-                else replace(wanted, asked=self._passed_on[topic].asked)
-                for topic, wanted in subscriptions.items()
+                topic: subscription
+                if topic not in before or (is_live and subscription.asked != before[topic].asked)
+                else replace(subscription, asked=self._passed_on[topic].asked)
+                for topic, subscription in subscriptions.items()
             }
         self.live.want(self._with_log(self._passed_on))
 

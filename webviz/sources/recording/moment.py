@@ -36,8 +36,8 @@ class MomentHistory(EntriesHistory):
 
     def prepared(self) -> MomentHistory:
         """Sort the messages, which takes a while."""
-        taken, self._taken = self._taken, ()
-        self._add(taken)
+        pending, self._taken = self._taken, ()
+        self._add(pending)
         return self
 
     def refresh(self) -> bool:

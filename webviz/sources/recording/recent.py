@@ -165,10 +165,10 @@ class RecentMessages:
         Latched ones that were forgotten since are among them.
         """
         with self._lock:
-            found = [queue.after(arrived_s) for queue in self._queues]
+            streams = [queue.after(arrived_s) for queue in self._queues]
             latched = _flat(self._latched)
         newer = (entry for entry in latched if entry[1].arrived_s > arrived_s)
-        return [*newer, *heapq.merge(*found, key=_arrival)]
+        return [*newer, *heapq.merge(*streams, key=_arrival)]
 
     def counts(self) -> tuple[float, dict[str, Counter[int]]]:
         """Count the messages of each topic.
@@ -275,9 +275,9 @@ class _Queue:
     def after(self, arrived_s: float) -> list[Entry]:
         """Return the messages that arrived later than a time in monotonic seconds."""
         newest = reversed(self.entries)
-        found = list(itertools.takewhile(lambda each: each[1].arrived_s > arrived_s, newest))
-        found.reverse()
-        return found
+        entries = list(itertools.takewhile(lambda each: each[1].arrived_s > arrived_s, newest))
+        entries.reverse()
+        return entries
 
 
 def _arrival(entry: Entry) -> float:

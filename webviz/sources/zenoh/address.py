@@ -82,7 +82,7 @@ def zenoh_address(
     user, password = environment.get(USER, ""), environment.get(PASSWORD, "")
     if text.endswith(_CONFIG):
         config = _read(Path(text))
-        found = ZenohAddress(_endpoints(config), Path(text), domain, user, password, key_prefix)
+        address = ZenohAddress(_endpoints(config), Path(text), domain, user, password, key_prefix)
     else:
         endpoints = tuple(part.strip() for part in text.split(",") if part.strip())
         for endpoint in endpoints[: MAX_ENDPOINTS + 1]:
@@ -91,9 +91,9 @@ def zenoh_address(
                 raise Error(f"{endpoint[:200]!r} is not an address of Zenoh. {EXAMPLE}")
         if not 0 < len(endpoints) <= MAX_ENDPOINTS:
             raise Error(f"{len(endpoints)} addresses of Zenoh are given. {EXAMPLE}")
-        found = ZenohAddress(endpoints, None, domain, user, password, key_prefix)
-    session_config(found)  # refuses what the engine does not accept
-    return found
+        address = ZenohAddress(endpoints, None, domain, user, password, key_prefix)
+    session_config(address)  # refuses what the engine does not accept
+    return address
 
 
 def session_config(address: ZenohAddress) -> Any:
@@ -150,10 +150,10 @@ def _read(path: Path) -> Any:
 
 def _endpoints(config: Any) -> tuple[str, ...]:
     """Return the endpoints that a config connects to."""
-    found = json.loads(config.get_json("connect/endpoints"))
-    if isinstance(found, dict):  # by mode
-        found = [each for endpoints in found.values() for each in endpoints]
-    return tuple(each for each in found or [] if isinstance(each, str))[:MAX_ENDPOINTS]
+    configured = json.loads(config.get_json("connect/endpoints"))
+    if isinstance(configured, dict):  # by mode
+        configured = [each for endpoints in configured.values() for each in endpoints]
+    return tuple(each for each in configured or [] if isinstance(each, str))[:MAX_ENDPOINTS]
 
 
 def _domain(text: str) -> int:

@@ -102,13 +102,13 @@ class ZenohCalls:
             NotConnected: it has another type.
         """
         graph = self._graph()
-        found = graph.servers.get(service)
-        if found is not None:
-            if found.type != type:
+        server = graph.servers.get(service)
+        if server is not None:
+            if server.type != type:
                 raise NotConnected(
-                    f"{service} has the type {found.type}, not {type}. Choose another service."
+                    f"{service} has the type {server.type}, not {type}. Choose another service."
                 )
-            return found.key
+            return server.key
         action, _, part = service.partition("/_action/")
         return f"{action[1:]}/_action/{part}" if part and action in graph.actions else ""
 
@@ -138,8 +138,8 @@ class ZenohCalls:
         def take(reply: Any) -> None:
             sample = reply.ok
             if sample is None:
-                said = plain(reply.err.payload.to_bytes()[:300].decode("utf-8", "replace"), 200)
-                _fail(call.answer, NotConnected(f"{call.name} failed: {said or 'no reason'}."))
+                reason = plain(reply.err.payload.to_bytes()[:300].decode("utf-8", "replace"), 200)
+                _fail(call.answer, NotConnected(f"{call.name} failed: {reason or 'no reason'}."))
             elif len(sample.payload) > MAX_TOTAL:
                 most = MAX_TOTAL >> 20
                 error = NotConnected(f"The answer of {call.name} is above the limit of {most} MB.")

@@ -52,8 +52,8 @@ class TypeDescriptions:
                 continue
             for publisher in graph.publishers.get(topic, ()):
                 service = f"{publisher.node}/get_type_description"
-                found = graph.servers.get(service)
-                is_known = found is not None and found.type == SERVICE
+                server = graph.servers.get(service)
+                is_known = server is not None and server.type == SERVICE
                 key = topic, publisher.node
                 if publisher.type == type and is_known and key not in self._asked:
                     if len(self._asked) >= MAX_ASKED:

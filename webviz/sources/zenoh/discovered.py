@@ -107,10 +107,10 @@ class DiscoveredGraph:
         return _snapshot(entities, remarks)
 
     def _faults(self) -> list[str]:
-        found: list[str] = []
+        texts: list[str] = []
         if self._refused:
             ignored = f"{counted(self._refused, 'liveliness token')} ignored"
-            found.append(
+            texts.append(
                 joined(
                     f"{ignored}: {self._refusal}",
                     "Check for programs on this router that are not ROS nodes.",
@@ -118,8 +118,8 @@ class DiscoveredGraph:
             )
         if self._left_out:
             most = f"The graph has more than {MAX_ENTITIES} nodes and endpoints"
-            found.append(joined(most, "The others are ignored."))
-        return found
+            texts.append(joined(most, "The others are ignored."))
+        return texts
 
 
 def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> GraphSnapshot:
@@ -144,13 +144,13 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
                     publishers[topic.name][token] = topic
             case "client" | "bridge":
                 pass
-    found = {topic: tuple(each.values()) for topic, each in publishers.items()}
+    by_topic = {topic: tuple(each.values()) for topic, each in publishers.items()}
     read = {topic: tuple(each.values()) for topic, each in readers.items()}
-    remarks = [*remarks, *faults(entities.values(), found, read)]
-    both, _ = doubled(found)
+    remarks = [*remarks, *faults(entities.values(), by_topic, read)]
+    both, _ = doubled(by_topic)
     for topic in both:  # the direct way alone
         direct = {t: each for t, each in publishers[topic].items() if not each.is_bridged}
-        publishers[topic], found[topic] = direct, tuple(direct.values())
+        publishers[topic], by_topic[topic] = direct, tuple(direct.values())
     uses = {e.is_bridged for e in entities.values() if not is_own(e.node)}
     names = {False: "rmw_zenoh", True: "zenoh-bridge-ros2dds"}
     topics = {
@@ -158,7 +158,7 @@ def _snapshot(entities: Mapping[str, GraphEntity], remarks: Sequence[str]) -> Gr
     }
     return GraphSnapshot(
         topics,
-        found,
+        by_topic,
         read,
         tuple(sorted(nodes)),
         servers,

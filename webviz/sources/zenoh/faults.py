@@ -43,7 +43,7 @@ def faults(
             f"Each message on {listed(twice, NAMED)} may come twice, through two "
             "zenoh-bridge-ros2dds. Run one per robot, with a `namespace` of its own."
         )
-    apart = [t for t, found in publishers.items() if _are_apart(found, readers.get(t, ()))]
+    apart = [t for t, of_topic in publishers.items() if _are_apart(of_topic, readers.get(t, ()))]
     if apart:
         yield (
             f"Publishers and subscriptions of {listed(sorted(apart), NAMED)} have different "
@@ -56,9 +56,9 @@ def doubled(publishers: Endpoints) -> tuple[list[str], list[str]]:
     """Return the topics that come with and without a bridge, and those of two bridges; sorted."""
     both: list[str] = []
     twice: list[str] = []
-    for topic, found in publishers.items():
-        bridges = {each.session for each in found if each.is_bridged}
-        if bridges and not all(each.is_bridged for each in found):
+    for topic, of_topic in publishers.items():
+        bridges = {each.session for each in of_topic if each.is_bridged}
+        if bridges and not all(each.is_bridged for each in of_topic):
             both.append(topic)
         elif len(bridges) > 1:
             twice.append(topic)

@@ -57,8 +57,8 @@ class ZenohGraph:
 
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Make the advertised publishers exactly these; anew after the link was broken."""
-        wanted = frozenset(advertisements)
-        return self._speaker.link.do(lambda: self._speaker.advertise(wanted))
+        frozen = frozenset(advertisements)
+        return self._speaker.link.do(lambda: self._speaker.advertise(frozen))
 
     def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Publish a message unless it would be late; the number of matched subscriptions."""
@@ -75,9 +75,12 @@ class ZenohGraph:
         self, action: str, type: str, goal: bytes, feedback: Callable[[bytes], object]
     ) -> Goal:
         """Send a goal to an action."""
-        sent = self._goals.new(action)
-        self._start(sent.accepted, lambda: self._goals.send(action, type, goal, sent, feedback))
-        return sent
+        goal_handle = self._goals.new(action)
+        self._start(
+            goal_handle.accepted,
+            lambda: self._goals.send(action, type, goal, goal_handle, feedback),
+        )
+        return goal_handle
 
     def nodes(self) -> tuple[str, ...]:
         """Full names of the nodes of the graph, sorted."""

@@ -86,8 +86,8 @@ class ZenohPublishers:
         if not hashes and not bridged:
             hashes.add(self._hash(advertisement, graph))
         # As a robot may start later than its bridge, of which it is then known.
-        found = [self._publisher(advertisement, "", key) for key in sorted(bridged)]
-        return found + [self._publisher(advertisement, hash) for hash in sorted(hashes)]
+        publishers = [self._publisher(advertisement, "", key) for key in sorted(bridged)]
+        return publishers + [self._publisher(advertisement, hash) for hash in sorted(hashes)]
 
     def _hash(self, advertisement: Advertisement, graph: GraphSnapshot) -> str:
         """Return the version of a type that nobody reads yet."""
@@ -103,9 +103,9 @@ class ZenohPublishers:
             ) from error
 
     def _publisher(self, advertisement: Advertisement, hash: str, key: str = "") -> ZenohPublisher:
-        known = self._publishers.get((advertisement, key or hash))
-        if known is not None:
-            return known
+        former = self._publishers.get((advertisement, key or hash))
+        if former is not None:
+            return former
         while len(self._publishers) >= MAX_PUBLISHERS:
             self._publishers.pop(next(iter(self._publishers))).undeclare()
         zenoh, topic, type = engine(), advertisement.topic, advertisement.type
@@ -126,8 +126,8 @@ class ZenohPublishers:
                 advertisement.reliability, advertisement.durability, advertisement.depth
             )
             token = self._node.declare(GraphEntity("publisher", "", topic, type, hash=hash), qos)
-        made = self._publishers[advertisement, key or hash] = ZenohPublisher(declared, token)
-        return made
+        publisher = self._publishers[advertisement, key or hash] = ZenohPublisher(declared, token)
+        return publisher
 
 
 def _readers(advertisement: Advertisement, graph: GraphSnapshot) -> list[GraphEntity]:

@@ -100,8 +100,8 @@ def write_qos(reliability: Reliability, durability: Durability, depth: int) -> s
     """Return a QoS for a token of rmw_zenoh_cpp."""
     reliable = "" if reliability == "reliable" else "2"
     durable = "" if durability == "volatile" else "1"
-    kept = "" if depth == DEFAULT_DEPTH else str(depth)
-    return f"{reliable}:{durable}:,{kept}:,:,:,,"
+    depth_text = "" if depth == DEFAULT_DEPTH else str(depth)
+    return f"{reliable}:{durable}:,{depth_text}:,:,:,,"
 
 
 def _number(text: str, default: float) -> float:

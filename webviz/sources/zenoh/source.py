@@ -317,8 +317,10 @@ class ZenohSource:
         offer = carried.offer(wish, problem)
         if offer.requested is None or wish is None:
             return offer
-        found = [p for p in self.snapshot.publishers.get(topic, ()) if p.type == wish.type]
-        return replace(offer, requested=(wanted_reliability(wish), wanted_durability(wish, found)))
+        of_type = [p for p in self.snapshot.publishers.get(topic, ()) if p.type == wish.type]
+        return replace(
+            offer, requested=(wanted_reliability(wish), wanted_durability(wish, of_type))
+        )
 
     def _describe(self) -> None:
         """Describe the link as it is now."""

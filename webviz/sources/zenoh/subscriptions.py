@@ -58,17 +58,17 @@ class ZenohSubscriptions:
         for topic in [t for t in self._topics if t not in wishes]:
             self._end(topic)
         for topic, wish in wishes.items():
-            found = [p for p in graph.publishers.get(topic, ()) if p.type == wish.type]
-            known = self._topics.get(topic)
-            if not found and known is not None:
+            of_type = [p for p in graph.publishers.get(topic, ()) if p.type == wish.type]
+            former = self._topics.get(topic)
+            if not of_type and former is not None:
                 continue  # as in ROS, a subscription outlives its publishers
-            if not found:
+            if not of_type:
                 continue
-            durability = wanted_durability(wish, found)
-            keys = self._keys(topic, wish.type, found)
-            if known is None or known[:3] != (keys, wish.asked, durability):
+            durability = wanted_durability(wish, of_type)
+            keys = self._keys(topic, wish.type, of_type)
+            if former is None or former[:3] != (keys, wish.asked, durability):
                 self._end(topic)
-                self._topics[topic] = self._subscribe(topic, wish, keys, durability, found)
+                self._topics[topic] = self._subscribe(topic, wish, keys, durability, of_type)
 
     def _keys(self, topic: str, type: str, publishers: Sequence[GraphEntity]) -> tuple[str, ...]:
         """Return the keys of the messages of a type: of any version, and those of bridges."""

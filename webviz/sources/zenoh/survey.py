@@ -44,13 +44,13 @@ class DomainSurvey:
             self._next_s = now_s + PATIENCE_S
         elif now_s >= self._next_s:
             self._next_s = now_s + AGAIN_S
-            self._found = found = Counter[int]()
+            self._found = counts = Counter[int]()
 
             def take(reply: Any) -> None:
                 if reply.ok is not None:
                     text = str(reply.ok.key_expr)[:100].split("/")[1]
                     if text.isascii() and text.isdigit() and len(text) <= 3:
-                        found[int(text)] += 1
+                        counts[int(text)] += 1
 
             session.liveliness().get(NODES, directly(take, self._tell), timeout=TIMEOUT_S)
 

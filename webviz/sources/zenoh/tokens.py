@@ -71,8 +71,8 @@ def dds_type(type: str) -> str:
 
 def ros_type(dds: str) -> str:
     """Return the ROS name of a DDS type, "" if it is not one of ROS."""
-    found = _DDS_TYPE.fullmatch(dds) if len(dds) <= MAX_TYPE else None
-    return "/".join(found.groups()) if found else ""
+    match = _DDS_TYPE.fullmatch(dds) if len(dds) <= MAX_TYPE else None
+    return "/".join(match.groups()) if match else ""
 
 
 def is_ros_type(type: str) -> bool:
@@ -198,7 +198,7 @@ def topics_of(action: GraphEntity) -> tuple[GraphEntity, GraphEntity]:
     """
     feedback = f"{action.type}_FeedbackMessage", "feedback"
     status = "action_msgs/msg/GoalStatusArray", "status"
-    made = [
+    entities = [
         action._replace(
             kind="publisher",
             name=f"{action.name}/_action/{part}",
@@ -207,7 +207,7 @@ def topics_of(action: GraphEntity) -> tuple[GraphEntity, GraphEntity]:
         )
         for type, part in (feedback, status)
     ]
-    return made[0], made[1]
+    return entities[0], entities[1]
 
 
 def _native(token: str) -> GraphEntity | None:
