@@ -50,7 +50,7 @@ class Combobox {
   #isInvalid = signal(false);
   /** @type {Signal<string | Mixed>} */
   #current;
-  /** What stands in the field, once nobody types. */
+  /** Content of the field while nobody types. */
   #shown = signal({ text: "", note: "", level: /** @type {string | undefined} */ (undefined) });
   #isFree;
   #options;
