@@ -25,7 +25,7 @@ from rtabmap_scenes import (
 from waiting import until
 
 from webviz.shell.testing import check_details
-from webviz_displays.map_cloud import MapCloud, known
+from webviz_displays.map_cloud import MapCloud, known_map
 from webviz_displays.map_cloud.compression import RVL
 
 FAR = np.full((6, 8), 2.0, np.float32)
@@ -217,7 +217,7 @@ def test_too_many_points_are_dropped_or_thinned_with_a_word(
     monkeypatch.setattr("webviz_displays.map_cloud.DOTS_LIMIT", total // 3)
     at.set("style", "Points")
     assert at.statuses()["Points"] == ("OK", f"{total // 4} points of 2 nodes, one of 4.")
-    monkeypatch.setattr(known, "MAX_POINTS", total - 1)
+    monkeypatch.setattr(known_map, "MAX_POINTS", total - 1)
     sentence = (
         "1 node left out: the map has too many points. "
         "Increase Cloud Decimation or Cloud Voxel Size."

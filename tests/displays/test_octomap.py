@@ -30,7 +30,7 @@ from webviz_displays.octomap import (
 )
 from webviz_displays.octomap import octree as octree_module
 from webviz_displays.octomap import projection as projection_module
-from webviz_displays.octomap import seen as seen_module
+from webviz_displays.octomap import visible_voxels as visible_voxels_module
 from webviz_displays.octomap.octree import Octree, OctreeFault, read_octree
 from webviz_displays.octomap.voxels import is_exposed, voxels_of
 
@@ -170,7 +170,7 @@ def test_the_button_of_voxels_that_are_not_shown_shows_some(
 
 
 def test_too_many_voxels_are_merged(turned: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(seen_module, "MAX_VOXELS", 50)
+    monkeypatch.setattr(visible_voxels_module, "MAX_VOXELS", 50)
     at = turned(OccupancyGrid(), binary(octree(CUBE), 1.0))
     assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
     level, text = at.statuses()["Voxels"]

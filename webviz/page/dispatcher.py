@@ -17,7 +17,7 @@ from webviz.engine.forms import MAX_TEXT
 from webviz.engine.parts.declaring import commands_of
 from webviz.engine.parts.part import Part
 from webviz.files.config import MAX_DEPTH, MAX_VALUES
-from webviz.page.asked import Asked
+from webviz.page.page_request import PageRequest
 from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.rules import UNKNOWN, commands
@@ -30,7 +30,7 @@ NOT_OF_PAGES = frozenset({"browser", "made", "opened", "deliver", "report", "pub
 LARGE = frozenset({"text", "picture"})
 """Fields that have checks of their own; a message is bounded as a whole."""
 
-Handler = Callable[[Asked, Any], object]
+Handler = Callable[[PageRequest, Any], object]
 """Carries out a command that a page has asked for, on the event loop."""
 
 
@@ -110,11 +110,11 @@ class Dispatcher:
                 deliver=functools.partial(self._deliver, browser, do),
             )
         except ValueError as error:
-            Asked(self.channel, browser, do).refuse(str(error))
+            PageRequest(self.channel, browser, do).refuse(str(error))
             return
         is_noted = feature.commands()[do.command].is_noted
         note = functools.partial(self.note, browser) if is_noted else None
-        request = Asked(self.channel, browser, do, note)
+        request = PageRequest(self.channel, browser, do, note)
         limit = self._most.get(do.command)
         if limit and (most := limit(command)) and self._is_flood(browser, do.command, most):
             request.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")

@@ -28,7 +28,7 @@ MAX_NAME, MAX_MESSAGE, MAX_KEY, MAX_VALUE = 200, 300, 60, 120
 NS_PER_S = 1e9
 
 
-class _Known(msgspec.Struct):
+class _DeviceStatus(msgspec.Struct):
     """A status.
 
     Args:
@@ -72,7 +72,7 @@ class Diagnostics(Panel):
 
     def start_over(self) -> None:
         """Forget all statuses."""
-        self.known: dict[tuple[str, str], _Known] = {}
+        self.known: dict[tuple[str, str], _DeviceStatus] = {}
         self.parts: list[dict[str, Any] | None] = []
         self.places: dict[tuple[str, str], int] = {}
         self.ignored = 0
@@ -91,7 +91,7 @@ class Diagnostics(Panel):
                 self.places[key] = len(self.known)
                 if len(self.known) % PER_PART == 0:
                     self.parts.append(None)
-            self.known[key] = _Known(
+            self.known[key] = _DeviceStatus(
                 {
                     "path": list(_path(topic, name, is_aggregated=topic == self.aggregated)),
                     "level": min(int(status.level), STALE),

@@ -99,7 +99,7 @@ class RosSource:
         self._executor = distribution.executor(self._context)
         self.graph = RosGraph(self._node, self._guard_condition.trigger)
         self._wanted: Mapping[str, Subscription] = {}
-        self._held: dict[str, _Held] = {}
+        self._held: dict[str, _SubscribedTopic] = {}
         self._offers: dict[str, Offer] = {}
         self._problems: dict[str, str] = {}
         self._looks = 0
@@ -246,12 +246,12 @@ class RosSource:
                 subscription = replace(
                     subscription, asked=0
                 )  # no latched message could be sent again
-            fitting = _Held(subscription, policies, is_mixed)
+            fitting = _SubscribedTopic(subscription, policies, is_mixed)
             if self._held.get(topic) != fitting:
                 self._release(topic)
                 self._subscribe(topic, fitting)
 
-    def _subscribe(self, topic: str, held: _Held) -> None:
+    def _subscribe(self, topic: str, held: _SubscribedTopic) -> None:
         self.inbox.open(topic, TF_LIMIT if held.subscription.type == TF_TYPE else INBOX_LIMIT)
         reliability, durability = held.policies
         durabilities: list[qos.Durability] = [durability]
@@ -305,7 +305,7 @@ class RosSource:
 
 
 @dataclass
-class _Held:
+class _SubscribedTopic:
     """A subscription; equal to another if it can be kept instead."""
 
     subscription: Subscription

@@ -8,15 +8,15 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import Axes
-from webviz.scene.drawn import Props, SingleNode, finite
 from webviz.scene.glb import colored_glb
 from webviz.scene.solids import SOLIDS, Solid
+from webviz.scene.visual import Props, SingleNode, finite
 
 COLORS = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
 """Colours of x, y and z in RViz."""
 
 
-class AxesDrawn(SingleNode[Axes]):
+class AxesVisual(SingleNode[Axes]):
     """All axes of a node in one draw call: instances of a model, since viser's axes are not lit."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:

@@ -6,10 +6,10 @@ from webviz.api.nodes import POINTS_HELD
 from webviz.api.views.placement import EYE, FIELD_OF_VIEW, FLAT_FIELD_OF_VIEW, RAISED
 from webviz.engine.feature import features
 from webviz.scene.capacity import FEWEST_POINTS, MAX_POINTS
-from webviz.scene.drawn import OPACITY_BIT
 from webviz.scene.names import BLOCK_PREFIX, PART_PREFIX, ROOT, TILE_PREFIX
 from webviz.scene.points import PART
 from webviz.scene.schemes import SCHEMES, TEXT_CODE
+from webviz.scene.visual import OPACITY_BIT
 from webviz.server.access import rules
 from webviz.server.channel.messages import MAX_PANES
 

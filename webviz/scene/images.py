@@ -28,7 +28,7 @@ Extent = tuple[tuple[float, float], tuple[float, float]]
 """Centre and size in metres."""
 
 
-class ImageDrawn:
+class ImageVisual:
     """An image as one viser image per tile, under one frame.
 
     viser's image is unlit, has exact colours, and shows the old texture until the new one is

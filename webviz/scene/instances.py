@@ -6,15 +6,15 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, Instances
-from webviz.scene.drawn import Props, SingleNode, finite, rgb_array
 from webviz.scene.lines import linear
 from webviz.scene.solids import SOLIDS
+from webviz.scene.visual import Props, SingleNode, finite, rgb_array
 
 _NONE = np.zeros((0, 3), np.float32)
 _UNTURNED = np.array((1.0, 0.0, 0.0, 0.0), np.float32)
 
 
-class InstancesDrawn(SingleNode[Instances]):
+class InstancesVisual(SingleNode[Instances]):
     """All solids of a node in one draw call: viser's batched meshes."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:

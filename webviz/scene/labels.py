@@ -25,7 +25,7 @@ class _Label(NamedTuple):
     look: dict[str, Any]
 
 
-class LabelsDrawn:
+class LabelsVisual:
     """One viser label per text, under one frame; labels are reused in order.
 
     Many are added over several flushes, and no more than `LabelBudget` allows.

@@ -6,8 +6,8 @@ import numpy as np
 from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, U8, Arrows, Lines, Rgb
-from webviz.scene.drawn import Props, SingleNode, finite, marked, rgb_array
 from webviz.scene.schemes import SCHEMES
+from webviz.scene.visual import Props, SingleNode, finite, marked, rgb_array
 
 _NOTHING = np.zeros((0, 2, 3), np.float32)
 _BLACK = np.zeros(3, np.uint8)
@@ -16,7 +16,7 @@ _OF_THEME = 256
 """Added to it for lines in the colour that each page has for grids."""
 
 
-class LinesDrawn(SingleNode[Lines]):
+class LinesVisual(SingleNode[Lines]):
     """Lines as viser's line segments."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
@@ -38,7 +38,7 @@ class LinesDrawn(SingleNode[Lines]):
         )
 
 
-class ArrowsDrawn(SingleNode[Arrows]):
+class ArrowsVisual(SingleNode[Arrows]):
     """Arrows as viser's arrows."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:

@@ -7,8 +7,8 @@ from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, U8, Glb, Mesh, Models
 from webviz.data.gltf import pack
-from webviz.scene.drawn import Props, SingleNode, finite, finite_rows
 from webviz.scene.glb import matte
+from webviz.scene.visual import Props, SingleNode, finite, finite_rows
 
 COLORFUL = "toon5"
 """viser's material of meshes with a colour for each vertex, of which only the name is left."""
@@ -16,7 +16,7 @@ FLAT = "toon3"
 """Material of flat meshes, likewise."""
 
 
-class MeshDrawn(SingleNode[Mesh]):
+class MeshVisual(SingleNode[Mesh]):
     """A mesh, lit from both sides as RViz lights its triangle lists."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
@@ -73,7 +73,7 @@ def _as_vertices(colors: U8) -> F32:
     return values
 
 
-class GlbDrawn(SingleNode[Glb]):
+class GlbVisual(SingleNode[Glb]):
     """A glTF model. Browsers show nothing while they parse a new one."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
@@ -89,7 +89,7 @@ class GlbDrawn(SingleNode[Glb]):
         return ({"glb_data": matte(node.data)},)
 
 
-class ModelsDrawn(SingleNode[Models]):
+class ModelsVisual(SingleNode[Models]):
     """Copies of a glTF model in one draw call: viser's batched models."""
 
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:

@@ -10,8 +10,8 @@ from viser import SceneApi, SceneNodeHandle
 
 from webviz.api.nodes import F32, POINTS_PER_BLOCK, U8, Points, Rgb, same
 from webviz.scene.adapter import Adapter
-from webviz.scene.drawn import Props, SingleNode, marked, rgb_array
 from webviz.scene.names import BLOCK_PREFIX, PART_PREFIX
+from webviz.scene.visual import Props, SingleNode, marked, rgb_array
 from webviz.server.sending.outbox import CLOUD
 
 # Beyond the far plane of every camera.
@@ -24,7 +24,7 @@ PART = POINTS_PER_BLOCK
 be sent in between."""
 
 
-class PointsDrawn:
+class PointsVisual:
     """Points as viser point clouds, several for a large cloud.
 
     The first part is the parent of the others. Browsers show the parts of one cloud at once, unless

@@ -29,21 +29,21 @@ from webviz.api.nodes import (
 from webviz.engine.pipeline.browsers import Browsers
 from webviz.scene.adapter import Adapter, Move, Position, Wxyz
 from webviz.scene.adapter.image import set_background
-from webviz.scene.axes import AxesDrawn
+from webviz.scene.axes import AxesVisual
 from webviz.scene.browsers import ViserBrowsers
 from webviz.scene.cameras import ViserCameras
 from webviz.scene.capacity import PointCapacities
-from webviz.scene.drawn import Drawn
-from webviz.scene.images import ImageDrawn
-from webviz.scene.instances import InstancesDrawn
-from webviz.scene.labels import LabelsDrawn
-from webviz.scene.lines import ArrowsDrawn, LinesDrawn
-from webviz.scene.meshes import GlbDrawn, MeshDrawn, ModelsDrawn
+from webviz.scene.images import ImageVisual
+from webviz.scene.instances import InstancesVisual
+from webviz.scene.labels import LabelsVisual
+from webviz.scene.lines import ArrowsVisual, LinesVisual
+from webviz.scene.meshes import GlbVisual, MeshVisual, ModelsVisual
 from webviz.scene.names import ROOT, display_of, node_path
-from webviz.scene.points import PointsDrawn, keep_shaders
+from webviz.scene.points import PointsVisual, keep_shaders
+from webviz.scene.visual import NodeVisual
 
 
-class PaneDrawn:
+class PaneVisual:
     """A picture in the pane of its display; nothing of it is in the scene of viser."""
 
     def __init__(self, link: Adapter, name: str) -> None:
@@ -73,18 +73,18 @@ class PaneDrawn:
         self._link.pictures.remove(self._display)
 
 
-_DRAWN: dict[type, Callable[[Adapter, str], Drawn[Any]]] = {
-    Points: PointsDrawn,
-    Lines: LinesDrawn,
-    Arrows: ArrowsDrawn,
-    Axes: AxesDrawn,
-    Labels: LabelsDrawn,
-    Mesh: MeshDrawn,
-    Instances: InstancesDrawn,
-    Models: ModelsDrawn,
-    Glb: GlbDrawn,
-    Image: ImageDrawn,
-    Pane: PaneDrawn,
+_VISUALS: dict[type, Callable[[Adapter, str], NodeVisual[Any]]] = {
+    Points: PointsVisual,
+    Lines: LinesVisual,
+    Arrows: ArrowsVisual,
+    Axes: AxesVisual,
+    Labels: LabelsVisual,
+    Mesh: MeshVisual,
+    Instances: InstancesVisual,
+    Models: ModelsVisual,
+    Glb: GlbVisual,
+    Image: ImageVisual,
+    Pane: PaneVisual,
 }
 
 _IDENTITY = Pose()
@@ -245,7 +245,7 @@ class _Group:
         self._sent_position: Position | None = None
         self._sent_wxyz: Wxyz | None = None
         self._sent_visible = True
-        self._drawn: dict[str, tuple[Node, Pose, Drawn[Any]]] = {}
+        self._drawn: dict[str, tuple[Node, Pose, NodeVisual[Any]]] = {}
 
     def send(self, link: Adapter, moves: list[Move]) -> None:
         """Send the changes, except for the pose of the group, which is added to `moves`."""
@@ -280,7 +280,7 @@ class _Group:
             return
         node, pose = entry
         path = node_path(self._name, key)
-        handle = _DRAWN[type(node)](link, path) if former is None else former[2]
+        handle = _VISUALS[type(node)](link, path) if former is None else former[2]
         is_new = former is None or node != former[0]
         if is_new:
             handle.draw(node)
@@ -290,15 +290,15 @@ class _Group:
             link.set_orientation(path, pose.wxyz)
         self._drawn[key] = (node, pose, handle)
 
-    def _panes(self) -> list[PaneDrawn]:
-        return [pane for _, _, pane in self._drawn.values() if isinstance(pane, PaneDrawn)]
+    def _panes(self) -> list[PaneVisual]:
+        return [pane for _, _, pane in self._drawn.values() if isinstance(pane, PaneVisual)]
 
     def remove(self, link: Adapter) -> None:
         link.deferred.drop(self._path)
         for _, _, handle in self._drawn.values():  # all others are below the frame of the group
-            if isinstance(handle, PaneDrawn):
+            if isinstance(handle, PaneVisual):
                 handle.remove()
-            elif isinstance(handle, LabelsDrawn):
+            elif isinstance(handle, LabelsVisual):
                 handle.forget()
         if self._handle is not None:
             self._handle.remove()

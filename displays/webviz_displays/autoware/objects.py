@@ -45,7 +45,7 @@ from webviz_displays.autoware.objects_look import (
     ShapeView,
     TrackedTexts,
 )
-from webviz_displays.autoware.seen import SeenObject, seen
+from webviz_displays.autoware.seen_object import SeenObject, seen
 from webviz_displays.autoware.sketch import ObjectSketch
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from webviz import Group, Rgb, Solid
 from webviz.data.rotations import from_matrices
 from webviz_displays.autoware.object_shapes import BOX, CYLINDER
-from webviz_displays.autoware.seen import SeenObject
+from webviz_displays.autoware.seen_object import SeenObject
 
 F64 = NDArray[np.float64]
 

@@ -40,7 +40,7 @@ IMAGE_PLANE = (0.0, 0.0, 1.0, 0.0)
 """Plane through the origin of the optical frame: points are as far from it as their depths."""
 
 
-class _Drawn(msgspec.Struct, frozen=True):
+class _CloudNodes(msgspec.Struct, frozen=True):
     """The points of an image as they were drawn.
 
     Args:
@@ -75,7 +75,7 @@ class _State(msgspec.Struct):
     hidden: Hidden = msgspec.field(default_factory=Hidden)
     clouds: dict[int, DepthPoints] = msgspec.field(default_factory=dict)
     poses: dict[int, Pose] = msgspec.field(default_factory=dict)
-    drawn: dict[int, _Drawn] = msgspec.field(default_factory=dict)
+    drawn: dict[int, _CloudNodes] = msgspec.field(default_factory=dict)
 
 
 class DepthCloud(PointsDisplay):
@@ -247,17 +247,17 @@ class DepthCloud(PointsDisplay):
         numbers = {number, newest} | image_numbers
         state.poses = {n: pose for n, pose in state.poses.items() if n in numbers or n > number}
 
-    def _drawn(self, number: int, points: DepthPoints, pose: Pose, ctx: Context) -> _Drawn:
+    def _drawn(self, number: int, points: DepthPoints, pose: Pose, ctx: Context) -> _CloudNodes:
         """Draw the points of an image, unless they are drawn already."""
         look = pose, msgspec.structs.astuple(self)
-        former: _Drawn | None = ctx.state.drawn.get(number)
+        former: _CloudNodes | None = ctx.state.drawn.get(number)
         if former and former.points is points and former.look == look:
             return former
         own = Context(ctx.frames, ctx.background, None)
         # Without a decay time a new cloud replaces the one before in place.
         key = str(number) if self.decay_time else "newest"
         self._draw_points(points, pose, own.follow(None, offset=pose, key=key), own)
-        return _Drawn(points, look, own.groups, own.statuses, own.color_scale)
+        return _CloudNodes(points, look, own.groups, own.statuses, own.color_scale)
 
     def _draw_points(self, points: DepthPoints, pose: Pose, group: Group, ctx: Context) -> None:
         """Draw points where their image was taken."""

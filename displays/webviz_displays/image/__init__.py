@@ -22,7 +22,7 @@ from webviz_displays.image.annotated import (
 __all__ = ["Image"]
 
 
-class _ImageHeld(msgspec.Struct, frozen=True):
+class _ImageState(msgspec.Struct, frozen=True):
     """The newest image, whose message may be a clip, and the newest annotations."""
 
     image: Sample | None = None
@@ -63,7 +63,7 @@ class Image(AnnotatedImage):
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:
         """Return the newest image or all packets of a video since its last key frame, annotated."""
-        content: _ImageHeld = state or _ImageHeld()
+        content: _ImageState = state or _ImageState()
         if name == INPUT:
             return msgspec.structs.replace(content, annotations=content.annotations.taken(sample))
         if sample.type in video.TYPES:
@@ -74,7 +74,7 @@ class Image(AnnotatedImage):
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Show the newest image, and what is annotated there."""
-        content: _ImageHeld = sample.message
+        content: _ImageState = sample.message
         if content.image is None:
             return
         sample = content.image

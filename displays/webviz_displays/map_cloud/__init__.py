@@ -27,7 +27,7 @@ from webviz import (
 from webviz.api.connection import GraphConnection
 from webviz.api.nodes import POINTS_HELD
 from webviz.data.words import counted, joined
-from webviz_displays.map_cloud.known import KnownMap
+from webviz_displays.map_cloud.known_map import KnownMap
 from webviz_displays.map_cloud.node_cloud import CloudSettings, NodeCloud
 from webviz_displays.shared.geometry import transformed
 from webviz_displays.shared.points_display import BY_INTENSITY, DOTS_LIMIT, PointsDisplay

@@ -14,7 +14,7 @@ REMEMBERED = 500
 SECOND = 1_000_000_000
 
 
-class Gone(msgspec.Struct, frozen=True):
+class DeletedMarker(msgspec.Struct, frozen=True):
     """A marker that was there.
 
     Args:
@@ -46,7 +46,7 @@ class Remarks(msgspec.Struct):
     """
 
     refused: dict[Key, str] = msgspec.field(default_factory=dict)
-    gone: dict[int, Gone] = msgspec.field(default_factory=dict)
+    gone: dict[int, DeletedMarker] = msgspec.field(default_factory=dict)
     tilted: set[Key] = msgspec.field(default_factory=set)
     duplicates: list[Key] = msgspec.field(default_factory=list)
     unknown_actions: list[int] = msgspec.field(default_factory=list)
@@ -56,7 +56,7 @@ class Remarks(msgspec.Struct):
         """Note that the newest version of a marker cannot be drawn."""
         _append(self.refused, key, why)
 
-    def go(self, serial: int, gone: Gone) -> None:
+    def go(self, serial: int, gone: DeletedMarker) -> None:
         """Note that a marker has expired, or was deleted."""
         _append(self.gone, serial, gone)
 

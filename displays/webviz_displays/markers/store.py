@@ -16,7 +16,7 @@ from webviz_displays.markers.actions import Key, effect_of
 from webviz_displays.markers.contents import Memory, detached, is_same, size_of
 from webviz_displays.markers.faults import is_valid
 from webviz_displays.markers.older import OlderVersions, Versions
-from webviz_displays.markers.remarks import REMEMBERED, Gone, Remarks
+from webviz_displays.markers.remarks import REMEMBERED, DeletedMarker, Remarks
 from webviz_displays.markers.table import FOREVER, LOOK, LOOK_NAMES, Place, Table, by_place
 
 MAX_MARKERS = 100_000
@@ -253,7 +253,7 @@ class Store:
         row = self.table.rows[key]
         was_shown, serial = self.table.is_shown[row], int(self.table.serials[row])
         self.table.remove(key)
-        self.remarks.go(serial, Gone(key, how, at_ns))
+        self.remarks.go(serial, DeletedMarker(key, how, at_ns))
         self._memory.free(row)
         self._todo.discard(row)
         self._has_removed = True

@@ -13,7 +13,7 @@ from webviz_displays.moveit.frames import Links, Places
 from webviz_displays.moveit.joints import pose_of
 from webviz_displays.moveit.scene import KnownScene
 from webviz_displays.octomap.octree import LEVELS, OctreeFault, memory_for, read_octree
-from webviz_displays.octomap.seen import (
+from webviz_displays.octomap.visible_voxels import (
     VisibleVoxels,
     VoxelChoice,
     by_height,

@@ -18,7 +18,7 @@ from webviz_displays.octomap.octree import (
     memory_for,
     read_octree,
 )
-from webviz_displays.octomap.seen import (
+from webviz_displays.octomap.visible_voxels import (
     MAX_VOXELS,
     Rendering,
     VisibleVoxels,
@@ -42,7 +42,7 @@ _NOUNS: dict[Rendering, str] = {
 }
 
 
-class _Known(msgspec.Struct, frozen=True, eq=False):
+class _TreeReading(msgspec.Struct, frozen=True, eq=False):
     """Octree read last, so that a change of colour does not read it again.
 
     Args:
@@ -70,7 +70,7 @@ class _State(msgspec.Struct):
         drawn: the tree and what is drawn of it.
     """
 
-    known: _Known = msgspec.field(default_factory=_Known)
+    known: _TreeReading = msgspec.field(default_factory=_TreeReading)
     drawn: tuple[Octree, VisibleVoxels] | None = None
 
 
@@ -259,16 +259,16 @@ class OccupancyGridStamped(OctreeDisplay):
     rviz = "octomap_rviz_plugins/OccupancyGridStamped"
 
 
-def _read(before: _Known, message: Any, choice: VoxelChoice) -> _Known:
+def _read(before: _TreeReading, message: Any, choice: VoxelChoice) -> _TreeReading:
     """Read a tree, unless it is known, and what is to be drawn of it."""
     tree, span = (before.tree, before.span) if before.message is message else (None, (0.0, 0.0))
     try:
         with memory_for(message):
             if tree is None:
                 tree, span = _tree_of(message)
-            return _Known(message, choice, tree, span, seen_of(tree, choice))
+            return _TreeReading(message, choice, tree, span, seen_of(tree, choice))
     except OctreeFault as fault:
-        return _Known(message, choice, fault=str(fault))
+        return _TreeReading(message, choice, fault=str(fault))
 
 
 def _tree_of(message: Any) -> tuple[Octree, tuple[float, float]]:

@@ -91,7 +91,7 @@ READ_OUT = 20
 """Frames whose pose is reported."""
 
 
-class _Known(msgspec.Struct, eq=False):
+class _FrameSelection(msgspec.Struct, eq=False):
     """State derived from the names and the shape of the tree."""
 
     version: tuple[object, int]
@@ -125,7 +125,7 @@ class _State(msgspec.Struct):
     fixed_frame: str = ""
     ages: Ages = msgspec.field(default_factory=Ages)
     filter: FrameFilter = msgspec.field(default_factory=lambda: FrameFilter(None, None, {}, True))
-    known: _Known | None = None
+    known: _FrameSelection | None = None
     last: _Tick | None = None
     reasons: dict[str, Explanation] = msgspec.field(default_factory=dict)
     reasons_of: tuple[bytes, int] | None = None
@@ -224,7 +224,7 @@ class TF(Display):
         """Return a frame: its parent, its pose and how old that is."""
         return details(ctx.frames, hit.id)
 
-    def _known(self, ctx: Context, names: list[str]) -> _Known:
+    def _known(self, ctx: Context, names: list[str]) -> _FrameSelection:
         state: _State = ctx.state
         version = (ctx.frames.structure, len(names))
         if state.known is None or state.known.version != version:
@@ -232,7 +232,9 @@ class TF(Display):
             parents = parent_indices(ctx.frames, names)
             # As objects, or each name would take the memory of the longest one.
             order = np.argsort(np.array(names, object))
-            state.known = _Known(version, selected, parents, order, outline(names, parents))
+            state.known = _FrameSelection(
+                version, selected, parents, order, outline(names, parents)
+            )
         return state.known
 
     def _draw(

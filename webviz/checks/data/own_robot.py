@@ -25,7 +25,7 @@ SAME = 0.8
 """Share of the near beams that stay near while the robot moves, if it is the robot itself."""
 
 
-class _Seen(msgspec.Struct, frozen=True):
+class _Sighting(msgspec.Struct, frozen=True):
     """A scan: ranges in metres, the beams that are near, and those that measure anything."""
 
     ranges: NDArray[np.float64]
@@ -52,7 +52,7 @@ class SeesItself(Check):
     id = "DATA014"
 
     def __init__(self) -> None:
-        self._first: dict[str, _Seen] = {}
+        self._first: dict[str, _Sighting] = {}
         """Scan with which the near beams were seen first, by topic."""
 
     def find(self, seen: Observation) -> Iterator[Finding]:
@@ -80,13 +80,13 @@ class SeesItself(Check):
             )
 
 
-def _seen(scan: Any) -> _Seen:
+def _seen(scan: Any) -> _Sighting:
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     valid = (ranges >= scan.range_min) & (ranges <= scan.range_max)
-    return _Seen(ranges, valid & (ranges < NEAR_M), valid)
+    return _Sighting(ranges, valid & (ranges < NEAR_M), valid)
 
 
-def _has_moved(first: _Seen, now: _Seen) -> bool:
+def _has_moved(first: _Sighting, now: _Sighting) -> bool:
     """Return whether many of the beams that are not near measure something else."""
     both = first.valid & now.valid & ~first.near & ~now.near
     changed = np.abs(first.ranges - now.ranges)[both] > MOVED_M

@@ -142,7 +142,7 @@ MAX_PROFILE = 1 << 20
 """Bytes of a file of the middleware that are read."""
 
 
-class Lost(NamedTuple):
+class UdpLosses(NamedTuple):
     """Losses of a machine since its start.
 
     Args:
@@ -154,12 +154,12 @@ class Lost(NamedTuple):
     fragmented: int = 0
 
 
-NOTHING_LOST = Lost()
+NOTHING_LOST = UdpLosses()
 
 
 def look_around(
     ros_error: str = "",
-    lost_before: Lost = NOTHING_LOST,
+    lost_before: UdpLosses = NOTHING_LOST,
     before: Environment | None = None,
 ) -> Environment:
     """Look at this machine; takes up to half a second.
@@ -196,9 +196,9 @@ def look_around(
     )
 
 
-def lost_so_far() -> Lost:
+def lost_so_far() -> UdpLosses:
     """Return what this machine lost since its start."""
-    return Lost(_counter("Udp:", "RcvbufErrors"), _counter("Ip:", "ReasmFails"))
+    return UdpLosses(_counter("Udp:", "RcvbufErrors"), _counter("Ip:", "ReasmFails"))
 
 
 def _counter(protocol: str, name: str) -> int:

@@ -42,7 +42,7 @@ class HistoryBudget:
             excess -= largest.shrink(excess)
 
 
-class Held(msgspec.Struct):
+class BufferedSample(msgspec.Struct):
     """A sample and where it is drawn.
 
     Args:
@@ -71,7 +71,7 @@ class SampleHistory:
         self._max_samples = MAX_SAMPLES // inputs
         self._budget = budget
         budget.add(self)
-        self.held: list[Held] = []
+        self.held: list[BufferedSample] = []
         self.version = 0
         """Changes whenever the samples do."""
         self.bytes = 0
@@ -95,7 +95,7 @@ class SampleHistory:
         """
         self._drop(len(self.held) - self._most(keep) + 1)
         slot = heapq.heappop(self._free) if self._free else len(self.held)
-        self.held.append(Held(sample, size, slot))
+        self.held.append(BufferedSample(sample, size, slot))
         self.bytes += size
         self._samples = None if self._samples is None else [*self._samples, sample]
         self.version += 1

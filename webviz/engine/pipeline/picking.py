@@ -46,7 +46,7 @@ class Shot(msgspec.Struct, frozen=True, eq=False):
     fixed_frame: str
 
 
-class Found(msgspec.Struct, frozen=True, eq=False):
+class PickedItem(msgspec.Struct, frozen=True, eq=False):
     """Something that was selected, and where it is.
 
     Args:
@@ -77,7 +77,7 @@ class Found(msgspec.Struct, frozen=True, eq=False):
         return frame, (x, y, z)
 
 
-def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dict[int, Found]:
+def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dict[int, PickedItem]:
     """Return the picked items of a node, by id, if this was on the screen.
 
     Of things that the node does not have, or has elsewhere, there is nothing: the picture was
@@ -115,7 +115,7 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     return {picks[i][0]: finder(ids[i], points[i]) for i in np.flatnonzero(same)}
 
 
-def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Found]:
+def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[PickedItem]:
     """All that can be picked of a node, by the numbers that browsers give its items.
 
     There is nothing of a node with more items than the limit, and of what depends on the point that
@@ -133,12 +133,12 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Fou
     return [finder(*each) for each in zip(_ids(node, rows), points, strict=True)]
 
 
-def _finder(shot: Shot, group: Group, key: str) -> Callable[[Any, Position], Found]:
+def _finder(shot: Shot, group: Group, key: str) -> Callable[[Any, Position], PickedItem]:
     """Return what finds an item of a node, by its id and a point on it."""
     node, placement = group.nodes[key], group.placement
     pose = compose(placement.offset, group.poses.get(key, Pose()))
     frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
-    return lambda id, point: Found(
+    return lambda id, point: PickedItem(
         Hit(key, node, id, point, frame, shot.samples), pose, placement, shot.fixed_frame
     )
 

@@ -19,7 +19,7 @@ from webviz.api.status import Status
 from webviz.engine.guard import CRASHED, Guard
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
-from webviz.engine.pipeline.history import Held, Histories, SampleHistory, held_samples
+from webviz.engine.pipeline.history import BufferedSample, Histories, SampleHistory, held_samples
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene_diff import SceneDiff, groups_of
 
@@ -56,7 +56,7 @@ class _DrawJob(msgspec.Struct, frozen=True):
     """
 
     name: str
-    held: Held
+    held: BufferedSample
     look: Look
     context: Context
     done: Future[None]
@@ -238,7 +238,9 @@ class Renderer:
         if not samples:
             self._reports.pop(_status_source(name), None)
 
-    def _send(self, name: str, display: Display, held: Held, look: Look, frames: Frames) -> None:
+    def _send(
+        self, name: str, display: Display, held: BufferedSample, look: Look, frames: Frames
+    ) -> None:
         """Draw a sample in a worker."""
         context = self._context(frames, Placement(offset=held.sample.pose))
         origins = self._diff.origins(_scope(name, held.slot))

@@ -19,7 +19,7 @@ from webviz.engine.commands import Picks
 from webviz.engine.guard import Guard
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
-from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.picking import PickedItem
 from webviz.engine.pipeline.renderer import DrawReport, Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.scene_diff import SceneDiff
@@ -215,15 +215,15 @@ class Runner:
 
     # Selection
 
-    def find(self, picks: Picks) -> dict[int, Found]:
+    def find(self, picks: Picks) -> dict[int, PickedItem]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
         return self._guard.attempt("selection", {}, self.drawn.find, picks)
 
-    def inspect(self, found: Found, frames: Frames) -> Details | None:
+    def inspect(self, found: PickedItem, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
         return self._renderer.inspect(self.display, self._guard, found.hit, self._own(frames))
 
-    def shows(self, found: Found) -> bool:
+    def shows(self, found: PickedItem) -> bool:
         """Return whether the message that something was drawn from is still drawn."""
         samples = found.hit.samples
         return not samples or self._renderer.has(samples[-1])

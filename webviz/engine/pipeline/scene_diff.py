@@ -18,7 +18,7 @@ from webviz.api.nodes import Node, Pose, has_content
 from webviz.api.sample import Sample
 from webviz.engine.commands import Picks
 from webviz.engine.pipeline.baking import Position, bake
-from webviz.engine.pipeline.picking import Found, Shot, found_in
+from webviz.engine.pipeline.picking import PickedItem, Shot, found_in
 
 KEPT_S = 3.0
 """Longer than a picture is under way to a browser."""
@@ -92,7 +92,7 @@ class SceneWriter(Protocol):
         ...
 
 
-class _Drawn(msgspec.Struct):
+class _SceneGroup(msgspec.Struct):
     """A group in the scene.
 
     Args:
@@ -123,7 +123,7 @@ class _Followers(msgspec.Struct):
     """
 
     placement: Placement
-    groups: list[tuple[str, _Drawn]] = msgspec.field(default_factory=list)
+    groups: list[tuple[str, _SceneGroup]] = msgspec.field(default_factory=list)
     pose: Pose | None = None
     fixed_frame: str = ""
 
@@ -144,7 +144,7 @@ class SceneDiff:
     def __init__(self, scene: SceneWriter, prefix: str) -> None:
         self._scene = scene
         self._prefix = prefix
-        self._scopes: dict[str, dict[str, _Drawn]] = {}
+        self._scopes: dict[str, dict[str, _SceneGroup]] = {}
         self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
         """Samples and fixed frame of each scope, from which it was drawn."""
         self._past: Past | None = None
@@ -158,11 +158,11 @@ class SceneDiff:
         if is_wanted != (self._past is not None):
             self._past = Past() if is_wanted else None
 
-    def find(self, picks: Picks) -> dict[int, Found]:
+    def find(self, picks: Picks) -> dict[int, PickedItem]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
         scope, _, group = picks.group.removeprefix(f"{self._prefix}/").partition("/")
         shots = [self._shot(scope)] if scope in self._scopes else []
-        items: dict[int, Found] = {}
+        items: dict[int, PickedItem] = {}
         for shot in itertools.chain(shots, self._past.of(scope) if self._past else ()):
             missing = [item for item in picks.items if item[0] not in items]
             if not missing:
@@ -183,13 +183,13 @@ class SceneDiff:
         self._followers = None
         self._drawn_from[scope] = samples, context.frames.fixed_frame
         before = self._scopes.get(scope, {})
-        after: dict[str, _Drawn] = {}
+        after: dict[str, _SceneGroup] = {}
         for key, group in groups_of(context).items():
             if not group.nodes:
                 continue
             name, entry = self._name(scope, key), before.get(key)
             if entry is None:
-                entry = _Drawn(group)
+                entry = _SceneGroup(group)
             elif entry.group is group:  # as it was drawn before
                 after[key] = entry
                 continue
@@ -281,7 +281,7 @@ class SceneDiff:
         samples, fixed_frame = self._drawn_from[scope]
         return Shot({key: each.group for key, each in entries}, samples, fixed_frame)
 
-    def _put(self, name: str, drawn: _Drawn, frames: Frames) -> None:
+    def _put(self, name: str, drawn: _SceneGroup, frames: Frames) -> None:
         """Send a group that is new or changed."""
         group = drawn.group
         if self.tint is not None and not group.is_tinted:
@@ -296,7 +296,7 @@ class SceneDiff:
         for key, node in group.nodes.items():
             self._scene.upsert(name, key, node, group.poses.get(key, Pose()))
 
-    def _follow(self, name: str, drawn: _Drawn, frames: Frames) -> None:
+    def _follow(self, name: str, drawn: _SceneGroup, frames: Frames) -> None:
         placement = drawn.group.placement
         is_placed = drawn.pose is not None and drawn.fixed_frame == frames.fixed_frame
         rest = drawn.moved_ns + placement.interval_s * 1e9 - frames.now_ns
@@ -316,7 +316,7 @@ class SceneDiff:
         drawn.moved_ns = frames.now_ns
         self._show(name, drawn, True)
 
-    def _show(self, name: str, drawn: _Drawn, visible: bool) -> None:
+    def _show(self, name: str, drawn: _SceneGroup, visible: bool) -> None:
         if drawn.visible != visible:
             drawn.visible = visible
             self._scene.set_visible(name, visible)

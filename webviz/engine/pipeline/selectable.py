@@ -15,7 +15,7 @@ from webviz.api.picking import Details, Quantity
 from webviz.api.sample import Sample
 from webviz.data.transforms.errors import format_stamp
 from webviz.engine.pipeline.details import details_tree
-from webviz.engine.pipeline.picking import Found, every_item
+from webviz.engine.pipeline.picking import PickedItem, every_item
 from webviz.engine.pipeline.runner import Runner
 
 MAX_ITEMS = 2000
@@ -30,7 +30,7 @@ Values = Mapping[str, Any]
 items, after a dot."""
 
 
-class _Drawn(msgspec.Struct, frozen=True):
+class _SelectableNode(msgspec.Struct, frozen=True):
     """A node that is drawn.
 
     Args:
@@ -49,9 +49,9 @@ class _Drawn(msgspec.Struct, frozen=True):
     samples: Sequence[Sample]
     frame: str
     is_moving: bool
-    items: Sequence[Found]
+    items: Sequence[PickedItem]
 
-    def is_in(self, other: _Drawn) -> bool:
+    def is_in(self, other: _SelectableNode) -> bool:
         """Return whether another one is drawn alike."""
         return self.node is other.node and self.samples is other.samples
 
@@ -60,7 +60,7 @@ class SelectableValues:
     """Keeps the details of all items, and makes anew those of what is drawn anew."""
 
     def __init__(self) -> None:
-        self._made: dict[str, dict[str, tuple[_Drawn, Values]]] = {}
+        self._made: dict[str, dict[str, tuple[_SelectableNode, Values]]] = {}
 
     def of(self, runner: Runner, frames: Frames) -> Mapping[str, Any]:
         """Return the details of a display, by group and key of its nodes and what it is, in lines.
@@ -70,7 +70,7 @@ class SelectableValues:
             frames: at the time that is shown.
         """
         room = MAX_OF_DISPLAY
-        before, entries = self._made.get(runner.id, {}), dict[str, tuple[_Drawn, Values]]()
+        before, entries = self._made.get(runner.id, {}), dict[str, tuple[_SelectableNode, Values]]()
         for node in _nodes(runner):
             entry = before.get(node.path)
             if entry and node.is_in(entry[0]) and not (node.is_moving and node.items):
@@ -88,17 +88,19 @@ class SelectableValues:
         }
 
 
-def _nodes(runner: Runner) -> Iterator[_Drawn]:
+def _nodes(runner: Runner) -> Iterator[_SelectableNode]:
     for name, group, shot in runner.drawn.shots():
         frame = shot.groups[group].placement.frame
         own = shot.samples[-1].frame if shot.samples else ""
         for key, node in shot.groups[group].nodes.items():
             items = every_item(shot, group, key, MAX_ITEMS)
             is_moving = frame is not None or not shot.samples
-            yield _Drawn(f"{name}\n{key}", key, node, shot.samples, frame or own, is_moving, items)
+            yield _SelectableNode(
+                f"{name}\n{key}", key, node, shot.samples, frame or own, is_moving, items
+            )
 
 
-def _values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
+def _values(runner: Runner, drawn: _SelectableNode, frames: Frames) -> Values:
     details = [runner.inspect(each, frames) for each in drawn.items]
     readable = [each for each in details if each is not None]
     if not readable:
@@ -112,7 +114,7 @@ def _values(runner: Runner, drawn: _Drawn, frames: Frames) -> Values:
     }
 
 
-def _stamp(drawn: _Drawn) -> str:
+def _stamp(drawn: _SelectableNode) -> str:
     stamp_ns = drawn.samples[-1].stamp_ns if drawn.samples else 0
     return f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
 

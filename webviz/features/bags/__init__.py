@@ -34,8 +34,8 @@ from webviz.engine.store import PageStore
 from webviz.features.bags.uploading import Uploads
 from webviz.files.config import Config
 from webviz.files.report import read_report
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 from webviz.sources.bag.ghost import Align, Ghost
 from webviz.sources.bag.history import BagHistory
 
@@ -300,7 +300,7 @@ class BagsFeature(PageFeature):
 
     # Called on the event loop
 
-    def _begin(self, asked: Asked, wanted: Any) -> None:
+    def _begin(self, asked: PageRequest, wanted: Any) -> None:
         if self.core.player.live is None:
             asked.refuse(NO_LIVE)
             return
@@ -312,7 +312,7 @@ class BagsFeature(PageFeature):
 
         _start(asked, begin, answer)
 
-    def _add(self, asked: Asked, wanted: Any) -> None:
+    def _add(self, asked: PageRequest, wanted: Any) -> None:
         part = (asked.browser, wanted.token, wanted.offset, wanted.text)
 
         def answer(done: Future[Path | None]) -> None:
@@ -342,7 +342,9 @@ class BagsFeature(PageFeature):
         return read_report(place, folder).bag
 
 
-def _start(asked: Asked, work: Callable[[], T], answer: Callable[[Future[T]], object]) -> None:
+def _start(
+    asked: PageRequest, work: Callable[[], T], answer: Callable[[Future[T]], object]
+) -> None:
     """Wait for the disk in a thread."""
     try:
         _disk.start(work).add_done_callback(answer)

@@ -24,8 +24,8 @@ from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.dragging import reference_group
 from webviz.engine.store import PageStore
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 
 MAX_DRAGS = 50
 """Drags other than moves, of a browser within a second; people make one or two."""
@@ -43,7 +43,7 @@ class _Hand(msgspec.Struct):
     """
 
     sent: Future[str] | None = None
-    next: tuple[Asked, Any] | None = None
+    next: tuple[PageRequest, Any] | None = None
     heard_s: float = 0.0
 
 
@@ -65,7 +65,7 @@ class DragMessages:
         self._clock = clock
         self._hands: dict[int, _Hand] = {}
 
-    def drag(self, asked: Asked, command: Any) -> None:
+    def drag(self, asked: PageRequest, command: Any) -> None:
         """Pass a drag on, at once unless a move before it still waits for the frame loop."""
         now = self._clock()
         hands = self._hands.items()
@@ -87,7 +87,7 @@ class DragMessages:
         if move is not None:
             hand.sent = self._send(*move)
 
-    def _send(self, asked: Asked, command: Any) -> Future[str]:
+    def _send(self, asked: PageRequest, command: Any) -> Future[str]:
         result = self._enqueue(command, asked.sender)
         result.add_done_callback(asked.refused_by)
         return result

@@ -20,8 +20,8 @@ from webviz.engine.feature import command, store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.outputs import OutputFile
 from webviz.engine.store import PageStore
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 
 BLOCK = 768 << 10
 """Bytes of a file that are sent at once: 1 MB in base64."""
@@ -79,7 +79,7 @@ class OutputsFeature(PageFeature):
 
     # Called on the event loop
 
-    def _read(self, asked: Asked, wanted: Any) -> None:
+    def _read(self, asked: PageRequest, wanted: Any) -> None:
         output = self.core.outputs.find(wanted.number)
         if output is None:
             asked.refuse("This file is not listed any more. Copy it from the viewer's machine.")

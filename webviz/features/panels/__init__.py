@@ -30,8 +30,8 @@ from webviz.engine.parts.panels import PanelsPart
 from webviz.engine.parts.part import Core
 from webviz.engine.state import PanelTab
 from webviz.engine.store import PageStore
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import Widget, clean
 
@@ -246,7 +246,7 @@ class PluginPanels(PageFeature):
 
     @command(Role.OPERATOR, PageCommand)
     def use_widget(
-        self, panel: str, widget: str, asked: Asked, value: bool | str | None = None
+        self, panel: str, widget: str, asked: PageRequest, value: bool | str | None = None
     ) -> None:
         """Use a widget in a plug-in's panel.
 

@@ -17,8 +17,8 @@ from webviz.engine.commands import PageCommand
 from webviz.engine.feature import command, store
 from webviz.engine.parts.part import Core
 from webviz.engine.store import PageStore
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 from webviz.server.access import token_file
 from webviz.server.access.journal import JournalEntry
 from webviz.server.access.starting import link
@@ -153,7 +153,7 @@ class People(PageFeature):
         role: Literal["watcher", "operator", "owner"],
         days: float | None,
         url: Address,
-        asked: Asked,
+        asked: PageRequest,
     ) -> None:
         """Make a link for somebody else; the answer has the `link` and its QR `code`.
 
@@ -179,7 +179,7 @@ class People(PageFeature):
         self._begin(lambda: self._make(name, granted, days)).add_done_callback(answer)
 
     @command(Role.OWNER, PageCommand, is_noted=True)
-    def dismiss(self, visitor: int, revokes: bool, asked: Asked) -> None:
+    def dismiss(self, visitor: int, revokes: bool, asked: PageRequest) -> None:
         """End the visit of somebody else.
 
         Args:
@@ -205,7 +205,7 @@ class People(PageFeature):
             asked.answer(f"Ended a visit of {visitor_entry.name or visitor_entry.address}.")
 
     @command(Role.OWNER, PageCommand, is_noted=True)
-    def revoke(self, name: Name, asked: Asked) -> None:
+    def revoke(self, name: Name, asked: PageRequest) -> None:
         """End a link, and all visits by it.
 
         Args:

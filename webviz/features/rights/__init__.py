@@ -21,8 +21,8 @@ from webviz.engine.parts.part import Core
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.pipeline.own_names import PATTERN, own_names
 from webviz.engine.store import PageStore
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher, PageFeature
+from webviz.page.page_request import PageRequest
 
 MAX_ALLOWED = 100
 MAX_REQUESTS = 8
@@ -196,7 +196,7 @@ class RightsFeature(PageFeature):
 
     # Called on the event loop
 
-    def _allow(self, asked: Asked, wanted: Any) -> None:
+    def _allow(self, asked: PageRequest, wanted: Any) -> None:
         gate = self.core.gate
         try:
             name = self._full(wanted.name)
@@ -218,7 +218,7 @@ class RightsFeature(PageFeature):
             else:
                 self._answer(asked, text)
 
-    def _keep(self, asked: Asked, name: str, done: str) -> None:
+    def _keep(self, asked: PageRequest, name: str, done: str) -> None:
         """Have the config file allow a name, too, and answer once it is saved."""
         assert self._dispatcher
         enqueue = self._dispatcher.enqueue
@@ -235,14 +235,14 @@ class RightsFeature(PageFeature):
 
         listed.add_done_callback(save)
 
-    def _forbid(self, asked: Asked, wanted: Any) -> None:
+    def _forbid(self, asked: PageRequest, wanted: Any) -> None:
         if wanted.name not in self.core.gate.session:
             asked.refuse("Not done: this is not allowed for this session.")
             return
         self.core.gate.forbid(wanted.name)
         self._answer(asked, f"No longer allowed: {self._use(wanted.name)}.")
 
-    def _ask(self, asked: Asked, wanted: Any) -> None:
+    def _ask(self, asked: PageRequest, wanted: Any) -> None:
         try:
             name = self._full(wanted.name)
         except Error as error:
@@ -260,7 +260,7 @@ class RightsFeature(PageFeature):
         remark = "" if owners else " No owner is connected now; one who comes sees it."
         self._answer(asked, f"Asked the owner: {self._use(name)}.{remark}")
 
-    def _decline(self, asked: Asked, wanted: Any) -> None:
+    def _decline(self, asked: PageRequest, wanted: Any) -> None:
         if not any(each.name == wanted.name for each in self._current()):
             asked.refuse("Not done: this request is gone.")
             return
@@ -272,7 +272,7 @@ class RightsFeature(PageFeature):
         )
         self._answer(asked, f"Not allowed for now: {self._use(wanted.name)}.")
 
-    def _answer(self, asked: Asked, text: str) -> None:
+    def _answer(self, asked: PageRequest, text: str) -> None:
         """Answer once the pages show what has changed."""
         assert self._dispatcher
         result = self._dispatcher.enqueue(_command("Refresh"), asked.sender)

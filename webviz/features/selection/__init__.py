@@ -17,7 +17,7 @@ from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.part import Core
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
-from webviz.engine.pipeline.picking import Found
+from webviz.engine.pipeline.picking import PickedItem
 from webviz.engine.state import Row
 from webviz.engine.store import PageStore
 from webviz.features.selection.statistics import Statistics, ValueRange
@@ -108,7 +108,7 @@ class _Selected(msgspec.Struct, frozen=True):
     """One thing, and the display that drew it."""
 
     runner: Runner
-    found: Found
+    found: PickedItem
 
     @property
     def is_moving(self) -> bool:
@@ -332,7 +332,7 @@ class SelectionFeature(Feature):
         )
         return SelectionStore(things, info)
 
-    def _whereabouts(self, found: Found) -> dict[str, str]:
+    def _whereabouts(self, found: PickedItem) -> dict[str, str]:
         """Return the details known of anything that is drawn."""
         hit = found.hit
         details: dict[str, str] = {}

@@ -10,8 +10,8 @@ from msgspec.structs import replace
 
 from webviz.api.status import Level, Status
 from webviz.api.tool import Tool
-from webviz.page.asked import Asked
 from webviz.page.dispatcher import Dispatcher
+from webviz.page.page_request import PageRequest
 from webviz.server.channel.messages import Published, ShownTool, Tools
 
 MAX_GESTURES = 20
@@ -73,7 +73,7 @@ class Toolbar:
             self._shown = tools
             self._dispatcher.channel.send(tools)
 
-    def use(self, asked: Asked, gesture: Any) -> None:
+    def use(self, asked: PageRequest, gesture: Any) -> None:
         """Pass a gesture on to the frame loop; the tool answers, maybe more than once.
 
         Args:

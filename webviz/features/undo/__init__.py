@@ -49,7 +49,7 @@ class UndoHistory(PageStore, frozen=True):
     redo: tuple[HistoryStep, ...] = ()
 
 
-class _Done(msgspec.Struct, frozen=True):
+class _UndoEntry(msgspec.Struct, frozen=True):
     """A step, and the moments around it."""
 
     step: HistoryStep
@@ -66,8 +66,8 @@ class UndoFeature(Feature):
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self._files = core.get(ConfigPart)
-        self._undo: deque[_Done] = deque(maxlen=MAX_STEPS)
-        self._redo: deque[_Done] = deque(maxlen=MAX_STEPS)
+        self._undo: deque[_UndoEntry] = deque(maxlen=MAX_STEPS)
+        self._redo: deque[_UndoEntry] = deque(maxlen=MAX_STEPS)
         self._count = 0
         self._last: tuple[float, Sender, tuple[str, str] | None] = (-SAME_S, Sender(), None)
         self._now = Moment()
@@ -100,7 +100,7 @@ class UndoFeature(Feature):
             label, by = command.label or change.label, sender.browser
             restored = label.removeprefix(RESTORE) if isinstance(command, Restore) else ""
             step = HistoryStep(self._count, label, by, change.removed, restored)
-            self._undo.append(_Done(step, before, self._now))
+            self._undo.append(_UndoEntry(step, before, self._now))
 
     def _goes_on(self, done: Difference, sender: Sender) -> bool:
         """Return whether a step belongs to the one before."""
@@ -146,7 +146,7 @@ class UndoFeature(Feature):
             entry = _newest(back, sender if own else None)
             self._count += 1
             step = replace(entry.step, number=self._count, browser=sender.browser)
-            forth.append(_Done(step, entry.after, entry.before))
+            forth.append(_UndoEntry(step, entry.after, entry.before))
             moment = rebased(moment, entry.after, entry.before)
             labels.append(entry.step.label)
         self._show(moment)
@@ -178,7 +178,7 @@ class UndoFeature(Feature):
         files.set_origin(moment.origin)
 
 
-def _newest(steps: deque[_Done], of: Sender | None) -> _Done:
+def _newest(steps: deque[_UndoEntry], of: Sender | None) -> _UndoEntry:
     """Take the newest step, or that of a sender if it has one."""
     own = (at for at in reversed(range(len(steps))) if of and steps[at].step.browser == of.browser)
     at = next(own, len(steps) - 1)

@@ -28,7 +28,7 @@ NO_DISPLAY = f"unsupported display class; {KEPT}"
 NO_PROPERTY = f"unsupported; {KEPT}"
 
 
-class Kept(msgspec.Struct):
+class UnsupportedParts(msgspec.Struct):
     """The unsupported parts of a file's displays.
 
     Args:
@@ -46,12 +46,14 @@ class Kept(msgspec.Struct):
         return {}
 
 
-def read_items(entries: list[Any], report: Report, kept: Kept, place: Location) -> list[Item]:
+def read_items(
+    entries: list[Any], report: Report, kept: UnsupportedParts, place: Location
+) -> list[Item]:
     """Return displays of the list at `place` in a .rviz file."""
     return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
 
 
-def _read_item(entry: Any, report: Report, kept: Kept, place: Location) -> Item:
+def _read_item(entry: Any, report: Report, kept: UnsupportedParts, place: Location) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
     own_class = counterpart(Display, cls)
@@ -155,7 +157,7 @@ def is_writable(item: P | Unreadable, report: Report) -> TypeGuard[P]:
     return True
 
 
-def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | None:
+def write_items(items: list[Item], report: Report, kept: UnsupportedParts) -> list[Any] | None:
     """Return displays as RViz's list, None if it is empty."""
     written = []
     for item in items:
@@ -169,7 +171,7 @@ def write_items(items: list[Item], report: Report, kept: Kept) -> list[Any] | No
     return written or None
 
 
-def _write(display: Display, kept: Kept) -> Tree:
+def _write(display: Display, kept: UnsupportedParts) -> Tree:
     cls = type(display)
 
     def meaning(tree: Tree) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from webviz.files.config import (
 from webviz.files.config.reading import refuse_too_many
 from webviz.files.rviz import values, views
 from webviz.files.rviz.classes import counterpart
-from webviz.files.rviz.displays import Kept, is_writable, read_items, write_items
+from webviz.files.rviz.displays import UnsupportedParts, is_writable, read_items, write_items
 from webviz.files.rviz.properties import keys
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import note_rest
@@ -68,7 +68,7 @@ def read(text: str, where: str) -> tuple[Config, Report]:
     document = parse(source)
     if not isinstance(document, dict) or not isinstance(document.get(MANAGER), dict):
         raise ConfigError(f"{where} is not an RViz config: it has no `{MANAGER}`.")
-    report, unsupported = Report(), Kept()
+    report, unsupported = Report(), UnsupportedParts()
     for kind in ("displays", "properties", "views", "tools", "panels"):
         report.count(kind, 0, 0)
     manager = dict(document[MANAGER])
@@ -103,7 +103,7 @@ def write(config: Config) -> tuple[str, Report]:
     manager = child(rest, MANAGER)
     entries = manager.pop("Displays", None)
     entries = entries if isinstance(entries, list) else []
-    unsupported = Kept([dict(entry) for entry in entries if isinstance(entry, Mapping)])
+    unsupported = UnsupportedParts([dict(entry) for entry in entries if isinstance(entry, Mapping)])
     kept_views = child(manager, "Views")
     current, view = child(kept_views, "Current"), config.settings.view
     tree = _bare(config.settings)

@@ -10,7 +10,7 @@ from webviz.api.display import Display
 from webviz.files.config import Branch, Item, Location, Settings, Unreadable
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
-from webviz.files.rviz.displays import Kept, read_items
+from webviz.files.rviz.displays import UnsupportedParts, read_items
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.tree import MANAGER, Tree, child
 
@@ -25,7 +25,7 @@ def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Setti
     Returns:
         The displays, the settings with their parts kept for export, and what was skipped.
     """
-    report, unsupported = Report(), Kept()
+    report, unsupported = Report(), UnsupportedParts()
     revived = [_revived(item, report, unsupported) for item in items]
     if unsupported.entries:
         manager = child(settings.rviz, MANAGER)
@@ -35,7 +35,7 @@ def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Setti
     return revived, settings, report
 
 
-def _revived(item: Item, report: Report, kept: Kept) -> Item:
+def _revived(item: Item, report: Report, kept: UnsupportedParts) -> Item:
     if isinstance(item, Branch):
         return Branch(item.group, [_revived(each, report, kept) for each in item.displays])
     if not isinstance(item, Unreadable) or not item.is_from_rviz:

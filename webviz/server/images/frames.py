@@ -91,7 +91,7 @@ class PictureHeader(msgspec.Struct, frozen=True, kw_only=True):
     is_same: bool | UnsetType = UNSET
 
 
-class Sent(msgspec.Struct, frozen=True):
+class SentPicture(msgspec.Struct, frozen=True):
     """Pictures, packets and warps that a page has already.
 
     Args:
@@ -114,9 +114,9 @@ def frame(
     number: int,
     pane: Pane,
     file: File | None,
-    sent: Sent,
+    sent: SentPicture,
     is_readable: bool = True,
-) -> tuple[bytes, Sent]:
+) -> tuple[bytes, SentPicture]:
     """Return a message with a picture.
 
     Args:
@@ -145,7 +145,7 @@ def frame(
             starts=packets[0] is picture.packets[0],
         )
         parts = (np.ascontiguousarray(packet.data).data for packet in packets)
-        return _joined(head, parts), Sent(packets[-1].number)
+        return _joined(head, parts), SentPicture(packets[-1].number)
     head = replace(head, is_same=True) if file is None else replace(head, mime=file.mime)
     data = [] if file is None else [file.data]
     if isinstance(picture, Readout):
@@ -162,7 +162,7 @@ def frame(
         head = replace(head, camera=camera_of(pane.camera))
         if warp is not sent.warp:
             head = replace(head, warp=warp_of(warp))
-    return _joined(head, data), Sent(sent.packet, warp, picture)
+    return _joined(head, data), SentPicture(sent.packet, warp, picture)
 
 
 def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:

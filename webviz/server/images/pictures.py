@@ -19,7 +19,7 @@ from webviz.data.images import ImageError, decoding, values
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.messages import FramesShown, PixelValue, ReadPixel, ShowPictures
 from webviz.server.images.encoding import File, factor_for, file_of
-from webviz.server.images.frames import Sent, frame
+from webviz.server.images.frames import SentPicture, frame
 from webviz.server.sending.costs import Costs
 
 
@@ -57,7 +57,7 @@ MAX_SHRINK = 8
 log = logging.getLogger("webviz")
 
 
-class _Shown(msgspec.Struct, frozen=True):
+class _PaneEntry(msgspec.Struct, frozen=True):
     """Picture a display shows now, and its number."""
 
     number: int
@@ -79,7 +79,7 @@ class _Look(msgspec.Struct):
 
     width: int
     sent: int = 0
-    has: Sent = msgspec.field(default_factory=Sent)
+    has: SentPicture = msgspec.field(default_factory=SentPicture)
     waiting: deque[int] = msgspec.field(default_factory=deque)
     is_busy: bool = False
     turn: bool = False
@@ -103,7 +103,7 @@ class Pictures:
         """Counts what is sent while it is there."""
         self._lock = threading.Lock()
         self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-pictures")
-        self._shown: dict[str, _Shown] = {}
+        self._shown: dict[str, _PaneEntry] = {}
         self._looks: dict[int, dict[str, _Look]] = {}
         self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
         """Pictures by display and factor, made of the newest: pages of one size share it."""
@@ -121,7 +121,7 @@ class Pictures:
         """Make this the picture of a display."""
         with self._lock:
             self._number += 1
-            self._shown[display] = _Shown(self._number, pane)
+            self._shown[display] = _PaneEntry(self._number, pane)
             looks = self._looks_at(display)
             is_ready = [self._continue(browser, display, look) for browser, look in looks]
         if any(is_ready):
@@ -269,7 +269,7 @@ class Pictures:
         return None if congestion.rate is None else congestion.rate / max(1, len(looks))
 
     @staticmethod
-    def _fit(look: _Look, shown: _Shown, size: int, rate: float | None) -> bool:
+    def _fit(look: _Look, shown: _PaneEntry, size: int, rate: float | None) -> bool:
         """Adapts how much smaller pictures are made; whether this one is much too large."""
         if rate is None or not isinstance(shown.pane.picture, Pixels | Encoded):
             look.shrink = 1
@@ -282,7 +282,7 @@ class Pictures:
             look.shrink //= 2
         return look.shrink > before
 
-    def _file(self, shown: _Shown, display: str, look: _Look) -> File | None:
+    def _file(self, shown: _PaneEntry, display: str, look: _Look) -> File | None:
         """Return the picture a page decodes, None for video; made once for all pages of a size."""
         picture = shown.pane.picture
         if isinstance(picture, Video):

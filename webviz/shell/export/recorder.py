@@ -23,7 +23,7 @@ from webviz.scene.adapter.tape import SceneTape
 from webviz.scene.cameras import ViserCameras
 from webviz.server.http.viser_server import Server
 from webviz.server.images.encoding import factor_for, file_of
-from webviz.server.images.frames import Sent, frame
+from webviz.server.images.frames import SentPicture, frame
 from webviz.shell.export.stores import VALUES, RecordingChannel
 from webviz.shell.export.tape import TapeFrame
 from webviz.shell.pictures.offline_viewer import OfflineViewer
@@ -44,7 +44,7 @@ class PaneTape:
 
     def __init__(self) -> None:
         self._shown: dict[str, Pane] = {}
-        self._sent: dict[str, Sent] = {}
+        self._sent: dict[str, SentPicture] = {}
         self._marked: dict[str, int] = {}
         self._number = 0
 
@@ -63,14 +63,14 @@ class PaneTape:
                 continue
             self._shown[display] = pane
             self._number += 1
-            picture, sent_picture, file = pane.picture, self._sent.get(display, Sent()), None
+            picture, sent_picture, file = pane.picture, self._sent.get(display, SentPicture()), None
             marked = self._marked.get(display, 0) + 1
             if isinstance(picture, Video):
                 is_whole = sent_picture.packet < picture.packets[0].number
             elif sent_picture.has(picture) and marked <= MAX_MARKED:
                 is_whole = False
             else:
-                is_whole, sent_picture = True, Sent()
+                is_whole, sent_picture = True, SentPicture()
                 file = file_of(picture, factor_for(picture, WIDTH))
             self._marked[display] = 0 if is_whole else marked
             data, self._sent[display] = frame(

@@ -21,7 +21,7 @@ NodeT = TypeVar("NodeT")
 NodeT_contra = TypeVar("NodeT_contra", contravariant=True)
 
 
-class Drawn(Protocol[NodeT_contra]):
+class NodeVisual(Protocol[NodeT_contra]):
     """A node in the browsers."""
 
     def draw(self, node: NodeT_contra) -> None:

@@ -16,7 +16,7 @@ MAX_ERROR = 1000
 """Characters of what is answered to a page that is refused: it may quote what the page sent."""
 
 
-class Asked:
+class PageRequest:
     """A `Do` of a browser. Its answers may come from any thread.
 
     Args:
