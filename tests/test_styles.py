@@ -51,8 +51,8 @@ def test_spacing_lines_shapes_text_and_motion_have_names(path: Path) -> None:
 
 
 def test_a_size_is_found_wherever_it_stands_in_a_value() -> None:
-    found = ("8px", "0 -8px", "0.5px auto", "calc(100% - 8px)", "rotate 0.1s", "600 13px/1.4 x")
-    assert all(SIZE.search(value) for value in found)
+    result = ("8px", "0 -8px", "0.5px auto", "calc(100% - 8px)", "rotate 0.1s", "600 13px/1.4 x")
+    assert all(SIZE.search(value) for value in result)
     named = ("0", "0px auto", "var(--wv-space-8)", "50%", "2em", "none", "var(--wv-8px)")
     assert not any(SIZE.search(value) for value in named)
 

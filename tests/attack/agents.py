@@ -91,8 +91,10 @@ class Agents(Attack):
         self._write({"method": "ping", "id": name})
         self._wait_for(name, ANSWER_S)
         self._log.flush()
-        if found := INTERNAL.search((self._folder / "log.txt").read_text(errors="replace")):
-            raise Violation(f"an internal error in the log: {found.string[found.start() :][:2000]}")
+        if result := INTERNAL.search((self._folder / "log.txt").read_text(errors="replace")):
+            raise Violation(
+                f"an internal error in the log: {result.string[result.start() :][:2000]}"
+            )
         return Outcome.SURVIVED
 
     def close(self) -> None:

@@ -155,12 +155,12 @@ def _watch(source: BridgeSource, patience_s: float, must_arrive: bool) -> None:
     arrived: set[str] = set()
     while time.monotonic() < end and "/honest" not in arrived:
         offers = source.offers()
-        wanted = {
+        subscription = {
             topic: Subscription(offer.publishers[0].type, Topic(topic))
             for topic, offer in offers.items()
             if offer.publishers
         }
-        source.want(wanted)
+        source.want(subscription)
         arrived |= {topic for topic, raws in source.inbox.drain().items() if raws}
         _ = [str(remark) for bridge in source.bridges for remark in bridge.remarks]
         time.sleep(0.01)

@@ -39,14 +39,14 @@ TRANSFORMS = {
 
 def topics() -> dict[str, str]:
     """The types of the topics that the displays subscribe to in their default configuration."""
-    found = {"/tf": TF, "/tf_static": TF}
+    result = {"/tf": TF, "/tf_static": TF}
     for class_ in display_types().values():
         display = class_()
         for name, input_ in inputs_of(class_).items():
             topic = getattr(getattr(display, name, None), "name", "")
             if topic and input_.type:
-                found[f"/{topic.lstrip('/')}"] = input_.type
-    return found
+                result[f"/{topic.lstrip('/')}"] = input_.type
+    return result
 
 
 def _stamp(ns: int) -> bytes:

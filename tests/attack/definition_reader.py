@@ -107,14 +107,14 @@ def _listen(url: str, type_: str) -> None:
 
 def _drained(inbox: Inbox, types: Mapping[str, str]) -> str | None:
     """Use what has arrived, and return the text of the good topic, None without one."""
-    found = None
+    result = None
     for topic, raws in inbox.drain().items():
         for raw in raws:
             if topic == "/words":
-                found = decode(STRING, raw.cdr).data
+                result = decode(STRING, raw.cdr).data
             else:
                 _use(types[topic], raw.cdr, raw.types)
-    return found
+    return result
 
 
 def _use(type_: str, cdr: bytes, types: MessageTypes = KNOWN) -> None:

@@ -158,13 +158,13 @@ def entries() -> Iterator[str]:
 
 def doors_of(module: str) -> list[str]:
     """Return the doors that a module is behind, those with the longest pattern first."""
-    found = [
+    results = [
         (len(pattern), name)
         for name, door in DOORS.items()
         for pattern in door.modules
         if fnmatchcase(module, pattern)
     ]
-    return [name for _, name in sorted(found, reverse=True)]
+    return [name for _, name in sorted(results, reverse=True)]
 
 
 def _is_entry(node: ast.AST) -> bool:

@@ -60,21 +60,21 @@ Visualization Manager:
 @functools.cache
 def corpus() -> dict[str, bytes]:
     """A good file of each kind, by name."""
-    found = {"robot.urdf": URDF.encode(), "a.yaml": YAML.encode(), "a.rviz": RVIZ.encode()}
+    result = {"robot.urdf": URDF.encode(), "a.yaml": YAML.encode(), "a.rviz": RVIZ.encode()}
     box = trimesh.creation.box((1, 2, 3))
     for suffix in ("stl", "ply", "obj", "glb"):
         data = box.export(file_type=suffix)
-        found[f"box.{suffix}"] = data if isinstance(data, bytes) else str(data).encode()
-    found["box.dae"] = _timeless(export_collada(box))
+        result[f"box.{suffix}"] = data if isinstance(data, bytes) else str(data).encode()
+    result["box.dae"] = _timeless(export_collada(box))
     with tempfile.TemporaryDirectory() as folder:
         picture = Path(folder) / "a.png"
         Image.new("RGB", (4, 4)).save(picture)
-        found["texture.png"] = picture.read_bytes()
+        result["texture.png"] = picture.read_bytes()
         for storage in (StoragePlugin.MCAP, StoragePlugin.SQLITE3):
             bag = strings(0, 1, 2).write(Path(folder) / storage.name, storage)
             (file,) = (each for each in bag.iterdir() if each.suffix != ".yaml")
-            found[f"bag{file.suffix}"] = file.read_bytes()
-    return found
+            result[f"bag{file.suffix}"] = file.read_bytes()
+    return result
 
 
 def _timeless(collada: bytes) -> bytes:
@@ -168,10 +168,10 @@ class FileAttack(Attack):
     def strike(self, case: Case) -> Outcome:
         path = self._folder / case.name
         path.write_bytes(case.data)
-        found = self._reader.read(path)
-        if found["broken"]:
-            raise Violation(found["broken"])
-        return Outcome.REFUSED if found["refused"] else Outcome.SURVIVED
+        result = self._reader.read(path)
+        if result["broken"]:
+            raise Violation(result["broken"])
+        return Outcome.REFUSED if result["refused"] else Outcome.SURVIVED
 
     def close(self) -> None:
         self._reader.close()

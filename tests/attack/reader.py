@@ -120,24 +120,24 @@ def read(path: Path) -> None:
 def _read_report(path: Path) -> None:
     """Unpack a bug report, and play what it contains."""
     with tempfile.TemporaryDirectory() as folder:
-        found = read_report(path, Path(folder))
-        f"{found.report.at_s:.1f} {found.report.made:.1f}"  # as it is announced
-        opening.text_of(opening.load(found.config), found.config.name)
-        if found.picture is not None:
-            open_image(found.picture).load()
-        _play(found.bag)
+        report = read_report(path, Path(folder))
+        f"{report.report.at_s:.1f} {report.report.made:.1f}"  # as it is announced
+        opening.text_of(opening.load(report.config), report.config.name)
+        if report.picture is not None:
+            open_image(report.picture).load()
+        _play(report.bag)
 
 
 def _play(path: Path) -> None:
     """Play a bag with all of its topics."""
     source = Player(BagHistory(path))
     try:
-        wanted = {
+        subscription = {
             topic: Subscription(offer.publishers[0].type, Topic(topic))
             for topic, offer in source.offers().items()
             if offer.publishers
         }
-        source.want(wanted)
+        source.want(subscription)
         for _ in range(MAX_STEPS):
             source.play_step(source.history.end_ns)
             source.inbox.drain()

@@ -47,10 +47,10 @@ class Report:
         ]
         broken = Counter(breach.kind for breach in self.breaches)
         for kind in sorted({*self.counts, *broken}):
-            found = self.counts.get(kind, Counter())
-            tried = found.total() + broken[kind]
+            result = self.counts.get(kind, Counter())
+            tried = result.total() + broken[kind]
             lines.append(
-                f"{kind:12}{tried:8}{found[Outcome.REFUSED]:9}{found[Outcome.SURVIVED]:10}"
-                f"{found[Outcome.DONE]:7}{broken[kind]:8}"
+                f"{kind:12}{tried:8}{result[Outcome.REFUSED]:9}{result[Outcome.SURVIVED]:10}"
+                f"{result[Outcome.DONE]:7}{broken[kind]:8}"
             )
         return "\n".join([*lines, *map(str, self.breaches)])

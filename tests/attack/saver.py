@@ -46,8 +46,8 @@ def is_whole(path: Path) -> bool:
         with PIL.Image.open(path) as picture:
             picture.load()
             return picture.size == (200, 200)
-    found = path.read_text()
-    return found == text(int(found.split("\n", 1)[0][2:]))
+    result = path.read_text()
+    return result == text(int(result.split("\n", 1)[0][2:]))
 
 
 def started(how: str, path: Path, number: int) -> int:

@@ -48,9 +48,9 @@ def check(rows: list[list[str | float]], text: str) -> None:
     Raises:
         AssertionError: it does not.
     """
-    found = list(csv.reader(io.StringIO(text, newline=""), strict=True))
-    assert [len(row) for row in found] == [len(row) for row in rows], "a text ends its cell"
-    for row, cells in zip(rows, found, strict=True):
+    results = list(csv.reader(io.StringIO(text, newline=""), strict=True))
+    assert [len(row) for row in results] == [len(row) for row in rows], "a text ends its cell"
+    for row, cells in zip(rows, results, strict=True):
         for value, cell in zip(row, cells, strict=True):
             if not isinstance(value, str):
                 assert float(cell) == value
@@ -71,8 +71,8 @@ def main() -> None:
         data, broken = Path(line.rstrip("\n")).read_bytes(), ""
         program = [*NODE, "--input-type=module", "-e", PROGRAM, MODULE.as_uri()]
         try:
-            done = subprocess.run(program, input=data, capture_output=True, check=True)
-            check(json.loads(data), done.stdout.decode())
+            completed = subprocess.run(program, input=data, capture_output=True, check=True)
+            check(json.loads(data), completed.stdout.decode())
         except Exception:
             broken = traceback.format_exc()
         print(json.dumps({"refused": False, "broken": broken}), flush=True)

@@ -124,8 +124,8 @@ class Target:
             raise Violation(fault)
         log = self._program.output()[self._read :]
         self._read += len(log)
-        if found := INTERNAL.search(log):
-            raise Violation(f"an internal error in the log: {log[found.start() :][:2000]}")
+        if result := INTERNAL.search(log):
+            raise Violation(f"an internal error in the log: {log[result.start() :][:2000]}")
         outside = {path.name for path in self.folder.iterdir()} - {"configs", "home", "log.txt"}
         if outside:
             raise Violation(f"files outside of the folder of configs: {outside}")

@@ -33,11 +33,11 @@ def test_a_viewer_withstands_all_attacks(
 
 
 def test_the_corpus_says_what_each_case_has_broken() -> None:
-    said = (CORPUS / "README.md").read_text()
+    text = (CORPUS / "README.md").read_text()
     cases = [path for path in CORPUS.rglob("*__*") if path.is_file()]
     assert cases
     for path in cases:
-        assert f"`{path.relative_to(CORPUS)}`" in said
+        assert f"`{path.relative_to(CORPUS)}`" in text
         assert path.parent.name.replace("_", " ") in KINDS
         assert path.stat().st_size < 10_000
 

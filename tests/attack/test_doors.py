@@ -30,10 +30,10 @@ def test_each_attack_is_on_a_door() -> None:
 
 
 def test_each_pattern_of_a_door_has_modules() -> None:
-    found = [*modules()]
+    result = [*modules()]
     for name, door in DOORS.items():
         for pattern in door.modules:
-            assert any(doors.fnmatchcase(module, pattern) for module in found), (name, pattern)
+            assert any(doors.fnmatchcase(module, pattern) for module in result), (name, pattern)
 
 
 @pytest.mark.parametrize(

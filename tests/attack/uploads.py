@@ -48,8 +48,8 @@ class Uploads(Attack):
         how = random.choice(("one", "one", "one", "many", "endless"))
         command = random.choice(("Load", "Load", "Load", "Save", "Open"))
         arguments = {"text": body, "name": name} if command == "Load" else {"path": name}
-        said = {"type": "Do", "number": 1, "command": command, "arguments": arguments}
-        return Case(f"{how}.json", msgspec.json.encode(said))
+        text = {"type": "Do", "number": 1, "command": command, "arguments": arguments}
+        return Case(f"{how}.json", msgspec.json.encode(text))
 
     def strike(self, case: Case) -> Outcome:
         how = case.name.partition(".")[0]
@@ -71,21 +71,21 @@ class Uploads(Attack):
             visitor.close()
 
     def _many(self, case: Case) -> Outcome:
-        found: list[Outcome | Violation] = []
+        results: list[Outcome | Violation] = []
 
         def strike() -> None:
             with contextlib.suppress(OSError):
                 try:
-                    found.append(self.strike(Case("one.json", case.data)))
+                    results.append(self.strike(Case("one.json", case.data)))
                 except Violation as violation:
-                    found.append(violation)
+                    results.append(violation)
 
         threads = [threading.Thread(target=strike) for _ in range(PARALLEL)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
-        for each in found:
+        for each in results:
             if isinstance(each, Violation):
                 raise each
-        return Outcome.DONE if Outcome.DONE in found else Outcome.REFUSED
+        return Outcome.DONE if Outcome.DONE in results else Outcome.REFUSED

@@ -68,11 +68,11 @@ def read_network(path: Path) -> None:
         stack.callback(router.close)
         liar = zenoh.open(config("client", router.endpoint))
         stack.callback(liar.close)
-        kept: list[Any] = []
+        remaining: list[Any] = []
         messages = json.loads(path.read_bytes())
         for token, *_ in messages:
             try:
-                kept.append(liar.liveliness().declare_token(token))
+                remaining.append(liar.liveliness().declare_token(token))
             except zenoh.ZError:  # the engine itself refuses it
                 continue
         robot = ZenohRobot(router.endpoint, "/honest_robot")

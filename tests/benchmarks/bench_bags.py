@@ -95,8 +95,8 @@ def by_mcap(path: Path) -> Callable[[float], object]:
 
     def read(at_s: float) -> object:
         at_ns = start_ns + round(at_s * SECOND)
-        found = reader.iter_messages(starting_at=at_ns - SECOND, ending_at=at_ns)
-        return {channel.topic: message for _, channel, message in found}
+        result = reader.iter_messages(starting_at=at_ns - SECOND, ending_at=at_ns)
+        return {channel.topic: message for _, channel, message in result}
 
     return read
 
@@ -108,8 +108,8 @@ def by_rosbags(path: Path) -> Callable[[float], object]:
 
     def read(at_s: float) -> object:
         at_ns = reader.start_time + round(at_s * SECOND)
-        found = reader.messages(start=at_ns - SECOND, stop=at_ns + 1)
-        return {connection.topic: data for connection, _, data in found}
+        result = reader.messages(start=at_ns - SECOND, stop=at_ns + 1)
+        return {connection.topic: data for connection, _, data in result}
 
     return read
 
@@ -122,8 +122,8 @@ def by_recording(path: Path) -> Callable[[float], object]:
 
     def read(at_s: float) -> object:
         at_ns = start_ns + round(at_s * SECOND)
-        found = recording.messages(recording.channels, at_ns - SECOND, at_ns)
-        return {each.channel.topic: each.data for each in found}
+        result = recording.messages(recording.channels, at_ns - SECOND, at_ns)
+        return {each.channel.topic: each.data for each in result}
 
     return read
 

@@ -146,11 +146,11 @@ def _zenoh(way: str) -> dict[str, Callable[[bytes], None]]:
 
     text = f'{{ mode: "router", listen: {{ endpoints: ["tcp/{ROBOT}:7447"] }} }}'
     if way == "priorities":
-        found = re.search(
+        match = re.search(
             r'```json5 title="priorities.json5"\n(.*?)```', PAGE.read_text(), re.DOTALL
         )
-        assert found
-        text = found[1].replace("0.0.0.0:7447", f"{ROBOT}:7447")
+        assert match
+        text = match[1].replace("0.0.0.0:7447", f"{ROBOT}:7447")
     made = zenoh.Config.from_json5(text)
     for key in ("scouting/multicast/enabled", "transport/shared_memory/enabled"):
         made.insert_json5(key, "false")

@@ -133,27 +133,27 @@ def room(viewer: tuple[Running, HandFedSource], browser: playwright.Browser) -> 
 def test_what_the_camera_does_not_show(room: Room) -> None:
     away = Orbit(focal_point=(0.0, 5000.0, 0.0), distance=10.0)
     room.look(away)
-    found = room.wait("VIEW004")
-    assert found is not None
-    assert found.severity is Severity.WARNING
-    assert found.cause == "The camera looks at nothing: all displays are outside the view."
+    finding = room.wait("VIEW004")
+    assert finding is not None
+    assert finding.severity is Severity.WARNING
+    assert finding.cause == "The camera looks at nothing: all displays are outside the view."
     room.look(Orbit())
     room.wait("VIEW004", False)
     axes = next(row.id for row in room.viewer.state.rows if row.name == "Origin")
     room.viewer.do(SetProperty(axes, "length", 0.001))
     room.viewer.do(SetProperty(axes, "radius", 0.0001))
-    found = room.wait("VIEW003")
-    assert found is not None
-    assert "less than a pixel" in found.cause
+    finding = room.wait("VIEW003")
+    assert finding is not None
+    assert "less than a pixel" in finding.cause
     room.viewer.do(SetProperty(axes, "length", 1.0))
     room.wait("VIEW003", False)
     room.transform("far", 3e5)
     room.viewer.do(SetProperty(axes, "length", 9e3))
     room.viewer.do(SetProperty(axes, "reference_frame", "far"))
     room.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
-    found = room.wait("VIEW005")
-    assert found is not None
-    assert "km away" in found.cause
+    finding = room.wait("VIEW005")
+    assert finding is not None
+    assert "km away" in finding.cause
     room.viewer.do(SetProperty(axes, "reference_frame", "map"))
     room.viewer.do(SetProperty(axes, "length", 1.0))
     room.wait("VIEW005", False)
@@ -166,18 +166,18 @@ def test_a_map_below_an_opaque_one(room: Room) -> None:
     room.page.wait_for(lambda: "/map" in room.source.wanted)
     room.put("/costmap", GRID, "map", building.grid())
     room.put("/map", GRID, "map", building.grid())
-    found = room.wait("VIEW006")
-    assert found is not None
-    assert found.button is not None
+    finding = room.wait("VIEW006")
+    assert finding is not None
+    assert finding.button is not None
     room.viewer.do(SetProperty(upper, "alpha", 0.7))
     room.wait("VIEW006", False)
 
 
 def test_a_browser_without_a_graphics_card(room: Room) -> None:
-    found = room.wait("WEB002")
-    assert found is not None
-    assert "SwiftShader" in str(found.evidence["renderer"])
-    assert found.severity is Severity.NOTE, "all is drawn, only slowly"
+    finding = room.wait("WEB002")
+    assert finding is not None
+    assert "SwiftShader" in str(finding.evidence["renderer"])
+    assert finding.severity is Severity.NOTE, "all is drawn, only slowly"
 
 
 def test_a_page_that_hangs(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -191,9 +191,9 @@ def test_a_page_that_hangs(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
     room.page.tab.on("dialog", hear)
     # Until it is answered, the page stands still, without a processor that is busy with it.
     room.page.tab.evaluate("setTimeout(() => alert('wait'))")
-    found = room.wait("WEB003")
-    assert found is not None
-    assert "has been silent for" in found.cause
+    finding = room.wait("WEB003")
+    assert finding is not None
+    assert "has been silent for" in finding.cause
     (dialog,) = dialogs
     dialog.accept()
     room.page.tab.remove_listener("dialog", hear)
@@ -213,13 +213,13 @@ def test_a_viewer_that_cannot_keep_up(room: Room, monkeypatch: pytest.MonkeyPatc
     thread = threading.Thread(target=publish)
     thread.start()
     try:
-        found = room.wait("WEB006")
+        finding = room.wait("WEB006")
     finally:
         ended.set()
         thread.join()
-    assert found is not None
-    assert "SlowDisplay" in found.cause
-    assert found.evidence["SlowDisplay"]
+    assert finding is not None
+    assert "SlowDisplay" in finding.cause
+    assert finding.evidence["SlowDisplay"]
     room.viewer.do(SetProperty(slow, "enabled", False))
     room.wait("WEB006", False)
 
@@ -244,9 +244,9 @@ def test_clouds_that_are_too_large_for_a_browser(room: Room) -> None:
     room.add("PointCloud2", topic={"name": "/points"})
     room.page.wait_for(lambda: "/points" in room.source.wanted)
     publish_points(room, 2_000_000)
-    found = room.wait("WEB005")
-    assert found is not None
-    assert found.cause.startswith("The clouds have 2 000 000 points, most of them PointCloud2")
+    finding = room.wait("WEB005")
+    assert finding is not None
+    assert finding.cause.startswith("The clouds have 2 000 000 points, most of them PointCloud2")
     publish_points(room, 1000)
     room.wait("WEB005", False)
 
@@ -304,9 +304,9 @@ def test_a_browser_without_webgl(room: Room, monkeypatch: pytest.MonkeyPatch) ->
         tab.goto(room.viewer.url)
         notice = tab.get_by_role("alert").filter(has_text="webviz needs WebGL 2")
         playwright.expect(notice).to_be_visible()
-        found = room.wait("WEB001")
+        finding = room.wait("WEB001")
     finally:
         bare.close()
-    assert found is not None
-    assert found.severity is Severity.ERROR
+    assert finding is not None
+    assert finding.severity is Severity.ERROR
     room.wait("WEB001", False)

@@ -104,18 +104,18 @@ def test_joint_states_of_a_bag_are_examined(
 
 def test_a_bag_is_examined_for_a_person(run_bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--bag", str(run_bag)]) == 3
-    said = capsys.readouterr().out
-    assert said.startswith('error[TF016]: The frame "lasr" does not exist, but "laser" does.\n')
-    assert "help: Set the frame id of the data" in said
-    assert "explains: LaserScan, Transform" in said
+    output = capsys.readouterr().out
+    assert output.startswith('error[TF016]: The frame "lasr" does not exist, but "laser" does.\n')
+    assert "help: Set the frame id of the data" in output
+    assert "explains: LaserScan, Transform" in output
 
 
 def test_a_finding_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["doctor", "--explain", "tf003"]) == 0
-    said = capsys.readouterr().out
-    assert said.startswith("TF003: Localisation is missing\n")
-    assert "Why:\n\n" in said
-    assert "Repair:\n\n" in said
+    output = capsys.readouterr().out
+    assert output.startswith("TF003: Localisation is missing\n")
+    assert "Why:\n\n" in output
+    assert "Repair:\n\n" in output
     assert main(["doctor", "--explain", "all"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == len(known_checks())
     assert main(["doctor", "--explain", "TF999"]) == 2
@@ -194,22 +194,22 @@ def test_a_live_examination_ends_in_time(tmp_path: Path) -> None:
     path.write_text(BLOCKED.format(path=str(tmp_path / "never")))
     command = ["doctor", "--plugin", str(path), "--seconds", "1", "--json"]
     # It would wait for its check without end. Its standard output has to be a file for ROS.
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-m", "webviz", *command], capture_output=True, timeout=60.0, check=False
     )
-    assert done.returncode == 1, done.stderr
-    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    assert completed.returncode == 1, completed.stderr
+    report = msgspec.json.decode(completed.stdout, type=DoctorReport)
     assert report.unfinished
-    said = to_text(report, is_colored=False)
-    assert "unfinished: This machine is busy" in said
-    assert "All is well" not in said
+    text = to_text(report, is_colored=False)
+    assert "unfinished: This machine is busy" in text
+    assert "All is well" not in text
 
 
 @pytest.mark.usefixtures("webviz_domain")
 def test_a_short_look_claims_no_empty_graph() -> None:
     command = [sys.executable, "-m", "webviz", "doctor", "--seconds", "3.5", "--json"]
-    done = subprocess.run(command, capture_output=True, timeout=120.0, check=False)
-    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    completed = subprocess.run(command, capture_output=True, timeout=120.0, check=False)
+    report = msgspec.json.decode(completed.stdout, type=DoctorReport)
     assert "GRAPH001" not in {each.id for each in report.findings}
     assert report.unfinished
 
@@ -233,11 +233,11 @@ def test_a_warning_without_a_cause_is_not_called_well(
     bag.add("/poses", "geometry_msgs/msg/PoseArray")
     bag.put(0.0, "/poses", {"header": {"frame_id": "map"}, "poses": []})
     assert main(["doctor", "--bag", str(bag.write(tmp_path / "run"))]) == 0
-    said = capsys.readouterr().out
-    assert "The message has no poses." in said
-    assert "All is well" not in said
-    assert said.startswith("note[TF001]: The bag has no transforms.")  # and needs none
-    assert said.splitlines()[-1].startswith("No finding explains 1 warning above")
+    output = capsys.readouterr().out
+    assert "The message has no poses." in output
+    assert "All is well" not in output
+    assert output.startswith("note[TF001]: The bag has no transforms.")  # and needs none
+    assert output.splitlines()[-1].startswith("No finding explains 1 warning above")
 
 
 BROKEN = """

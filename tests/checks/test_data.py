@@ -58,10 +58,10 @@ def examined(stage: Harness, level: CauseLevel = CauseLevel.DATA) -> dict[str, F
 def test_scans_beside_the_map(webviz_harness: Make, id: str, pose: Pose2D, scan: Any) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     look(stage, pose, scan and building.scan(HERE) | scan)
-    found = examined(stage)
-    assert [*found] == [f"{id} Scan"]
-    assert found[f"{id} Scan"].explains == (Symptom(display(stage, "Scan"), "Map"),)
-    assert re.fullmatch(PROOF[id], found[f"{id} Scan"].proof)
+    findings = examined(stage)
+    assert [*findings] == [f"{id} Scan"]
+    assert findings[f"{id} Scan"].explains == (Symptom(display(stage, "Scan"), "Map"),)
+    assert re.fullmatch(PROOF[id], findings[f"{id} Scan"].proof)
     look(stage, HERE)
     assert examined(stage) == {}
 
@@ -130,8 +130,8 @@ def test_a_laser_that_sees_a_post_of_its_robot(webviz_harness: Make) -> None:
             world = building.with_box(post.x, post.y, 0.06)
             look(stage, here, building.scan(here, world, range_min=0.03))
             examined(stage)
-        found = stage.viewer.snapshot().findings
-        return [(each.id, each.severity) for each in found if each.id == "DATA014"]
+        findings = stage.viewer.snapshot().findings
+        return [(each.id, each.severity) for each in findings if each.id == "DATA014"]
 
     there = Pose2D(2.0, 0.0, 0.0)
     beside = Pose2D(HERE.x + 0.08, HERE.y)
@@ -165,10 +165,10 @@ def test_images_that_are_not_what_they_say(
     right = {"width": 64, "height": 6, "encoding": "rgb8", "step": 192, "data": pixels.ravel()}
     stage.publish("/image", "sensor_msgs/msg/Image", right | changed, frame="camera")
     stage.turn()
-    found = examined(stage)
-    assert [each.severity for each in found.values()] == ([severity] if severity else [])
+    findings = examined(stage)
+    assert [each.severity for each in findings.values()] == ([severity] if severity else [])
     if severity:
-        (finding,) = found.values()
+        (finding,) = findings.values()
         assert (finding.id, finding.subject) == ("DATA015", "/image")
         explained = (Symptom(display(stage, "Camera"), "Image"),)
         assert finding.explains == (explained if severity is Severity.ERROR else ())
@@ -212,9 +212,9 @@ def test_displays_that_hide_what_they_show(webviz_harness: Make) -> None:
     )
     stage.publish("/scan", SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
     stage.turn()
-    found = examined(stage, CauseLevel.VIEW)
-    assert [*found] == ["VIEW001 Glass", "VIEW002 None"]
-    change = found["VIEW001 Glass"].button
+    findings = examined(stage, CauseLevel.VIEW)
+    assert [*findings] == ["VIEW001 Glass", "VIEW002 None"]
+    change = findings["VIEW001 Glass"].button
     assert isinstance(change, webviz.ChangeDisplay)
     stage.set(change.remedy.path, change.remedy.value, "Glass")
     assert [*examined(stage, CauseLevel.VIEW)] == ["VIEW002 None"]
@@ -256,12 +256,12 @@ def test_odometry_against_its_own_twist(
 
     for _ in range(3):
         examining.examined(stage, CauseLevel.DATA, 0.5, publish)
-    found = examining.examined(stage, CauseLevel.DATA, 0.5, publish)
-    assert [*found] == ids
+    findings = examining.examined(stage, CauseLevel.DATA, 0.5, publish)
+    assert [*findings] == ids
     if ids == ["DATA020 /odom"]:
         unit = "km/h" if speed > 1.0 else "degrees per second" if turn > 1.0 else ""
-        said = found["DATA020 /odom"].cause
-        assert said.endswith(
+        text = findings["DATA020 /odom"].cause
+        assert text.endswith(
             f", as if it were in {unit}." if unit else " times as fast as its pose moves."
         )
 
@@ -332,15 +332,15 @@ def test_a_shift_that_turns_with_the_robot_is_of_its_laser(
     webviz_harness: Make, is_of_laser: bool
 ) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
-    said: list[str] = []
+    texts: list[str] = []
     for yaw in (0.0, 0.3, 0.6, 0.9):
         way = complex(0.6, 0.3) * (cmath.rect(1.0, yaw) if is_of_laser else 1.0)
         seen = Pose2D(HERE.x + way.real, HERE.y + way.imag, yaw)
         look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(seen))
-        said = [each.remedy for each in examined(stage).values()]
-    assert len(said) == 1
-    assert (said[0] == "Correct the transform of 'laser'.") == is_of_laser
-    assert said[0].startswith("Give the pose") != is_of_laser
+        texts = [each.remedy for each in examined(stage).values()]
+    assert len(texts) == 1
+    assert (texts[0] == "Correct the transform of 'laser'.") == is_of_laser
+    assert texts[0].startswith("Give the pose") != is_of_laser
 
 
 @pytest.mark.parametrize(("way", "is_found"), [(0.35, True), (0.1, False)])
@@ -349,7 +349,7 @@ def test_a_laser_that_is_a_little_off_fits_now_and_then(
 ) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     stage.viewer.doctor.slice_s = math.inf
-    found: dict[str, Finding] = {}
+    result: dict[str, Finding] = {}
     is_off = itertools.cycle([True, False])
     for step in range(24):  # a busy machine compares in between, too
         yaw = 0.4 * step
@@ -359,11 +359,11 @@ def test_a_laser_that_is_a_little_off_fits_now_and_then(
         stage.clock += 1.1
         stage.source.now += SECOND
         stage.turn()
-        found = examining.by_key(stage.state().findings, CauseLevel.DATA)
-        if found:
+        result = examining.by_key(stage.state().findings, CauseLevel.DATA)
+        if result:
             break
-    assert [*found] == (["DATA003 Scan"] if is_found else [])
-    assert all(each.remedy == "Correct the transform of 'laser'." for each in found.values())
+    assert [*result] == (["DATA003 Scan"] if is_found else [])
+    assert all(each.remedy == "Correct the transform of 'laser'." for each in result.values())
 
 
 def test_a_map_without_a_known_cell(webviz_harness: Make) -> None:
@@ -387,10 +387,10 @@ def test_data_that_a_display_cannot_draw(webviz_harness: Make) -> None:
         values = grid | {"header": header("map", stage.source.now)}
         values["info"] = grid["info"] | {"resolution": resolution}
         stage.publish("/map", "nav_msgs/msg/OccupancyGrid", values)
-        found = examined(stage)
-        assert [*found] == ids
+        findings = examined(stage)
+        assert [*findings] == ids
         if ids:
-            assert found[ids[0]].cause.startswith(
+            assert findings[ids[0]].cause.startswith(
                 "Rooms cannot draw /map: The map's resolution is 0 m"
             )
 
@@ -423,14 +423,14 @@ def test_joint_states_that_are_invalid(
     stage.settle()  # the robot is loaded in the background
 
     def publish(joint: str, values: list[float]) -> None:
-        said = {"header": header("", stage.source.now), "name": [joint], "position": values}
-        stage.publish("/joint_states", state, said)
+        text = {"header": header("", stage.source.now), "name": [joint], "position": values}
+        stage.publish("/joint_states", state, text)
 
     for joint, values, is_found in ((name, positions, True), ("axle", [1.0], False)):
         for _ in range(3):
             examining.examined(
                 stage, CauseLevel.DATA, publish=lambda j=joint, v=values: publish(j, v)
             )
-        found = [each.id for each in stage.viewer.snapshot().findings]
-        assert ("DATA017" in found) == is_found, found
-        assert not is_found or not {"TF013", "TF017"} & {*found}, "they follow"
+        findings = [each.id for each in stage.viewer.snapshot().findings]
+        assert ("DATA017" in findings) == is_found, findings
+        assert not is_found or not {"TF013", "TF017"} & {*findings}, "they follow"

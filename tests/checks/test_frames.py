@@ -109,10 +109,10 @@ def test_the_frame_id_of_data(robot: Harness, frame: str, id: str, cause: str) -
     scan(robot, frame)
     drive(robot)
     robot.turn()
-    found = examined(robot)
-    assert [*found] == [id]
-    assert found[id].cause == cause
-    assert found[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
+    findings = examined(robot)
+    assert [*findings] == [id]
+    assert findings[id].cause == cause
+    assert findings[id].explains == (Symptom(display(robot, "Scan"), "Transform"),)
 
 
 @pytest.mark.parametrize(("frame", "is_mounted"), [("camera", True), ("world", False)])
@@ -324,10 +324,10 @@ def test_a_link_that_is_rare_has_not_stopped(robot: Harness, count: int) -> None
     for _ in range(count):
         drive(robot)
         turn(3)
-    found = examined(robot, 0.1)
-    assert not [each.cause for each in found.values() if "no longer" in each.cause]
+    findings = examined(robot, 0.1)
+    assert not [each.cause for each in findings.values() if "no longer" in each.cause]
     if count > 1:
-        assert [*found] == ["TF019 odom"]
+        assert [*findings] == ["TF019 odom"]
 
 
 @pytest.mark.parametrize(
@@ -464,7 +464,7 @@ def test_a_robot_at_utm_coordinates(
     stage.transform(fixed_frame, "odom", (4.5e5, 5.4e6, 0.0))
     stage.transform("odom", "base_link")
     scan(stage)
-    found = {each.id: each for each in examined(stage).values()}
-    assert ("TF022" in found) is is_found
+    findings = {each.id: each for each in examined(stage).values()}
+    assert ("TF022" in findings) is is_found
     if is_found:
-        assert found["TF022"].subject == "odom"
+        assert findings["TF022"].subject == "odom"

@@ -74,7 +74,7 @@ def test_every_fault_of_a_topic_has_its_own_finding(robot: Node, webviz_viewer: 
         scan("/scan_rear", durability="transient_local"),
         scan("/plan"),
     )
-    found = wait_for(
+    findings = wait_for(
         viewer,
         "GRAPH002 /scan_raer",
         "GRAPH003 /back/scan",
@@ -83,7 +83,7 @@ def test_every_fault_of_a_topic_has_its_own_finding(robot: Node, webviz_viewer: 
         "GRAPH006 /scan_rear",
         "GRAPH010 /nothing_like_it",
     )
-    misspelt = found["GRAPH002 /scan_raer"]
+    misspelt = findings["GRAPH002 /scan_raer"]
     assert misspelt.cause == ("No node publishes /scan_raer, but /scan_rear has a similar name.")
     assert misspelt.explains == ((display(viewer, "/scan_raer"), "Topic"),)
     assert misspelt.button == (
@@ -95,8 +95,8 @@ def test_every_fault_of_a_topic_has_its_own_finding(robot: Node, webviz_viewer: 
 def test_a_remedy_ends_its_finding(robot: Node, webviz_viewer: Viewers) -> None:
     publisher = robot.create_publisher(LaserScan, "/scan", BEST_EFFORT)
     viewer = webviz_viewer(scan("/scan", reliability="reliable"))
-    found = wait_for(viewer, "GRAPH005 /scan")
-    change = found["GRAPH005 /scan"].button
+    findings = wait_for(viewer, "GRAPH005 /scan")
+    change = findings["GRAPH005 /scan"].button
     assert isinstance(change, webviz.ChangeDisplay)
     viewer.viewer.enqueue(SetProperty(change.display, change.remedy.path, change.remedy.value))
     wait_for(viewer, "GRAPH008 /scan")
@@ -144,13 +144,13 @@ def test_topics_of_a_node_that_ended_are_one_finding(
         viewer.wait_for(are_named)  # DDS tells the names of nodes somewhat later
         rounds = viewer.viewer.doctor.rounds
         viewer.wait_for(lambda: viewer.viewer.doctor.rounds > rounds + 1)
-    said = "/lidars has left the graph, so /front, /rear no longer have a publisher."
+    text = "/lidars has left the graph, so /front, /rear no longer have a publisher."
 
     def causes() -> list[str]:
         """Causes by now: publishers and their node need not leave in one look at the graph."""
         return [each.cause for each in live_findings(viewer, CauseLevel.GRAPH).values()]
 
-    viewer.wait_for(lambda: causes() == [said], lambda: f"It found {causes()}.")
+    viewer.wait_for(lambda: causes() == [text], lambda: f"It found {causes()}.")
 
 
 def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewers) -> None:
@@ -173,13 +173,15 @@ def test_a_silent_publisher_is_blamed_for_no_more_than_is_known(
     maps = robot.create_publisher(OccupancyGrid, "/map", 1)
     maps.publish(OccupancyGrid())  # before webviz listens
     viewer = webviz_viewer(Map(topic=webviz.Topic("/map")))
-    found = wait_for(viewer, "GRAPH008 /map")["GRAPH008 /map"]
+    findings = wait_for(viewer, "GRAPH008 /map")["GRAPH008 /map"]
     words = re.compile(
         r"Nothing has arrived on /map from /robot since webviz began to listen \S+ m?s ago\."
     )
-    assert words.fullmatch(found.cause)
-    assert found.remedy.endswith("Let it publish as transient local if it sent a message earlier.")
-    waited = found.evidence["silent_s"]
+    assert words.fullmatch(findings.cause)
+    assert findings.remedy.endswith(
+        "Let it publish as transient local if it sent a message earlier."
+    )
+    waited = findings.evidence["silent_s"]
 
     def is_longer() -> bool:
         now = live_findings(viewer, CauseLevel.GRAPH)["GRAPH008 /map"].evidence["silent_s"]
@@ -197,8 +199,8 @@ def test_tools_of_webviz_are_not_accused(webviz_domain: int, webviz_viewer: View
         )
 
         def silent() -> set[str]:
-            found = viewer.viewer.snapshot().findings
-            return {each.subject for each in found if each.id == "GRAPH008"}
+            findings = viewer.viewer.snapshot().findings
+            return {each.subject for each in findings if each.id == "GRAPH008"}
 
         viewer.wait_for(lambda: silent() == {"/pose"}, lambda: f"{silent()}")
         shown = live_config(viewer.source.offers()).displays
@@ -233,9 +235,9 @@ def test_a_graph_without_any_other_node(
     def first(*ids: str) -> webviz.Finding:
         """Wait until one of these is the first finding above the network's."""
         while True:  # the graph is read every two seconds
-            found = [each for each in viewer.doctor() if not each.id.startswith(("NET", "SHM"))]
-            if found and found[0].id in ids:
-                return found[0]
+            results = [each for each in viewer.doctor() if not each.id.startswith(("NET", "SHM"))]
+            if results and results[0].id in ids:
+                return results[0]
 
     with webviz.Viewer(config, port=0) as viewer:
         # The node stays on this machine; the doctor reads variables anew.
@@ -300,8 +302,8 @@ def test_a_deadline_that_nobody_meets(robot: Node, webviz_viewer: Viewers) -> No
     wait_for(viewer)
     robot.destroy_publisher(publisher)
     robot.create_publisher(PoseStamped, "/pose", 1)
-    found = wait_for(viewer, "GRAPH014 /pose")["GRAPH014 /pose"]
-    assert found.cause.endswith("/robot offers none.")
+    findings = wait_for(viewer, "GRAPH014 /pose")["GRAPH014 /pose"]
+    assert findings.cause.endswith("/robot offers none.")
     robot.destroy_subscription(listener)
     wait_for(viewer)
 
@@ -343,10 +345,10 @@ def test_a_node_whose_qos_does_not_match(
             lambda: live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"].cause == cause,
             lambda: f"It found {live_findings(viewer, CauseLevel.GRAPH)}.",
         )
-        found = live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"]
-        assert found.remedy.startswith("Let /student subscribe ")
-        assert remedy in found.remedy
-        assert found.remedy.endswith(f"or let /robot publish as {asked}.")
+        findings = live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"]
+        assert findings.remedy.startswith("Let /student subscribe ")
+        assert remedy in findings.remedy
+        assert findings.remedy.endswith(f"or let /robot publish as {asked}.")
         other = student.create_publisher(LaserScan, "/scan", requested)
         viewer.wait_for(  # which serves the subscription, and not from the other one
             lambda: noted(viewer).get("GRAPH016") is webviz.Severity.NOTE,
@@ -364,8 +366,8 @@ def test_a_node_that_was_started_twice(robot: Node, webviz_viewer: Viewers) -> N
     viewer.wait_for(lambda: noted(viewer) == {"GRAPH015": webviz.Severity.NOTE})
     for node in lidars:
         node.create_publisher(LaserScan, "/scan", 1)
-    found = wait_for(viewer, "GRAPH015 /lidar")["GRAPH015 /lidar"]
-    assert found.cause == "2 nodes have the name /lidar, and publish /scan."
+    findings = wait_for(viewer, "GRAPH015 /lidar")["GRAPH015 /lidar"]
+    assert findings.cause == "2 nodes have the name /lidar, and publish /scan."
     lidars[0].destroy_node()
     viewer.wait_for(lambda: not noted(viewer))
     lidars[1].destroy_node()
@@ -403,9 +405,11 @@ def test_large_messages_that_are_not_repeated(robot: Node, webviz_viewer: Viewer
 def noted(viewer: LiveViewer) -> dict[str, webviz.Severity]:
     """The findings on graph and network, notes too, by id."""
     levels = CauseLevel.GRAPH, CauseLevel.NETWORK
-    found = viewer.viewer.snapshot().findings
+    findings = viewer.viewer.snapshot().findings
     own = {"NET003", "NET004", "NET005", "NET006"}  # of the machine on which the tests run
-    return {each.id: each.severity for each in found if each.level in levels and each.id not in own}
+    return {
+        each.id: each.severity for each in findings if each.level in levels and each.id not in own
+    }
 
 
 def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
@@ -459,8 +463,8 @@ def test_a_lifecycle_node_that_is_not_active(webviz_domain: int, webviz_viewer: 
         publisher = node.create_lifecycle_publisher(LaserScan, "/scan", 1)
         node.trigger_configure()
         viewer = webviz_viewer(scan("/scan"))
-        found = wait_for(viewer, "GRAPH012 /scan")
-        assert found["GRAPH012 /scan"].command == "ros2 lifecycle get /lidar"
+        findings = wait_for(viewer, "GRAPH012 /scan")
+        assert findings["GRAPH012 /scan"].command == "ros2 lifecycle get /lidar"
         node.trigger_activate()
         message = LaserScan(ranges=[1.0])
         message.header.frame_id = "map"

@@ -142,9 +142,9 @@ def test_variables(
 ) -> None:
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
-    found = examined()
-    assert found.get(id) == severity
-    assert {*found} - well == {id}
+    findings = examined()
+    assert findings.get(id) == severity
+    assert {*findings} - well == {id}
     for name in variables:
         monkeypatch.delenv(name)
     for name, value in cured.items():
@@ -165,9 +165,9 @@ def test_discovery_servers(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> N
         server.bind(("127.0.0.1", 0))
         port = server.getsockname()[1]
         monkeypatch.setenv("ROS_DISCOVERY_SERVER", f"127.0.0.1:{port}")
-        found = examined()
-        assert {*found} - well == {"ENV008"}
-        assert found["ENV008"] == "warning"
+        findings = examined()
+        assert {*findings} - well == {"ENV008"}
+        assert findings["ENV008"] == "warning"
         monkeypatch.setenv("ROS_SUPER_CLIENT", "TRUE")
         assert {*examined()} <= well
     assert examined().get("ENV012") == "error"
@@ -206,10 +206,10 @@ def test_a_daemon_with_other_settings(monkeypatch: pytest.MonkeyPatch, well: set
 
 def test_ros_that_does_not_start_is_a_finding() -> None:
     report = examine_machine(look_around(ros_error="ROS did not start: no RMW. Source it."))
-    found = {each.id: each for each in report.findings}
-    assert found["ENV010"].cause == "ROS did not start: no RMW."
-    assert found["ENV010"].remedy == "Source it."
-    assert {id.rstrip("0123456789") for id in found} <= {"ENV", "NET", "SHM"}, (
+    findings = {each.id: each for each in report.findings}
+    assert findings["ENV010"].cause == "ROS did not start: no RMW."
+    assert findings["ENV010"].remedy == "Source it."
+    assert {id.rstrip("0123456789") for id in findings} <= {"ENV", "NET", "SHM"}, (
         "it has seen no topic"
     )
 
@@ -300,8 +300,8 @@ def test_programs_of_other_domains_are_not_accused(examiner: subprocess.Popen[st
 
 def can_unshare() -> bool:
     """Return whether namespaces can be made."""
-    done = subprocess.run(["unshare", "-rnm", "true"], capture_output=True, check=False)
-    return done.returncode == 0
+    completed = subprocess.run(["unshare", "-rnm", "true"], capture_output=True, check=False)
+    return completed.returncode == 0
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files to another user")
@@ -377,6 +377,6 @@ def test_a_saturated_link(mbits: int, is_read: int, packets: int, is_found: bool
     assert can_unshare(), "This machine has no network namespaces for users."
     numbers = map(str, (mbits, is_read, packets))
     program = ["unshare", "-rn", sys.executable, "-c", SATURATE, *numbers]
-    done = subprocess.run(program, capture_output=True, text=True, check=True)
-    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    completed = subprocess.run(program, capture_output=True, text=True, check=True)
+    report = msgspec.json.decode(completed.stdout, type=DoctorReport)
     assert ("NET012" in {each.id for each in report.findings}) == is_found

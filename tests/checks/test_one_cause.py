@@ -132,8 +132,8 @@ def test_all_transforms_of_another_clock_are_one_finding(webviz_harness: Make) -
         stage.publish("/odom", ODOMETRY, values)
 
     ids(stage, publish)
-    found = [each.id for each in stage.viewer.snapshot().findings]
-    assert found.count("TIME011") == 1
+    findings = [each.id for each in stage.viewer.snapshot().findings]
+    assert findings.count("TIME011") == 1
 
 
 @pytest.mark.parametrize("is_twice", [False, True])
@@ -151,8 +151,8 @@ def test_two_publishers_of_a_frame_explain_a_scan_that_does_not_fit(
     for _ in range(3):
         publish()
         stage.turn()
-    found = {*examining.examined(stage, examining.CauseLevel.DATA)}
-    assert ("DATA003 Scan" in found) != is_twice
+    findings = {*examining.examined(stage, examining.CauseLevel.DATA)}
+    assert ("DATA003 Scan" in findings) != is_twice
 
 
 @pytest.mark.parametrize(("frame", "is_found"), [("map", True), ("utm", False)])
@@ -185,5 +185,5 @@ def test_a_robot_that_ended_as_a_whole_has_left(
         stage.source.known.clear()
     ids(stage)
     (empty,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH001"]
-    said = "All other ROS nodes have left" if has_begun else "No other ROS node is visible in"
-    assert empty.cause.startswith(f"{said} domain ")
+    text = "All other ROS nodes have left" if has_begun else "No other ROS node is visible in"
+    assert empty.cause.startswith(f"{text} domain ")

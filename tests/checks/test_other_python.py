@@ -23,14 +23,14 @@ def test_the_remedy_is_a_python_that_webviz_runs_on(
 ) -> None:
     path = f"/opt/ros/some/lib/python{version}/site-packages"
     environment = Environment(variables={"PYTHONPATH": path}, python="3.13")
-    seen = Observation(
+    observation = Observation(
         now_ns=1,
         fixed_frame="map",
         buffer=TransformBuffer(),
         displays=[],
         environment=environment,
     )
-    [found] = OtherPython().find(seen)
+    [found] = OtherPython().find(observation)
     assert found.cause == f"ROS for Python {version} is sourced, but Python 3.13 runs."
     assert found.remedy.startswith(remedy)
     assert found.command.startswith(command)

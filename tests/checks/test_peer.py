@@ -75,13 +75,13 @@ def unavailable() -> str:
     """The reason why there are no such namespaces on this machine, "" if there are."""
     if missing := [each for each in ("unshare", "nsenter", "ip") if not shutil.which(each)]:
         return f"{missing[0]} is missing"
-    done = subprocess.run(
+    completed = subprocess.run(
         ["unshare", "-rnmpf", "--mount-proc", "sh", "-ec", "ip link add br0 type bridge"],
         capture_output=True,
         text=True,
         check=False,
     )
-    return f"no network namespaces: {done.stderr.strip()}" if done.returncode else ""
+    return f"no network namespaces: {completed.stderr.strip()}" if completed.returncode else ""
 
 
 needs_namespaces = pytest.mark.skipif(bool(unavailable()), reason=unavailable() or "available")
@@ -97,11 +97,11 @@ def in_network(tmp_path: Path, commands: str) -> str:
     program = ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-ec", script]
     # Other tests of this process, and whoever runs it, set variables of ROS.
     bare = {k: v for k, v in os.environ.items() if not k.startswith(peer_program.PREFIXES)}
-    done = subprocess.run(
+    completed = subprocess.run(
         program, capture_output=True, text=True, check=False, timeout=PATIENCE_S, env=bare
     )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    assert completed.returncode == 0, completed.stderr
+    return completed.stdout
 
 
 def compared(
@@ -118,11 +118,11 @@ def compared(
         f"here env {here} $PYTHON -m webviz doctor --peer robot --ssh $SSH --json || [ $? = 3 ]"
     )
     report = msgspec.json.decode(in_network(tmp_path, f"{commands}\n{examine}"), type=DoctorReport)
-    found: dict[str, list[ReportedFinding]] = {}
+    result: dict[str, list[ReportedFinding]] = {}
     for each in report.findings:
         if each.id[-3:] >= "020" or each.level == "time":
-            found.setdefault(each.id, []).append(each)
-    return found
+            result.setdefault(each.id, []).append(each)
+    return result
 
 
 def there_with(variables: str) -> str:
@@ -139,8 +139,8 @@ def test_all_is_well_between_two_machines(tmp_path: Path) -> None:
         for who, number in (("here", 1), ("there", 2))
     )
     same = "RMW_IMPLEMENTATION=rmw_fastrtps_cpp ROS_DISTRO=jazzy"
-    found = compared(tmp_path, f"{others}\n{there_with(same)}", same)
-    assert {*found} <= {"NET023"}, "the kernel decides on the buffers"
+    findings = compared(tmp_path, f"{others}\n{there_with(same)}", same)
+    assert {*findings} <= {"NET023"}, "the kernel decides on the buffers"
 
 
 @needs_namespaces
@@ -153,8 +153,8 @@ def test_a_bridge_that_drops_multicast(tmp_path: Path) -> None:
 
 @needs_namespaces
 def test_a_path_that_drops_large_packets(tmp_path: Path) -> None:
-    found = compared(tmp_path, "ip link set robot mtu 1400; ip link set br0 mtu 1500")["NET022"]
-    (finding,) = [each for each in found if each.subject == "viewer to robot"]
+    findings = compared(tmp_path, "ip link set robot mtu 1400; ip link set br0 mtu 1500")["NET022"]
+    (finding,) = [each for each in findings if each.subject == "viewer to robot"]
     assert finding.evidence["arrives"] == 1400
     assert finding.evidence["allowed"] == 1500
     assert finding.command == "sudo ip link set eth0 mtu 1400"
@@ -162,19 +162,19 @@ def test_a_path_that_drops_large_packets(tmp_path: Path) -> None:
 
 @needs_namespaces
 def test_an_interface_of_the_robot_that_takes_smaller_packets(tmp_path: Path) -> None:
-    found = compared(tmp_path, "there ip link set eth0 mtu 1300")["NET022"]
-    (finding,) = [each for each in found if each.subject == "viewer to robot"]
+    findings = compared(tmp_path, "there ip link set eth0 mtu 1300")["NET022"]
+    (finding,) = [each for each in findings if each.subject == "viewer to robot"]
     assert finding.evidence["arrives"] == 1300
     assert finding.evidence["allowed"] == 1500
 
 
 @needs_namespaces
 def test_a_firewall_that_drops_what_the_robot_sends(tmp_path: Path) -> None:
-    found = compared(tmp_path, "there ip rule add ipproto udp prohibit pref 1")
-    (finding,) = found["NET020"]
+    findings = compared(tmp_path, "there ip rule add ipproto udp prohibit pref 1")
+    (finding,) = findings["NET020"]
     assert finding.subject == "robot to viewer"
     assert finding.command == "sudo ufw allow proto udp from 192.0.2.2"
-    assert "NET021" not in found, "it follows"
+    assert "NET021" not in findings, "it follows"
 
 
 @needs_namespaces
@@ -190,12 +190,12 @@ def test_a_clock_that_is_three_seconds_ahead(tmp_path: Path) -> None:
 @needs_namespaces
 def test_software_that_differs(tmp_path: Path) -> None:
     there = there_with("RMW_IMPLEMENTATION=rmw_cyclonedds_cpp ROS_DISTRO=humble")
-    found = compared(tmp_path, there, "RMW_IMPLEMENTATION=rmw_fastrtps_cpp ROS_DISTRO=jazzy")
-    assert [each.cause for id in ("ENV021", "ENV023") for each in found[id]] == [
+    findings = compared(tmp_path, there, "RMW_IMPLEMENTATION=rmw_fastrtps_cpp ROS_DISTRO=jazzy")
+    assert [each.cause for id in ("ENV021", "ENV023") for each in findings[id]] == [
         "This machine uses rmw_fastrtps_cpp, robot uses rmw_cyclonedds_cpp.",
         "This machine runs jazzy, robot runs humble.",
     ]
-    (finding,) = found["ENV023"]
+    (finding,) = findings["ENV023"]
     assert finding.remedy.startswith("Nodes are not listed across them; topics arrive.")
     assert str(finding.evidence["nodes and parameters"]).startswith("not listed")
 
@@ -219,11 +219,11 @@ def test_settings_of_running_nodes_count(tmp_path: Path) -> None:
 there env ROS_DOMAIN_ID=5 RMW_IMPLEMENTATION=rmw_fastrtps_cpp $PYTHON {tmp_path}/talker.py &
 here env ROS_DOMAIN_ID=5 $PYTHON {tmp_path}/listener.py
 """
-    found = compared(tmp_path, talk, here="ROS_DOMAIN_ID=7 ROS_LOCALHOST_ONLY=1")
-    (finding,) = found["ENV020"]
+    findings = compared(tmp_path, talk, here="ROS_DOMAIN_ID=7 ROS_LOCALHOST_ONLY=1")
+    (finding,) = findings["ENV020"]
     assert finding.cause == "This machine uses domain 7, robot uses domain 5."
     assert "talker.py" in str(finding.evidence["there_from"])
-    (finding,) = found["ENV022"]
+    (finding,) = findings["ENV022"]
     assert finding.subject == "viewer"
     assert "ENV020" not in compared(tmp_path, talk, here="ROS_DOMAIN_ID=5")
 
@@ -270,9 +270,9 @@ def test_a_peer_that_cannot_be_reached_is_one_sentence(
         says.write_text(f"#!/bin/sh\necho Welcome\ncat {tmp_path}/answers\ncat >/dev/null\n")
         says.chmod(0o755)
         assert main(["doctor", "--peer", "robot", "--ssh", str(says)]) == 1
-        said = capsys.readouterr().err
-        assert said.count("\n") == 1
-        assert "\x1b" not in said
+        output = capsys.readouterr().err
+        assert output.count("\n") == 1
+        assert "\x1b" not in output
 
 
 def test_nothing_passes_through_a_shell_unquoted(tmp_path: Path) -> None:
@@ -280,9 +280,9 @@ def test_nothing_passes_through_a_shell_unquoted(tmp_path: Path) -> None:
     ssh.write_text(f'#!/bin/sh\nprintf "%s\\n" "$@" > {tmp_path}/said\n')
     ssh.chmod(0o755)
     assert main(["doctor", "--peer", "$(touch a); `b` -v", "--ssh", f"{ssh} -p '2 2'"]) == 1
-    said = (tmp_path / "said").read_text().splitlines()
-    assert said[:4] == ["-p", "2 2", "--", "$(touch a); `b` -v"]
-    assert len(said) == 5
+    text = (tmp_path / "said").read_text().splitlines()
+    assert text[:4] == ["-p", "2 2", "--", "$(touch a); `b` -v"]
+    assert len(text) == 5
     assert sorted(path.name for path in tmp_path.iterdir()) == ["said", "ssh"]
 
 
@@ -296,7 +296,7 @@ def test_the_program_runs_on_old_pythons(version: str) -> None:
     program = path.read_text()
     boot = "import sys; i = sys.stdin; exec(i.read(int(i.readline()))); serve()"
     requests = [{"do": "look", "with": []}, {"do": "time", "with": []}]
-    done = subprocess.run(
+    completed = subprocess.run(
         [str(python), "-I", "-c", boot],
         input="\n".join([f"{len(program)}", program, *map(json.dumps, requests), ""]).replace(
             f"{program}\n", program, 1
@@ -305,7 +305,9 @@ def test_the_program_runs_on_old_pythons(version: str) -> None:
         text=True,
         check=True,
     )
-    lines: list[Any] = [json.loads(line.partition(" ")[2]) for line in done.stdout.splitlines()]
+    lines: list[Any] = [
+        json.loads(line.partition(" ")[2]) for line in completed.stdout.splitlines()
+    ]
     assert lines[0]["value"]["python"].startswith(version)
     assert lines[1]["value"] > 1e9
-    assert done.stderr == ""
+    assert completed.stderr == ""

@@ -110,9 +110,9 @@ def test_rules_over_a_bag_are_test_cases(
     failing = ["/scan.rate > 5 for 1s", "Scan.walls > 0.8"]
     given = [word for rule in failing for word in ("--rule", rule)]
     assert main(["test", "--bag", str(run), *given, "--junit", str(junit)]) == 3
-    said = capsys.readouterr().out
-    assert "FAILED /scan.rate > 5 for 1s\n       /scan.rate is 0." in said
-    assert "Scan.walls never had a value. Check the name" in said
+    output = capsys.readouterr().out
+    assert "FAILED /scan.rate > 5 for 1s\n       /scan.rate is 0." in output
+    assert "Scan.walls never had a value. Check the name" in output
     messages = [each.get("message", "") for each in ElementTree.parse(junit).iter("failure")]
     assert len(messages) == 2
     assert messages[0].endswith("expected > 5.")
@@ -140,11 +140,11 @@ def test_a_rule_is_about_each_number_that_a_message_path_names(
     }
     given = [word for rule in rules for word in ("--rule", rule)]
     assert main(["test", "--bag", str(run), *given]) == 3
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     for rule, holds in rules.items():
-        assert f"{'ok     ' if holds else 'FAILED '}{rule}" in said
-    assert "/charge.data is 0.1 at " in said, "one of 200 messages"
-    assert "/charge.date never had a value." in said
+        assert f"{'ok     ' if holds else 'FAILED '}{rule}" in output
+    assert "/charge.data is 0.1 at " in output, "one of 200 messages"
+    assert "/charge.date never had a value." in output
 
 
 @pytest.mark.parametrize(
@@ -156,8 +156,10 @@ def test_an_idle_display_is_as_good_as_one_that_is_ok(
 ) -> None:
     statuses = {f"{number}": Status(level, "") for number, level in enumerate(levels)}
     display = DisplaySeen("1", "LaserScan", LaserScan(name="Scan"), statuses)
-    seen = Observation(now_ns=1, fixed_frame="map", buffer=TransformBuffer(), displays=[display])
-    assert value_of(parse_rule("Scan.status < warn"), seen) == value
+    observation = Observation(
+        now_ns=1, fixed_frame="map", buffer=TransformBuffer(), displays=[display]
+    )
+    assert value_of(parse_rule("Scan.status < warn"), observation) == value
 
 
 @pytest.mark.skipif(not WIDE.exists(), reason="the shared data is absent")
@@ -165,10 +167,10 @@ def test_a_rule_is_about_numbers_beside_a_wide_string(capsys: pytest.CaptureFixt
     rules = "/odd.x <= 1", "/odd.x < 0.5", "/odd.w == 1"
     given = [word for rule in rules for word in ("--rule", rule)]
     assert main(["test", "--bag", str(WIDE), *given]) == 3
-    said = capsys.readouterr().out
-    assert "ok     /odd.x <= 1 (-0." in said
-    assert "/odd.x is 0." in said
-    assert "/odd.w never had a value. Check the name, that it is a number" in said
+    output = capsys.readouterr().out
+    assert "ok     /odd.x <= 1 (-0." in output
+    assert "/odd.x is 0." in output
+    assert "/odd.w never had a value. Check the name, that it is a number" in output
 
 
 def test_a_rule_of_the_config_is_tested(
@@ -192,8 +194,8 @@ def test_a_violated_rule_is_a_finding(webviz_harness: Callable[..., Harness]) ->
     look(stage, HERE)
     assert examining.examined(stage, CauseLevel.DATA) == {}
     look(stage, Pose2D(-1.0, 0.5, 0.0), building.scan(HERE))
-    found = examining.examined(stage, CauseLevel.DATA)
-    finding = found["DATA012 Scan.walls > 0.8 for 2s"]
+    findings = examining.examined(stage, CauseLevel.DATA)
+    finding = findings["DATA012 Scan.walls > 0.8 for 2s"]
     assert finding.cause.startswith("Scan.walls is 0.")
     assert finding.cause.endswith(", expected > 0.8.")
     look(stage, HERE)
@@ -206,9 +208,9 @@ def test_a_rule_of_a_running_viewer_reads_topics_that_no_display_shows(
     monkeypatch.chdir(tmp_path)  # the rule saves what led to it
     stage = webviz_harness(LaserScan(), fixed_frame="map")
     stage.viewer.settings.watch = (WatchRule(rule="/charge.data > 0.2"),)
-    found: list[str] = []
+    results: list[str] = []
     for charged in (1.0, 0.1, 1.0):
         cdr = encode(NUMBER, {"data": charged})
         findings = stage.findings(publish=partial(stage.publish_bytes, "/charge", NUMBER, cdr))
-        found.append(" ".join(each.cause for each in findings if each.id == "DATA012"))
-    assert found == ["", "/charge.data is 0.1, expected > 0.2.", ""]
+        results.append(" ".join(each.cause for each in findings if each.id == "DATA012"))
+    assert results == ["", "/charge.data is 0.1, expected > 0.2.", ""]

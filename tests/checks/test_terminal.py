@@ -89,9 +89,9 @@ def test_each_line_is_one_and_a_log_too(capsys: pytest.CaptureFixture[str]) -> N
     assert shown.out == f"{readable(HOSTILE)}\nb\n"
     assert shown.err == f"{readable(HOSTILE)}\n"
     say_json(json.dumps({"a": HOSTILE}, ensure_ascii=False, indent=2))
-    said = capsys.readouterr().out
-    check(said)
-    assert json.loads(said) == {"a": HOSTILE}
+    output = capsys.readouterr().out
+    check(output)
+    assert json.loads(output) == {"a": HOSTILE}
     record = logging.LogRecord("webviz", logging.WARNING, "", 0, "of %s", (HOSTILE,), None)
     assert LogFormatter().format(record) == f"webviz: of {readable(HOSTILE)}"
     try:
@@ -106,9 +106,9 @@ def test_a_program_logs_in_this_format() -> None:
         "import logging; from webviz.shell.cli.commands import run; run(['schema', '--none'])\n"
         f"logging.getLogger('webviz').warning('%s', {HOSTILE!r})"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    check(done.stderr)
-    assert done.stderr.splitlines()[-1] == f"webviz: {readable(HOSTILE)}"
+    completed = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    check(completed.stderr)
+    assert completed.stderr.splitlines()[-1] == f"webviz: {readable(HOSTILE)}"
 
 
 def test_there_is_no_other_door_to_the_terminal() -> None:
@@ -116,13 +116,13 @@ def test_there_is_no_other_door_to_the_terminal() -> None:
     doors = {"webviz/shell/cli/terminal.py", *NOT_TEXT}
     # JSON between two machines, and between an agent and the viewer.
     others = {"webviz/shell/doctor/peer_program.py", "webviz/shell/agents/server.py"}
-    found = {
+    results = {
         str(path.relative_to(ROOT))
         for path in (ROOT / "webviz").rglob("*.py")
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Call) and _writes(node.func)
     }
-    assert found - others <= doors, found - others - doors
+    assert results - others <= doors, results - others - doors
 
 
 def _writes(function: ast.expr) -> bool:
@@ -167,7 +167,7 @@ def test_what_dds_prints_is_kept_apart_from_results(
     profile.write_text("<dds><profiles><unknown/></profiles></dds>")
     monkeypatch.setenv("FASTRTPS_DEFAULT_PROFILES_FILE", str(profile))
     monkeypatch.setenv("FASTDDS_DEFAULT_PROFILES_FILE", str(profile))
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-m", "webviz", *arguments],
         input=f"{json.dumps(INITIALIZE)}\n",
         capture_output=True,
@@ -175,9 +175,9 @@ def test_what_dds_prints_is_kept_apart_from_results(
         timeout=120.0,
         check=False,
     )
-    assert "XMLPARSER" in done.stderr, f"DDS complains nowhere: {done.stderr}"
-    assert done.stdout
-    assert "XMLPARSER" not in done.stdout
+    assert "XMLPARSER" in completed.stderr, f"DDS complains nowhere: {completed.stderr}"
+    assert completed.stdout
+    assert "XMLPARSER" not in completed.stdout
     if is_json:
-        answer = json.loads(done.stdout)
+        answer = json.loads(completed.stdout)
         assert answer.get("findings") or answer["result"]["serverInfo"]

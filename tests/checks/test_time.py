@@ -199,9 +199,9 @@ def test_transforms_of_another_clock(stage: Harness) -> None:
         stage.source.now += SECOND // 4
         stage.transform("map", "odom", stamp_ns=stage.source.now - 60 * SECOND)
         stage.turn()
-    found = examined(stage)
-    assert [*found] == ["TIME010"]
-    assert [each.status for each in found["TIME010"].explains] == ["Clocks"]
+    findings = examined(stage)
+    assert [*findings] == ["TIME010"]
+    assert [each.status for each in findings["TIME010"].explains] == ["Clocks"]
 
 
 def test_a_transform_of_another_clock_is_not_said_to_have_stopped(webviz_harness: Make) -> None:
@@ -267,8 +267,8 @@ def test_stamps_that_are_off_by_a_steady_half_second(
 
     for _ in range(4):
         stage.findings(0.3, publish)
-    found = examining.examined(stage, CauseLevel.TIME, 0.3, publish)
-    assert [*found] == (ids if jitter_s < 0.1 else [])
+    findings = examining.examined(stage, CauseLevel.TIME, 0.3, publish)
+    assert [*findings] == (ids if jitter_s < 0.1 else [])
 
 
 def test_data_and_transforms_of_two_clocks(stage: Harness) -> None:
@@ -289,10 +289,10 @@ def test_a_bag_that_started_again_beside_a_robot(stage: Harness) -> None:
         stage.source.now += SECOND // 10
         publish(stage.source.now)
         stage.turn()
-    found = examining.examined(
+    findings = examining.examined(
         stage, CauseLevel.TIME, 0.5, lambda: publish(stage.source.now - 60 * SECOND)
     )
-    assert "TIME012 odom" in found
+    assert "TIME012 odom" in findings
     stage.viewer.enqueue(Reset())
     assert "TIME012 odom" not in examining.examined(
         stage, CauseLevel.TIME, 0.5, lambda: publish(stage.source.now)

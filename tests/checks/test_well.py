@@ -109,13 +109,13 @@ def test_what_a_bag_lacks_is_one_finding_for_all_displays(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     bag = write(tmp_path / "run", "", "")
-    wanted = [f"/front{number}/scan_of_another_robot" for number in range(6)]
-    displays = [{"type": "LaserScan", "topic": {"name": topic}} for topic in wanted]
+    expected = [f"/front{number}/scan_of_another_robot" for number in range(6)]
+    displays = [{"type": "LaserScan", "topic": {"name": topic}} for topic in expected]
     config = tmp_path / "config.yaml"
     config.write_bytes(msgspec.json.encode({"displays": displays}))
     main(["doctor", "--bag", str(bag), "--display-config", str(config), "--json"])
     report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
     (found,) = [each for each in report.findings if each.id == "GRAPH010"]
     assert found.cause == "6 displays read topics that this bag lacks."
-    assert found.proof == f"It has no messages on {', '.join(wanted[:4])} and 2 more."
+    assert found.proof == f"It has no messages on {', '.join(expected[:4])} and 2 more."
     assert len(found.explains) == 6

@@ -190,8 +190,8 @@ def test_param_list_and_describe_explain_every_parameter(terminal: Terminal, nod
 
 def test_param_set_and_get(terminal: Terminal) -> None:
     for node, name, value in (("sim", "tour_speed", 0.2), ("webviz", "fixed_frame", "odom")):
-        wanted = [Parameter(name, value=value).to_parameter_msg()]
-        answer = terminal.call(SetParameters, f"/{node}/set_parameters", parameters=wanted)
+        expected = [Parameter(name, value=value).to_parameter_msg()]
+        answer = terminal.call(SetParameters, f"/{node}/set_parameters", parameters=expected)
         assert answer.results[0].successful, answer.results[0].reason
         [read] = terminal.call(GetParameters, f"/{node}/get_parameters", names=[name]).values
         assert parameter_value_to_python(read) == value

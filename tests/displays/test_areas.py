@@ -54,8 +54,8 @@ def test_a_polygon_that_cannot_be_drawn_says_why(
 ) -> None:
     at = turned(Polygon(), polygon(*points))
     assert at.nodes() == {}
-    said = at.statuses()["Polygon"]
-    assert (said[0], said[1].startswith(text)) == (level, True)
+    statuses = at.statuses()["Polygon"]
+    assert (statuses[0], statuses[1].startswith(text)) == (level, True)
 
 
 def test_former_polygons_stay(turned: Benches) -> None:

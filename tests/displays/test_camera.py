@@ -166,14 +166,14 @@ def test_an_image_that_is_decompressed_keeps_the_pose_of_its_stamp(bench: Benche
         values = photos.png16(np.full((12, 16), second, np.uint16))
         at.send(photos.COMPRESSED, values, frame="camera", stamp_ns=second * SECOND, topic=topic)
         at.turn()
-    seen = set()
-    while at.runner.is_busy() or not seen:
+    observed = set()
+    while at.runner.is_busy() or not observed:
         at.turn()
         if pane := at.nodes().get("pane"):
             value = int(values_of(pane.picture.image)[0, 0])
-            seen.add((value, pane.camera.position[0]))
-    assert seen <= {(1, 1.0), (2, 2.0)}
-    assert (2, 2.0) in seen
+            observed.add((value, pane.camera.position[0]))
+    assert observed <= {(1, 1.0), (2, 2.0)}
+    assert (2, 2.0) in observed
 
 
 def test_displays_and_groups_are_left_out_by_their_names() -> None:

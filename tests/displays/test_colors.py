@@ -74,8 +74,8 @@ def test_colors_are_in_the_order_of_the_values(
 ) -> None:
     with np.errstate(over="ignore"):
         known = np.sort(np.array([each for each in values if each == each], dtype))
-    found = greys(known, low, high)
-    assert found == sorted(found)
+    result = greys(known, low, high)
+    assert result == sorted(result)
     assert all(0 <= each <= 200 for each in greys(values, low, high))
 
 
@@ -86,11 +86,11 @@ def test_bounds_ignore_what_is_not_finite() -> None:
 
 
 def test_each_opacity_is_a_layer() -> None:
-    found = [(level, mask.tolist()) for level, mask in layers(np.array([1.0, 0.5, 0.0, 0.5]))]
-    assert found == [(0.5, [False, True, False, True]), (1.0, [True, False, False, False])]
+    results = [(level, mask.tolist()) for level, mask in layers(np.array([1.0, 0.5, 0.0, 0.5]))]
+    assert results == [(0.5, [False, True, False, True]), (1.0, [True, False, False, False])]
 
 
 def test_many_opacities_are_rounded_up_to_few_layers() -> None:
-    found = list(layers(np.linspace(0.0, 1.0, 256)))
-    assert [level for level, _ in found] == [step / LAYERS for step in range(1, LAYERS + 1)]
-    assert sum(int(mask.sum()) for _, mask in found) == 255
+    results = list(layers(np.linspace(0.0, 1.0, 256)))
+    assert [level for level, _ in results] == [step / LAYERS for step in range(1, LAYERS + 1)]
+    assert sum(int(mask.sum()) for _, mask in results) == 255

@@ -16,13 +16,13 @@ from webviz import Display, Topic
 
 def display_classes() -> list[type[Display]]:
     modules = pkgutil.iter_modules(webviz_displays.__path__, "webviz_displays.")
-    found = [
+    results = [
         value
         for module in modules
         for value in vars(importlib.import_module(module.name)).values()
         if isinstance(value, type) and issubclass(value, Display) and not value.__subclasses__()
     ]
-    return sorted(set(found), key=lambda cls: cls.__name__)
+    return sorted(set(results), key=lambda cls: cls.__name__)
 
 
 def is_group(hint: object) -> bool:

@@ -37,14 +37,16 @@ def arm(bench: Benches) -> Callable[..., Any]:
     """A bench that knows the arm, and where its links are now."""
 
     def make(display: Effort, prefix: str = "") -> Any:
-        made = bench(display)
-        made.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
-        made.turn()
-        made.settle()
+        display_bench = bench(display)
+        display_bench.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+        display_bench.turn()
+        display_bench.settle()
         for number, link in enumerate(("upper", "lower", "slider")):
-            stamp_ns = made.now_ns
-            made.transform("map", f"{prefix}{link}", (float(number), 0.0, 0.0), stamp_ns=stamp_ns)
-        return made
+            stamp_ns = display_bench.now_ns
+            display_bench.transform(
+                "map", f"{prefix}{link}", (float(number), 0.0, 0.0), stamp_ns=stamp_ns
+            )
+        return display_bench
 
     return make
 
@@ -139,8 +141,8 @@ def test_what_is_not_drawn_is_said(
 ) -> None:
     at = arm(Effort())
     measure(at, efforts)
-    said = at.statuses()["Efforts"]
-    assert (said[0], said[1].startswith(text)) == (level, True)
+    statuses = at.statuses()["Efforts"]
+    assert (statuses[0], statuses[1].startswith(text)) == (level, True)
 
 
 def test_joints_can_be_switched_off(arm: Benches) -> None:

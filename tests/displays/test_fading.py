@@ -29,8 +29,8 @@ def test_a_frame_first_seen_late_is_as_old_as_the_reception_of_its_transform() -
     ages, day = Ages(), 86_400 * SECOND
     ages.update(np.array([8 * SECOND]), day, lambda: {8 * SECOND: day})
     stamps = np.array([8 * SECOND, 3 * SECOND])
-    found = ages.update(stamps, day + 2 * SECOND, lambda: {3 * SECOND: day - 5 * SECOND})
-    assert found.tolist() == [2.0, 7.0]
+    result = ages.update(stamps, day + 2 * SECOND, lambda: {3 * SECOND: day - 5 * SECOND})
+    assert result.tolist() == [2.0, 7.0]
 
 
 def test_a_frame_that_stopped_while_nothing_was_drawn_is_as_old_as_its_transform() -> None:

@@ -13,9 +13,9 @@ from webviz_displays.grid import Grid
 
 
 def grid(bench: Benches, **properties: Any) -> Any:
-    made = bench(Grid(**properties))
-    made.turn()
-    return made
+    display_bench = bench(Grid(**properties))
+    display_bench.turn()
+    return display_bench
 
 
 def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
@@ -99,19 +99,19 @@ def test_a_grid_that_reaches_too_far_is_not_drawn(bench: Benches, far: Any) -> N
 def test_it_follows_its_frame_at_the_latest_common_time(
     bench: Benches, cls: type, key: str
 ) -> None:
-    made = bench(cls(reference_frame="robot"))
-    made.turn()
-    assert made.nodes() == {}
-    level, text = made.statuses()["Transform"]
+    display_bench = bench(cls(reference_frame="robot"))
+    display_bench.turn()
+    assert display_bench.nodes() == {}
+    level, text = display_bench.statuses()["Transform"]
     assert level == "ERROR"
     assert "robot" in text
-    made.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=made.now_ns)
-    made.turn()
-    assert made.poses()[key].position == (1, 0, 0)
-    made.transform("map", "robot", (2.0, 0.0, 0.0), stamp_ns=made.now_ns + 1)
-    made.turn()
-    assert made.poses()[key].position == (2, 0, 0)
-    assert "Transform" not in made.statuses()
+    display_bench.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=display_bench.now_ns)
+    display_bench.turn()
+    assert display_bench.poses()[key].position == (1, 0, 0)
+    display_bench.transform("map", "robot", (2.0, 0.0, 0.0), stamp_ns=display_bench.now_ns + 1)
+    display_bench.turn()
+    assert display_bench.poses()[key].position == (2, 0, 0)
+    assert "Transform" not in display_bench.statuses()
 
 
 @pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])
@@ -119,15 +119,15 @@ def test_it_follows_its_frame_at_the_latest_common_time(
 def test_by_default_it_stands_in_the_fixed_frame(
     bench: Benches, cls: type, key: str, name: str
 ) -> None:
-    made = bench(cls(reference_frame=name))
-    made.turn()
-    assert made.poses()[key].position == (0, 0, 0)
+    display_bench = bench(cls(reference_frame=name))
+    display_bench.turn()
+    assert display_bench.poses()[key].position == (0, 0, 0)
 
 
 def test_axes_have_a_length_and_a_radius(bench: Benches) -> None:
-    made = bench(Axes(length=2.0, radius=0.25))
-    made.turn()
-    node = made.nodes()["axes"]
+    display_bench = bench(Axes(length=2.0, radius=0.25))
+    display_bench.turn()
+    node = display_bench.nodes()["axes"]
     assert (node.length, node.radius) == (2.0, 0.25)
     assert node.positions.tolist() == [[0, 0, 0]]
 

@@ -92,7 +92,7 @@ def test_what_cannot_be_shown_is_said(
 def test_every_image_lies_where_its_frame_was(bench: Benches) -> None:
     """Also those that have to be decompressed, and what comes on the same topic after them."""
     at = bench(ImagePlane(normalize_range=False, max_value=255.0, width=2.0))
-    seen = set()
+    observed = set()
     for value in (10, 20, 30, 40):
         at.transform("map", "camera", (float(value), 0.0, 0.0), stamp_ns=value * SECOND)
         if value <= 20:
@@ -104,9 +104,9 @@ def test_every_image_lies_where_its_frame_was(bench: Benches) -> None:
         while value >= 20 and at.runner.is_busy():
             at.turn()
             if image := at.nodes().get("image"):
-                seen.add((int(image.cells[0, 0, 0]), at.poses()["image"].position[0] + 1.0))
-    assert seen <= {(value, float(value)) for value in (10, 20, 30, 40)}
-    assert {(20, 20.0), (30, 30.0), (40, 40.0)} <= seen
+                observed.add((int(image.cells[0, 0, 0]), at.poses()["image"].position[0] + 1.0))
+    assert observed <= {(value, float(value)) for value in (10, 20, 30, 40)}
+    assert {(20, 20.0), (30, 30.0), (40, 40.0)} <= observed
 
 
 class TestImagePlane(BuiltInChecks):

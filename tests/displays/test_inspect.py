@@ -28,5 +28,5 @@ def test_an_item_of_a_display_that_does_not_know_has_its_number(bench: Benches) 
     at.turn()
     (name,) = at.scene.groups
     assert isinstance(at.nodes()["lines"], Lines)
-    found = at.runner.find(Picks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
-    check_details(at.runner.inspect(found[1], Frames(at.buffer, "map", 0)), "Line 2", {})
+    hits = at.runner.find(Picks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
+    check_details(at.runner.inspect(hits[1], Frames(at.buffer, "map", 0)), "Line 2", {})

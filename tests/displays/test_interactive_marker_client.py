@@ -315,27 +315,34 @@ def news_of(**values: Any) -> News:
 
 
 def test_markers_names_and_remarks_of_a_server_are_bounded() -> None:
-    known = InteractiveMarkerServer("/arm", "webviz")
-    known.take([news_of(markers=[{"name": f"{n}"} for n in range(MAX_MARKERS + 20)])])
-    assert (len(known.markers), known.left_out) == (MAX_MARKERS, 20)
-    known.take([news_of(markers=[{"name": "0"}, {"name": "more"}])])
-    assert (len(known.markers), known.left_out) == (MAX_MARKERS, 21)
-    known.take([news_of(poses=[{"name": f"{n}"} for n in range(-MAX_IGNORED - 5, 0)])])
-    assert (len(known.ignored), known.left_out) == (MAX_IGNORED, 26)
-    known.take([news_of(erases=["-1005", "0", "0", "ghost"])])
-    assert (len(known.ignored), len(known.markers)) == (MAX_IGNORED - 1, MAX_MARKERS - 1)
+    marker_server = InteractiveMarkerServer("/arm", "webviz")
+    marker_server.take([news_of(markers=[{"name": f"{n}"} for n in range(MAX_MARKERS + 20)])])
+    assert (len(marker_server.markers), marker_server.left_out) == (MAX_MARKERS, 20)
+    marker_server.take([news_of(markers=[{"name": "0"}, {"name": "more"}])])
+    assert (len(marker_server.markers), marker_server.left_out) == (MAX_MARKERS, 21)
+    marker_server.take([news_of(poses=[{"name": f"{n}"} for n in range(-MAX_IGNORED - 5, 0)])])
+    assert (len(marker_server.ignored), marker_server.left_out) == (MAX_IGNORED, 26)
+    marker_server.take([news_of(erases=["-1005", "0", "0", "ghost"])])
+    assert (len(marker_server.ignored), len(marker_server.markers)) == (
+        MAX_IGNORED - 1,
+        MAX_MARKERS - 1,
+    )
     far = [{"name": "1", "pose": {"position": {"x": math.nan}}}]
-    known.take([news_of(erases=list(known.ignored)), news_of(poses=far)])
-    assert known.ignored == {"1": "Its new pose is not finite, or too large. Correct the server."}
-    known.take([news_of(poses=[{"name": "1"}])])
-    assert not known.ignored  # once a pose is good
-    known.take([news_of(poses=far)])
-    known.take([News(is_all=True)])
-    assert (known.markers, known.ignored, known.left_out) == ({}, {}, 0)
-    known.take([news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])])
-    assert known.markers == {}
-    assert max(map(len, known.ignored)) <= 1000
-    assert "has 100000 characters; the limit is 1000" in next(iter(known.ignored.values()))
+    marker_server.take([news_of(erases=list(marker_server.ignored)), news_of(poses=far)])
+    assert marker_server.ignored == {
+        "1": "Its new pose is not finite, or too large. Correct the server."
+    }
+    marker_server.take([news_of(poses=[{"name": "1"}])])
+    assert not marker_server.ignored  # once a pose is good
+    marker_server.take([news_of(poses=far)])
+    marker_server.take([News(is_all=True)])
+    assert (marker_server.markers, marker_server.ignored, marker_server.left_out) == ({}, {}, 0)
+    marker_server.take(
+        [news_of(markers=[{"name": "n" * 100_000}], poses=[{"name": "p" * 100_000}])]
+    )
+    assert marker_server.markers == {}
+    assert max(map(len, marker_server.ignored)) <= 1000
+    assert "has 100000 characters; the limit is 1000" in next(iter(marker_server.ignored.values()))
 
 
 def test_the_contents_of_all_markers_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -345,15 +352,15 @@ def test_the_contents_of_all_markers_are_bounded(monkeypatch: pytest.MonkeyPatch
         shape = {"type": 4, "points": [{}] * points}
         return {"name": name, "controls": [{"markers": [shape]}]}
 
-    known = InteractiveMarkerServer("/arm", "webviz")
-    known.take([news_of(markers=[line("a", 1000), line("b", 1000)])])
-    assert known.markers.keys() == {"a"}
-    assert known.ignored.keys() == {"b"}
-    known.take([news_of(markers=[line("a", 100), line("b", 1000)])])
-    assert known.markers.keys() == {"a", "b"}
-    assert not known.ignored
-    known.take([news_of(erases=["b"]), news_of(markers=[line("c", 1000)])])
-    assert known.markers.keys() == {"a", "c"}
+    marker_server = InteractiveMarkerServer("/arm", "webviz")
+    marker_server.take([news_of(markers=[line("a", 1000), line("b", 1000)])])
+    assert marker_server.markers.keys() == {"a"}
+    assert marker_server.ignored.keys() == {"b"}
+    marker_server.take([news_of(markers=[line("a", 100), line("b", 1000)])])
+    assert marker_server.markers.keys() == {"a", "b"}
+    assert not marker_server.ignored
+    marker_server.take([news_of(erases=["b"]), news_of(markers=[line("c", 1000)])])
+    assert marker_server.markers.keys() == {"a", "c"}
 
 
 def test_many_markers_are_drawn_in_turn_while_what_is_drawn_stays(
@@ -440,12 +447,12 @@ def test_a_stamped_marker_is_placed_anew_in_another_fixed_frame() -> None:
 def test_a_pose_of_the_server_waits_for_the_end_of_a_drag_once() -> None:
     marker, around = tracked(stamp=0), frames("hand")
     marker.press()
-    wanted = Place("hand", 0, Pose((7.0, 0.0, 0.0)))
-    marker.put(wanted)
+    expected = Place("hand", 0, Pose((7.0, 0.0, 0.0)))
+    marker.put(expected)
     assert marker.drag("", Pose((1.0, 0.0, 0.0)), 0.0, around)
     assert marker.pose.position[0] == 1.0
     marker.release()
-    assert marker.source == wanted
+    assert marker.source == expected
     marker.press()
     assert marker.drag("", Pose((2.0, 0.0, 0.0)), 0.0, around)
     version = marker.version
@@ -484,8 +491,8 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
     for each in sent:
         queue.add(each)
     queue.add(message(POSE_UPDATE, "b", "y", 7.0))
-    found = [each["x"] for each in iter(queue.next, None)]
-    assert found == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
+    results = [each["x"] for each in iter(queue.next, None)]
+    assert results == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
 
 
 class ShownMarker:
@@ -532,15 +539,15 @@ class ShownMarker:
 
 
 def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> None:
-    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert shown.drag("move", 5.0) == []  # nobody has pressed
-    assert shown.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
-    assert shown.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
-    assert shown.drag("move", 1.0, turned=0.5) == []
-    assert shown.handle().controls[0].turned == 0.5
-    assert shown.drag("hold") == [(STAYS, 1.0)]
-    assert shown.drag("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
-    assert shown.drag("hold", 7.0) == [(STAYS, 2.0)]
+    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    assert marker_bench.drag("move", 5.0) == []  # nobody has pressed
+    assert marker_bench.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
+    assert marker_bench.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
+    assert marker_bench.drag("move", 1.0, turned=0.5) == []
+    assert marker_bench.handle().controls[0].turned == 0.5
+    assert marker_bench.drag("hold") == [(STAYS, 1.0)]
+    assert marker_bench.drag("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
+    assert marker_bench.drag("hold", 7.0) == [(STAYS, 2.0)]
 
     button = ShownMarker(server, controls=[{"interaction_mode": BUTTON}])
     assert button.drag("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
@@ -555,37 +562,39 @@ def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> N
 
 
 def test_what_nobody_has_pressed_stays_when_it_is_released(server: Server) -> None:
-    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    assert shown.drag("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
+    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    assert marker_bench.drag("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
 
 
 def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Server) -> None:
-    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
     drags = (
         Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)),
         Drag("m1", 0, "move", Pose((4.0, 0, 0))),
     )
     for drag in drags:
-        shown.display.drag(replace(drag, point=(1.0, 2.0, 3.0)), server, shown.context())
-    sent = list(iter(shown.known.outgoing.next, None))
-    assert [each["mouse_point_valid"] for each in sent] == [False, True, False]
+        marker_bench.display.drag(
+            replace(drag, point=(1.0, 2.0, 3.0)), server, marker_bench.context()
+        )
+    messages = list(iter(marker_bench.known.outgoing.next, None))
+    assert [each["mouse_point_valid"] for each in messages] == [False, True, False]
 
 
 def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(server: Server) -> None:
-    shown = ShownMarker(server)
-    known = shown.known
-    shown.display.communicate(server, shown.context())
-    assert shown.known is known
+    marker_bench = ShownMarker(server)
+    known = marker_bench.known
+    marker_bench.display.communicate(server, marker_bench.context())
+    assert marker_bench.known is known
 
 
 def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
     controls = [{"interaction_mode": MOVE_AXIS, "markers": [{"type": 1, "color": {"a": 1.0}}]}]
-    shown = ShownMarker(server, description="An arm", controls=controls)
-    node = shown.groups()["m1"].nodes["c0/m1/box"]
+    marker_bench = ShownMarker(server, description="An arm", controls=controls)
+    node = marker_bench.groups()["m1"].nodes["c0/m1/box"]
 
     def inspect(key: str) -> Any:
         hit = Hit(key, node, 0, (0.0, 0.0, 0.0), "odom", ())
-        return shown.display.inspect(hit, shown.context())
+        return marker_bench.display.inspect(hit, marker_bench.context())
 
     whole = {"Marker": "a", "Description": "An arm", "Scale": 1.0}
     control = {"Control": "(no name)", "Interaction": "move axis"}
@@ -610,8 +619,8 @@ def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(serve
 
 
 def test_a_title_is_above_its_marker_in_the_size_of_the_marker(server: Server) -> None:
-    shown = ShownMarker(server, {"show_descriptions": True}, scale=2.0, description="An arm")
-    title = shown.groups()["m1.title"].nodes["title/m1"]
+    marker_bench = ShownMarker(server, {"show_descriptions": True}, scale=2.0, description="An arm")
+    title = marker_bench.groups()["m1.title"].nodes["title/m1"]
     assert isinstance(title, Labels)
     assert (title.texts, title.height) == (("An arm",), pytest.approx(0.3))
     np.testing.assert_allclose(title.positions, [(0.0, 0.0, 2.8)])
@@ -634,12 +643,12 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
     control = {"orientation_mode": 1, "interaction_mode": ROTATE_AXIS, "markers": shapes}
     up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
     for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
-        shown = ShownMarker(server, controls=[{"orientation": orientation, **control}])
-        assert shown.groups()["m1.0"].placement.offset.wxyz == (1.0, 0.0, 0.0, 0.0)
-        shown.drag("press")
-        shown.drag("move", 0.0, turned=0.5)
-        wanted = [math.cos(0.25), *(math.sin(0.25) * each for each in axis)]
-        assert shown.groups()["m1.0"].placement.offset.wxyz == pytest.approx(wanted)
+        marker_bench = ShownMarker(server, controls=[{"orientation": orientation, **control}])
+        assert marker_bench.groups()["m1.0"].placement.offset.wxyz == (1.0, 0.0, 0.0, 0.0)
+        marker_bench.drag("press")
+        marker_bench.drag("move", 0.0, turned=0.5)
+        expected = [math.cos(0.25), *(math.sin(0.25) * each for each in axis)]
+        assert marker_bench.groups()["m1.0"].placement.offset.wxyz == pytest.approx(expected)
 
 
 def test_a_marker_has_a_handle_once_its_transform_has_come() -> None:
@@ -648,18 +657,20 @@ def test_a_marker_has_a_handle_once_its_transform_has_come() -> None:
     known.take([news_of(markers=[{"name": "a", "header": header}])])
     assert known.handles(around, aids=True, refusal="") == {}
     around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
-    found = known.handles(Frames(around.buffer, "map", 0), aids=True, refusal="")
-    assert [(each.name, each.frame) for each in found.values()] == [("a", "map")]
+    result = known.handles(Frames(around.buffer, "map", 0), aids=True, refusal="")
+    assert [(each.name, each.frame) for each in result.values()] == [("a", "map")]
 
 
 def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:
-    shown = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    shown.known.markers["a"].put(Place("hand", 5, Pose()))
-    first = shown.handle()
-    assert shown.display.handles(shown.context()) is shown.display.handles(shown.context())
-    assert (first.frame, first.refusal, shown.handle("hand").frame) == ("map", "", "hand")
-    shown.state.refusal = "Read-only."
-    assert shown.handle().refusal == "Read-only."
+    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    marker_bench.known.markers["a"].put(Place("hand", 5, Pose()))
+    first = marker_bench.handle()
+    assert marker_bench.display.handles(marker_bench.context()) is marker_bench.display.handles(
+        marker_bench.context()
+    )
+    assert (first.frame, first.refusal, marker_bench.handle("hand").frame) == ("map", "", "hand")
+    marker_bench.state.refusal = "Read-only."
+    assert marker_bench.handle().refusal == "Read-only."
 
 
 def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
@@ -669,8 +680,8 @@ def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
     across = {"w": math.sqrt(0.5), "z": math.sqrt(0.5)}
     facings = [{"orientation_mode": facing, **shapes} for facing in (0, 1, 2)]
     facings.append({"independent_marker_orientation": True, **facings[2]})
-    shown = ShownMarker(server, controls=facings, pose={"orientation": across})
-    groups = shown.groups()
+    marker_bench = ShownMarker(server, controls=facings, pose={"orientation": across})
+    groups = marker_bench.groups()
     assert groups.keys() == {"m1", "m1.1", "m1.2v"}
     turned = {key: group.placement.offset.wxyz[3] for key, group in groups.items()}
     assert turned == pytest.approx({"m1": math.sqrt(0.5), "m1.1": 0.0, "m1.2v": 0.0})
@@ -685,7 +696,7 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
 ) -> None:
     # A busy machine would draw some of them in the next round.
     monkeypatch.setattr("webviz_displays.interactive_markers.server.DRAWING_S", math.inf)
-    shown = ShownMarker(server, controls=[{}])
+    marker_bench = ShownMarker(server, controls=[{}])
     there, lost = {"header": {"frame_id": "map"}}, {"frame_id": "nowhere"}
     late = {**lost, "stamp": {"sec": 9}}
     markers = [
@@ -698,10 +709,10 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
         {"name": "bare", **there},
         {"name": "fixed", "header": {**late, "frame_id": "odom"}, "controls": [{}]},
     ]
-    shown.known.take([news_of(markers=markers)])
-    shown.groups()
-    ctx = shown.context()
-    shown.display.tick(ctx)
+    marker_bench.known.take([news_of(markers=markers)])
+    marker_bench.groups()
+    ctx = marker_bench.context()
+    marker_bench.display.tick(ctx)
     levels = {key: status.level for key, status in ctx.statuses.items() if key != "Server"}
     hidden = dict.fromkeys(("refused", "frameless", "late", "lost", "strange"), Level.ERROR)
     lacking = dict.fromkeys(("odd", "bare"), Level.WARN)
@@ -711,15 +722,17 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
 
 
 def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
-    shown = ShownMarker(
+    marker_bench = ShownMarker(
         server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}]
     )
-    assert shown.drag("press") == []  # its frame is unknown
+    assert marker_bench.drag("press") == []  # its frame is unknown
     at = (0.0, 0.0, 0.0)
     for stamp_ns in (3_000_000_001, 5_000_000_002):
-        shown.around.buffer.set_transform("map", "cart", stamp_ns, at, (0.0, 0.0, 0.0, 1.0))
-    shown.display.drag(Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, shown.context())
-    move, down = iter(shown.known.outgoing.next, None)
+        marker_bench.around.buffer.set_transform("map", "cart", stamp_ns, at, (0.0, 0.0, 0.0, 1.0))
+    marker_bench.display.drag(
+        Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, marker_bench.context()
+    )
+    move, down = iter(marker_bench.known.outgoing.next, None)
     for each in (move, down):
         assert each["header"] == {"stamp": {"sec": 5, "nanosec": 2}, "frame_id": "cart"}
     assert (move["mouse_point_valid"], down["mouse_point_valid"]) == (False, True)
@@ -727,10 +740,10 @@ def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) 
 
 
 def test_feedback_in_the_fixed_frame_has_no_stamp(server: Server) -> None:
-    shown = ShownMarker(
+    marker_bench = ShownMarker(
         server, header={"frame_id": "map"}, controls=[{"interaction_mode": MOVE_AXIS}]
     )
-    shown.display.drag(Drag("m1", 0, "press"), server, shown.context())
-    for each in iter(shown.known.outgoing.next, None):
+    marker_bench.display.drag(Drag("m1", 0, "press"), server, marker_bench.context())
+    for each in iter(marker_bench.known.outgoing.next, None):
         assert each["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}
-    assert shown.known.outgoing.next() is None
+    assert marker_bench.known.outgoing.next() is None

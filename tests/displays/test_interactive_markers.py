@@ -60,8 +60,8 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
     )
 
     ring = part(interaction_mode=MOVE_ROTATE, orientation=up).shapes.contents[0]
-    wanted = [(0, 0, 0.6, 0.5)] * 2 + [(0, 0, 1, 0.5)] * 2
-    np.testing.assert_allclose(ring.colors[:8], wanted * 2, atol=1e-6)
+    expected = [(0, 0, 0.6, 0.5)] * 2 + [(0, 0, 1, 0.5)] * 2
+    np.testing.assert_allclose(ring.colors[:8], expected * 2, atol=1e-6)
     corners = ring.points.reshape(-1, 3, 3)
     angles = np.rad2deg(np.arctan2(corners[..., 2], corners[..., 1])).round(3) % 360
     assert angles[:4].tolist() == [[0, 10, 10], [10, 10, 20], [0, 10, 0], [10, 20, 20]]

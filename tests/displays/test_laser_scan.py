@@ -33,11 +33,11 @@ def lab(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn one scan from a laser at rest, 1 m above the map."""
 
     def make(values: dict[str, Any], **properties: Any) -> Any:
-        made = bench(LaserScan(**properties))
-        made.transform("map", "laser", (0.0, 0.0, 1.0))
-        made.send(SCAN, values, frame="laser")
-        made.turn()
-        return made
+        display_bench = bench(LaserScan(**properties))
+        display_bench.transform("map", "laser", (0.0, 0.0, 1.0))
+        display_bench.send(SCAN, values, frame="laser")
+        display_bench.turn()
+        return display_bench
 
     return make
 
@@ -85,9 +85,9 @@ def test_a_scan_without_points_says_why(
     lab: Benches, values: dict[str, Any], level: str, words: str
 ) -> None:
     bench = lab(values)
-    said = bench.statuses()["Points"]
-    assert said[0] == level
-    assert words in said[1]
+    statuses = bench.statuses()["Points"]
+    assert statuses[0] == level
+    assert words in statuses[1]
     assert not any(len(node.xyz) for node in bench.nodes().values())
 
 
@@ -98,11 +98,11 @@ def test_beams_on_one_line_are_shown_with_a_warning(lab: Benches) -> None:
 
 
 def test_a_scan_without_frame_is_refused_by_name(bench: Benches) -> None:
-    made = bench(LaserScan())
-    made.send(SCAN, scan([1.0]), frame="")
-    made.turn()
-    assert not made.nodes()
-    assert {level for level, _ in made.statuses().values()} & {"WARN", "ERROR"}
+    display_bench = bench(LaserScan())
+    display_bench.send(SCAN, scan([1.0]), frame="")
+    display_bench.turn()
+    assert not display_bench.nodes()
+    assert {level for level, _ in display_bench.statuses().values()} & {"WARN", "ERROR"}
 
 
 # Colours
@@ -166,17 +166,19 @@ def test_intensities_of_another_number_are_not_used_and_named(lab: Benches) -> N
 
 
 def test_axis_colour_is_of_the_fixed_frame_or_of_the_laser(bench: Benches) -> None:
-    made = bench(LaserScan(color_transformer="AxisColor", axis="Z"))
+    display_bench = bench(LaserScan(color_transformer="AxisColor", axis="Z"))
     # The laser lies on its side: its y points up.
-    made.transform("map", "laser", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
-    made.send(SCAN, scan([1, 1, 1, 1]), frame="laser")
-    made.turn()
-    assert colors(made)[1] == MAGENTA
-    assert colors(made)[3] == RED
-    made.set("use_fixed_frame", False)  # all z are 0 there, up to rounding
-    assert colors(made) == [RED] * 4
-    made.set("autocompute_value_bounds", {"value": False, "min_value": -10.0, "max_value": 15.0})
-    assert colors(made) == [GREEN] * 4
+    display_bench.transform("map", "laser", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    display_bench.send(SCAN, scan([1, 1, 1, 1]), frame="laser")
+    display_bench.turn()
+    assert colors(display_bench)[1] == MAGENTA
+    assert colors(display_bench)[3] == RED
+    display_bench.set("use_fixed_frame", False)  # all z are 0 there, up to rounding
+    assert colors(display_bench) == [RED] * 4
+    display_bench.set(
+        "autocompute_value_bounds", {"value": False, "min_value": -10.0, "max_value": 15.0}
+    )
+    assert colors(display_bench) == [GREEN] * 4
 
 
 def test_flat_points_are_really_transparent(lab: Benches) -> None:
@@ -220,11 +222,13 @@ def test_of_more_beams_than_any_laser_has_some_are_drawn_and_the_rest_counted(
 
 
 def test_boxes_stand_upright_in_the_fixed_frame_however_the_laser_is_tilted(bench: Benches) -> None:
-    made = bench(LaserScan(style="Boxes"))
-    made.transform("map", "laser", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
-    made.send(SCAN, scan([1, 1]), frame="laser")
-    made.turn()
-    np.testing.assert_allclose(np.abs(made.nodes()["solids"].wxyzs), [(1, 0, 0, 0)] * 2, atol=1e-6)
+    display_bench = bench(LaserScan(style="Boxes"))
+    display_bench.transform("map", "laser", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
+    display_bench.send(SCAN, scan([1, 1]), frame="laser")
+    display_bench.turn()
+    np.testing.assert_allclose(
+        np.abs(display_bench.nodes()["solids"].wxyzs), [(1, 0, 0, 0)] * 2, atol=1e-6
+    )
 
 
 def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
@@ -246,12 +250,12 @@ def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
 
 def moving(bench: Benches, **properties: Any) -> Any:
     """A bench whose laser moves along y by 1 m each second."""
-    made = bench(LaserScan(**properties))
-    start = made.now_ns
+    display_bench = bench(LaserScan(**properties))
+    start = display_bench.now_ns
     for tenth in range(11):
         stamp_ns = start + tenth * SECOND // 10
-        made.transform("map", "laser", (0.0, tenth / 10, 0.0), stamp_ns=stamp_ns)
-    return made
+        display_bench.transform("map", "laser", (0.0, tenth / 10, 0.0), stamp_ns=stamp_ns)
+    return display_bench
 
 
 FIVE_TO_THE_FRONT = scan([2.0] * 5, angle_increment=1e-9, time_increment=0.125)
@@ -269,40 +273,42 @@ def test_each_beam_is_placed_where_the_laser_was_at_its_time(bench: Benches) -> 
 
 
 def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
-    made = bench(LaserScan())
+    display_bench = bench(LaserScan())
     for i in range(11):  # it turns by 0.5 rad in 1 s
         turn = (0.0, 0.0, np.sin(0.025 * i), np.cos(0.025 * i))
-        stamp_ns = made.now_ns + i * SECOND // 10
-        made.transform("map", "laser", (0, 0, 0), turn, stamp_ns=stamp_ns)
+        stamp_ns = display_bench.now_ns + i * SECOND // 10
+        display_bench.transform("map", "laser", (0, 0, 0), turn, stamp_ns=stamp_ns)
     angles = np.linspace(-0.5, 0.5, 21)
     apart = 3 / 64  # seconds between beams, exact in float32
     facing = angles + 0.5 * np.arange(21) * apart  # of each beam in the map
     ranges = (3 / np.cos(facing)).tolist()
     values = scan(ranges, angle_min=-0.5, angle_increment=0.05, time_increment=apart)
-    made.send(SCAN, values, frame="laser")
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points")[:, 0], 3.0, atol=1e-5)
-    made.set("deskew", "As measured")
-    assert np.ptp(made.xyz("points")[:, 0]) > 0.5
+    display_bench.send(SCAN, values, frame="laser")
+    display_bench.turn()
+    np.testing.assert_allclose(display_bench.xyz("points")[:, 0], 3.0, atol=1e-5)
+    display_bench.set("deskew", "As measured")
+    assert np.ptp(display_bench.xyz("points")[:, 0]) > 0.5
 
 
 @pytest.mark.parametrize("time_increment", [0.125, 0.5], ids=["half a second", "two seconds"])
 def test_a_scan_waits_for_the_transform_of_its_last_beam(
     bench: Benches, time_increment: float
 ) -> None:
-    made = bench(LaserScan())
-    start = made.now_ns
+    display_bench = bench(LaserScan())
+    start = display_bench.now_ns
     lasts_ns = round(4 * time_increment * SECOND)
-    made.transform("map", "laser", (0.0, 0.0, 0.0), stamp_ns=start)
-    made.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns - 1)
+    display_bench.transform("map", "laser", (0.0, 0.0, 0.0), stamp_ns=start)
+    display_bench.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns - 1)
     values = scan([2.0] * 5, angle_increment=1e-9, time_increment=time_increment)
-    made.send(SCAN, values, frame="laser", stamp_ns=start)
-    made.turn()
-    assert not made.nodes()
-    made.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns)
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points")[:, 1], [0, 0.25, 0.5, 0.75, 1], atol=1e-6)
-    assert "De-skew" not in made.statuses()
+    display_bench.send(SCAN, values, frame="laser", stamp_ns=start)
+    display_bench.turn()
+    assert not display_bench.nodes()
+    display_bench.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns)
+    display_bench.turn()
+    np.testing.assert_allclose(
+        display_bench.xyz("points")[:, 1], [0, 0.25, 0.5, 0.75, 1], atol=1e-6
+    )
+    assert "De-skew" not in display_bench.statuses()
 
 
 def test_beams_of_an_endless_scan_without_a_transform_are_counted(bench: Benches) -> None:
@@ -336,16 +342,16 @@ def test_a_scan_that_takes_long_is_doubted(lab: Benches) -> None:
 
 
 def test_scans_decay_by_the_time_they_arrived(bench: Benches) -> None:
-    made = bench(LaserScan(decay_time=1.0))
-    made.transform("map", "laser")
+    display_bench = bench(LaserScan(decay_time=1.0))
+    display_bench.transform("map", "laser")
     for _ in range(4):
-        made.send(SCAN, scan([1, 2]), frame="laser")
-        made.turn(0.4)
-    assert len(made.nodes()) == 2
-    made.set("decay_time", 0.0)
-    assert len(made.nodes()) == 1
-    made.turn(100.0)
-    assert len(made.nodes()) == 1
+        display_bench.send(SCAN, scan([1, 2]), frame="laser")
+        display_bench.turn(0.4)
+    assert len(display_bench.nodes()) == 2
+    display_bench.set("decay_time", 0.0)
+    assert len(display_bench.nodes()) == 1
+    display_bench.turn(100.0)
+    assert len(display_bench.nodes()) == 1
 
 
 class TestLaserScan(BuiltInChecks):

@@ -38,11 +38,13 @@ def shown(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn messages in the frame odom, 10 m along x."""
 
     def make(*messages: dict[str, Any], **properties: Any) -> Any:
-        made = bench(MapCloud(**({"cloud_decimation": 1, "cloud_voxel_size": 0.0} | properties)))
-        made.transform("map", "odom", (10.0, 0.0, 0.0))
+        display_bench = bench(
+            MapCloud(**({"cloud_decimation": 1, "cloud_voxel_size": 0.0} | properties))
+        )
+        display_bench.transform("map", "odom", (10.0, 0.0, 0.0))
         for values in messages:
-            publish(made, values)
-        return made
+            publish(display_bench, values)
+        return display_bench
 
     return make
 

@@ -48,11 +48,11 @@ def shown(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn arrays of markers."""
 
     def make(*arrays: list[dict[str, Any]], **properties: Any) -> Any:
-        made = bench(MarkerArray(**properties))
-        made.transform("map", "base", (10.0, 0.0, 0.0))
+        display_bench = bench(MarkerArray(**properties))
+        display_bench.transform("map", "base", (10.0, 0.0, 0.0))
         for markers in arrays:
-            send(made, *markers)
-        return made
+            send(display_bench, *markers)
+        return display_bench
 
     return make
 
@@ -65,8 +65,8 @@ def send(bench: Any, *markers: dict[str, Any]) -> None:
 
 def xs(bench: Any) -> list[float]:
     """Return where the cubes are along x, sorted."""
-    found = [bench.xyz(key)[:, 0] for key in bench.nodes() if key.startswith("box")]
-    return sorted(np.concatenate(found).round(6).tolist()) if found else []
+    nodes = [bench.xyz(key)[:, 0] for key in bench.nodes() if key.startswith("box")]
+    return sorted(np.concatenate(nodes).round(6).tolist()) if nodes else []
 
 
 # Actions
@@ -388,35 +388,35 @@ def test_markers_in_very_many_places_are_limited_and_the_rest_comes_when_there_i
 
 
 def test_marker_does_not_miss_single_ones_while_arrays_come(bench: Benches) -> None:
-    made = bench(Marker())
-    made.turn()
-    assert "No publisher" in made.statuses()["Topic"][1]
-    made.send(ARRAY, {"markers": [cube()]}, topic="/visualization_marker_array")
-    made.turn()
-    assert {level for level, _ in made.statuses().values()} == {"OK"}
-    made.send(MARKER, cube(1), topic="/visualization_marker")
-    made.turn()
-    assert made.statuses()["Topic"][1].startswith("1 message")
+    display_bench = bench(Marker())
+    display_bench.turn()
+    assert "No publisher" in display_bench.statuses()["Topic"][1]
+    display_bench.send(ARRAY, {"markers": [cube()]}, topic="/visualization_marker_array")
+    display_bench.turn()
+    assert {level for level, _ in display_bench.statuses().values()} == {"OK"}
+    display_bench.send(MARKER, cube(1), topic="/visualization_marker")
+    display_bench.turn()
+    assert display_bench.statuses()["Topic"][1].startswith("1 message")
 
 
 def test_marker_takes_single_ones_and_arrays_of_the_topic_beside_it(bench: Benches) -> None:
-    made = bench(Marker())
-    made.send(MARKER, cube(1, 1.0), topic="/visualization_marker")
-    made.send(ARRAY, {"markers": [cube(2, 2.0)]}, topic="/visualization_marker_array")
-    made.turn()
-    assert xs(made) == [1.0, 2.0]
+    display_bench = bench(Marker())
+    display_bench.send(MARKER, cube(1, 1.0), topic="/visualization_marker")
+    display_bench.send(ARRAY, {"markers": [cube(2, 2.0)]}, topic="/visualization_marker_array")
+    display_bench.turn()
+    assert xs(display_bench) == [1.0, 2.0]
 
 
 def test_a_latched_message_that_comes_again_renews_lifetimes(bench: Benches) -> None:
-    made = bench(MarkerArray())
+    display_bench = bench(MarkerArray())
     for _ in range(2):
-        made.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
-        offer = made.offers["/visualization_marker_array"]
-        made.offers["/visualization_marker_array"] = type(offer)(
+        display_bench.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
+        offer = display_bench.offers["/visualization_marker_array"]
+        display_bench.offers["/visualization_marker_array"] = type(offer)(
             offer.publishers, ("reliable", "transient_local")
         )
-        made.turn(1.5)
-    assert xs(made) == [1.0]
+        display_bench.turn(1.5)
+    assert xs(display_bench) == [1.0]
 
 
 def test_a_reset_forgets_all_markers(shown: Benches) -> None:

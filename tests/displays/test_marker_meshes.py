@@ -165,15 +165,15 @@ def test_meshes_and_pictures_in_a_message_are_drawn_and_broken_ones_named(bench:
         marker(id=6, type=10, mesh_resource="http://example.org/a.stl"),
         marker(id=7, **(triangle | {"uv_coordinates": []})),
     ]
-    made = bench(MarkerArray())
-    made.send(ARRAY, {"markers": markers})
-    made.turn()
-    made.settle()
-    nodes = made.nodes()
+    display_bench = bench(MarkerArray())
+    display_bench.send(ARRAY, {"markers": markers})
+    display_bench.turn()
+    display_bench.settle()
+    nodes = display_bench.nodes()
     (ball,) = (node for node in nodes.values() if isinstance(node, Instances))
     assert len(ball.shape.faces) == 12  # pyright: ignore[reportAttributeAccessIssue]
     assert sum(isinstance(node, Glb) for node in nodes.values()) == 1
-    statuses = made.statuses()
+    statuses = display_bench.statuses()
     for id, said in (
         (3, "b.stl"),
         (4, "mesh_file.data is empty"),
@@ -193,20 +193,20 @@ def test_a_file_that_failed_to_load_is_tried_again(
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     package = tmp_path / "share" / "late"
     package.mkdir(parents=True)
-    made = bench(MarkerArray())
+    display_bench = bench(MarkerArray())
     mesh = marker(id=1, type=10, mesh_resource="package://late/late.stl")
-    made.send(ARRAY, {"markers": [mesh]})
+    display_bench.send(ARRAY, {"markers": [mesh]})
     with monkeypatch.context() as patch:
         patch.setattr(assets, "RETRY_S", 0.0)
-        made.turn()
-        made.settle()
-    assert "late.stl" in made.statuses()["Marker /1"][1]
+        display_bench.turn()
+        display_bench.settle()
+    assert "late.stl" in display_bench.statuses()["Marker /1"][1]
     trimesh.creation.box().export(package / "late.stl")
-    made.turn()
-    assert "Loading" not in made.statuses()
-    made.settle()
-    assert "Marker /1" not in made.statuses()
-    assert len(made.nodes()) == 1
+    display_bench.turn()
+    assert "Loading" not in display_bench.statuses()
+    display_bench.settle()
+    assert "Marker /1" not in display_bench.statuses()
+    assert len(display_bench.nodes()) == 1
 
 
 def loaded_meshes() -> int:
@@ -216,14 +216,14 @@ def loaded_meshes() -> int:
 
 
 def test_what_came_in_a_message_is_forgotten_with_it(bench: Benches) -> None:
-    made = bench(MarkerArray())
+    display_bench = bench(MarkerArray())
     before = loaded_meshes()
     for edge in range(1, 6):
         stl = trimesh.creation.box((edge, 1.0, 1.0)).export(file_type="stl")
         file = {"filename": "a.stl", "data": stl}
         one = marker(id=1, type=10, mesh_resource="embedded://a.stl", mesh_file=file)
-        made.send(ARRAY, {"markers": [one]})
-        made.turn()
-        made.settle()
-        made.turn()
+        display_bench.send(ARRAY, {"markers": [one]})
+        display_bench.turn()
+        display_bench.settle()
+        display_bench.turn()
     assert 1 <= loaded_meshes() - before <= 2

@@ -283,12 +283,15 @@ def test_only_bad_poses_draw_nothing(turned: Benches) -> None:
 
 
 def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> None:
-    made = bench(Odometry(), fixed_frame="odom")
-    made.transform("utm", "odom")
+    display_bench = bench(Odometry(), fixed_frame="odom")
+    display_bench.transform("utm", "odom")
     for x in (448_262.123, 448_262.373):
-        made.send(ODOMETRY, odometry(x, 5_411_932.456), frame="odom")
-    made.turn()
-    xyz = made.nodes()["poses"].segments[:, 0].astype(float) + made.poses()["poses"].position
+        display_bench.send(ODOMETRY, odometry(x, 5_411_932.456), frame="odom")
+    display_bench.turn()
+    xyz = (
+        display_bench.nodes()["poses"].segments[:, 0].astype(float)
+        + display_bench.poses()["poses"].position
+    )
     expected = [(448_262.123, 5_411_932.456, 0), (448_262.373, 5_411_932.456, 0)]
     np.testing.assert_allclose(xyz, expected, atol=1e-4, rtol=0)
 

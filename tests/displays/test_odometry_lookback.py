@@ -23,7 +23,7 @@ def drive(seed: int, count: int) -> list[Message]:
     """A robot that drives, turns and rests by chance."""
     chance = random.Random(seed)
     x = y = yaw = speed = turn = 0.0
-    found: list[Message] = []
+    results: list[Message] = []
     for step in range(count):
         if step % 40 == 0:
             speed = chance.choice([0.0, 0.0, 0.02, 0.05])
@@ -35,8 +35,8 @@ def drive(seed: int, count: int) -> list[Message]:
         if chance.random() < 0.01:
             orientation = {}  # a fault
         pose = {"pose": {"position": {"x": x, "y": y}, "orientation": orientation}}
-        found.append(decode(TYPE, encode(TYPE, {"pose": pose})))
-    return found
+        results.append(decode(TYPE, encode(TYPE, {"pose": pose})))
+    return results
 
 
 @dataclass
@@ -54,12 +54,12 @@ class Reader:
 
 def trail(display: Odometry, past: Sequence[Message]) -> list[Message]:
     """The newest poses after playing from the first message."""
-    kept: list[Any] = []
+    remaining: list[Any] = []
     for message in past:
         sample = SimpleNamespace(message=message)
-        if display.accept(sample, kept) is True:  # pyright: ignore[reportArgumentType]
-            kept.append(sample)
-    return [sample.message for sample in kept[-KEEP:]]
+        if display.accept(sample, remaining) is True:  # pyright: ignore[reportArgumentType]
+            remaining.append(sample)
+    return [sample.message for sample in remaining[-KEEP:]]
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -42,10 +42,10 @@ def planned(bench: Benches) -> Any:
 
 
 def test_stages_are_a_tree_with_their_numbers_of_solutions(planned: Any) -> None:
-    said = planned.statuses()
-    assert said["1 pick"] == ("OK", "2 solutions.")
-    assert said["1.1 approach"] == ("OK", "1 solution, 1 failed, 0.50 s.")
-    assert said["1.2 grasp"] == ("OK", "0 solutions, 9 failed.")
+    statuses = planned.statuses()
+    assert statuses["1 pick"] == ("OK", "2 solutions.")
+    assert statuses["1.1 approach"] == ("OK", "1 solution, 1 failed, 0.50 s.")
+    assert statuses["1.2 grasp"] == ("OK", "0 solutions, 9 failed.")
     offered = planned.runner.report().offered
     assert offered["stages"] == {"1 pick": 2, "1.1 approach": 1, "1.2 grasp": 0}
     assert offered["solution"] == {"7: pick": 7, "8: pick": 8, "5: approach": 5}
@@ -58,9 +58,9 @@ def test_each_part_of_a_solution_has_the_scene_that_the_one_before_led_to(planne
         (1.0, "Part 2 of 2: 'grasp'.", 14.0, 1, 11.0),
     ):
         planned.set("position", position)
-        said = planned.statuses()
-        assert said["Stage"] == ("OK", stage)
-        assert said["Scene"][1].startswith(f"'cell': {objects} object")
+        statuses = planned.statuses()
+        assert statuses["Stage"] == ("OK", stage)
+        assert statuses["Scene"][1].startswith(f"'cell': {objects} object")
         assert planned.poses()["path rider visual visual_0"].position[0] == x
         assert markers(planned) == [hint]
 
@@ -86,14 +86,14 @@ def test_a_chosen_solution_is_asked_from_its_task(planned: Any) -> None:
 
 def test_a_task_that_begins_again_forgets_its_solution(planned: Any) -> None:
     tell(planned, "TaskDescription", {"task_id": "robot_1"}, "/description")
-    said = planned.statuses()
-    assert "1 pick" not in said
-    assert said["Solution"] == (
+    statuses = planned.statuses()
+    assert "1 pick" not in statuses
+    assert statuses["Solution"] == (
         "WARN",
         "No solution received on /solution. Plan a task, or choose one.",
     )
     planned.set("solution", 7)
-    assert said["Solution"][0] == "WARN"
+    assert statuses["Solution"][0] == "WARN"
     assert planned.statuses()["Solution"][1].startswith("No task is known that has solution 7.")
 
 

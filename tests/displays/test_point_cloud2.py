@@ -33,11 +33,11 @@ def lab(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn one cloud of a sensor at rest, 1 m above the map."""
 
     def make(values: dict[str, Any], **properties: Any) -> Any:
-        made = bench(PointCloud2(**properties))
-        made.transform("map", "lidar", (0.0, 0.0, 1.0))
-        made.send(CLOUD, values, frame="lidar")
-        made.turn()
-        return made
+        display_bench = bench(PointCloud2(**properties))
+        display_bench.transform("map", "lidar", (0.0, 0.0, 1.0))
+        display_bench.send(CLOUD, values, frame="lidar")
+        display_bench.turn()
+        return display_bench
 
     return make
 
@@ -89,9 +89,9 @@ def test_a_cloud_without_points_says_why(
     lab: Benches, values: dict[str, Any], level: str, words: str
 ) -> None:
     bench = lab(values)
-    said = bench.statuses()["Points"]
-    assert said[0] == level
-    assert words in said[1]
+    statuses = bench.statuses()["Points"]
+    assert statuses[0] == level
+    assert words in statuses[1]
     assert not any(len(node.xyz) for node in bench.nodes().values())
 
 
@@ -127,26 +127,28 @@ def test_an_organised_cloud_with_padded_rows_is_drawn_whole(lab: Benches) -> Non
 
 
 def test_far_clouds_keep_their_millimetres(bench: Benches) -> None:
-    made = bench(PointCloud2(), fixed_frame="utm")
+    display_bench = bench(PointCloud2(), fixed_frame="utm")
     fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
     places = [(500_000.001 + i / 1000, 5_400_000.002, 100.0) for i in range(5)]
     points = [{"x": [x], "y": [y], "z": [z]} for x, y, z in places]
-    made.transform("utm", "survey", (3.0, 0.0, 0.0))
-    made.send(CLOUD, cloud(fields, points), frame="survey")
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points"), np.add(places, (3, 0, 0)), rtol=0, atol=1e-4)
-    assert np.abs(made.nodes()["points"].xyz).max() < 2000
+    display_bench.transform("utm", "survey", (3.0, 0.0, 0.0))
+    display_bench.send(CLOUD, cloud(fields, points), frame="survey")
+    display_bench.turn()
+    np.testing.assert_allclose(
+        display_bench.xyz("points"), np.add(places, (3, 0, 0)), rtol=0, atol=1e-4
+    )
+    assert np.abs(display_bench.nodes()["points"].xyz).max() < 2000
 
 
 def test_far_clouds_follow_a_new_fixed_frame(bench: Benches) -> None:
-    made = bench(PointCloud2(), fixed_frame="utm")
-    made.transform("utm", "site", (500_000.0, 0.0, 0.0))
+    display_bench = bench(PointCloud2(), fixed_frame="utm")
+    display_bench.transform("utm", "site", (500_000.0, 0.0, 0.0))
     fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
-    made.send(CLOUD, cloud(fields, [{"x": [500_007.5], "y": [0], "z": [0]}]), frame="utm")
-    made.turn()
-    made.fixed_frame = "site"
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points"), [(7.5, 0, 0)], atol=1e-4)
+    display_bench.send(CLOUD, cloud(fields, [{"x": [500_007.5], "y": [0], "z": [0]}]), frame="utm")
+    display_bench.turn()
+    display_bench.fixed_frame = "site"
+    display_bench.turn()
+    np.testing.assert_allclose(display_bench.xyz("points"), [(7.5, 0, 0)], atol=1e-4)
 
 
 def test_more_points_than_the_limit_are_picked_evenly_and_it_is_said(lab: Benches) -> None:
@@ -215,16 +217,16 @@ def test_voxels_are_those_of_a_slow_reader(points: list[tuple[int, int, int]], s
     first: dict[tuple[float, ...], int] = {}
     for row, point in enumerate(points):
         first.setdefault(tuple(v // size for v in point), row)
-    found = one_per_voxel(np.array(points, np.float32).reshape(-1, 3), size)
-    assert found.tolist() == sorted(first.values())
+    rows = one_per_voxel(np.array(points, np.float32).reshape(-1, 3), size)
+    assert rows.tolist() == sorted(first.values())
 
 
 def test_many_points_share_few_voxels_exactly() -> None:
     xyz = np.random.default_rng(1).uniform(-50, 50, (100_000, 3)).astype(np.float32)
     voxels, first = np.unique(np.floor(xyz / 2.5), axis=0, return_index=True)
-    found = one_per_voxel(xyz, 2.5)
-    assert len(found) == len(voxels)
-    assert found.tolist() == sorted(first.tolist())
+    rows = one_per_voxel(xyz, 2.5)
+    assert len(rows) == len(voxels)
+    assert rows.tolist() == sorted(first.tolist())
 
 
 @settings(deadline=None)
@@ -346,14 +348,14 @@ def test_a_colour_that_is_not_of_four_bytes_is_refused_in_words(lab: Benches) ->
 
 
 def test_axis_colours_are_of_the_fixed_frame_or_of_the_sensor(bench: Benches) -> None:
-    made = bench(PointCloud2(color_transformer="AxisColor"))
+    display_bench = bench(PointCloud2(color_transformer="AxisColor"))
     # The sensor lies on its side: its y points up.
-    made.transform("map", "lidar", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
-    made.send(CLOUD, xyz_cloud([(0, -1, 3), (0, 0, 2), (0, 1, 1)]), frame="lidar")
-    made.turn()
-    assert colors(made) == [RED, MIDDLE, MAGENTA]
-    made.set("use_fixed_frame", False)
-    assert colors(made) == [MAGENTA, MIDDLE, RED]
+    display_bench.transform("map", "lidar", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    display_bench.send(CLOUD, xyz_cloud([(0, -1, 3), (0, 0, 2), (0, 1, 1)]), frame="lidar")
+    display_bench.turn()
+    assert colors(display_bench) == [RED, MIDDLE, MAGENTA]
+    display_bench.set("use_fixed_frame", False)
+    assert colors(display_bench) == [MAGENTA, MIDDLE, RED]
 
 
 def test_axis_bounds_hold_far_from_the_origin_too(lab: Benches) -> None:
@@ -378,12 +380,12 @@ def test_solids_are_lit(lab: Benches) -> None:
 
 
 def test_boxes_turn_with_the_frame_of_the_cloud(bench: Benches) -> None:
-    made = bench(PointCloud2(style="Boxes"))
+    display_bench = bench(PointCloud2(style="Boxes"))
     tilt = (0.5, 0.5, 0.5, 0.5)
-    made.transform("map", "lidar", (1.0, 0.0, 0.0), tilt)
-    made.send(CLOUD, xyz_cloud(THREE), frame="lidar")
-    made.turn()
-    np.testing.assert_allclose(made.nodes()["solids"].wxyzs, [tilt] * 3, atol=1e-6)
+    display_bench.transform("map", "lidar", (1.0, 0.0, 0.0), tilt)
+    display_bench.send(CLOUD, xyz_cloud(THREE), frame="lidar")
+    display_bench.turn()
+    np.testing.assert_allclose(display_bench.nodes()["solids"].wxyzs, [tilt] * 3, atol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -447,14 +449,14 @@ def test_clouds_of_the_decay_time_share_the_limit_of_points(lab: Benches) -> Non
 
 
 def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
-    made = bench(PointCloud2())
-    made.transform("map", "lidar", (0.0, 0.0, 0.0), stamp_ns=made.now_ns - SECOND)
-    made.send(CLOUD, xyz_cloud(THREE), frame="lidar")
-    made.turn()
-    assert not made.nodes()
-    made.transform("map", "lidar", (0.0, 0.0, 5.0), stamp_ns=made.now_ns)
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points")[0], (1, 0, 5))
+    display_bench = bench(PointCloud2())
+    display_bench.transform("map", "lidar", (0.0, 0.0, 0.0), stamp_ns=display_bench.now_ns - SECOND)
+    display_bench.send(CLOUD, xyz_cloud(THREE), frame="lidar")
+    display_bench.turn()
+    assert not display_bench.nodes()
+    display_bench.transform("map", "lidar", (0.0, 0.0, 5.0), stamp_ns=display_bench.now_ns)
+    display_bench.turn()
+    np.testing.assert_allclose(display_bench.xyz("points")[0], (1, 0, 5))
 
 
 def test_voxels_have_a_least_size() -> None:

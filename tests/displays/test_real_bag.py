@@ -54,16 +54,16 @@ def load_transforms(bench: Any) -> None:
 
 @pytest.mark.skipif(not MAP.exists(), reason="the map of the corridor is not here")
 def test_the_scans_lie_on_the_walls_of_the_map(bench: Benches) -> None:
-    made = bench(LaserScan())
-    load_transforms(made)
-    made.transform("map", "odom", *START)
+    display_bench = bench(LaserScan())
+    load_transforms(display_bench)
+    display_bench.transform("map", "odom", *START)
     points = []
     for _, type_name, time_ns, data in itertools.islice(messages("/scan"), 60):
-        made.now_ns = time_ns
-        made.send_bytes(type_name, data)
-        made.turn()
-        if "points" in made.nodes():
-            points.append(made.xyz("points")[:, :2])
+        display_bench.now_ns = time_ns
+        display_bench.send_bytes(type_name, data)
+        display_bench.turn()
+        if "points" in display_bench.nodes():
+            points.append(display_bench.xyz("points")[:, :2])
     assert len(points) > 50
     hits = np.concatenate(points)
     assert share_on_walls(hits) > 0.85
@@ -79,14 +79,14 @@ def share_on_walls(hits: NDArray[np.float64]) -> float:
 
 
 def test_odometry_and_its_covariances_are_drawn_without_complaint(bench: Benches) -> None:
-    made = bench(Odometry(keep=0), fixed_frame="odom")
-    load_transforms(made)
+    display_bench = bench(Odometry(keep=0), fixed_frame="odom")
+    load_transforms(display_bench)
     for _, type_name, time_ns, data in messages("/odom"):
-        made.now_ns = time_ns
-        made.send_bytes(type_name, data)
-    made.turn()
-    trail = made.xyz("poses")[:, 0]
+        display_bench.now_ns = time_ns
+        display_bench.send_bytes(type_name, data)
+    display_bench.turn()
+    trail = display_bench.xyz("poses")[:, 0]
     steps = np.linalg.norm(np.diff(trail, axis=0), axis=1)
-    assert {level for level, _ in made.statuses().values()} == {"OK"}
+    assert {level for level, _ in display_bench.statuses().values()} == {"OK"}
     assert len(trail) > 50
     assert steps.max() < 0.2  # the robot is slow and the tolerance is 0.1 m

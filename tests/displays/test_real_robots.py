@@ -36,9 +36,9 @@ FILES = (
 
 def said_of_visuals(bench: Any) -> tuple[int, int]:
     """Return the number of visuals the display reports as loaded, and their total."""
-    found = re.search(r"(\d+) of (\d+) visuals loaded", bench.statuses()["URDF"][1])
-    assert found is not None
-    loaded, total = map(int, found.groups())
+    statuses = re.search(r"(\d+) of (\d+) visuals loaded", bench.statuses()["URDF"][1])
+    assert statuses is not None
+    loaded, total = map(int, statuses.groups())
     return loaded, total
 
 

@@ -104,9 +104,9 @@ def test_boxes_without_corners_and_unknown_skeletons_are_named(shown: Callable) 
         scene(ZED_CAR, ZED_PERSON | {"bounding_box_3d": {"corners": corners}, "body_format": 9}),
     )
     assert len(at.nodes()["boxes"].segments) == 12
-    told = at.statuses()
-    assert told["Boxes"] == ("WARN", "1 of 2 boxes left out: corners are missing or invalid.")
-    assert told["Skeletons"] == ("WARN", "Body format 9 is unknown. Fix the publisher.")
+    statuses = at.statuses()
+    assert statuses["Boxes"] == ("WARN", "1 of 2 boxes left out: corners are missing or invalid.")
+    assert statuses["Skeletons"] == ("WARN", "Body format 9 is unknown. Fix the publisher.")
 
 
 def test_too_many_objects_are_cut_with_a_warning(

@@ -82,10 +82,10 @@ def report_of(fault: Provocation) -> str:
 
     A busy machine may leave the doctor too little time, which it says; it gets more then.
     """
-    said = _provoked(fault)
-    if '"unfinished": true' in said:
-        said = _provoked(replace(fault, seconds=MORE * fault.seconds))
-    return said
+    text = _provoked(fault)
+    if '"unfinished": true' in text:
+        text = _provoked(replace(fault, seconds=MORE * fault.seconds))
+    return text
 
 
 def _provoked(fault: Provocation) -> str:
@@ -93,7 +93,7 @@ def _provoked(fault: Provocation) -> str:
     bare["PYTHONPATH"] = ":".join(map(str, PATHS))
     with tempfile.TemporaryDirectory() as folder:
         written(Path(folder), fault.files)
-        done = subprocess.run(
+        completed = subprocess.run(
             ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-ec", _script(fault)],
             cwd=folder,
             env=bare,
@@ -101,7 +101,7 @@ def _provoked(fault: Provocation) -> str:
             text=True,
             check=False,
         )
-    return done.stdout or done.stderr
+    return completed.stdout or completed.stderr
 
 
 def _script(fault: Provocation) -> str:

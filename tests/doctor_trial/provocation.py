@@ -61,8 +61,8 @@ class Provocation:
             return f"first is {_named(relevant)}"
         if len(relevant) > 1:
             return f"more than one: {_named(relevant)}"
-        said = f"{relevant[0].remedy} {relevant[0].command} {relevant[0].cause}"
-        return "" if self.remedy in said else f"another remedy: {relevant[0].remedy}"
+        text = f"{relevant[0].remedy} {relevant[0].command} {relevant[0].cause}"
+        return "" if self.remedy in text else f"another remedy: {relevant[0].remedy}"
 
 
 def _named(findings: Sequence[ReportedFinding]) -> str:

@@ -36,8 +36,8 @@ def bags(paths: Iterable[Path]) -> Iterator[str]:
 
 
 def _found(name: str, command: list[str]) -> Iterator[str]:
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    report = msgspec.json.decode(done.stdout, type=DoctorReport)
+    completed = subprocess.run(command, capture_output=True, text=True, check=False)
+    report = msgspec.json.decode(completed.stdout, type=DoctorReport)
     for each in report.findings:
         if each.severity != "note":
             yield f"{name}: {each.id} {each.cause}"

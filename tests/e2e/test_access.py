@@ -27,8 +27,8 @@ def token(
 
     def token(*arguments: str, status: int = 0) -> str:
         assert main(["token", *arguments]) == status
-        said = capsys.readouterr()
-        return said.out + said.err
+        output = capsys.readouterr()
+        return output.out + output.err
 
     return token
 
@@ -91,13 +91,13 @@ def test_a_file_that_others_may_read_stops_the_start(
     token("make", "Ada")
     file = tmp_path / "webviz" / "tokens.json"
     file.chmod(0o644)
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-m", "webviz", "--token", "--port", "0"],
         env=env,
         capture_output=True,
         text=True,
         timeout=120,
     )
-    assert done.returncode == 1
-    assert done.stderr.startswith(f"webviz: Other users may read or write {file} (mode 0644).")
-    assert done.stderr.count("\n") == 1
+    assert completed.returncode == 1
+    assert completed.stderr.startswith(f"webviz: Other users may read or write {file} (mode 0644).")
+    assert completed.stderr.count("\n") == 1

@@ -123,17 +123,17 @@ def outcome(work: tuple[str, ...] | str, made: Path, folder: Path) -> tuple[int 
 
 def on_this_machine(words: tuple[str, ...]) -> list[str]:
     """The arguments, with addresses and ports that are free on this machine."""
-    found = [ELSEWHERE.get(word, word) for word in words[1:]]
-    if found[:1] and found[0] in END:
-        return found
-    for option in {"--port", "--http"} & {*found}:
+    results = [ELSEWHERE.get(word, word) for word in words[1:]]
+    if results[:1] and results[0] in END:
+        return results
+    for option in {"--port", "--http"} & {*results}:
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
-            found[found.index(option) + 1] = str(probe.getsockname()[1])
-    if "--port" not in found and "--help" not in found:
-        at = found.index("--ros-args") if "--ros-args" in found else len(found)
-        found[at:at] = ["--port", "0"]
-    return found
+            results[results.index(option) + 1] = str(probe.getsockname()[1])
+    if "--port" not in results and "--help" not in results:
+        at = results.index("--ros-args") if "--ros-args" in results else len(results)
+        results[at:at] = ["--port", "0"]
+    return results
 
 
 @pytest.fixture(scope="module")

@@ -52,13 +52,13 @@ def family_of(program: Program) -> list[psutil.Process]:
 
 def shared_memory(family: list[psutil.Process]) -> set[Path]:
     """The files of Fast DDS that processes share memory by."""
-    found = set()
+    results = set()
     for process in family:
         with suppress(FileNotFoundError, ProcessLookupError):  # it has ended
             maps = Path(f"/proc/{process.pid}/maps").read_text()
             names = re.findall(r"/dev/shm/fast(?:rtps|dds)_[0-9a-f]{16}", maps)
-            found |= {Path(name) for name in names}
-    return found
+            results |= {Path(name) for name in names}
+    return results
 
 
 def check_nothing_is_left(family: list[psutil.Process], files: Iterable[Path] = ()) -> None:

@@ -89,11 +89,11 @@ def known(page: Page) -> dict[str, Any]:
 
 def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
     """Return where a page shows a marker in its frame: position and orientation, w first."""
-    found = page.tab.evaluate(
+    value = page.tab.evaluate(
         """async (id) => (await import("webviz/features/handles/poses.js")).poseOf(id)""",
         known(page)[name]["id"],
     )
-    return found["position"], found["wxyz"]
+    return value["position"], value["wxyz"]
 
 
 def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
@@ -110,8 +110,8 @@ def on_screen(page: Page, point: Sequence[float]) -> tuple[float, float]:
 
 def look_at(page: Page, viewer: webviz.Viewer, x: float, y: float, **view: Any) -> None:
     """Look down at a place, with +x to the right and +y up, 100 pixels a metre."""
-    wanted = {"type": "TopDownOrtho", "scale": 100.0, "x": x, "y": y, **view}
-    viewer.do(ShowView(checked_view(wanted)))
+    expected = {"type": "TopDownOrtho", "scale": 100.0, "x": x, "y": y, **view}
+    viewer.do(ShowView(checked_view(expected)))
     middle = page.evaluate("""() => {
       const { left, top, width, height } = document.querySelector("canvas").getBoundingClientRect();
       return [left + width / 2, top + height / 2];
@@ -398,12 +398,12 @@ def test_controls_that_face_the_camera_do_so_in_every_view(
             marker,
         )
 
-    wanted = pytest.approx([*ahead, *left, *up], abs=1e-6)
+    expected = pytest.approx([*ahead, *left, *up], abs=1e-6)
     for yaw, pitch in ((0.3, 0.2), (2.5, 1.2)):
         view = {"distance": 6.0, "yaw": yaw, "pitch": pitch, "focal_point": [-3.0, -3.0, 0.0]}
         viewer.do(ShowView(checked_view({"type": "Orbit", **view})))
         page.draw()
-        page.wait_for(lambda: axes() == wanted, "facing the camera")
+        page.wait_for(lambda: axes() == expected, "facing the camera")
 
 
 def test_a_browser_that_leaves_during_a_drag_lets_go(

@@ -136,19 +136,19 @@ def test_a_goal_is_reached_or_aborted_with_nav2s_error_until_a_page_dismisses_it
 
 
 def test_waypoints_are_numbered_removed_and_sent_together(page: Page, pages: list[Page]) -> None:
-    shown = page.tab.locator("[data-webviz=waypoints] .wv-pose-number")
+    element = page.tab.locator("[data-webviz=waypoints] .wv-pose-number")
     drag(page, 0.2, 0.0, "Shift")
     for x in (0.4, 0.6, 0.8):
         drag(page, x, 0.0)
-    assert shown.all_text_contents() == ["1", "2", "3", "4"]
+    assert element.all_text_contents() == ["1", "2", "3", "4"]
     button(page, "Remove the last waypoint").click()
-    assert shown.all_text_contents() == ["1", "2", "3"]
+    assert element.all_text_contents() == ["1", "2", "3"]
     button(page, "Remove all waypoints").click()
-    assert shown.count() == 0
+    assert element.count() == 0
     for x in (0.5, FAR):
         drag(page, x, 0.0)
     button(page, "Stop at each").click()
-    assert shown.count() == 0
+    assert element.count() == 0
     until(pages[1], "2 waypoints Waypoint 1 of 2")
     assert button(page, "Nav2 Goal").get_attribute("aria-pressed") == "false"
     # At another action the goal before is cancelled first; then this one replaces it.

@@ -51,15 +51,15 @@ def test_all_topics_are_recorded_with_what_is_latched(
 ) -> None:
     path = tmp_path / "run"
     program = start("webviz", "record", "-o", str(path))
-    wanted = {"/map", "/robot_description", "/tf", "/tf_static", "/odom", "/scan"}
-    wait_for_topics(program, path, wanted)
+    expected = {"/map", "/robot_description", "/tf", "/tf_static", "/odom", "/scan"}
+    wait_for_topics(program, path, expected)
     assert program.end() == 0
     said = program.wait_for(r"recorded (\d+) messages of (\d+) topics in \d+ s, [\d.]+ MB\.")
     with Reader(path) as bag:
         assert bag.message_count == int(said[1])
         assert len(bag.connections) == int(said[2])
         assert sum(1 for _ in bag.messages()) == bag.message_count
-        assert wanted <= set(bag.topics)
+        assert expected <= set(bag.topics)
         assert not any("/_" in topic for topic in bag.topics)
 
 

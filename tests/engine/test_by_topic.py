@@ -56,8 +56,8 @@ def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None
 
 def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
     topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
-    found = picks(topics, {**DISPLAYS, "Text": Text})
-    assert [(pick.topic, pick.display) for pick in found if pick.display == "Text"] == [
+    result = picks(topics, {**DISPLAYS, "Text": Text})
+    assert [(pick.topic, pick.display) for pick in result if pick.display == "Text"] == [
         ("/chatter", "Text"),
         ("/map_updates", "Text"),
     ]
@@ -66,8 +66,8 @@ def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
 def test_a_display_of_topics_of_one_name_leaves_the_others_to_those_of_any_type() -> None:
     text = ("std_msgs/msg/String",)
     topics = {"/arm/robot_description": text, "/chatter": text}
-    found = picks(topics, {"Robot": Robot, "Text": Text})
-    assert [(pick.topic, pick.display, pick.input) for pick in found] == [
+    result = picks(topics, {"Robot": Robot, "Text": Text})
+    assert [(pick.topic, pick.display, pick.input) for pick in result] == [
         ("/arm/robot_description", "Robot", "urdf"),
         ("/chatter", "Text", "topic"),
     ]

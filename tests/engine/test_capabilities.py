@@ -23,5 +23,5 @@ def test_a_display_without_capabilities_has_none() -> None:
 
 def test_a_display_is_its_own_capability() -> None:
     display = Docking()
-    found = {kind for kind in CAPABILITIES if capability(display, kind) is display}
-    assert found == {Draggable, ProtocolClient, Selective}
+    results = {kind for kind in CAPABILITIES if capability(display, kind) is display}
+    assert results == {Draggable, ProtocolClient, Selective}

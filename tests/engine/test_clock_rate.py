@@ -13,19 +13,19 @@ WALL = 1_700_000_000.0
 def paces(rate: float, tick_s: float = 0.01) -> list[ClockRate]:
     """Return the rates a simulation yields in 10 s, given the ticks of its /clock."""
     meter = ClockRateMeter()
-    found = []
+    results = []
     for i in range(50):
         ros_s = 100 + (i * 0.2 * rate) // tick_s * tick_s
-        found.append(meter.step(round(ros_s * 1e9), WALL + i * 0.2))
-    return found
+        results.append(meter.step(round(ros_s * 1e9), WALL + i * 0.2))
+    return results
 
 
 @pytest.mark.parametrize("rate", [1.0, 0.5, 3.0])
 def test_a_steady_time_is_told_once_its_rate_is_known(rate: float) -> None:
-    found = paces(rate)
-    assert len(set(found)) <= 4
-    assert found[-1].rate == pytest.approx(rate, abs=0.1)
-    assert abs(found[-1].at(WALL + 9.8) - round((100 + 9.8 * rate) * 1e9)) < 0.15e9
+    result = paces(rate)
+    assert len(set(result)) <= 4
+    assert result[-1].rate == pytest.approx(rate, abs=0.1)
+    assert abs(result[-1].at(WALL + 9.8) - round((100 + 9.8 * rate) * 1e9)) < 0.15e9
 
 
 def test_steps_of_a_slow_clock_are_no_changes() -> None:
@@ -64,6 +64,6 @@ def test_a_paused_time_stands_still_at_once() -> None:
 def test_a_rate_counts_the_last_seconds() -> None:
     rate = Rate()
     assert rate.step(0, 10.0) == 0.0
-    found = [rate.step(20 * i, 10.0 + i * 0.2) for i in range(1, 50)]
-    assert found[-1] == pytest.approx(100.0)
+    results = [rate.step(20 * i, 10.0 + i * 0.2) for i in range(1, 50)]
+    assert results[-1] == pytest.approx(100.0)
     assert rate.step(0, 20.0) == 0.0  # counted anew

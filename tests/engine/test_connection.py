@@ -27,8 +27,8 @@ def connected() -> DisplayConnection:
 
 def listen(made: DisplayConnection) -> tuple[list[int], bool]:
     """Sizes of the messages since the last call, and whether others were missed before them."""
-    found = made.listen(WORDS, "std_msgs/msg/String", 10)
-    return [len(each) for each in found.messages], found.has_gap
+    result = made.listen(WORDS, "std_msgs/msg/String", 10)
+    return [len(each) for each in result.messages], result.has_gap
 
 
 def take(made: DisplayConnection, *sizes: int) -> None:
@@ -80,8 +80,8 @@ def test_a_pause_or_another_depth_is_a_gap(connected: DisplayConnection) -> None
     take(connected, 30)
     assert listen(connected) == ([30], False)
     take(connected, 30)
-    found = connected.listen(WORDS, "std_msgs/msg/String", 20)
-    assert (found.messages, found.has_gap) == ((), True)
+    result = connected.listen(WORDS, "std_msgs/msg/String", 20)
+    assert (result.messages, result.has_gap) == ((), True)
     assert connected.subscriptions()[WORDS].topic.depth == 20
 
 
@@ -97,9 +97,9 @@ def test_a_publisher_counts_once_its_type_fits_and_the_topic_is_subscribed(
         (Offer((right, other), requested, type=right.type), True),
     ):
         connected.take({}, {WORDS: offer})
-        found = connected.listen(WORDS, right.type, 10)
-        assert (found.publishers, found.endpoints) == (("/a",), {b"1"})
-        assert found.is_ready == is_ready
+        result = connected.listen(WORDS, right.type, 10)
+        assert (result.publishers, result.endpoints) == (("/a",), {b"1"})
+        assert result.is_ready == is_ready
 
 
 def test_work_is_under_way_until_its_result_can_be_taken(connected: DisplayConnection) -> None:

@@ -109,19 +109,19 @@ def test_calls_of_other_threads_wait_for_the_end_of_a_turn() -> None:
     assert calls.put(lambda: 1).result(0) == 1, "there is no frame loop"
     calls.begin()
     assert calls.put(lambda: 2).result(0) == 2, "within a turn nothing else happens"
-    found: list[Any] = []
-    thread = threading.Thread(target=lambda: found.append(calls.put(lambda: 1 / 0)))
+    results: list[Any] = []
+    thread = threading.Thread(target=lambda: results.append(calls.put(lambda: 1 / 0)))
     thread.start()
     thread.join()
     assert woken.is_set()
-    assert not found[0].done()
+    assert not results[0].done()
     calls.answer()
-    assert isinstance(found[0].exception(0), ZeroDivisionError)
-    thread = threading.Thread(target=lambda: found.append(calls.put(lambda: 3)))
+    assert isinstance(results[0].exception(0), ZeroDivisionError)
+    thread = threading.Thread(target=lambda: results.append(calls.put(lambda: 3)))
     thread.start()
     thread.join()
     calls.end()
-    assert found[1].result(0) == 3
+    assert results[1].result(0) == 3
 
 
 @pytest.mark.parametrize("panel", plugin_types(Panel).values(), ids=lambda panel: panel.__name__)

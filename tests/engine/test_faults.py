@@ -263,9 +263,9 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
         refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
         b.turn()
     assert "Boom" in str(refused.exception())
-    done = b.viewer.enqueue(Refresh())
+    answer = b.viewer.enqueue(Refresh())
     b.turn()
-    assert done.result() == ""
+    assert answer.result() == ""
 
 
 @pytest.mark.parametrize("part", PARTS)

@@ -77,14 +77,14 @@ def test_a_group_with_an_interval_moves_no_more_often_but_at_once_in_a_new_fixed
 ) -> None:
     at = bench(Ticking())
     at.transform("odom", "map", T, static=True)
-    seen = []
+    observed = []
     for number in range(1, 6):
         at.transform("map", "base", at.source.now, float(number))
         at.turn()
         ((_, pose, _),) = at.scene.visible()
-        seen.append(pose.position[0])
+        observed.append(pose.position[0])
         at.source.now += SECOND * 2 // 5
-    assert seen == [1.0, 1.0, 1.0, 4.0, 4.0]
+    assert observed == [1.0, 1.0, 1.0, 4.0, 4.0]
     at.viewer.enqueue(SetFixedFrame("odom"))
     at.turn()
     ((_, pose, _),) = at.scene.visible()

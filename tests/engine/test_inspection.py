@@ -196,12 +196,12 @@ def test_the_transform_between_two_frames_is_read_out(bench: Benches) -> None:
     b.transform("map", "odom", 0, 1.0, static=True)
     b.transform("odom", "base", b.source.now - SECOND // 2)
     pairs = frozenset({("map", "odom"), ("map", "base"), ("map", "moon")})
-    found = do(b, InspectTransforms(tree=False, between=pairs)).between
-    assert found["map", "odom"].translation == (1.0, 0.0, 0.0)
-    assert found["map", "odom"].age_s is None
-    assert found["map", "base"].age_s == 0.5
-    assert found["map", "moon"].translation is None
-    assert "moon" in found["map", "moon"].problem
+    result = do(b, InspectTransforms(tree=False, between=pairs)).between
+    assert result["map", "odom"].translation == (1.0, 0.0, 0.0)
+    assert result["map", "odom"].age_s is None
+    assert result["map", "base"].age_s == 0.5
+    assert result["map", "moon"].translation is None
+    assert "moon" in result["map", "moon"].problem
     assert do(b, InspectTransforms(tree=False)).between == {}
 
 

@@ -22,8 +22,8 @@ def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None
     group = Group(Placement())
     group.add("node", node)
     picks: list[Pick] = [(NUMBER, item, point, None)]
-    found = found_in(Shot({"": group}, (), "map"), "", "node", picks).get(NUMBER)
-    return None if found is None else (found.hit.id, (*found.hit.point,))
+    hits = found_in(Shot({"": group}, (), "map"), "", "node", picks).get(NUMBER)
+    return None if hits is None else (hits.hit.id, (*hits.hit.point,))
 
 
 @pytest.mark.parametrize(
@@ -80,5 +80,5 @@ def test_what_moves_with_a_frame_is_where_it_was_drawn(when: When, x: float) -> 
     group = Group(Placement("cart", when))
     group.add("node", points)
     picks: list[Pick] = [(NUMBER, 0, (1.0, 0.0, 0.0), None)]
-    found = found_in(Shot({"": group}, (), "map"), "", "node", picks)[NUMBER]
-    assert found.position(Frames(buffer, "map", 1)) == ("map", (x, 0.0, 0.0))
+    hits = found_in(Shot({"": group}, (), "map"), "", "node", picks)[NUMBER]
+    assert hits.position(Frames(buffer, "map", 1)) == ("map", (x, 0.0, 0.0))

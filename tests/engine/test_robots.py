@@ -80,8 +80,8 @@ def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(bench: 
         for names in ("arm", "leg"):
             move(names, second, second)
     for names in ("arm", "leg"):
-        found = b.viewer.buffer.lookup("map", f"robot1/{names}3", 2 * S)
-        assert found.translation[0] == 2.0
+        transform = b.viewer.buffer.lookup("map", f"robot1/{names}3", 2 * S)
+        assert transform.translation[0] == 2.0
 
 
 def test_two_robots_with_equal_frames_are_drawn_where_each_is(bench: Benches) -> None:

@@ -260,11 +260,11 @@ def test_a_session_keeps_the_list_of_what_may_be_written(tmp_path: Path, bench: 
     b = bench(publish=None, autosave=tmp_path / "last.yaml")
     do(b, SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel_raw"))
     b.viewer.close()
-    kept = load(tmp_path / "last.yaml")
-    assert any(getattr(tool, "topic", Topic()).name == "/cmd_vel_raw" for tool in kept.tools)
-    assert kept.settings.publish is not None
-    assert "/goal_pose" in kept.settings.publish
-    assert "/cmd_vel_raw" not in kept.settings.publish
+    remaining = load(tmp_path / "last.yaml")
+    assert any(getattr(tool, "topic", Topic()).name == "/cmd_vel_raw" for tool in remaining.tools)
+    assert remaining.settings.publish is not None
+    assert "/goal_pose" in remaining.settings.publish
+    assert "/cmd_vel_raw" not in remaining.settings.publish
 
 
 @pytest.mark.skipif(os.geteuid() == 0 and not Path("/dev/full").exists(), reason="no /dev/full")

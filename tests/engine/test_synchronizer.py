@@ -53,9 +53,9 @@ def test_sets_are_those_that_trying_every_combination_finds(
     used = 0
     for number, (place, stamp) in enumerate(messages):
         name = inputs[place % len(inputs)]
-        found = ours.add(name, stamp, number)
-        assert found == reference.add(name, stamp, number)
-        used += len(found or {})
+        result = ours.add(name, stamp, number)
+        assert result == reference.add(name, stamp, number)
+        used += len(result or {})
         waiting = {each: len(queue) for each, queue in reference.queues.items()}
         assert max(waiting.values()) <= QUEUE
         assert ours.dropped == number + 1 - used - sum(waiting.values())

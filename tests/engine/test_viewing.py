@@ -79,9 +79,9 @@ class Looking:
 
     def do(self, command: Command, sender: Sender = PROGRAM) -> State:
         """Run a command and return the state that panels show."""
-        done = self.bench.viewer.enqueue(command, sender)
-        self.bench.until_done(done)
-        assert done.exception(0) is None
+        answer = self.bench.viewer.enqueue(command, sender)
+        self.bench.until_done(answer)
+        assert answer.exception(0) is None
         return self.bench.states[-1]
 
     def refused(self, command: Command) -> str:
@@ -136,10 +136,12 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
         before = dict(cameras.shown)
         views = looking.do(command, sender).settings.views
         images = [browser for _, browser in cameras.images]
-        kept = [id for id, view in before.items() if view in (cameras.start, views.get("Mine"))]
+        remaining = [
+            id for id, view in before.items() if view in (cameras.start, views.get("Mine"))
+        ]
         moved = [id for id in before if cameras.shown[id] != before[id]]
         cameras.images.clear()
-        return moved, images, kept
+        return moved, images, remaining
 
     alone = acted(command, Sender(ALICE))
     assert [ALICE] in alone

@@ -169,7 +169,7 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
         if path.name != name:
             (inner / "features" / path.name).symlink_to(path)
     own = list(commands_of(feature.features()[name]))
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-c", START, *own],
         cwd=tmp_path,
         env={"PYTHONPATH": str(tmp_path), "PATH": "", "HOME": str(tmp_path)},
@@ -178,11 +178,13 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
         timeout=60,
         check=False,
     )
-    assert done.returncode == 0, done.stderr
-    missing = re.findall(r"(\w+) is missing: webviz\.features\.(?=\1:)", done.stdout)
+    assert completed.returncode == 0, completed.stderr
+    missing = re.findall(r"(\w+) is missing: webviz\.features\.(?=\1:)", completed.stdout)
     assert sorted(missing) == sorted({name, *NEEDED_BY.get(name, ())})
     lost = ", ".join(sorted({name, *NEEDED_BY.get(name, ())}))
     asked = [*own, *(["UseTool"] if "UseTool" in own else [])]
-    said = [f"There is no {each} without {lost}. Install webviz anew." for each in asked]
-    assert re.findall(r"^There is no .*", done.stdout, re.MULTILINE) == said
-    assert ("This viewer has no Doctor. Install webviz anew." in done.stdout) == (name == "doctor")
+    texts = [f"There is no {each} without {lost}. Install webviz anew." for each in asked]
+    assert re.findall(r"^There is no .*", completed.stdout, re.MULTILINE) == texts
+    assert ("This viewer has no Doctor. Install webviz anew." in completed.stdout) == (
+        name == "doctor"
+    )

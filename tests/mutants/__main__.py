@@ -104,8 +104,8 @@ def keep_sample(plan: WorkDB, copy: Path, count: int, seed: int) -> None:
     usable = [item for item in items if not is_pointless(item, copy)]
     if count and count < len(usable):
         usable = random.Random(seed).sample(usable, count)
-    kept = {item.job_id for item in usable}
-    skipped = [item.job_id for item in items if item.job_id not in kept]
+    remaining = {item.job_id for item in usable}
+    skipped = [item.job_id for item in items if item.job_id not in remaining]
     if skipped:
         plan.set_multiple_results(skipped, WorkResult(WorkerOutcome.SKIPPED))
 

@@ -45,9 +45,9 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
 
     source = f". {tmp_path}/install/local_setup.sh && "
     where = """python -c 'from importlib.util import find_spec as f; print(f("webviz").origin)'"""
-    found = Path(run(["sh", "-c", source + where]).strip())
-    assert found.is_relative_to(tmp_path)
-    assert found.resolve().is_relative_to(ROOT) == bool(options)
+    result = Path(run(["sh", "-c", source + where]).strip())
+    assert result.is_relative_to(tmp_path)
+    assert result.resolve().is_relative_to(ROOT) == bool(options)
     programs = "cd $COLCON_PREFIX_PATH/webviz/lib/webviz && ./webviz --version && ./sim --help"
     shown = run(["sh", "-c", source + programs])
     assert "usage: webviz-sim" in shown

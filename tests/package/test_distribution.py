@@ -33,10 +33,10 @@ OF_ROS = re.compile(r"(\w+_(msgs|srvs|interfaces|runtime_py)|rcl_\w+|rpyutils)$"
 
 def requirements(*extras: str) -> set[str]:
     """The names of what webviz requires."""
-    wanted = list(PROJECT["dependencies"])
+    expected = list(PROJECT["dependencies"])
     for extra in extras:
-        wanted += PROJECT["optional-dependencies"][extra]
-    return {re.split(r"[<>=!\[; ]", each)[0].lower() for each in wanted}
+        expected += PROJECT["optional-dependencies"][extra]
+    return {re.split(r"[<>=!\[; ]", each)[0].lower() for each in expected}
 
 
 def files() -> list[Path]:
@@ -71,12 +71,12 @@ def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
 def test_every_imported_library_is_required() -> None:
     known = {name.replace("-", "_") for name in requirements(*EXTRAS)} | OPTIONAL
     known |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
-    found: dict[str, Path] = {}
+    result: dict[str, Path] = {}
     for file in files():
         if file.suffix == ".py":
             text = (ROOT / file).read_text(encoding="utf-8")
-            found |= dict.fromkeys((a or b for a, b in IMPORT.findall(text)), file)
-    missing = {name: str(file) for name, file in found.items() if not OF_ROS.match(name)}
+            result |= dict.fromkeys((a or b for a, b in IMPORT.findall(text)), file)
+    missing = {name: str(file) for name, file in result.items() if not OF_ROS.match(name)}
     assert {n: f for n, f in missing.items() if REQUIREMENT.get(n, n) not in known} == {}
 
 
@@ -90,15 +90,15 @@ def test_the_licence_of_every_requirement_is_listed() -> None:
             continue
         keys = ("License-Expression", "License", "Classifier")
         fields = [each for key in keys for each in about.get_all(key) or []]
-        said = " ".join(f for f in fields if " :: " not in f)
-        said += " ".join(f for f in fields if f.startswith("License ::"))
-        if said.strip():  # the wheels of ROS say nothing
+        text = " ".join(f for f in fields if " :: " not in f)
+        text += " ".join(f for f in fields if f.startswith("License ::"))
+        if text.strip():  # the wheels of ROS say nothing
             word = re.split(r"[- ]", licence)[0]
-            assert word in said, f"{name}: {licence} is listed, its metadata say {said!r:.200}"
+            assert word in text, f"{name}: {licence} is listed, its metadata say {text!r:.200}"
 
 
 def test_the_licences_of_visers_page_are_listed() -> None:
-    wanted = json.loads((CLIENT / "package.json").read_text(encoding="utf-8"))["dependencies"]
+    expected = json.loads((CLIENT / "package.json").read_text(encoding="utf-8"))["dependencies"]
     lock = json.loads((CLIENT / "package-lock.json").read_text(encoding="utf-8"))["packages"]
     section = LICENCES.partition("## In the page")[2].partition("\n## ")[0]
     listed = {
@@ -108,7 +108,7 @@ def test_the_licences_of_visers_page_are_listed() -> None:
     }
     copies = [each.name for each in (CLIENT / "src/vendor").iterdir()]
     assert all(f"/{name} (MIT)" in section for name in copies), copies
-    assert listed == {name: lock[f"node_modules/{name}"]["license"] for name in wanted}
+    assert listed == {name: lock[f"node_modules/{name}"]["license"] for name in expected}
 
 
 def test_a_source_distribution_has_all_that_a_wheel_needs_and_no_tests(tmp_path: Path) -> None:

@@ -153,10 +153,10 @@ def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
 
 
 def test_types_have_the_messages_that_they_show_an_icon_and_a_small_picture() -> None:
-    found = types_store().types
-    assert found["LaserScan"].topics == [SCAN]
-    assert (found["LaserScan"].icon, found["Wrench"].icon) == ("laser", "plug")
-    sizes = {name: len(each.picture) for name, each in found.items() if "Everything" not in name}
+    result = types_store().types
+    assert result["LaserScan"].topics == [SCAN]
+    assert (result["LaserScan"].icon, result["Wrench"].icon) == ("laser", "plug")
+    sizes = {name: len(each.picture) for name, each in result.items() if "Everything" not in name}
     assert {name for name, size in sizes.items() if not size} == {"Group", "MapInfo"}, (
         "they draw nothing"
     )

@@ -207,9 +207,9 @@ def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[His
 
 def show_history(tab: Tab, history: UndoHistory) -> None:
     tab.loop.show(history=history)
-    wanted = f"Undo: {history.undo[0].label}" if history.undo else "Undo"
+    expected = f"Undo: {history.undo[0].label}" if history.undo else "Undo"
     undo = tab.page.locator(".wv-head [aria-label=Undo]")
-    tab.wait_for(lambda: undo.get_attribute("data-tip") == wanted)
+    tab.wait_for(lambda: undo.get_attribute("data-tip") == expected)
 
 
 def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:

@@ -79,8 +79,8 @@ def test_the_log_is_filtered_and_opened_and_leads_to_its_time(loop: Loop, tab: T
         newer = tab.page.get_by_role("option").filter(has_text=f"still cold {i}")
         tab.wait_for(lambda newer=newer: newer.count() == 1 and newer.is_visible())
         assert follow.get_attribute("aria-pressed") == "true"
-    kept = len(log.chunks) * 200
-    assert 90_000 < kept <= 100_000
+    remaining = len(log.chunks) * 200
+    assert 90_000 < remaining <= 100_000
     width = "(span) => span.clientWidth / span.parentElement.clientWidth"
     share = newest.locator("span").last.evaluate(width)
     assert share > 0.9, "in a narrow panel the text has a line of its own"

@@ -211,7 +211,7 @@ def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab)
     stages = (Stage("received", 0.0, 0.002, 0.004), Stage("ready", 0.002, 0.031, 0.06))
     painted = Stage("acknowledged", 0.0, 0.017, 0.02), Stage("painted", 0.017, 0.05, 0.06)
     to = BrowserLatency(7, HOSTILE, painted, 0.1, 0.2, 34_400.0)
-    found = Latency(
+    result = Latency(
         "3", HOSTILE, 40, stages, 0.033, 0.064, f"Waits 31 ms for {HOSTILE}.", 0.0123, (to,)
     )
     scan = Row("3", "Grid", Grid(name=HOSTILE), HOSTILE, {})
@@ -219,12 +219,12 @@ def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(panel: Tab)
     section.get_by_text("Stamp to screen").click()
     panel.wait_for(lambda: "latency" in panel.loop.watched)
     panel.wait_for(lambda: "No display has drawn a message" in section.inner_text())
-    panel.loop.show(scan, latencies=(found,))
+    panel.loop.show(scan, latencies=(result,))
     panel.wait_for(lambda: "33 ms, p99 64 ms" in section.inner_text())
-    said = section.inner_text()
+    text = section.inner_text()
     takes = f"Takes 1.2 % of a core, 34.4 kB/s to {HOSTILE}."
-    assert f"Waits 31 ms for {HOSTILE}. {takes}" in said
-    assert "100 ms, p99 200 ms" in said
+    assert f"Waits 31 ms for {HOSTILE}. {takes}" in text
+    assert "100 ms, p99 200 ms" in text
     assert section.locator("img").count() == 0
     widths = section.locator(".wv-waterfall-bar").evaluate_all(
         "bars => bars.map((bar) => Math.round(parseFloat(bar.style.width)))"

@@ -56,8 +56,8 @@ def test_a_mismatch_is_told_in_a_sentence() -> None:
 
 def test_an_end_without_a_node_is_a_program_or_behind_the_bridge() -> None:
     behind = Publisher("", TYPE, "reliable", "volatile", is_qos_known=False)
-    found = topic_of("/scan", Offer((publisher(""), behind)), lambda name: False)
-    assert found["from"] == ["a DDS program", "the bridge"]
+    result = topic_of("/scan", Offer((publisher(""), behind)), lambda name: False)
+    assert result["from"] == ["a DDS program", "the bridge"]
 
 
 def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop, tab: Tab) -> None:

@@ -458,13 +458,13 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
         return np.array((width, height)) / 2 + (pixel - (320, 240)) * scale
 
     def are_right(names: set[str], has_text: bool = False) -> bool:
-        found = dots()
-        if {name for name in chosen if found[name]} != names:
+        result = dots()
+        if {name for name in chosen if result[name]} != names:
             return False
-        if found["white"] != has_text:
+        if result["white"] != has_text:
             return False
         return all(
-            np.abs(np.subtract(found[name][:2], expected(chosen[name][0]))).max() < 2.0
+            np.abs(np.subtract(result[name][:2], expected(chosen[name][0]))).max() < 2.0
             for name in names
         )
 
@@ -485,8 +485,8 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
             "Camera", replace(pixels(image, "rgb8"), camera=replace(overlay_camera, overlay=1.0))
         )
         other.wait_for(lambda: are_right({"red", "green", "blue"}))
-        found = dots()
-        x, y = (found["blue"][i] / found["size"][i] for i in range(2))
+        result = dots()
+        x, y = (result["blue"][i] / result["size"][i] for i in range(2))
         canvas = other.page.get_by_label("Image /camera/image_raw", exact=True).locator("canvas")
         box = canvas.bounding_box()
         column, row = map(round, seen[1])

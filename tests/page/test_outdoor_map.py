@@ -34,12 +34,12 @@ def _close(loop: Loop, tab: Tab) -> Iterator[None]:
 @pytest.fixture
 def tiles(tmp_path: Path) -> Path:
     """Tiles around HERE, as files."""
-    made = io.BytesIO()
-    PIL.Image.new("RGB", (8, 8), GREEN).save(made, "PNG")
+    buffer = io.BytesIO()
+    PIL.Image.new("RGB", (8, 8), GREEN).save(buffer, "PNG")
     for x, y in TilePlane(HERE, LEVEL).around(3):
         path = tmp_path / f"{LEVEL}/{x}/{y}.png"
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(made.getvalue())
+        path.write_bytes(buffer.getvalue())
     return tmp_path
 
 

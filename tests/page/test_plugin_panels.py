@@ -211,13 +211,13 @@ def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, ta
     loop.show(panels=shown(Limited, Limited))
     tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
     tab.button("Add a panel").click()
-    found = tab.page.get_by_role("dialog", name="Add panel").get_by_role("option")
-    titles = found.locator(".wv-pick-title").all_inner_texts()
+    element = tab.page.get_by_role("dialog", name="Add panel").get_by_role("option")
+    titles = element.locator(".wv-pick-title").all_inner_texts()
     assert titles == sorted(titles, key=str.casefold)
-    plot = found.filter(has_text="Numbers of any messages over time")
+    plot = element.filter(has_text="Numbers of any messages over time")
     assert plot.locator(".wv-pick-note").inner_text() == "Below the scene"
     tab.page.keyboard.type("nav")
-    assert found.first.locator(".wv-pick-note").inner_text() == "In the side bar"
+    assert element.first.locator(".wv-pick-note").inner_text() == "In the side bar"
     tab.page.keyboard.press("Enter")
     tab.wait_for_command(AddPanel("Nav2"))
     loop.show(panels=shown(Limited, Limited, Frames))

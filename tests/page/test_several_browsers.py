@@ -207,9 +207,9 @@ def test_two_who_look_into_topics_choose_for_themselves_until_one_leaves(
         each.show_tab("Topics")
         each.page.locator(".wv-cell-name").get_by_text(topic, exact=True).click()
     tab.wait_for_command(InspectTopics(frozenset({"/scan", "/map"})))
-    found = {"/scan": {"mine": "1"}, "/map": {"yours": "2"}}
+    result = {"/scan": {"mine": "1"}, "/map": {"yours": "2"}}
     tab.loop.show(
-        inspected={name: Inspected("x", {"fields": each}) for name, each in found.items()}
+        inspected={name: Inspected("x", {"fields": each}) for name, each in result.items()}
     )
     tab.wait_for(lambda: "mine" in tab.text())
     other_tab.wait_for(lambda: "yours" in other_tab.text())

@@ -53,8 +53,8 @@ def card(tab: Tab) -> playwright.Locator:
 
 def wait_for_share(tab: Tab, *share: float) -> None:
     """Wait until the newest heartbeat says that this is held."""
-    wanted = pytest.approx(share, abs=0.03)
-    tab.wait_for(lambda: tab.loop.steered and (tab.loop.steered[-1][2] or ()) == wanted)
+    expected = pytest.approx(share, abs=0.03)
+    tab.wait_for(lambda: tab.loop.steered and (tab.loop.steered[-1][2] or ()) == expected)
 
 
 def test_keys_drive_while_they_are_held_and_leave_the_camera_and_other_tools_alone(

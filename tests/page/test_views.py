@@ -114,8 +114,8 @@ def test_buttons_act_where_they_are_clicked(views: Pane, make_row: Callable[...,
 
 def saved(views: Pane, **named: Any) -> None:
     views.tab.loop.show(settings=Settings(views=named))
-    shown = views.page.locator(".wv-saved-show")
-    views.tab.wait_for(lambda: shown.count() == len(named))
+    element = views.page.locator(".wv-saved-show")
+    views.tab.wait_for(lambda: element.count() == len(named))
 
 
 def test_views_are_saved_under_a_name_or_a_number(views: Pane) -> None:

@@ -86,10 +86,10 @@ class JointsPanel(OpenedPanel):
 
 @pytest.fixture
 def hand(bench: Benches) -> JointsPanel:
-    made = JointsPanel(bench)
-    assert "No robot description received on /robot_description" in made.texts()
-    made.describe(HAND)
-    return made
+    display_bench = JointsPanel(bench)
+    assert "No robot description received on /robot_description" in display_bench.texts()
+    display_bench.describe(HAND)
+    return display_bench
 
 
 def test_each_joint_that_leads_has_a_slider_within_its_limits(hand: JointsPanel) -> None:
@@ -136,12 +136,12 @@ def test_a_value_that_no_slider_has_is_refused(hand: JointsPanel) -> None:
 
 
 def test_a_viewer_that_may_not_publish_says_so(bench: Benches) -> None:
-    made = JointsPanel(bench, publish=("/cmd_vel",))
-    made.describe(HAND)
-    made.move("bend", 1.0)
-    made.show()
-    assert made.published() == []
-    assert "/joint_states" in made.texts()
+    display_bench = JointsPanel(bench, publish=("/cmd_vel",))
+    display_bench.describe(HAND)
+    display_bench.move("bend", 1.0)
+    display_bench.show()
+    assert display_bench.published() == []
+    assert "/joint_states" in display_bench.texts()
 
 
 def test_joints_that_follow_each_other_have_sliders_of_their_own(hand: JointsPanel) -> None:

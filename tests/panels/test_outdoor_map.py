@@ -110,11 +110,11 @@ def test_topics_without_a_publisher_are_said() -> None:
 
 
 def png(folder: Path, name: str) -> bytes:
-    made = io.BytesIO()
-    PIL.Image.new("RGB", (8, 8), (90, 90, 90)).save(made, "PNG")
+    buffer = io.BytesIO()
+    PIL.Image.new("RGB", (8, 8), (90, 90, 90)).save(buffer, "PNG")
     (folder / name).parent.mkdir(parents=True, exist_ok=True)
-    (folder / name).write_bytes(made.getvalue())
-    return made.getvalue()
+    (folder / name).write_bytes(buffer.getvalue())
+    return buffer.getvalue()
 
 
 def test_a_page_gets_the_tiles_it_asks_for(tmp_path: Path) -> None:

@@ -129,15 +129,15 @@ def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Ben
     wired: Any = load(path)["Wired"]
     try:
         b = bench(graph=RememberingGraph())
-        said = ("/words", "std_msgs/msg/String", {"data": "one"})
-        b.publish(*said)
+        text = ("/words", "std_msgs/msg/String", {"data": "one"})
+        b.publish(*text)
         b.turn()
         assert "/words" not in b.source.wanted
         assert wired.heard == []
         b.do(OpenPanels(frozenset({"Wired"})))
         assert b.source.wanted["/words"].type == "std_msgs/msg/String"
         assert "/answers" in {advertisement.topic for advertisement in b.source.graph.advertised}
-        b.publish(*said)
+        b.publish(*text)
         b.publish("/words", "std_msgs/msg/String", {"data": "two"})
         b.source.put("/words", "std_msgs/msg/String", b"\x00\x01\x00\x00\xff")
         b.turn()

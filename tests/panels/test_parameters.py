@@ -163,10 +163,10 @@ def test_a_value_that_does_not_fit_is_refused(
 
 def test_many_and_long_parameters_are_bounded(opened: Any) -> None:
     _, _, shown = opened(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
-    found = shown()
-    assert len(str(found)) < 400_000
-    assert found["rows"][0]["locked"]
-    assert "more." in found["note"]
+    result = shown()
+    assert len(str(result)) < 400_000
+    assert result["rows"][0]["locked"]
+    assert "more." in result["note"]
 
 
 def test_only_named_nodes_may_be_changed() -> None:

@@ -48,10 +48,10 @@ def values(panel: Any) -> Any:
 
 def test_rows_of_a_table_are_elements_and_its_columns_their_fields() -> None:
     status = [STATUS(name="a", level=2), STATUS(name="b", message="\x1b[31m" + "x" * 999)]
-    found = table_of([status])
-    assert found["columns"] == ["level", "name", "message", "hardware_id", "values"]
-    assert found["rows"][0] == ["ERROR (2)", "a", "", "", "0 elements"]
-    assert len(found["rows"][1][2]) == 200
+    table = table_of([status])
+    assert table["columns"] == ["level", "name", "message", "hardware_id", "values"]
+    assert table["rows"][0] == ["ERROR (2)", "a", "", "", "0 elements"]
+    assert len(table["rows"][1][2]) == 200
     assert table_of([np.array([[1.0, math.nan]])])["columns"] == ["x", "y"]
     assert table_of([np.array([1e308, math.inf])])["rows"] == [[1e308], ["inf"]]
     assert table_of([JointState()])["columns"][0] == "header.stamp"
@@ -60,9 +60,9 @@ def test_rows_of_a_table_are_elements_and_its_columns_their_fields() -> None:
 
 def test_a_large_table_is_cut_and_says_so() -> None:
     scan = LaserScan(ranges=np.ones(100_000, np.float32))
-    found = table_of([scan.ranges])
-    assert len(found["rows"]) == MAX_ROWS
-    assert found["note"] == f"{100_000 - MAX_ROWS} rows more."
+    table = table_of([scan.ranges])
+    assert len(table["rows"]) == MAX_ROWS
+    assert table["note"] == f"{100_000 - MAX_ROWS} rows more."
     wide = [STATUS(name="n" * 200, message="m" * 200, hardware_id="h" * 200)] * MAX_ROWS
     assert sum(len(str(row)) for row in table_of([wide])["rows"]) < 2 * MAX_CHARACTERS
     assert len(table_of([np.ones((1, 4))])["columns"]) <= MAX_COLUMNS
@@ -166,18 +166,18 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
     status[0] = STATUS(name="n: 0", values=[KEY(key="\x00" * 500, value="\\" * 9999)] * 1000)
     panel.take("/diagnostics", ARRAY(status=status), 99 * SECOND)
     shown(panel)
-    found = [each for part in panel.own.parts.values() for each in part["statuses"]]
-    assert len(found) == MAX_STATUSES
-    assert found[1]["path"] == ["/diagnostics", "n", "1"]
-    assert (found[0]["level"], found[1]["level"]) == (0, 3)
+    results = [each for part in panel.own.parts.values() for each in part["statuses"]]
+    assert len(results) == MAX_STATUSES
+    assert results[1]["path"] == ["/diagnostics", "n", "1"]
+    assert (results[0]["level"], results[1]["level"]) == (0, 3)
     assert "not shown; the limit is" in values(panel)["problem"]
     before = dict(panel.own.parts)
     panel.take("/diagnostics", ARRAY(status=[STATUS(name="n: 25")]), 100 * SECOND)
     shown(panel)
     assert [key for key, part in panel.own.parts.items() if before[key] is not part] == ["1"]
     shown(panel, 999 * SECOND)
-    found = [each for part in panel.own.parts.values() for each in part["statuses"]]
-    assert {each["level"] for each in found} == {3}
+    results = [each for part in panel.own.parts.values() for each in part["statuses"]]
+    assert {each["level"] for each in results} == {3}
     panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
     panel.start_over()
     panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)

@@ -46,16 +46,16 @@ def test_it_follows_its_target_frame() -> None:
 
 
 def test_a_camera_that_a_page_has_moved_becomes_its_own_through_a_command() -> None:
-    sent: list[tuple[Any, int | None]] = []
+    messages: list[tuple[Any, int | None]] = []
     panel, ui = make(SceneView, {}), RecordedUi()
-    panel.build(ui, lambda command, browser=None: sent.append((command, browser)))
+    panel.build(ui, lambda command, browser=None: messages.append((command, browser)))
     (widget,) = ui.widgets.values()
     widget.use('{"yaw": 1.0}', 4)
-    assert sent == [], "it is not known yet"
+    assert messages == [], "it is not known yet"
     show(panel, State(panels=(PanelTab("panel7", "SceneView", panel),)))
     widget.use('{"yaw": 1.0}', 4)
     widget.use("[1]", 4)
-    assert sent == [(SetPanelProperty("panel7", "view", {"yaw": 1.0}), 4)]
+    assert messages == [(SetPanelProperty("panel7", "view", {"yaw": 1.0}), 4)]
 
 
 @pytest.mark.parametrize("view", [{"distance": 0}, {"pitch": 2.0}, {"type": "FPS"}, {"fov": 1}])

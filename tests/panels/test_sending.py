@@ -195,6 +195,6 @@ def test_nothing_is_published_to_a_read_only_source(bench: Benches) -> None:
     b = bench()
     b.do(AddPanel("PublishMessage", {"topic": "/cmd", "message_type": STRING}))
     b.do(OpenPanels(frozenset({"PublishMessage"})))
-    said: list[str] = []
-    b.do(Publish("/cmd", STRING, {}, report=lambda status: said.append(status.text)))
-    assert said == ["This source can only be read."]
+    texts: list[str] = []
+    b.do(Publish("/cmd", STRING, {}, report=lambda status: texts.append(status.text)))
+    assert texts == ["This source can only be read."]

@@ -255,9 +255,9 @@ def test_what_the_panels_send_to_may_be_sent_to() -> None:
 
 
 def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
-    sent: list[tuple[Any, int | None]] = []
+    messages: list[tuple[Any, int | None]] = []
     ui, panel = RecordedUi(), MotionPlanningTasks()
-    panel.build(ui, lambda command, browser=None: sent.append((command, browser)))
+    panel.build(ui, lambda command, browser=None: messages.append((command, browser)))
 
     def shown(*rows: Row) -> str:
         show_panel(panel, State(rows=rows))
@@ -273,4 +273,4 @@ def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
     choice = next(w for w in ui.widgets.values() if w.values.get("label") == "Solution")
     choice.use("7: pick", 3)
     choice.use("Newest", 3)
-    assert sent == [(SetProperty("d1", "solution", id), 3) for id in (7, 0)]
+    assert messages == [(SetProperty("d1", "solution", id), 3) for id in (7, 0)]

@@ -23,49 +23,51 @@ FACING_X = (-0.5, 0.5, -0.5, 0.5)
 
 def test_a_camera_has_a_pyramid_with_its_image(webviz_harness: Stages) -> None:
     camera = CameraInfo(far_clip=2.0, show_image=True, edge_color=(85, 255, 255))
-    seen = webviz_harness(camera, Grid(plane_cell_count=6), view=VIEW)
-    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
-    seen.publish(camera.topic.name, photos.INFO, photos.info(), frame="camera")
+    harness = webviz_harness(camera, Grid(plane_cell_count=6), view=VIEW)
+    harness.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    harness.publish(camera.topic.name, photos.INFO, photos.info(), frame="camera")
     values = photos.raw(photos.room()[0], "rgb8")
-    seen.publish(camera.image_topic.name, photos.RAW, values, frame="camera")
-    seen.turn()
-    seen.check_picture("camera_info/default")
+    harness.publish(camera.image_topic.name, photos.RAW, values, frame="camera")
+    harness.turn()
+    harness.check_picture("camera_info/default")
 
 
 def test_an_image_stands_at_its_frame(webviz_harness: Stages) -> None:
     plane = ImagePlane(width=2.4, alpha=0.9)
-    seen = webviz_harness(
+    harness = webviz_harness(
         plane, Grid(plane_cell_count=6), Axes(reference_frame="camera"), view=VIEW
     )
-    seen.transform("map", "camera", (1.5, 0.0, 1.0), FACING_X)
-    seen.publish(plane.topic.name, photos.COMPRESSED, photos.jpeg(photos.room()[0]), frame="camera")
-    seen.turn()
-    seen.check_picture("image_plane/default")
+    harness.transform("map", "camera", (1.5, 0.0, 1.0), FACING_X)
+    harness.publish(
+        plane.topic.name, photos.COMPRESSED, photos.jpeg(photos.room()[0]), frame="camera"
+    )
+    harness.turn()
+    harness.check_picture("image_plane/default")
 
 
 def test_the_scene_is_over_the_image_of_its_camera(webviz_harness: Stages) -> None:
     camera = Camera(overlay_alpha=0.2, zoom_factor=0.9)
     frame = Axes(reference_frame="box", length=0.5, radius=0.03)
-    seen = webviz_harness(
+    harness = webviz_harness(
         CameraInfo(show_polygons=False), camera, frame, Grid(plane_cell_count=6), view=VIEW
     )
-    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
-    seen.transform("map", "box", (2.0, -0.4, 0.0))
+    harness.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    harness.transform("map", "box", (2.0, -0.4, 0.0))
     bend = {"distortion_model": "plumb_bob", "d": [-0.3, 0.1, 0.0, 0.0, 0.0]}
     values = photos.info(640, 480, **bend)
-    seen.publish("/camera/camera_info", photos.INFO, values, frame="camera")
+    harness.publish("/camera/camera_info", photos.INFO, values, frame="camera")
     image = photos.jpeg(photos.room(640, 480)[0])
-    seen.publish(camera.topic.name, photos.COMPRESSED, image, frame="camera")
-    seen.turn()
-    seen.check_picture("camera/default")
+    harness.publish(camera.topic.name, photos.COMPRESSED, image, frame="camera")
+    harness.turn()
+    harness.check_picture("camera/default")
 
 
 def test_depths_are_points_in_color(webviz_harness: Stages) -> None:
     cloud = DepthCloud()
-    seen = webviz_harness(cloud, Grid(plane_cell_count=6), view=VIEW)
-    seen.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
-    seen.publish("/camera/depth/camera_info", photos.INFO, photos.info(), frame="camera")
+    harness = webviz_harness(cloud, Grid(plane_cell_count=6), view=VIEW)
+    harness.transform("map", "camera", (0.0, 0.0, 0.6), FACING_X)
+    harness.publish("/camera/depth/camera_info", photos.INFO, photos.info(), frame="camera")
     _, depths = photos.room()
-    seen.publish(cloud.topic.name, photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
-    seen.turn()
-    seen.check_picture("depth_cloud/default")
+    harness.publish(cloud.topic.name, photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
+    harness.turn()
+    harness.check_picture("depth_cloud/default")

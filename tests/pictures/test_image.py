@@ -22,40 +22,40 @@ def test_images_are_beside_the_scene(webviz_harness: Stages) -> None:
     color = Image(name="Color")
     depth = Image(name="Depth", topic=Topic("/depth"), color_map="Turbo")
     view = Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
-    seen = webviz_harness(color, depth, Grid(plane_cell_count=6), view=view)
+    harness = webviz_harness(color, depth, Grid(plane_cell_count=6), view=view)
     colors, depths = photos.room()
-    seen.publish(color.topic.name, photos.COMPRESSED, photos.jpeg(colors), frame="camera")
-    seen.publish("/depth", photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
-    seen.turn()
-    seen.check_picture("image/default")
+    harness.publish(color.topic.name, photos.COMPRESSED, photos.jpeg(colors), frame="camera")
+    harness.publish("/depth", photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
+    harness.turn()
+    harness.check_picture("image/default")
 
 
 def test_texts_are_beside_the_scene(webviz_harness: Stages) -> None:
     battery = Text(name="Battery", topic=Topic("/battery_state"))
     wheels = Text(name="Wheels", topic=Topic("/wheels"), fields=["header.stamp", "position[left]"])
-    seen = webviz_harness(battery, wheels, Grid(plane_cell_count=6), view=Orbit(distance=9.0))
+    harness = webviz_harness(battery, wheels, Grid(plane_cell_count=6), view=Orbit(distance=9.0))
     cells = np.array([3.9, 4.0, 3.95], np.float32)
     charge = {"voltage": 11.85, "percentage": 0.71, "cell_voltage": cells, "location": "rear"}
     joints = {"name": ["left", "right"], "position": [1.25, -0.5]}
     for _ in range(2):  # the type is known once there is a publisher
-        seen.publish("/battery_state", "sensor_msgs/msg/BatteryState", charge, frame="base_link")
-        seen.publish("/wheels", "sensor_msgs/msg/JointState", joints, frame="base_link")
-        seen.turn()
-    seen.wait_until_drawn("Wheels")
-    seen.check_picture("text/default")
+        harness.publish("/battery_state", "sensor_msgs/msg/BatteryState", charge, frame="base_link")
+        harness.publish("/wheels", "sensor_msgs/msg/JointState", joints, frame="base_link")
+        harness.turn()
+    harness.wait_until_drawn("Wheels")
+    harness.check_picture("text/default")
 
 
 def test_annotations_are_over_the_image(webviz_harness: Stages) -> None:
     camera = Image(name="Camera", annotations_topic=Topic("/found"))
     drawn = Image(name="Drawn", topic=Topic("/depth"), annotations_topic=Topic("/drawn"))
     view = Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
-    seen = webviz_harness(camera, drawn, Grid(plane_cell_count=6), view=view)
+    harness = webviz_harness(camera, drawn, Grid(plane_cell_count=6), view=view)
     colors, depths = photos.room()
     results = [{"hypothesis": {"class_id": "box", "score": 0.93}}]
     center = {"position": {"x": 96.0, "y": 72.0}}
     box = {"center": center, "size_x": 42.0, "size_y": 52.0}
     turned = {"center": {"position": {"x": 30.0, "y": 90.0}, "theta": 0.4}}
-    found = [
+    result = [
         {"bbox": box, "results": results},
         {"bbox": {**turned, "size_x": 30.0, "size_y": 16.0}},
     ]
@@ -70,9 +70,9 @@ def test_annotations_are_over_the_image(webviz_harness: Stages) -> None:
         "circles": [{**ring, "thickness": 3.0}],
         "texts": [{**text, "background_color": {"a": 0.6}}],
     }
-    seen.publish("/found", DETECTIONS, {"detections": found}, frame="camera")
-    seen.publish("/drawn", ANNOTATIONS, drawings)
-    seen.publish(camera.topic.name, photos.COMPRESSED, photos.jpeg(colors), frame="camera")
-    seen.publish("/depth", photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
-    seen.turn()
-    seen.check_picture("image/annotations")
+    harness.publish("/found", DETECTIONS, {"detections": result}, frame="camera")
+    harness.publish("/drawn", ANNOTATIONS, drawings)
+    harness.publish(camera.topic.name, photos.COMPRESSED, photos.jpeg(colors), frame="camera")
+    harness.publish("/depth", photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
+    harness.turn()
+    harness.check_picture("image/annotations")

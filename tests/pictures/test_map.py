@@ -31,56 +31,56 @@ def costs() -> np.ndarray:
 
 
 def test_a_map_has_schemes_alpha_and_updates(webviz_harness: Stages) -> None:
-    seen = webviz_harness(Map(), Grid(), view=VIEW)
-    seen.transform("map", "elsewhere")
-    seen.publish("/map", GRID, building.grid(), frame="map")
-    seen.turn()
-    seen.check_picture("map/default")
-    seen.set("alpha", 1.0)
-    seen.check_picture("map/alpha_1")
-    seen.set("color_scheme", "raw")
-    seen.check_picture("map/raw")
-    seen.set("color_scheme", "costmap")
-    seen.set("binary_representation", True)
-    seen.check_picture("map/costmap_binary")
-    seen.set("binary_representation", False)
-    seen.set("color_scheme", "map")
+    harness = webviz_harness(Map(), Grid(), view=VIEW)
+    harness.transform("map", "elsewhere")
+    harness.publish("/map", GRID, building.grid(), frame="map")
+    harness.turn()
+    harness.check_picture("map/default")
+    harness.set("alpha", 1.0)
+    harness.check_picture("map/alpha_1")
+    harness.set("color_scheme", "raw")
+    harness.check_picture("map/raw")
+    harness.set("color_scheme", "costmap")
+    harness.set("binary_representation", True)
+    harness.check_picture("map/costmap_binary")
+    harness.set("binary_representation", False)
+    harness.set("color_scheme", "map")
     cells = np.tile(np.arange(-1, 101, 3, dtype=np.int8), (40, 1))
     update = {"x": 90, "y": 70, "width": cells.shape[1], "height": 40, "data": cells.ravel()}
-    seen.publish("/map_updates", "map_msgs/msg/OccupancyGridUpdate", update, frame="map")
-    seen.turn()
-    seen.check_picture("map/update_of_40_rows")
+    harness.publish("/map_updates", "map_msgs/msg/OccupancyGridUpdate", update, frame="map")
+    harness.turn()
+    harness.check_picture("map/update_of_40_rows")
 
 
 def test_cells_are_sharp_and_the_origin_may_be_turned(webviz_harness: Stages) -> None:
-    seen = webviz_harness(
+    harness = webviz_harness(
         Map(alpha=1.0),
         Grid(),
         view=Orbit(distance=4.0, yaw=-1.2, pitch=1.0, focal_point=(0.5, 0.0, 0.0)),
     )
-    seen.transform("map", "room", (0.5, 0.0, 0.0), turned(yaw=0.3))
+    harness.transform("map", "room", (0.5, 0.0, 0.0), turned(yaw=0.3))
     origin = {"position": {"x": -1.0, "y": -1.0}, "orientation": {"z": 0.2474, "w": 0.9689}}
     info = {"resolution": 0.25, "width": 8, "height": 6, "origin": origin}
     data = [0, 100, 50, -1, 10, 25, 75, 99] * 3 + [100, 0, 0, 0, 0, 0, 0, 100] * 3
-    seen.publish("/map", GRID, {"info": info, "data": data}, frame="room")
-    seen.turn()
-    seen.check_picture("map/turned_origin_in_a_turned_frame")
+    harness.publish("/map", GRID, {"info": info, "data": data}, frame="room")
+    harness.turn()
+    harness.check_picture("map/turned_origin_in_a_turned_frame")
 
 
 def test_maps_stack_by_their_place_in_the_list(webviz_harness: Stages) -> None:
     costmap = Map(name="Costmap", color_scheme="costmap", alpha=0.6)
     costmap.topic = type(costmap.topic)("/costmap")
-    seen = webviz_harness(Map(alpha=1.0), costmap, view=VIEW)
-    seen.transform("map", "elsewhere")
-    seen.publish("/map", GRID, building.grid(), frame="map")
+    harness = webviz_harness(Map(alpha=1.0), costmap, view=VIEW)
+    harness.transform("map", "elsewhere")
+    harness.publish("/map", GRID, building.grid(), frame="map")
     half = costs()
     half[:, 124:] = 0  # free cells of a costmap are transparent
-    seen.publish("/costmap", GRID, building.grid(half), frame="map")
-    seen.turn()
-    seen.check_picture("map/costmap_over_map")
-    seen.set("alpha", 1.0, display="Costmap")
-    seen.set("draw_behind", True, display="Costmap")
+    harness.publish("/costmap", GRID, building.grid(half), frame="map")
+    harness.turn()
+    harness.check_picture("map/costmap_over_map")
+    harness.set("alpha", 1.0, display="Costmap")
+    harness.set("draw_behind", True, display="Costmap")
     # Behind what is opaque there is nothing to see of it.
-    seen.check_picture("map/costmap_behind_map", each_display=False)
-    seen.set("alpha", 0.4)
-    seen.check_picture("map/costmap_behind_map_of_alpha_0.4")
+    harness.check_picture("map/costmap_behind_map", each_display=False)
+    harness.set("alpha", 0.4)
+    harness.check_picture("map/costmap_behind_map_of_alpha_0.4")

@@ -53,8 +53,8 @@ RAINBOW = colors((1, 0, 0, 1), (1, 1, 0, 1), (0, 1, 0, 1), (0.2, 0.4, 1, 1))
 
 
 def test_shapes_and_arrows(webviz_harness: Stages) -> None:
-    seen = webviz_harness(Marker(), Grid(plane_cell_count=6), view=VIEW)
-    seen.transform("map", "elsewhere")
+    harness = webviz_harness(Marker(), Grid(plane_cell_count=6), view=VIEW)
+    harness.transform("map", "elsewhere")
     for y, alpha in ((1.2, 1.0), (0.0, 0.4)):
         for x, type_, scale, rgb in (
             (-2.2, ARROW, (0.9, 0.15, 0.25), (1, 0, 0)),
@@ -63,7 +63,7 @@ def test_shapes_and_arrows(webviz_harness: Stages) -> None:
             (2.0, CYLINDER, (0.6, 0.6, 0.8), (0.2, 0.4, 1)),
         ):
             shape = marker(type_, x, y, scale, (*rgb, alpha))
-            seen.publish("/visualization_marker", "visualization_msgs/msg/Marker", shape)
+            harness.publish("/visualization_marker", "visualization_msgs/msg/Marker", shape)
     way = points((0, 0, 0), (1.2, 0.2, 0))
     for each in (
         marker(ARROW, -2.4, -1.4, (0.08, 0.25, 0), (0, 1, 1, 1), points=way),
@@ -71,14 +71,14 @@ def test_shapes_and_arrows(webviz_harness: Stages) -> None:
         marker(STRIP, 0.8, -1.4, (0.06, 0, 0), (1, 1, 1, 1), points=ZIGZAG, colors=RAINBOW),
         marker(TEXT, 2.2, -1.2, (0, 0, 0.3), (1, 1, 0, 1), text="two\nlines"),
     ):
-        seen.publish("/visualization_marker", "visualization_msgs/msg/Marker", each)
-    seen.turn()
-    seen.check_picture("marker/default")
+        harness.publish("/visualization_marker", "visualization_msgs/msg/Marker", each)
+    harness.turn()
+    harness.check_picture("marker/default")
 
 
 def test_lists_meshes_and_textures(webviz_harness: Stages) -> None:
-    seen = webviz_harness(MarkerArray(), Grid(plane_cell_count=6), view=VIEW)
-    seen.transform("map", "elsewhere")
+    harness = webviz_harness(MarkerArray(), Grid(plane_cell_count=6), view=VIEW)
+    harness.transform("map", "elsewhere")
     fading = colors(*((1, 1, 0, 1 - 0.25 * i) for i in range(4)))
     lists = [
         marker(type_, x, y, scale, (1, 0.4, 0, 1), points=ZIGZAG, colors=each)
@@ -139,6 +139,6 @@ def test_lists_meshes_and_textures(webviz_harness: Stages) -> None:
         ),
     ]
     array = {"markers": [*lists, *meshes]}
-    seen.publish("/visualization_marker_array", "visualization_msgs/msg/MarkerArray", array)
-    seen.settle()
-    seen.check_picture("marker_array/default")
+    harness.publish("/visualization_marker_array", "visualization_msgs/msg/MarkerArray", array)
+    harness.settle()
+    harness.check_picture("marker_array/default")

@@ -55,28 +55,28 @@ def test_each_display_has_a_picture_of_its_own(
         NavSatFix(radius=1.5, enabled=False),
     )
     view = Orbit(distance=130, yaw=-1.4, pitch=0.9)
-    seen = webviz_harness(*displays, view=view)
-    seen.transform("map", "gps")
+    harness = webviz_harness(*displays, view=view)
+    harness.transform("map", "gps")
     for display in displays:
         name = type(display).__name__
-        seen.set("enabled", True, name)
-        seen.settle()
+        harness.set("enabled", True, name)
+        harness.settle()
         for step in range(12):
             values = offset(5.0 * step - 55.0, 12.0 * math.sin(0.4 * step))
             fix = values | {
                 "position_covariance": [16.0, 6.0, 0, 6.0, 9.0, 0, 0, 0, 25.0],
                 "position_covariance_type": 3,
             }
-            seen.publish("/gps/fix", "sensor_msgs/msg/NavSatFix", fix, frame="gps")
-            seen.settle()
+            harness.publish("/gps/fix", "sensor_msgs/msg/NavSatFix", fix, frame="gps")
+            harness.settle()
         corners = [(0, 5), (20, 10), (45, -5), (40, -40), (-20, -45)]
         path = {"poses": [{"pose": {"position": offset(*each)}} for each in corners]}
-        seen.publish("/geo_path", "geographic_msgs/msg/GeoPath", path)
-        seen.wait_until_drawn(name)
-        until(lambda name=name: "Loading" not in seen.status(name).text, turn=seen.settle)
+        harness.publish("/geo_path", "geographic_msgs/msg/GeoPath", path)
+        harness.wait_until_drawn(name)
+        until(lambda name=name: "Loading" not in harness.status(name).text, turn=harness.settle)
         folder = {"AerialMap": "aerial_map", "GeoPath": "geo_path", "NavSatFix": "nav_sat_fix"}[
             name
         ]
-        seen.check_picture(f"{folder}/default")
+        harness.check_picture(f"{folder}/default")
         if name != "AerialMap":
-            seen.set("enabled", False, name)
+            harness.set("enabled", False, name)

@@ -41,8 +41,8 @@ EVERYTHING: tuple[type[Display], ...] = (
 
 
 def stems(folder: Path) -> list[str]:
-    found = sorted(folder.rglob("*.png"))
-    return [str(path.relative_to(REFERENCES).with_suffix("")) for path in found]
+    results = sorted(folder.rglob("*.png"))
+    return [str(path.relative_to(REFERENCES).with_suffix("")) for path in results]
 
 
 def picture(name: str) -> Pixels:
@@ -91,6 +91,6 @@ def test_without_any_one_of_its_displays_a_scene_has_another_picture(
     webviz_harness: Callable[..., Harness],
 ) -> None:
     view = Orbit(distance=5.0, yaw=-2.0, pitch=0.7, focal_point=(-2.0, 0.0, 0.0))
-    seen = webviz_harness(*(cls() for cls in EVERYTHING), view=view)
-    everything(seen)
-    seen.check_picture("all_displays/together", each_display=True)
+    harness = webviz_harness(*(cls() for cls in EVERYTHING), view=view)
+    everything(harness)
+    harness.check_picture("all_displays/together", each_display=True)

@@ -387,22 +387,22 @@ def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Har
     for case in CASES:
         case.display.enabled = False
     shown = (case.display for case in CASES)
-    seen = webviz_harness(*shown, Grid(plane_cell_count=4), view=view)
-    seen.transform("map", "sensor")
-    without = seen.picture()
+    harness = webviz_harness(*shown, Grid(plane_cell_count=4), view=view)
+    harness.transform("map", "sensor")
+    without = harness.picture()
     for case in CASES:
         name = type(case.display).__name__
-        seen.set("enabled", True, name)
-        seen.publish("/robot_description", "std_msgs/msg/String", {"data": ARM})
-        seen.settle()
+        harness.set("enabled", True, name)
+        harness.publish("/robot_description", "std_msgs/msg/String", {"data": ARM})
+        harness.settle()
         topic = case.display.topic.name  # pyright: ignore[reportAttributeAccessIssue]
         spec = inputs_of(type(case.display))["topic"]
         for values in case.messages:
             frame = None if case.picture in ("bounding_box3d", "twist") else "sensor"
-            seen.publish(topic, spec.type, values, frame=frame)
-            seen.turn()
-        seen.wait_until_drawn(name)
-        seen.check_picture(f"{case.picture}/default", each_display=False)
+            harness.publish(topic, spec.type, values, frame=frame)
+            harness.turn()
+        harness.wait_until_drawn(name)
+        harness.check_picture(f"{case.picture}/default", each_display=False)
         picture = load(Path(__file__).parent / case.picture / "default.png")
         assert share_of_difference(picture, without) > TOLERANCE, f"{name} is not to be seen"
-        seen.set("enabled", False, name)
+        harness.set("enabled", False, name)

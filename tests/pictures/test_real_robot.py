@@ -61,16 +61,16 @@ def test_the_scan_lies_on_the_walls_of_the_map(webviz_harness: Callable[..., Har
     info = {"resolution": RESOLUTION, "width": width, "height": height, "origin": origin}
     odometry = Odometry(keep=1, covariance=Covariance(value=False))
     view = Orbit(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
-    seen = webviz_harness(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
-    seen.transform("map", "odom", *ODOM)
+    harness = webviz_harness(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
+    harness.transform("map", "odom", *ODOM)
     map_ = {"info": info, "data": grid.ravel()}
-    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")
+    harness.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")
     scans = itertools.count(1)
     for topic, type_name, time_ns, data in messages():
-        seen.source.now = time_ns
-        seen.publish_bytes(topic, type_name, data)
-        seen.turn()
+        harness.source.now = time_ns
+        harness.publish_bytes(topic, type_name, data)
+        harness.turn()
         if topic == "/scan" and next(scans) == SCANS:
             break
-    seen.check_picture("real_robot/scan_on_walls")
-    assert seen.statuses("LaserScan")["Points"].level is Level.OK
+    harness.check_picture("real_robot/scan_on_walls")
+    assert harness.statuses("LaserScan")["Points"].level is Level.OK

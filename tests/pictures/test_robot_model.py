@@ -41,43 +41,43 @@ ROBOTS: dict[str, tuple[str, Orbit]] = {
 
 def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_harness: Stages) -> None:
     view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
-    place_links(seen, DEMO)
-    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
-    seen.turn()
-    seen.check_picture("robot_model/default")
-    seen.set("alpha", 0.4)
-    seen.check_picture("robot_model/alpha_0.4")
-    seen.set("collision_enabled", True)
-    seen.set("visual_enabled", False)
-    seen.check_picture("robot_model/collision_shapes_of_alpha_0.4")
-    seen.set("mass_properties.mass", True)
-    seen.set("collision_enabled", False)
-    seen.set("alpha", 1.0)
-    seen.check_picture("robot_model/masses")
-    seen.set("mass_properties.mass", False)
-    seen.set("mass_properties.inertia", True)
-    seen.check_picture("robot_model/inertias")
-    seen.set("mass_properties.inertia", False)
-    seen.set("visual_enabled", True)
-    seen.set("links", {"base_link": LinkSettings(alpha=0.2, show_axes=True)})
-    seen.check_picture("robot_model/one_link_of_alpha_0.2_with_axes")
-    seen.set("all_links_enabled", False)
-    seen.set("links", {"wheel_left_link": LinkSettings(), "base_scan": LinkSettings()})
-    seen.check_picture("robot_model/two_links_only")
+    harness = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    place_links(harness, DEMO)
+    harness.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    harness.turn()
+    harness.check_picture("robot_model/default")
+    harness.set("alpha", 0.4)
+    harness.check_picture("robot_model/alpha_0.4")
+    harness.set("collision_enabled", True)
+    harness.set("visual_enabled", False)
+    harness.check_picture("robot_model/collision_shapes_of_alpha_0.4")
+    harness.set("mass_properties.mass", True)
+    harness.set("collision_enabled", False)
+    harness.set("alpha", 1.0)
+    harness.check_picture("robot_model/masses")
+    harness.set("mass_properties.mass", False)
+    harness.set("mass_properties.inertia", True)
+    harness.check_picture("robot_model/inertias")
+    harness.set("mass_properties.inertia", False)
+    harness.set("visual_enabled", True)
+    harness.set("links", {"base_link": LinkSettings(alpha=0.2, show_axes=True)})
+    harness.check_picture("robot_model/one_link_of_alpha_0.2_with_axes")
+    harness.set("all_links_enabled", False)
+    harness.set("links", {"wheel_left_link": LinkSettings(), "base_scan": LinkSettings()})
+    harness.check_picture("robot_model/two_links_only")
 
 
 def test_links_without_a_transform_are_grey_where_they_were(webviz_harness: Stages) -> None:
     view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
-    seen = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
-    place_links(seen, DEMO)
-    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
-    seen.settle()
+    harness = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
+    place_links(harness, DEMO)
+    harness.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    harness.settle()
     # The wheel's publisher now hangs it below a frame that nobody connects.
-    seen.transform("axle", "wheel_left_link", stamp_ns=seen.source.now)
-    seen.turn()
-    seen.check_picture("robot_model/a_lost_wheel_is_grey")
-    links = seen.statuses()["Links"]
+    harness.transform("axle", "wheel_left_link", stamp_ns=harness.source.now)
+    harness.turn()
+    harness.check_picture("robot_model/a_lost_wheel_is_grey")
+    links = harness.statuses()["Links"]
     assert links.level is Level.ERROR
     assert "wheel_left_link" in links.text
 
@@ -87,10 +87,10 @@ def test_real_robots_are_whole_and_coloured(webviz_harness: Stages, name: str) -
     file, view = ROBOTS[name]
     path = robots_folder() / file
     robot = RobotModel(description_source="File", description_file=str(path))
-    seen = webviz_harness(robot, view=view)
-    place_links(seen, path)
-    seen.check_picture(f"robot_model/robots/{name}")
-    assert seen.statuses()["URDF"].level is Level.OK
+    harness = webviz_harness(robot, view=view)
+    place_links(harness, path)
+    harness.check_picture(f"robot_model/robots/{name}")
+    assert harness.statuses()["URDF"].level is Level.OK
 
 
 def test_every_robot_has_a_picture_and_the_other_way_round() -> None:

@@ -60,60 +60,62 @@ def look_around(seen: Harness) -> None:
 
 
 def test_a_robot_misplaced_by_a_static_transform(webviz_harness: Stages) -> None:
-    seen = webviz_harness(*displays(), view=VIEW)
-    robot(seen, odom=Pose2D(START.y, START.x))  # x and y are exchanged
-    seen.check_picture("stories/misplaced")
-    assert seen.statuses("TF")["odom"] == Status(
+    harness = webviz_harness(*displays(), view=VIEW)
+    robot(harness, odom=Pose2D(START.y, START.x))  # x and y are exchanged
+    harness.check_picture("stories/misplaced")
+    assert harness.statuses("TF")["odom"] == Status(
         Level.OK,
         "In 'map' (static): position (0.000, -2.000, 0.000) m, "
         "roll, pitch and yaw (0.0, 0.0, 0.0) degrees.",
     )
-    told = seen.statuses("LaserScan")["Map"]
+    told = harness.statuses("LaserScan")["Map"]
     assert told.level is Level.WARN
     assert "a shift by (-2.0, 2.0) m" in told.text
-    seen.transform("map", "odom", (START.x, START.y, 0.0))
-    look_around(seen)
-    seen.check_picture("stories/in_place")
-    assert "position (-2.000, 0.000, 0.000) m" in seen.statuses("TF")["odom"].text
+    harness.transform("map", "odom", (START.x, START.y, 0.0))
+    look_around(harness)
+    harness.check_picture("stories/in_place")
+    assert "position (-2.000, 0.000, 0.000) m" in harness.statuses("TF")["odom"].text
 
 
 def test_a_laser_turned_on_the_robot(webviz_harness: Stages) -> None:
-    seen = webviz_harness(*displays(), view=VIEW)
-    robot(seen, laser_yaw=math.radians(15))
-    seen.check_picture("stories/turned_laser")
-    text = seen.statuses("TF")["base_scan"].text
+    harness = webviz_harness(*displays(), view=VIEW)
+    robot(harness, laser_yaw=math.radians(15))
+    harness.check_picture("stories/turned_laser")
+    text = harness.statuses("TF")["base_scan"].text
     assert text.startswith("In 'base_link' (static)")
     assert "yaw (0.0, 0.0, 15.0) degrees" in text
-    told = seen.statuses("LaserScan")["Map"]
+    told = harness.statuses("LaserScan")["Map"]
     assert told.level is Level.WARN
     assert "rotating 'base_scan' by -15°" in told.text
     # None is missing: one is wrong.
-    assert seen.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
+    assert harness.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 
 
 def test_a_path_that_leads_through_an_obstacle(webviz_harness: Stages) -> None:
     map_, model, scan, _ = displays()
     path = Path(line_style="Billboards", line_width=0.06)
-    seen = webviz_harness(map_, model, scan, path, view=VIEW)
+    harness = webviz_harness(map_, model, scan, path, view=VIEW)
     goal = Pose2D(4.5, 0.0)
     plan = Planner(building.WORLD).plan(START, goal)
-    robot(seen)
-    seen.publish("/path", "nav_msgs/msg/Path", building.path(plan), frame="map")
-    seen.turn()
+    robot(harness)
+    harness.publish("/path", "nav_msgs/msg/Path", building.path(plan), frame="map")
+    harness.turn()
 
     world = building.with_box(1.5, 0.0, 0.8)
-    seen.source.now += 8 * SECOND
-    seen.clock += 8.0
-    seen.transform("odom", "base_link", stamp_ns=seen.source.now)
+    harness.source.now += 8 * SECOND
+    harness.clock += 8.0
+    harness.transform("odom", "base_link", stamp_ns=harness.source.now)
     measured = building.scan(START, world)
-    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
-    seen.turn()
-    seen.check_picture("stories/through_an_obstacle")
-    assert "the newest 8.0 s ago" in seen.statuses("Path")["Topic"].text  # the plan
-    assert "is 8.0 s old: the planner has not replanned" in seen.statuses("Path")["Obstacles"].text
-    assert "the newest 0.0 s ago" in seen.statuses("LaserScan")["Topic"].text  # the scan
+    harness.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
+    harness.turn()
+    harness.check_picture("stories/through_an_obstacle")
+    assert "the newest 8.0 s ago" in harness.statuses("Path")["Topic"].text  # the plan
+    assert (
+        "is 8.0 s old: the planner has not replanned" in harness.statuses("Path")["Obstacles"].text
+    )
+    assert "the newest 0.0 s ago" in harness.statuses("LaserScan")["Topic"].text  # the scan
 
     around = Planner(world).plan(START, goal)
-    seen.publish("/path", "nav_msgs/msg/Path", building.path(around), frame="map")
-    seen.turn()
-    seen.check_picture("stories/around_the_obstacle")
+    harness.publish("/path", "nav_msgs/msg/Path", building.path(around), frame="map")
+    harness.turn()
+    harness.check_picture("stories/around_the_obstacle")

@@ -25,32 +25,32 @@ def frames(seen: Harness, stamp_ns: int) -> None:
 
 def test_frames_have_axes_arrows_and_names(webviz_harness: Stages) -> None:
     view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = webviz_harness(TF(), Grid(plane_cell_count=4), view=view)
-    frames(seen, seen.source.now)
-    seen.check_picture("tf/default")
-    seen.set("show_names", True)
-    seen.check_picture("tf/names")
-    seen.set("show_axes", False)
-    seen.set("marker_scale", 1.5)
-    seen.set("show_arrows", False)
-    seen.set("show_axes", True)
-    seen.check_picture("tf/marker_scale_without_arrows")
-    seen.set("filter_blacklist", "ma[ps]")
-    seen.check_picture("tf/filter_blacklist")
-    seen.set("filter_blacklist", "")
-    seen.set("show_axes", False)
-    seen.set("show_arrows", True)
-    seen.check_picture("tf/arrows_and_names")
+    harness = webviz_harness(TF(), Grid(plane_cell_count=4), view=view)
+    frames(harness, harness.source.now)
+    harness.check_picture("tf/default")
+    harness.set("show_names", True)
+    harness.check_picture("tf/names")
+    harness.set("show_axes", False)
+    harness.set("marker_scale", 1.5)
+    harness.set("show_arrows", False)
+    harness.set("show_axes", True)
+    harness.check_picture("tf/marker_scale_without_arrows")
+    harness.set("filter_blacklist", "ma[ps]")
+    harness.check_picture("tf/filter_blacklist")
+    harness.set("filter_blacklist", "")
+    harness.set("show_axes", False)
+    harness.set("show_arrows", True)
+    harness.check_picture("tf/arrows_and_names")
 
 
 def test_frames_that_are_not_updated_turn_grey_and_disappear(webviz_harness: Stages) -> None:
     view = Orbit(distance=2.9, yaw=-0.9, pitch=0.5, focal_point=(0.5, 0.0, 0.3))
-    seen = webviz_harness(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
-    frames(seen, seen.source.now)
-    seen.source.now += 10 * SECOND
-    seen.check_picture("tf/old_frames_are_grey")
-    seen.source.now += 6 * SECOND
-    seen.check_picture("tf/older_frames_are_gone")
-    frames_status = seen.statuses()["Frames"]
+    harness = webviz_harness(TF(marker_scale=2.0), Grid(plane_cell_count=4), view=view)
+    frames(harness, harness.source.now)
+    harness.source.now += 10 * SECOND
+    harness.check_picture("tf/old_frames_are_grey")
+    harness.source.now += 6 * SECOND
+    harness.check_picture("tf/older_frames_are_gone")
+    frames_status = harness.statuses()["Frames"]
     assert frames_status.level is Level.WARN
     assert "3 not updated for more than 15 s" in frames_status.text

@@ -80,10 +80,12 @@ def _python(version: str) -> str | None:
     for name in (f"python{version}", "python3"):
         code = "import sys; print('%d.%d' % sys.version_info[:2])"
         try:
-            said = subprocess.run([name, "-c", code], capture_output=True, text=True, check=False)
+            completed = subprocess.run(
+                [name, "-c", code], capture_output=True, text=True, check=False
+            )
         except FileNotFoundError:
             continue
-        if said.stdout.strip() == version:
+        if completed.stdout.strip() == version:
             return name
     return None
 

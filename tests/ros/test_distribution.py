@@ -99,22 +99,22 @@ def names_that_some_lack() -> tuple[set[str], set[str], set[str]]:
 
 def test_other_modules_use_what_rclpy_of_each_distribution_has() -> None:
     lacked, attributes, keywords = names_that_some_lack()
-    found = set()
+    results = set()
     for path, tree in modules():
         knows_rclpy = path.startswith(("webviz/ros/", "sim/"))
         for node in nodes_that_run(tree):
             match node:
                 case ast.ImportFrom(module=module) if module in lacked:
-                    found.add((path, module))
+                    results.add((path, module))
                 case ast.Import(names=names):
-                    found |= {(path, each.name) for each in names if each.name in lacked}
+                    results |= {(path, each.name) for each in names if each.name in lacked}
                 case ast.Attribute(attr=name) if knows_rclpy and name in attributes:
-                    found.add((path, name))
+                    results.add((path, name))
                 case ast.Call() if knows_rclpy:
                     used = {each.arg for each in node.keywords} & keywords
-                    found |= {(path, each) for each in used}
-    assert {path for path, _ in found} == {PLACE}, found
-    assert {name for _, name in found} == {
+                    results |= {(path, each) for each in used}
+    assert {path for path, _ in results} == {PLACE}, results
+    assert {name for _, name in results} == {
         "rclpy.event_handler",
         "rclpy.experimental.events_executor",
         "rclpy.qos_event",

@@ -38,8 +38,8 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="is about glibc"
 def returned(messages: int) -> tuple[int, int]:
     """Bytes that are returned of messages of 16 MB, while they come and in all."""
     program = [sys.executable, "-c", PROGRAM, str(messages)]
-    done = subprocess.run(program, capture_output=True, text=True, check=True, timeout=60)
-    while_they_come, in_all = map(int, done.stdout.split())
+    completed = subprocess.run(program, capture_output=True, text=True, check=True, timeout=60)
+    while_they_come, in_all = map(int, completed.stdout.split())
     return while_they_come, in_all
 
 

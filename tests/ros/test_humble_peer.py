@@ -65,22 +65,22 @@ def test_its_topics_have_types_and_qos_without_hashes(source: RosSource) -> None
 
 def last_messages(source: RosSource, *topics: str) -> dict[str, Any]:
     """Subscribe to topics, and return the last message of each."""
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
 
     def have_all_arrived() -> bool:
         for topic, messages in source.inbox.drain().items():
-            found[topic] = decode(TYPES[topic], messages[-1].cdr)
-        return found.keys() == set(topics)
+            result[topic] = decode(TYPES[topic], messages[-1].cdr)
+        return result.keys() == set(topics)
 
     source.want({topic: Subscription(TYPES[topic], Topic(topic)) for topic in topics})
-    until(have_all_arrived, lambda: str(found))
-    return found
+    until(have_all_arrived, lambda: str(result))
+    return result
 
 
 def test_its_messages_arrive(source: RosSource) -> None:
-    found = last_messages(source, "/humble_text", "/humble_latched")
-    assert found["/humble_text"].data == "moving"
-    assert found["/humble_latched"].data == "latched"
+    result = last_messages(source, "/humble_text", "/humble_latched")
+    assert result["/humble_text"].data == "moving"
+    assert result["/humble_latched"].data == "latched"
 
 
 @pytest.mark.skipif(

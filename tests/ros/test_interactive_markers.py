@@ -48,8 +48,8 @@ def handles(viewer: LiveViewer) -> dict[str, Handle]:
 
 def position(viewer: LiveViewer, key: str) -> list[float]:
     """Return where the box of a marker is, nothing while it is hidden; keys count all markers."""
-    found = viewer.nodes().get(f"c0/{key}/box")
-    return list(found[0].position) if found else []
+    nodes = viewer.nodes().get(f"c0/{key}/box")
+    return list(nodes[0].position) if nodes else []
 
 
 def boxed(name: str, x: float = 0.0, frame: str = "map") -> Any:
@@ -60,8 +60,8 @@ def boxed(name: str, x: float = 0.0, frame: str = "map") -> Any:
 
 def status(viewer: LiveViewer, key: str = "Server") -> str:
     rows = viewer.viewer.snapshot().rows
-    found = rows[0].statuses.get(key)
-    return found.text if found else ""
+    result = rows[0].statuses.get(key)
+    return result.text if result else ""
 
 
 def connected(viewer: LiveViewer, count: int) -> None:
@@ -196,8 +196,8 @@ def test_hostile_updates_leave_a_status_and_the_markers_of_the_server(
     viewer.wait_for(lambda: "An update cannot be read" in status(viewer), lambda: status(viewer))
 
     def gaps() -> int:
-        found = re.search(r"after (\d+) gap", status(viewer))
-        return int(found[1]) if found else 0
+        match = re.search(r"after (\d+) gap", status(viewer))
+        return int(match[1]) if match else 0
 
     def breaks(at: int, number: int) -> None:
         before, requests, server.sequence = gaps(), server.requests, at

@@ -90,8 +90,8 @@ def test_auto_asks_for_what_the_publisher_offers(
     ours = ("/webviz", "std_msgs/msg/String", reliability, durability)
 
     def readers() -> list[tuple[str, ...]]:
-        found = source.offers()["/words"].readers
-        return [(each.node, each.type, each.reliability, each.durability) for each in found]
+        result = source.offers()["/words"].readers
+        return [(each.node, each.type, each.reliability, each.durability) for each in result]
 
     until(lambda: readers() == [ours])
     assert source.clock_messages() is None

@@ -78,7 +78,7 @@ def test_topics_services_goals_and_parameters(
     env["PYTHONUNBUFFERED"] = "1"
     sim = Program([PYTHONS[robot], "-m", "webviz_sim"], env, tmp_path / "robot.txt")
     try:
-        done = subprocess.run(
+        completed = subprocess.run(
             [PYTHONS[viewer], "-c", VIEWER],
             env=env,
             capture_output=True,
@@ -88,7 +88,7 @@ def test_topics_services_goals_and_parameters(
         )
     finally:
         sim.end()
-    assert done.returncode == 0, done.stderr
-    displays, *answers = done.stdout.splitlines()
+    assert completed.returncode == 0, completed.stderr
+    displays, *answers = completed.stdout.splitlines()
     assert displays == "LaserScan, Map, TF, RobotModel, Odometry"
     assert answers == ["", "/navigate_to_pose accepted the goal.", "True", "0.25"]

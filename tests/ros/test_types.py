@@ -147,15 +147,15 @@ def test_the_hash_of_tf_message_is_the_published_one():
 
 def installed_hashes(kind):
     """The hash of every type whose description is installed, by name."""
-    found = {}
+    result = {}
     for path in sorted((Path(sys.prefix) / "share").glob(f"*/{kind}/*.json")):
         described = json.loads(path.read_text())
         name = described["type_description_msg"]["type_description"]["type_name"]
         hashes = {each["type_name"]: each["hash_string"] for each in described["type_hashes"]}
-        found[name] = hashes[name]
-    if not found:
+        result[name] = hashes[name]
+    if not result:
         pytest.skip(f"no {kind} descriptions are installed under this Python's prefix")
-    return found
+    return result
 
 
 def test_hashes_equal_those_of_every_installed_message():

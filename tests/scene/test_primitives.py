@@ -350,7 +350,7 @@ def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
     view.show()
     (name,) = (name for name in view.nodes() if name.endswith("%part 1"))
     at = {name.rpartition("/")[0]: xyz[:1], name: xyz[-1:]}
-    seen = []
+    observed = []
     for node, place in at.items():
         updates = {
             "points": place,
@@ -359,8 +359,8 @@ def test_parts_of_two_clouds_are_never_seen_together(view: Any) -> None:
         }
         view.scene.link.update(node, updates)
         view.show()
-        seen.append(view.colors_at(*(each[0].tolist() for each in at.values())))
-    assert seen == [[RED, RED], [GREEN, GREEN]]
+        observed.append(view.colors_at(*(each[0].tolist() for each in at.values())))
+    assert observed == [[RED, RED], [GREEN, GREEN]]
 
 
 def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> None:

@@ -90,25 +90,25 @@ def test_large_messages_share_a_frame_while_there_is_room() -> None:
 
 def test_large_messages_take_turns_however_fast_newer_ones_come() -> None:
     queue = Queue()
-    seen = []
+    observed = []
     for _ in range(9):
         for name in ("/a", "/b", "/c"):
             queue.cloud(name)
-        seen += queue.window()
-    assert seen == ["/a", "/b", "/c"] * 3
+        observed += queue.window()
+    assert observed == ["/a", "/b", "/c"] * 3
 
 
 def test_a_cloud_that_was_begun_is_finished_before_the_newest_is_sent() -> None:
     queue = Queue()
-    seen = []
+    observed = []
     for version in range(7):
         with_parts(queue, version, "abcd")
         queue.cloud("/map")
-        seen += queue.versions()
-    assert seen == ["a0", "b0", "c0", "d0", "/map", "a5", "b5"]
+        observed += queue.versions()
+    assert observed == ["a0", "b0", "c0", "d0", "/map", "a5", "b5"]
     while queue.outbox.is_waiting():
-        seen += queue.versions()
-    assert seen[7:] == ["c5", "d5", "/map", "a6", "b6", "c6", "d6"]
+        observed += queue.versions()
+    assert observed[7:] == ["c5", "d5", "/map", "a6", "b6", "c6", "d6"]
     assert queue.outbox.progress.begun == {}
 
 
@@ -138,10 +138,10 @@ def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
     for name in ("/a", "/b"):
         queue.cloud(name)
     queue.push(AcknowledgementRequest("1"))
-    sent = [queue.window()]
+    messages = [queue.window()]
     queue.cloud("/a")
-    sent += [queue.window(), queue.window(), queue.window()]
-    assert sent == [["/a"], ["/b", "AcknowledgementRequest"], ["/a"], []]
+    messages += [queue.window(), queue.window(), queue.window()]
+    assert messages == [["/a"], ["/b", "AcknowledgementRequest"], ["/a"], []]
 
 
 def test_a_cloud_that_grows_and_shrinks_is_whole_in_parts_that_are_sent_apart(
@@ -174,10 +174,10 @@ def test_a_stalled_browser_gets_the_newest_change_of_the_panel_before_the_cloud(
         scene.upsert("lidar", "it", Points(np.full((40 * PART, 3), index, np.float32), colors, 0.1))
         scene.set_pose("robot", Pose((float(index), 0.0, 0.0)))
         scene.flush()
-    seen: list[dict[str, Any]] = []
-    while [2.0, 0.0, 0.0] not in [m.get("position") for m in seen]:
-        seen += peer.receive()
-    assert sum("points" in m.get("updates", {}) for m in seen) < 40
+    observed: list[dict[str, Any]] = []
+    while [2.0, 0.0, 0.0] not in [m.get("position") for m in observed]:
+        observed += peer.receive()
+    assert sum("points" in m.get("updates", {}) for m in observed) < 40
 
 
 def test_a_connection_holds_little_that_nothing_can_overtake(
@@ -199,13 +199,13 @@ def cloud(count: int) -> dict[str, np.ndarray]:
 
 def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
     """Return the messages sent meanwhile."""
-    sent = []
+    messages = []
     until = queue.now + seconds
     while queue.now < until:
         queue.now += 0.01
-        sent += queue.outbox.small(queue.live, queue.count - 1, None)
-        sent += queue.outbox.large(queue.live)
-    return sent
+        messages += queue.outbox.small(queue.live, queue.count - 1, None)
+        messages += queue.outbox.large(queue.live)
+    return messages
 
 
 def completed(sent: list[Any]) -> list[tuple[str, dict[str, np.ndarray]]]:
@@ -245,16 +245,19 @@ def test_a_slow_link_gets_fewer_points_of_a_cloud_and_all_of_them_once_it_rests(
 def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/map", {"png": bytes(2_000_000)}))
-    sent: list[Any] = []
+    messages: list[Any] = []
     for _ in range(50):
         queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
         queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((1000, 3), "f4")}))
-        sent += taken(queue, 0.1)
-    names = [name for name, _ in completed(sent)]
+        messages += taken(queue, 0.1)
+    names = [name for name, _ in completed(messages)]
     assert names.count("/scan") >= 30
     assert names.count("/lidar") >= 5
     assert names.count("/map") == 1
-    assert max(len(values["points"]) for name, values in completed(sent) if name == "/lidar") < 50e3
+    assert (
+        max(len(values["points"]) for name, values in completed(messages) if name == "/lidar")
+        < 50e3
+    )
     assert reduced(queue.congestion) == "Slow link, 8 Mbit/s: clouds show every 8th point"
 
 
@@ -272,10 +275,10 @@ def test_pieces_of_four_messages_are_under_way_at_most() -> None:
     names = [f"/{number}" for number in range(6)]
     for name in names:
         queue.push(image(name, 400_000))
-    sent = taken(queue)
-    assert sorted(name for name, _ in named(sent)) == names
-    begun = [(index, piece) for index, piece in enumerate(sent) if piece.start == 0]
-    over = [index for index, piece in enumerate(sent) if piece.update]
+    messages = taken(queue)
+    assert sorted(name for name, _ in named(messages)) == names
+    begun = [(index, piece) for index, piece in enumerate(messages) if piece.start == 0]
+    over = [index for index, piece in enumerate(messages) if piece.update]
     under_way = [
         sum(each <= index for each, _ in begun) - sum(each < index for each in over)
         for index, _ in begun
@@ -294,67 +297,67 @@ def test_messages_in_pieces_take_turns() -> None:
 
 def test_a_message_in_pieces_is_sent_to_its_end_then_the_newest() -> None:
     queue = Queue(SLOW)
-    sent = []
+    messages = []
     for version in range(6):
         queue.push(image("/map", 1_000_000, version))
-        sent += taken(queue, 0.01)
-    sent += taken(queue)
-    assert named(sent) == [("/map", 0), ("/map", 5)]
+        messages += taken(queue, 0.01)
+    messages += taken(queue)
+    assert named(messages) == [("/map", 0), ("/map", 5)]
 
 
 def test_the_question_whether_all_arrived_follows_the_last_piece() -> None:
     queue = Queue(SLOW)
     queue.push(image("/map", 400_000))
-    sent = taken(queue, 0.05)
+    messages = taken(queue, 0.05)
     queue.push(AcknowledgementRequest("1"))
-    sent += taken(queue)
-    assert isinstance(sent[-1], AcknowledgementRequest)
-    assert sent[-2].update is not None
+    messages += taken(queue)
+    assert isinstance(messages[-1], AcknowledgementRequest)
+    assert messages[-2].update is not None
 
 
 def test_what_waits_before_the_question_whether_all_arrived_is_not_thinned() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
     queue.push(AcknowledgementRequest("1"))
-    sent = taken(queue)
-    ((name, updates),) = completed(sent[: sent.index(queue.live[1])])
+    messages = taken(queue)
+    ((name, updates),) = completed(messages[: messages.index(queue.live[1])])
     assert (name, len(updates["points"]) // 3) == ("/lidar", 100_000)
 
 
 def test_a_thinned_cloud_is_not_sent_whole_once_there_is_a_newer_one() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
-    sent: list[Any] = []
-    while not (sent and isinstance(sent[-1], Piece)):
-        sent += taken(queue, 0.01)  # thinned, then the first piece of the whole
+    messages: list[Any] = []
+    while not (messages and isinstance(messages[-1], Piece)):
+        messages += taken(queue, 0.01)  # thinned, then the first piece of the whole
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
-    sent += taken(queue, 0.5)
-    assert [len(values["points"]) // 3 for _, values in completed(sent)][:2] == [12_500, 11_250]
+    messages += taken(queue, 0.5)
+    assert [len(values["points"]) // 3 for _, values in completed(messages)][:2] == [12_500, 11_250]
 
 
 def test_a_cloud_that_waits_to_be_sent_whole_is_thinned_if_a_newer_one_comes() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
-    sent: list[Any] = []
-    while not sent:
-        sent += taken(queue, 0.01)
+    messages: list[Any] = []
+    while not messages:
+        messages += taken(queue, 0.01)
     queue.push(AcknowledgementRequest("1"))
     assert queue.outbox.small(queue.live, queue.count - 1, None) == []  # after the whole cloud
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
-    sent += taken(queue, 0.5)
-    clouds = [each for each in sent if not isinstance(each, AcknowledgementRequest)]
+    messages += taken(queue, 0.5)
+    clouds = [each for each in messages if not isinstance(each, AcknowledgementRequest)]
     assert [len(values["points"]) // 3 for _, values in completed(clouds)][:2] == [12_500, 11_250]
 
 
 def test_neither_pieces_nor_scans_wait_for_the_others_to_end() -> None:
     queue = Queue(SLOW)
     queue.push(image("/map", 400_000))
-    sent: list[Any] = []
-    while not any(isinstance(each, Piece) and each.update for each in sent):
+    messages: list[Any] = []
+    while not any(isinstance(each, Piece) and each.update for each in messages):
         queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((2600, 3), "f4")}))
-        sent += taken(queue, 0.01)
+        messages += taken(queue, 0.01)
         assert queue.now < 110.0
-    assert sum(not isinstance(each, Piece) for each in sent) >= 5
+    assert sum(not isinstance(each, Piece) for each in messages) >= 5
 
 
 def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:

@@ -76,9 +76,9 @@ THROW = """async () => {
 
 def test_stack_traces_have_the_names_and_lines_of_modules(view: View) -> None:
     """As those of a release do, by its source map."""
-    found = re.search(r"keyText \(.*/webviz/keys\.js:(\d+):\d+\)", view.evaluate(THROW))
-    assert found
-    line = (FOLDER / "keys.js").read_text("utf-8").splitlines()[int(found[1]) - 1]
+    match = re.search(r"keyText \(.*/webviz/keys\.js:(\d+):\d+\)", view.evaluate(THROW))
+    assert match
+    line = (FOLDER / "keys.js").read_text("utf-8").splitlines()[int(match[1]) - 1]
     assert "key.length" in line
 
 

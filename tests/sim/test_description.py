@@ -109,5 +109,5 @@ def test_a_pose_must_be_finite_and_within_reach(x: float, reason: str) -> None:
         {"header": {"frame_id": "map"}, "pose": {"position": {"x": x}, "orientation": {"w": 1.0}}},
     )
     read = read_cdr(pose, "geometry_msgs/msg/PoseStamped")
-    found = messages.to_map_pose(read.header, read.pose)
-    assert found == (reason or Pose2D(x, 0.0, 0.0))
+    result = messages.to_map_pose(read.header, read.pose)
+    assert result == (reason or Pose2D(x, 0.0, 0.0))

@@ -118,40 +118,40 @@ def demo(context: Context) -> Iterator[Callable[..., Demo]]:
 
 
 def test_without_a_fault_the_scan_lies_on_the_map(demo: Callable[..., Demo]) -> None:
-    seen = demo()
-    seen.run(lambda: "walls of /map" in seen.status(LaserScan, "Map"))
-    assert seen.status(LaserScan, "Map").startswith(("OK 9", "OK 100"))
-    seen.run(lambda: "Showing" in seen.status(Path, "Path"))
-    assert seen.status(Path, "Obstacles") == ""
+    running_demo = demo()
+    running_demo.run(lambda: "walls of /map" in running_demo.status(LaserScan, "Map"))
+    assert running_demo.status(LaserScan, "Map").startswith(("OK 9", "OK 100"))
+    running_demo.run(lambda: "Showing" in running_demo.status(Path, "Path"))
+    assert running_demo.status(Path, "Obstacles") == ""
 
 
 def test_a_turned_laser_is_named_with_its_angle(demo: Callable[..., Demo]) -> None:
-    seen = demo(laser_yaw=0.5)
-    seen.run(lambda: "rotating 'base_scan'" in seen.status(LaserScan, "Map"))
-    text = seen.status(LaserScan, "Map")
+    running_demo = demo(laser_yaw=0.5)
+    running_demo.run(lambda: "rotating 'base_scan'" in running_demo.status(LaserScan, "Map"))
+    text = running_demo.status(LaserScan, "Map")
     assert text.startswith("WARN Only")
     assert "Check the yaw of 'base_scan'" in text
-    rotation = seen.measured(LaserScan, "Map")["rotation"]
+    rotation = running_demo.measured(LaserScan, "Map")["rotation"]
     assert rotation == pytest.approx(-0.5, abs=0.07)
 
 
 def test_a_misplaced_robot_is_named_with_its_shift(demo: Callable[..., Demo]) -> None:
-    seen = demo(misplaced=2.0)
-    seen.run(lambda: "a shift by" in seen.status(LaserScan, "Map"))
-    found = seen.measured(LaserScan, "Map")
-    assert (found["shift x"], found["shift y"]) == pytest.approx((0.0, -2.0), abs=0.25)
-    assert "2D Pose Estimate" in seen.status(LaserScan, "Map")
+    running_demo = demo(misplaced=2.0)
+    running_demo.run(lambda: "a shift by" in running_demo.status(LaserScan, "Map"))
+    result = running_demo.measured(LaserScan, "Map")
+    assert (result["shift x"], result["shift y"]) == pytest.approx((0.0, -2.0), abs=0.25)
+    assert "2D Pose Estimate" in running_demo.status(LaserScan, "Map")
 
 
 def test_a_path_that_is_not_planned_again_is_named_with_its_age(
     demo: Callable[..., Demo],
 ) -> None:
-    seen = demo(stale_path=1.0)
-    seen.run(lambda: "not replanned" in seen.status(Path, "Obstacles"))
-    assert "points of the laser scan and is" in seen.status(Path, "Obstacles")
+    running_demo = demo(stale_path=1.0)
+    running_demo.run(lambda: "not replanned" in running_demo.status(Path, "Obstacles"))
+    assert "points of the laser scan and is" in running_demo.status(Path, "Obstacles")
 
 
 def test_late_stamps_are_a_problem_of_clocks(demo: Callable[..., Demo]) -> None:
-    seen = demo(clock=2.0)
-    seen.run(lambda: "Clocks" in seen.bench.states[-1].statuses)
-    assert "behind the clock" in seen.bench.states[-1].statuses["Clocks"].text
+    running_demo = demo(clock=2.0)
+    running_demo.run(lambda: "Clocks" in running_demo.bench.states[-1].statuses)
+    assert "behind the clock" in running_demo.bench.states[-1].statuses["Clocks"].text

@@ -103,13 +103,13 @@ class Robot(Node):
 
     def transforms(self, topic="/tf"):
         """All transforms so far as (stamp in ns, parent, child, transform)."""
-        found = []
+        results = []
         for raw in self.received[topic]:
             message: Any = STORE.deserialize_cdr(bytes(raw), "tf2_msgs/msg/TFMessage")
             for t in message.transforms:
                 stamp = nanoseconds(t.header.stamp)
-                found.append((stamp, t.header.frame_id, t.child_frame_id, t.transform))
-        return found
+                results.append((stamp, t.header.frame_id, t.child_frame_id, t.transform))
+        return results
 
     def pose(self, topic="/odom"):
         return planar(self.received[topic][-1].pose.pose)
@@ -297,8 +297,8 @@ def test_an_initial_pose_puts_the_robot_there_in_the_map(sim, robot):
     publisher.publish(message)
 
     def corrected():
-        found = [t for _, _, child, t in robot.transforms() if child == "odom"]
-        return found and found[-1].translation.x == pytest.approx(-4.5)
+        results = [t for _, _, child, t in robot.transforms() if child == "odom"]
+        return results and results[-1].translation.x == pytest.approx(-4.5)
 
     robot.spin_until(corrected)
     assert robot.pose() == pytest.approx(Pose2D())

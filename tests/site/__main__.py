@@ -126,10 +126,10 @@ def _displays() -> Entry:
     """The overview, and the page of each display in its group."""
     groups = YAML(typ="safe").load(ROOT / DOCS / "groups.yaml")
     by_title = {path.read_text().partition("\n")[0]: path.name for path in DISPLAYS}
-    found: Entry = {"All": "README.md"}
+    result: Entry = {"All": "README.md"}
     for group, names in groups.items():
-        found[group] = {name: by_title[f"# {name}"] for name in names}
-    return found
+        result[group] = {name: by_title[f"# {name}"] for name in names}
+    return result
 
 
 def _entry(title: str, what: object, known: Mapping[str, str]) -> Entry:

@@ -50,11 +50,11 @@ def read_in_little_memory(path) -> str:
         "while bag.reached_ns < bag.history.end_ns: bag.play_until(bag.history.end_ns)\n"
         "print(len(bag.inbox.drain().get('/words', ())), *bag.warnings)\n"
     )
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-c", code, str(path)], capture_output=True, text=True, timeout=60
     )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    assert completed.returncode == 0, completed.stderr
+    return completed.stdout
 
 
 @pytest.mark.parametrize("claimed", [300, MAX_BYTES, 4 * GIB, 2**64 - 1])

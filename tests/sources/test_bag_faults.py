@@ -229,8 +229,8 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
 
 def _starts(data: bytes) -> list[int]:
     """Return where some records of chunks or messages begin."""
-    found = [match.start() for match in re.finditer(rb"[\x05\x06].[\x02-\xff].\0{5}", data, re.S)]
-    return found[1:-1:7] if len(found) > 20 else found[1:-1]
+    results = [match.start() for match in re.finditer(rb"[\x05\x06].[\x02-\xff].\0{5}", data, re.S)]
+    return results[1:-1:7] if len(results) > 20 else results[1:-1]
 
 
 def _noisy(count: int, kilobytes: int = 8) -> Bag:

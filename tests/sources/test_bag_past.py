@@ -37,12 +37,14 @@ def moving(last_s: int) -> Bag:
 
 def transforms_read(path: Path, at_s: int) -> list[int]:
     """Return when the transforms were recorded that a seek reads, with strings that are placed."""
-    wanted = {
+    subscription = {
         "/tf": Subscription(TF, Topic("/tf")),
         "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(),), is_placed=True),
     }
     with opened(path) as history:
-        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(at_s))
+        past = NeededMessages(
+            history, history.channels(subscription), subscription, START_NS + ns(at_s)
+        )
         return [(each.stamp_ns - START_NS) // ns(1) for each in past.messages() if each.type == TF]
 
 
@@ -74,9 +76,11 @@ def test_of_more_than_100_older_messages_all_transforms_since_are_read(
 def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
     path = strings(1, 2, 3, 4).write(tmp_path / "run")
     begins = Lookback(starts_over=lambda message, type_name: message.data.endswith("2"))
-    wanted = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(begins,))}
+    subscription = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(begins,))}
     with opened(path) as history:
-        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(4))
+        past = NeededMessages(
+            history, history.channels(subscription), subscription, START_NS + ns(4)
+        )
         assert [(each.stamp_ns - START_NS) // ns(1) for each in past.messages()] == [2, 3, 4]
 
 
@@ -86,9 +90,11 @@ def test_messages_that_were_placed_when_transforms_ended_are_read(tmp_path: Path
     for at_s in range(41):
         bag.put(at_s, "/pose", {"header": {"frame_id": "base"}})
     newest = Subscription(POSE, Topic("/pose"), lookbacks=(Lookback(count=1),), is_placed=True)
-    wanted = {"/tf": Subscription(TF, Topic("/tf")), "/pose": newest}
+    subscription = {"/tf": Subscription(TF, Topic("/tf")), "/pose": newest}
     with opened(bag.write(tmp_path / "run")) as history:
-        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(40))
+        past = NeededMessages(
+            history, history.channels(subscription), subscription, START_NS + ns(40)
+        )
         poses = [each.stamp_ns - START_NS for each in past.messages() if each.type == POSE]
     assert poses == [ns(10), ns(11), ns(40)]
 
@@ -109,9 +115,13 @@ def test_a_step_goes_an_eighth_of_the_way_within_bounds(
 
 def test_a_lookback_of_seconds_begins_to_the_nanosecond(tmp_path: Path) -> None:
     path = strings(1.999999999, 2, 3).write(tmp_path / "run")
-    wanted = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(seconds=2.0),))}
+    subscription = {
+        "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(seconds=2.0),))
+    }
     with opened(path) as history:
-        past = NeededMessages(history, history.channels(wanted), wanted, START_NS + ns(4))
+        past = NeededMessages(
+            history, history.channels(subscription), subscription, START_NS + ns(4)
+        )
         assert [each.stamp_ns - START_NS for each in past.messages()] == [ns(2), ns(3)]
 
 

@@ -76,8 +76,8 @@ def show(run: Path, to_s: float, watched: bool) -> tuple[list[Any], list[Any]]:
     viewer.close()
     source.close()
     # In which slot of a display a sample is drawn makes no difference.
-    seen = sorted(((pose, node) for _, pose, node in scene.visible()), key=repr)
-    return seen, list(rows)
+    observed = sorted(((pose, node) for _, pose, node in scene.visible()), key=repr)
+    return observed, list(rows)
 
 
 @pytest.mark.parametrize("to_s", [0.0, 1.0, 2.0, 3.05, 5.9])

@@ -27,9 +27,9 @@ def texts(path: Path, to_s: float) -> list[str]:
     with closing(BagViewer(path, CONFIG)) as viewer:
         viewer.play_to(to_s)
         state = viewer.loop.state()
-    found = [*state.statuses.values()]
-    found += [status for row in state.rows for status in row.statuses.values()]
-    return [status.text for status in found if status.level.name != "OK"]
+    result = [*state.statuses.values()]
+    result += [status for row in state.rows for status in row.statuses.values()]
+    return [status.text for status in result if status.level.name != "OK"]
 
 
 @pytest.fixture
@@ -44,13 +44,13 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_before_its_first_messages_a_bag_says_when_they_come(path):
-    found = texts(path, 0.0)
-    assert "No transforms yet, so map is unknown: the bag's first is at 0.8 s." in found
-    assert "No transforms yet: the bag's first is at 0.8 s." in found
-    assert "No message yet on /odom: the bag's first is at 1.2 s." in found
-    assert "The bag has no topic /scan. Choose another topic." in found
-    assert "No robot description received on /robot_description." in found
-    assert not [text for text in found if "Start" in text]
+    result = texts(path, 0.0)
+    assert "No transforms yet, so map is unknown: the bag's first is at 0.8 s." in result
+    assert "No transforms yet: the bag's first is at 0.8 s." in result
+    assert "No message yet on /odom: the bag's first is at 1.2 s." in result
+    assert "The bag has no topic /scan. Choose another topic." in result
+    assert "No robot description received on /robot_description." in result
+    assert not [text for text in result if "Start" in text]
 
 
 def test_later_nothing_of_that_is_left(path):
@@ -63,9 +63,9 @@ def test_a_bag_without_transforms_says_so(tmp_path):
     bag.add("/tf", "tf2_msgs/msg/TFMessage")
     pose = {"pose": {"orientation": {"w": 1.0}}}
     bag.put(0, "/odom", {"header": {"frame_id": "odom"}, "pose": pose})
-    found = texts(bag.write_file(tmp_path / "bag.mcap"), 0.0)
-    assert "No transforms yet, so map is unknown: the bag has none." in found
-    assert 'No transforms yet, so "odom" has no pose in "map": the bag has none.' in found
+    result = texts(bag.write_file(tmp_path / "bag.mcap"), 0.0)
+    assert "No transforms yet, so map is unknown: the bag has none." in result
+    assert 'No transforms yet, so "odom" has no pose in "map": the bag has none.' in result
 
 
 @pytest.mark.parametrize("start_ns", [0, 1])

@@ -99,10 +99,10 @@ def opened() -> Iterator[Callable[[Path], BagFile]]:
 
 def messages_of(file: BagFile) -> dict[str, list[Any]]:
     """Return the messages of a bag by type."""
-    found: dict[str, list[Any]] = {}
+    result: dict[str, list[Any]] = {}
     for each in file.messages(file.channels, file.start_ns):
-        found.setdefault(each.type, []).append(decode(each.type, each.cdr, each.types))
-    return found
+        result.setdefault(each.type, []).append(decode(each.type, each.cdr, each.types))
+    return result
 
 
 def test_the_types_that_changed_are_those_of_the_released_distributions() -> None:
@@ -126,13 +126,13 @@ def test_messages_of_each_distribution_have_the_values_that_were_written(
     names = [name for name in (*sorted(CHANGED - {GID}), *NESTED) if name in store.fielddefs]
     messages = [(name, filled(store, name, numbers)) for name in names for _ in range(2)]
     file = opened(write(tmp_path / "run", store, messages, storage))
-    found = messages_of(file)
+    result = messages_of(file)
     assert not file.skipped
     assert not file.warnings
     for name in names:
         written = [message for own, message in messages if own == name]
-        assert len(found[name]) == len(written)
-        for one, other in zip(written, found[name], strict=True):
+        assert len(result[name]) == len(written)
+        for one, other in zip(written, result[name], strict=True):
             check_same(store, name, one, other)
 
 
@@ -142,9 +142,9 @@ def test_what_an_older_distribution_lacks_has_its_default(
     store = get_typestore(Stores.ROS2_GALACTIC)
     names = (RANGE, MARKER)
     messages = [(name, filled(store, name, count(1))) for name in names]
-    found = messages_of(opened(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3)))
-    assert found[RANGE][0].variance == 0.0
-    (marker,) = found[MARKER]
+    result = messages_of(opened(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3)))
+    assert result[RANGE][0].variance == 0.0
+    (marker,) = result[MARKER]
     assert (marker.texture_resource, len(marker.uv_coordinates)) == ("", 0)
     assert marker.mesh_file.filename == ""
 
@@ -255,9 +255,9 @@ def test_types_that_contain_a_changed_one_may_differ() -> None:
 def test_bags_of_galactic_and_humble_show_what_they_show_there(
     opened: Callable[[Path], BagFile], storage: str
 ) -> None:
-    found = messages_of(opened(REPORTS / f"galactic_marker_{storage}"))
-    assert {(each.type, each.pose.position.x) for each in found[MARKER]} == {(1, 2.0)}
-    array = found[MARKERS][0].markers
+    result = messages_of(opened(REPORTS / f"galactic_marker_{storage}"))
+    assert {(each.type, each.pose.position.x) for each in result[MARKER]} == {(1, 2.0)}
+    array = result[MARKERS][0].markers
     assert [each.pose.position.x for each in array] == [2.0, 4.0]
     distances = messages_of(opened(REPORTS / f"humble_range_{storage}"))[RANGE]
     assert {each.range for each in distances} == {2.0}

@@ -96,8 +96,8 @@ def test_both_runs_are_shown_at_a_time(
 
 def numbers(source: Player, topic: str) -> list[float]:
     history = source.history
-    found = history.messages(history.channels_of(topic), history.start_ns)
-    return [decode(each.type, each.cdr).data for each in found]
+    result = history.messages(history.channels_of(topic), history.start_ns)
+    return [decode(each.type, each.cdr).data for each in result]
 
 
 def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> None:
@@ -186,10 +186,10 @@ def test_a_report_of_two_runs_has_both_at_the_same_places(
     assert unpacked.report.at_s == pytest.approx(4.0)
     with viewer(runs, "path") as shown:
         shown.do(Seek(4.0))
-        wanted = x_of(shown, "ghost/base")
+        expected = x_of(shown, "ghost/base")
     with contextlib.closing(BagViewer(unpacked.bag, unpacked.config.read_text())) as shown:
         shown.do(Seek(unpacked.report.at_s))
-        assert x_of(shown, "ghost/base") == pytest.approx(wanted)
+        assert x_of(shown, "ghost/base") == pytest.approx(expected)
         assert [row.name for row in shown.rows][-1] == "Scan (ghost)"
         assert DISTANCE in shown.source.offers()
 

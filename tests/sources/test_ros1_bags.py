@@ -28,26 +28,26 @@ def test_its_messages_are_those_of_ros_2(
     tmp_path: Path, opened: Callable[..., Any], compression: Writer.CompressionFormat | None
 ) -> None:
     bag = opened(written(tmp_path / "run.bag", compression))
-    wanted = {
+    expected = {
         "/scan": "sensor_msgs/msg/LaserScan",
         "/camera_info": "sensor_msgs/msg/CameraInfo",
         "/harvest": "fruit_of_ros_1/msg/Harvest",
     }
-    found: dict[str, list[Any]] = {}
-    for topic, name in wanted.items():
+    result: dict[str, list[Any]] = {}
+    for topic, name in expected.items():
         bag.want(topic, type_name=name)
         bag.source.jump(bag.source.history.end_ns)
         bag.play(10)
         arrived = bag.source.inbox.drain().get(topic, ())
-        found[topic] = [decode(name, raw.cdr, raw.types) for raw in arrived]
+        result[topic] = [decode(name, raw.cdr, raw.types) for raw in arrived]
     assert bag.source.warnings == []
-    newest = found["/scan"][-1]
+    newest = result["/scan"][-1]
     assert (newest.header.frame_id, newest.header.stamp_ns) == ("laser", 1009_900_000_000)
     assert newest.ranges.tolist() == pytest.approx([1, 2, 12.9])
-    assert found["/camera_info"][0].k.tolist() == list(range(9))
-    (pears, _) = found["/harvest"][0].baskets
+    assert result["/camera_info"][0].k.tolist() == list(range(9))
+    (pears, _) = result["/harvest"][0].baskets
     assert (pears.name, list(pears.size), pears.is_full) == ("pears", [3, -4], True)
-    assert found["/harvest"][0].ripe.sec == -2
+    assert result["/harvest"][0].ripe.sec == -2
 
 
 def test_a_seek_shows_what_playing_shows(tmp_path: Path) -> None:
@@ -124,10 +124,10 @@ def test_converted_messages_that_are_kept_are_bounded(
 ) -> None:
     monkeypatch.setattr("webviz.data.recordings.ros1.MAX_CONVERTED", 1000)
     recording = Ros1Recording(written(tmp_path / "run.bag"))
-    found = list(recording.messages(recording.channels, 0, 2**63))
-    assert len(found) > 100
+    results = list(recording.messages(recording.channels, 0, 2**63))
+    assert len(results) > 100
     converted = counted(monkeypatch)
     # The newest are kept; to convert one that is not would lose another.
-    kept = takewhile(lambda _: not converted, recording.newest(recording.channels, 2**63))
-    assert 0 < sum(len(each.data) for each in kept) <= 1000
+    remaining = takewhile(lambda _: not converted, recording.newest(recording.channels, 2**63))
+    assert 0 < sum(len(each.data) for each in remaining) <= 1000
     recording.close()

@@ -55,8 +55,8 @@ def test_readers_that_disagree_on_durability_follow_the_publishers(
         for durability, latched in (first, second)
     ]
     for order in (subscriptions, subscriptions[::-1]):
-        found = shared(*order)
-        assert (found.topic.durability, found.latched) == expected
+        result = shared(*order)
+        assert (result.topic.durability, result.latched) == expected
 
 
 @pytest.mark.parametrize(("type_", "other"), [(TYPE, OTHER), (OTHER, TYPE)])

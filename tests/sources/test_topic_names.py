@@ -45,8 +45,8 @@ def mcap(path: Path, topics: list[str]) -> Path:
 
 @pytest.mark.parametrize("name", ODD)
 def test_a_name_that_is_in_the_bag_is_valid_there(tmp_path: Path, name: str) -> None:
-    found = shown(mcap(tmp_path / "run.mcap", ODD), name)
-    assert found["Topic"].startswith("OK 1 message")
+    result = shown(mcap(tmp_path / "run.mcap", ODD), name)
+    assert result["Topic"].startswith("OK 1 message")
 
 
 @pytest.mark.parametrize("written", ["words", "/words"])
@@ -77,8 +77,8 @@ def test_names_of_ros_1_are_valid(tmp_path: Path) -> None:
 
 
 def test_names_that_are_not_in_the_bag_are_still_refused(tmp_path: Path) -> None:
-    found = shown(strings(0, 1).write_file(tmp_path / "run.mcap"), "/front-lidar/words")
-    assert "is not a valid topic name" in found["Topic"]
+    result = shown(strings(0, 1).write_file(tmp_path / "run.mcap"), "/front-lidar/words")
+    assert "is not a valid topic name" in result["Topic"]
 
 
 def test_displays_of_a_bag_of_a_report_are_ok() -> None:

@@ -137,7 +137,7 @@ def environment(tmp_path: Path) -> dict[str, str]:
 
 
 def run(environment: dict[str, str], *words: str) -> str:
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, *words],
         env=environment,
         capture_output=True,
@@ -145,8 +145,8 @@ def run(environment: dict[str, str], *words: str) -> str:
         timeout=120,
         check=False,
     )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    assert completed.returncode == 0, completed.stderr
+    return completed.stdout
 
 
 def test_a_bag_is_opened_and_a_robot_loaded_without_modules_and_files_of_linux(
@@ -166,5 +166,5 @@ def test_bridges_are_shown_without_modules_files_and_calls_of_linux(
     program = f"ONLY_LINUX = {ONLY_LINUX!r}\n{VIEWING}"
     with foxglove_server() as server:
         config.write_text(VIEW.format(server.url))
-        said = run(environment, "-c", program, str(config), server.url)
-    assert said.startswith("OK OK"), said
+        text = run(environment, "-c", program, str(config), server.url)
+    assert text.startswith("OK OK"), text

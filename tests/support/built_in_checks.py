@@ -60,15 +60,15 @@ class BuiltInChecks(DisplayChecks):
         monkeypatch.setattr(PATIENCE_S, -1.0)
         type_name = inputs_of(type(made()))[name].type
         known = list(cases(type_name, self.messages[type_name]))
-        found = []
+        results = []
         hands = dealt(known)
         while row := list(islice(hands, IN_A_ROW)):
             bench = self.at_work(webviz_bench, made, name)
             for hand in row:
                 send(bench, name, reduce(changed, hand, self.messages[type_name]))
                 bench.now_ns += 10**8
-                found += [f"{hand!r:.200}: {fault}" for fault in faults(bench)]
-        assert found == []
+                results += [f"{hand!r:.200}: {fault}" for fault in faults(bench)]
+        assert results == []
 
 
 def dealt(known: Sequence[Case]) -> Iterator[Sequence[Case]]:
@@ -84,12 +84,12 @@ def dealt(known: Sequence[Case]) -> Iterator[Sequence[Case]]:
 
 def built_in_checks() -> dict[str, BuiltInChecks]:
     """The checks of each display, by its name."""
-    found: dict[str, BuiltInChecks] = {}
+    result: dict[str, BuiltInChecks] = {}
     for path in sorted(FOLDER.glob("test_*.py")):
         for value in vars(_module(path)).values():
             if isinstance(value, type) and value in BuiltInChecks.__subclasses__():
-                found[value.display.__name__] = value()
-    return found
+                result[value.display.__name__] = value()
+    return result
 
 
 def _module(path: Path) -> Any:

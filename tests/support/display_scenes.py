@@ -72,8 +72,8 @@ def robot_frame(bench: Any) -> None:
 def _detect(bench: Any) -> None:
     """One detection in an image."""
     box = {"size_x": 1.0, "size_y": 1.0}
-    found = {"bbox": box, "results": [{"hypothesis": {"class_id": "box", "score": 0.5}}]}
-    values = {"detections": [found]}
+    result = {"bbox": box, "results": [{"hypothesis": {"class_id": "box", "score": 0.5}}]}
+    values = {"detections": [result]}
     bench.send("vision_msgs/msg/Detection2DArray", values, frame="camera", topic="/found")
 
 

@@ -34,7 +34,7 @@ class Block:
 
     def commands(self) -> list[tuple[str, ...]]:
         """The words of each command of a block in `sh`."""
-        found: list[tuple[str, ...]] = []
+        results: list[tuple[str, ...]] = []
         for line in self.text.replace("\\\n", " ").splitlines():
             lexer = shlex.shlex(line, posix=True, punctuation_chars="&")
             lexer.whitespace_split = True
@@ -43,21 +43,21 @@ class Block:
                 if word != "&&":
                     words.append(word)
                 elif words:
-                    found.append(tuple(words))
+                    results.append(tuple(words))
                     words = []
-        return found
+        return results
 
 
 def blocks(language: str) -> list[Block]:
     """The blocks in a language, of all pages."""
-    found: list[Block] = []
+    results: list[Block] = []
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         for match in _BLOCK.finditer(text):
             line = text.count("\n", 0, match.start()) + 1
             if match[1] == language:
-                found.append(Block(page, line, match[1], match[2] or "", match[3]))
-    return found
+                results.append(Block(page, line, match[1], match[2] or "", match[3]))
+    return results
 
 
 CONFIG = next(block for block in blocks("yaml") if block.page.parent.name == "config")

@@ -56,8 +56,8 @@ class Firefox:
 
     def pixels(self, selector: str) -> np.ndarray:
         """A picture of an element, uint8 (H, W, 3)."""
-        found = self._do("WebDriver:FindElement", {"using": "css selector", "value": selector})
-        (element,) = found["value"].values()
+        result = self._do("WebDriver:FindElement", {"using": "css selector", "value": selector})
+        (element,) = result["value"].values()
         told = self._do("WebDriver:TakeScreenshot", {"id": element, "full": False})
         image = PIL.Image.open(io.BytesIO(base64.b64decode(told["value"])))
         return np.asarray(image.convert("RGB"))

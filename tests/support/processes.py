@@ -17,11 +17,11 @@ def command_lines(pid: int | None = None) -> dict[psutil.Process, str]:
     Args:
         pid: of the process; None is this one.
     """
-    found = {}
+    result = {}
     for process in psutil.Process(pid).children(recursive=True):
         with suppress(psutil.NoSuchProcess):  # also of one that only waits to be reaped
-            found[process] = " ".join(process.cmdline())
-    return found
+            result[process] = " ".join(process.cmdline())
+    return result
 
 
 def send(number: int, processes: Iterable[psutil.Process]) -> None:

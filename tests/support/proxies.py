@@ -68,9 +68,9 @@ def running(
     try:
         deadline = time.monotonic() + PATIENCE_S
         while not accepts(port):
-            said = (folder / "output").read_text()
-            assert process.poll() is None, f"{name} has ended: {said}"
-            assert time.monotonic() < deadline, f"{name} does not listen: {said}"
+            text = (folder / "output").read_text()
+            assert process.poll() is None, f"{name} has ended: {text}"
+            assert time.monotonic() < deadline, f"{name} does not listen: {text}"
             time.sleep(0.05)
         yield port
     finally:

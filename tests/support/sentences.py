@@ -34,8 +34,8 @@ def sentences(folders: tuple[str, ...] = FOLDERS) -> Iterator[Sentence]:
     for folder in folders:
         for path in sorted((ROOT / folder).rglob("*")):
             source = path.read_text(encoding="utf-8") if path.suffix in (".py", ".js") else ""
-            found = _in_python(source) if path.suffix == ".py" else _in_script(source)
-            for line, text in found:
+            result = _in_python(source) if path.suffix == ".py" else _in_script(source)
+            for line, text in result:
                 text = " ".join(text.split())
                 if len(re.findall(r"[A-Za-z][a-z']+", text)) >= FEWEST_WORDS:
                     yield Sentence(str(path.relative_to(ROOT)), line, text)

@@ -31,8 +31,8 @@ def until(
         look_s: between two looks, longer where each takes much of a processor.
     """
     deadline = time.monotonic() + seconds
-    while not (found := condition()):
+    while not (result := condition()):
         assert time.monotonic() < deadline, lacking()
         turn()
         time.sleep(look_s)
-    return found
+    return result

@@ -175,15 +175,15 @@ class ZenohRobot:
         """Return the messages of a topic with their attachments, as they arrive."""
         key = pamoja.entity_key(self.domain, topic, type, type_hash(type))
         assert key is not None
-        found: list[tuple[Any, bytes]] = []
+        results: list[tuple[Any, bytes]] = []
 
         def take(sample: zenoh.Sample) -> None:
             assert sample.attachment is not None, "rmw_zenoh_cpp drops messages without one"
-            found.append((decode(type, sample.payload.to_bytes()), sample.attachment.to_bytes()))
+            results.append((decode(type, sample.payload.to_bytes()), sample.attachment.to_bytes()))
 
         self._kept.append(self.session.declare_subscriber(key, take))
         self.token("MS", topic, type)
-        return found
+        return results
 
     def service(
         self, name: str, type: str, answer: Callable[[Any], Mapping[str, Any]], hash: str = ""
@@ -299,13 +299,13 @@ class BridgedRobot:
     def subscription(self, topic: str, type: str) -> list[Any]:
         """Return the messages of a topic, as they arrive."""
         key = self.token("MS", topic, type, ":1:0:0,10")
-        found: list[Any] = []
+        results: list[Any] = []
         self._kept.append(
             self.session.declare_subscriber(
-                key, lambda sample: found.append(decode(type, sample.payload.to_bytes()))
+                key, lambda sample: results.append(decode(type, sample.payload.to_bytes()))
             )
         )
-        return found
+        return results
 
     def service(self, name: str, type: str, answer: Callable[[Any], Mapping[str, Any]]) -> None:
         """Serve a service by a function from its request to the fields of its response."""

@@ -21,8 +21,8 @@ def test_a_package_on_the_ament_prefix_path_is_found(tmp_path):
     for prefix in ("one", "two"):
         package(tmp_path / prefix / "share" / f"pkg_{prefix}", f"pkg_{prefix}")
     resolver = Resolver(ament_prefix_path=f"{tmp_path / 'one'}:{tmp_path / 'two'}")
-    found = resolver.resolve("package://pkg_two/meshes/a.stl")
-    assert found == tmp_path / "two/share/pkg_two/meshes/a.stl"
+    result = resolver.resolve("package://pkg_two/meshes/a.stl")
+    assert result == tmp_path / "two/share/pkg_two/meshes/a.stl"
 
 
 def test_the_environment_gives_the_prefix_path_by_default(tmp_path, monkeypatch):

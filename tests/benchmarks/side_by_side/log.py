@@ -50,8 +50,8 @@ class Log:
         self, sightings: Iterable[Sighting], since_ns: int, until_ns: int
     ) -> dict[int, list[float]]:
         """Milliseconds from publication to first sight by lane, of what was published in a span."""
-        found = self.publications(sightings, since_ns, until_ns)
-        return {lane: [ms for _, ms in each] for lane, each in found.items()}
+        result = self.publications(sightings, since_ns, until_ns)
+        return {lane: [ms for _, ms in each] for lane, each in result.items()}
 
     def publications(
         self, sightings: Iterable[Sighting], since_ns: int, until_ns: int
@@ -59,9 +59,9 @@ class Log:
         """Return the same, each with its time of publication in nanoseconds."""
         first: dict[tuple[int, int], int] = {}
         for sighting in sightings:
-            found = self._find(sighting)
-            if found is not None and since_ns <= found[3] < until_ns:
-                first.setdefault((int(found[0]), int(found[3])), sighting.time_ns)
+            result = self._find(sighting)
+            if result is not None and since_ns <= result[3] < until_ns:
+                first.setdefault((int(result[0]), int(result[3])), sighting.time_ns)
         late: dict[int, list[tuple[int, float]]] = defaultdict(list)
         for (lane, published), seen in first.items():
             late[lane].append((published, (seen - published) / 1e6))
@@ -71,8 +71,8 @@ class Log:
         """Seconds of the longest time without a new publication, up to `until_ns`, by lane."""
         seen: dict[int, dict[int, int]] = defaultdict(dict)
         for sighting in sightings:
-            if (found := self._find(sighting)) is not None:
-                seen[int(found[0])].setdefault(int(found[1]), sighting.time_ns)
+            if (result := self._find(sighting)) is not None:
+                seen[int(result[0])].setdefault(int(result[1]), sighting.time_ns)
         return {
             lane: max(np.diff([*sorted(times.values()), until_ns])) / 1e9
             for lane, times in seen.items()

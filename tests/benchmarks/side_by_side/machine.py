@@ -31,8 +31,8 @@ def machine() -> dict[str, str]:
 def commit() -> str:
     """The commit of the checkout, marked if something has changed since."""
     command = ["git", "describe", "--always", "--dirty", "--exclude=*"]
-    done = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True)
-    return done.stdout.strip() or "unknown"
+    completed = subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True)
+    return completed.stdout.strip() or "unknown"
 
 
 def versions(systems: Sequence[str]) -> dict[str, str]:

@@ -122,12 +122,12 @@ def _cell(row: Mapping[str, Any] | None) -> str:
 
 
 def _in_words(cell: str) -> str:
-    found = CELL.match(cell)
-    assert found, f"no figures of a chosen scene: {cell!r}"
-    words = f"{found['cpu']}, {found['ms']} ms"
-    if found["shown"] is None:
+    result = CELL.match(cell)
+    assert result, f"no figures of a chosen scene: {cell!r}"
+    words = f"{result['cpu']}, {result['ms']} ms"
+    if result["shown"] is None:
         return words
-    return f"{words}, {100 * (1 - float(found['shown']) / float(found['all'])):.0f} % dropped"
+    return f"{words}, {100 * (1 - float(result['shown']) / float(result['all'])):.0f} % dropped"
 
 
 def _median(row: Mapping[str, Any], name: str) -> float | None:

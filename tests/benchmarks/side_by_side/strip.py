@@ -41,7 +41,7 @@ def read(picture: bytes) -> list[tuple[int, int]]:
     last = is_set.shape[1] - LENGTH + 1
     if last < 1:
         return []
-    found = []
+    results = []
     for ones in (is_set, ~is_set):  # a palette may show occupied cells dark or bright
         fits = np.ones((len(ones), last), bool)
         for i, bit in enumerate(SYNC):
@@ -49,5 +49,5 @@ def read(picture: bytes) -> list[tuple[int, int]]:
         for row, column in np.argwhere(fits):
             bits = ones[row, column + len(SYNC) : column + LENGTH]
             code = int("".join("01"[bit] for bit in bits.astype(int)), 2)
-            found.append((code >> NUMBER_BITS, code % CYCLE))
-    return found
+            results.append((code >> NUMBER_BITS, code % CYCLE))
+    return results

@@ -120,8 +120,8 @@ def main() -> int:
     print(told("afterwards", [each for each in messages if each.published_ns >= first_ns]))
     for message in sorted(messages, key=lambda each: -each.late_ms)[:SLOWEST]:
         print(f"{message.late_ms:8.1f} ms, {(message.published_ns - start_ns) / 1e9:6.1f} s:")
-        found = [each for each in steps if each.overlaps(message)]
-        for step in sorted(found, key=lambda each: -each.took_ms)[:6]:
+        results = [each for each in steps if each.overlaps(message)]
+        for step in sorted(results, key=lambda each: -each.took_ms)[:6]:
             print(f"{'':12}{step.took_ms:7.1f} ms  {step.text}")
     return 0
 

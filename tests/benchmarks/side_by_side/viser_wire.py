@@ -60,12 +60,12 @@ def sightings(
     window: Sequence[dict[str, Any]], lanes: Sequence[Lane], now_ns: int
 ) -> list[Sighting]:
     """The marked publications in the messages of a window."""
-    found = []
+    results = []
     cycles = {lane.number: min(lane.cycle, strip.CYCLE) for lane in lanes}
     for message in window:
         for place, value in _candidates(message):
             if place == Place.PICTURE:
-                found += [
+                results += [
                     Sighting(now_ns, lane, number, cycles[lane])
                     for lane, number in strip.read(value)
                     if lane in cycles
@@ -73,8 +73,8 @@ def sightings(
                 continue
             for lane in lanes:
                 if lane.place == place and (number := lane.decode(value)) is not None:
-                    found.append(Sighting(now_ns, lane.number, number, lane.cycle))
-    return found
+                    results.append(Sighting(now_ns, lane.number, number, lane.cycle))
+    return results
 
 
 def _candidates(message: dict[str, Any]) -> Iterable[tuple[Place, Any]]:

@@ -27,14 +27,14 @@ TURNED = fox.Pose(
 
 
 def known(name: str) -> Conversion:
-    found = conversion(f"foxglove.{name}")
-    assert found
-    return found
+    result = conversion(f"foxglove.{name}")
+    assert result
+    return result
 
 
 def converted(message: Any) -> Any:
-    found = known(type(message).__name__)
-    return decode(found.type, found.convert("protobuf", message.encode()))
+    result = known(type(message).__name__)
+    return decode(result.type, result.convert("protobuf", message.encode()))
 
 
 def test_transforms() -> None:
@@ -136,7 +136,7 @@ def test_poses_places_and_logs() -> None:
 
 
 def test_json_has_times_as_objects() -> None:
-    found = known("SceneUpdate")
+    result = known("SceneUpdate")
     entity = {
         "timestamp": {"sec": 7, "nsec": 8},
         "lifetime": {"sec": 1, "nsec": 500_000_000},
@@ -146,7 +146,7 @@ def test_json_has_times_as_objects() -> None:
         "of_the_future": 5,
     }
     payload = json.dumps({"entities": [entity]}).encode()
-    cube = list(decode(found.type, found.convert("json", payload)).markers)[1]
+    cube = list(decode(result.type, result.convert("json", payload)).markers)[1]
     assert (cube.header.stamp.nanosec, cube.lifetime.sec, cube.scale.x) == (8, 1, 1.0)
 
 

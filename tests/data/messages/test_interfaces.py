@@ -64,11 +64,11 @@ def test_types_that_are_unknown_or_cut_off_are_refused() -> None:
 
 def test_whatever_comes_of_a_call_is_taken_or_said() -> None:
     name = "std_msgs/msg/String"
-    found: list[str] = []
+    results: list[str] = []
 
     def outcome(response: Future[bytes]) -> str:
-        taker("/save", name, lambda answer: found.append(answer.data), found.append)(response)
-        return found.pop()
+        taker("/save", name, lambda answer: results.append(answer.data), results.append)(response)
+        return results.pop()
 
     good: Future[bytes] = Future()
     good.set_result(encode(name, {"data": "done"}))

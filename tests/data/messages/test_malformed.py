@@ -182,9 +182,9 @@ def test_a_path_of_equal_frames_that_is_cut_off_is_refused(frame: str) -> None:
 
 def test_a_trajectory_that_is_cut_off_says_where() -> None:
     cdr = encode("trajectory_msgs/msg/JointTrajectory", {"points": [{"positions": [1.0, 2.0]}]})
-    found = set[str]()
+    results = set[str]()
     for size in range(4, len(cdr)):
         with pytest.raises(DecodeError) as caught:
             decode("trajectory_msgs/msg/JointTrajectory", cdr[:size])
-        found.add(str(caught.value).partition(": ")[2].partition(" (at")[0])
-    assert "2 elements of float64 are longer than the rest" in found
+        results.add(str(caught.value).partition(": ")[2].partition(" (at")[0])
+    assert "2 elements of float64 are longer than the rest" in results

@@ -103,9 +103,9 @@ def test_times_for_people_are_dates_and_seconds(value: Time | Duration, text: st
 
 def test_rows_of_numbers_say_how_long_they_are() -> None:
     points = message_class("geometry_msgs/msg/Polygon")(points=np.zeros((30, 3), np.float32))
-    found = fields(points, max_items=4)["points"]
-    assert (found["length"], found["type"]) == (30, "3 x float32")
-    assert found["items"] == ["0"] * 4
+    result = fields(points, max_items=4)["points"]
+    assert (result["length"], result["type"]) == (30, "3 x float32")
+    assert result["items"] == ["0"] * 4
 
 
 def test_digits_and_elements_are_as_many_as_asked() -> None:

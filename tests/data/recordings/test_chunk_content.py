@@ -32,8 +32,8 @@ def test_small_messages_of_a_chunk_are_unpacked_once(
 
     def read(*topics: str) -> list[str]:
         channels = [channel for channel in recording.channels if channel.topic in topics]
-        found = recording.messages(channels, START_NS, START_NS + ns(2))
-        return [decode("std_msgs/msg/String", each.data).data[:3] for each in found]
+        result = recording.messages(channels, START_NS, START_NS + ns(2))
+        return [decode("std_msgs/msg/String", each.data).data[:3] for each in result]
 
     assert read("/words") == ["0", "1", "2"]
     assert read("/words") == ["0", "1", "2"]

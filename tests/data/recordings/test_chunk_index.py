@@ -29,12 +29,12 @@ def written(path: Path) -> Path:
 def contents(path: Path) -> list[list[tuple[int, bytes]]]:
     """The messages of each topic, read by itself."""
     recording = open_recording(path)
-    found = [
+    results = [
         [(message.stamp_ns, message.data) for message in recording.messages([channel], 0, 10**9)]
         for channel in sorted(recording.channels, key=lambda channel: channel.topic)
     ]
     recording.close()
-    return found
+    return results
 
 
 def test_only_chunks_that_may_have_new_channels_are_unpacked(

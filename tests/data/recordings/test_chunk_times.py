@@ -27,17 +27,17 @@ def test_the_chunks_that_a_look_at_each_would_find(seed: int) -> None:
     chunks = sorted((chunk(chance, n) for n in range(60)), key=lambda each: each.start_ns)
     times = ChunkTimes(chunks)
     for _ in range(50):
-        wanted = set(chance.sample(range(6), chance.randrange(4)))
+        expected = set(chance.sample(range(6), chance.randrange(4)))
         start_ns, end_ns = chance.randrange(-20, 120), chance.randrange(-20, 120)
         truth = {
             index
             for index, each in enumerate(chunks)
             if each.start_ns <= end_ns
             and start_ns <= each.end_ns
-            and (each.counts is None or wanted & set(each.counts["channel"].tolist()))
+            and (each.counts is None or expected & set(each.counts["channel"].tolist()))
         }
-        forward = times.within(wanted, start_ns, end_ns, 1)
-        backward = times.within(wanted, start_ns, end_ns, -1)
+        forward = times.within(expected, start_ns, end_ns, 1)
+        backward = times.within(expected, start_ns, end_ns, -1)
         assert set(forward) == set(backward) == truth
         assert len(forward) == len(backward) == len(truth)
         assert forward == sorted(forward)

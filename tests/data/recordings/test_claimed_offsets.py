@@ -83,8 +83,8 @@ def test_messages_of_one_time_stay_in_the_order_of_the_file(tmp_path: Path) -> N
     parts = [message(3, "a"), Chunk(message(3, "b"), len(message(3, "b")), span_ns=(3, 3))]
     path.write_bytes(mcap([*parts, message(3, "c")], with_summary=False))
     recording = open_recording(path)
-    found = [each.data[-2:-1] for each in recording.messages(recording.channels, 0, 9)]
-    assert found == [b"a", b"b", b"c"]
+    results = [each.data[-2:-1] for each in recording.messages(recording.channels, 0, 9)]
+    assert results == [b"a", b"b", b"c"]
     recording.close()
 
 
@@ -93,6 +93,6 @@ def test_regions_end_where_something_else_lies_between(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     path.write_bytes(mcap(parts, with_summary=False))
     recording = open_recording(path)
-    found = [each.stamp_ns for each in recording.messages(recording.channels, 0, 9)]
-    assert found == [1, 2, 3, 4, 5, 6]
+    results = [each.stamp_ns for each in recording.messages(recording.channels, 0, 9)]
+    assert results == [1, 2, 3, 4, 5, 6]
     recording.close()

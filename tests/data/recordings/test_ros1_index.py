@@ -48,8 +48,8 @@ def read(path: Path) -> tuple[Content, str]:
     """All messages of a bag, and what is lost."""
     recording = open_recording(path)
     try:
-        found = recording.messages(recording.channels, 0, 2**63)
-        content = [(each.channel.topic, each.stamp_ns, each.data) for each in found]
+        result = recording.messages(recording.channels, 0, 2**63)
+        content = [(each.channel.topic, each.stamp_ns, each.data) for each in result]
         return sorted(content), str(recording.losses)
     finally:
         recording.close()

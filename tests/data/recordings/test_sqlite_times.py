@@ -73,9 +73,9 @@ def test_all_messages_come_in_order_whatever_takes_long(
     for _ in range(20):
         recording = SqliteRecording(path)
         first_ns, last_ns = sorted(START_NS + ns(chance.uniform(-5, 55)) for _ in range(2))
-        wanted = set(chance.sample(TOPICS, chance.randrange(4)))
-        channels = [channel for channel in recording.channels if channel.topic in wanted]
-        truth = [row for row in rows if row[0] in wanted and row[1] <= last_ns]
+        expected = set(chance.sample(TOPICS, chance.randrange(4)))
+        channels = [channel for channel in recording.channels if channel.topic in expected]
+        truth = [row for row in rows if row[0] in expected and row[1] <= last_ns]
         assert plain(recording.newest(channels, last_ns)) == truth[::-1]
         between = [row for row in truth if row[1] >= first_ns]
         assert plain(recording.messages(channels, first_ns, last_ns)) == between
@@ -95,8 +95,8 @@ def test_the_first_message_of_a_rare_topic_is_found_without_looking_for_the_next
     monkeypatch.setattr(sqlite, "time", clock)
     monkeypatch.setattr(sqlite, "PROGRESS", 100)
     channels = [channel for channel in recording.channels if channel.topic == "/map"]
-    found = recording.messages(channels, START_NS, START_NS + ns(30))
-    assert next(found).stamp_ns == START_NS
+    result = recording.messages(channels, START_NS, START_NS + ns(30))
+    assert next(result).stamp_ns == START_NS
     assert len(looks) < 20  # of 100 instructions each; there are 3000 other messages
     recording.close()
 
@@ -144,10 +144,10 @@ def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_wa
     hasten(monkeypatch, random.Random(1), share=1.0)
     recording = SqliteRecording(file)
     channels = [channel for channel in recording.channels if channel.topic == "/map"]
-    found = [each.stamp_ns for each in recording.newest(channels, START_NS + ns(90))]
+    results = [each.stamp_ns for each in recording.newest(channels, START_NS + ns(90))]
     is_over.set()
     recording.close()
-    assert found == [START_NS + ns(1.5)]
+    assert results == [START_NS + ns(1.5)]
 
 
 def test_a_message_that_is_no_valid_text_is_skipped(tmp_path: Path) -> None:
@@ -155,7 +155,7 @@ def test_a_message_that_is_no_valid_text_is_skipped(tmp_path: Path) -> None:
     with closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE messages SET data = CAST(x'ff' AS TEXT) WHERE id = 2")
     recording = SqliteRecording(file)
-    found = recording.messages(recording.channels, START_NS, START_NS + ns(2))
-    assert [each.stamp_ns - START_NS for each in found] == [0, ns(2)]
+    result = recording.messages(recording.channels, START_NS, START_NS + ns(2))
+    assert [each.stamp_ns - START_NS for each in result] == [0, ns(2)]
     assert "the database is damaged" in str(recording.losses)
     recording.close()

@@ -130,13 +130,13 @@ def test_every_lookup_agrees_with_the_model(seed: int) -> None:
         except KeyError:
             assert not buffer.can_transform(target, source, stamp) or target == source
             continue
-        found = buffer.lookup(target, source, stamp)
+        transform = buffer.lookup(target, source, stamp)
         answered += 1
-        assert found.translation == pytest.approx(expected[:3, 3], abs=1e-9)
-        rotation = Rotation.from_quat(found.rotation).as_matrix()
+        assert transform.translation == pytest.approx(expected[:3, 3], abs=1e-9)
+        rotation = Rotation.from_quat(transform.rotation).as_matrix()
         assert rotation == pytest.approx(expected[:3, :3], abs=1e-9)
         if target != source:
-            assert found.stamp_ns == expected_stamp
+            assert transform.stamp_ns == expected_stamp
     assert answered
 
 
@@ -172,18 +172,18 @@ def test_many_frames_at_once_agree_with_one_at_a_time(
     for target in (*names[:4], "unknown", "/slash"):
         for stamp in (0, start + dice.randrange(10**9)):
             frames = None if stamp == 0 else [*names[:5], "unknown", "", target, target]
-            found = buffer.poses_in(target, frames, stamp)
-            assert found.frames == (frames or names)
-            for i, frame in enumerate(found.frames):
+            poses = buffer.poses_in(target, frames, stamp)
+            assert poses.frames == (frames or names)
+            for i, frame in enumerate(poses.frames):
                 try:
                     one = buffer.lookup(target, frame, stamp)
                 except TransformException:
-                    assert not found.ok[i]
+                    assert not poses.ok[i]
                     continue
-                assert found.ok[i]
-                assert found.stamps_ns[i] == one.stamp_ns
-                assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
-                assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+                assert poses.ok[i]
+                assert poses.stamps_ns[i] == one.stamp_ns
+                assert poses.translations[i] == pytest.approx(one.translation, abs=1e-9)
+                assert poses.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
 
 
 def test_a_tree_that_goes_on_growing_and_changing_is_answered_as_one_at_a_time(
@@ -206,14 +206,14 @@ def test_a_tree_that_goes_on_growing_and_changing_is_answered_as_one_at_a_time(
         if tick == 100:
             buffer.clear()
         for target in ("f0", "f5"):
-            found = buffer.poses_in(target)
-            for i, frame in enumerate(found.frames):
-                assert found.ok[i] == buffer.can_transform(target, frame, 0) or frame == target
-                if found.ok[i]:
+            poses = buffer.poses_in(target)
+            for i, frame in enumerate(poses.frames):
+                assert poses.ok[i] == buffer.can_transform(target, frame, 0) or frame == target
+                if poses.ok[i]:
                     one = buffer.lookup(target, frame, 0)
-                    assert found.stamps_ns[i] == one.stamp_ns
-                    assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
-                    assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+                    assert poses.stamps_ns[i] == one.stamp_ns
+                    assert poses.translations[i] == pytest.approx(one.translation, abs=1e-9)
+                    assert poses.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
                     answered += 1
     assert answered > 1000
 
@@ -225,10 +225,10 @@ def test_frames_in_a_loop_are_answered_as_one_at_a_time() -> None:
         buffer.set_transform(parent, child, 10**9, *unit)
     for target in buffer.frames():
         for stamp in (0, 10**9):
-            found = buffer.poses_in(target, None, stamp)
-            many = [buffer.lookup_many(target, f, np.array([stamp]))[2][0] for f in found.frames]
-            one = [buffer.can_transform(target, frame, stamp) for frame in found.frames]
-            assert found.ok.tolist() == one == many
+            poses = buffer.poses_in(target, None, stamp)
+            many = [buffer.lookup_many(target, f, np.array([stamp]))[2][0] for f in poses.frames]
+            one = [buffer.can_transform(target, frame, stamp) for frame in poses.frames]
+            assert poses.ok.tolist() == one == many
 
 
 @pytest.mark.parametrize("arrays_pay_from", [0, 10**9], ids=["arrays", "floats"])
@@ -246,14 +246,14 @@ def test_frames_of_any_graph_are_answered_as_one_at_a_time(
             buffer.set_transform(f"f{parent}", f"f{child}", stamp, *pose)
     for target in buffer.frames():
         for stamp in (0, 10**9, 15 * 10**8):
-            found = buffer.poses_in(target, None, stamp)
-            for i, frame in enumerate(found.frames):
-                assert found.ok[i] == buffer.can_transform(target, frame, stamp)
-                if found.ok[i]:
+            poses = buffer.poses_in(target, None, stamp)
+            for i, frame in enumerate(poses.frames):
+                assert poses.ok[i] == buffer.can_transform(target, frame, stamp)
+                if poses.ok[i]:
                     one = buffer.lookup(target, frame, stamp)
-                    assert found.stamps_ns[i] == one.stamp_ns
-                    assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
-                    assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+                    assert poses.stamps_ns[i] == one.stamp_ns
+                    assert poses.translations[i] == pytest.approx(one.translation, abs=1e-9)
+                    assert poses.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
 
 
 def test_no_stamps_give_no_poses() -> None:

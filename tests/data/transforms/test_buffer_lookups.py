@@ -58,11 +58,11 @@ def test_every_pair_of_frames_of_a_tree_sees_each_other(
         put(parent, child, 10.0, 1.0)
     for target, x_target in positions.items():
         for source, x_source in positions.items():
-            found = buffer.lookup(target, source, stamp_s * S)
-            assert found.translation == (x_source - x_target, 0.0, 0.0)
-            assert found.rotation == UNIT
+            transform = buffer.lookup(target, source, stamp_s * S)
+            assert transform.translation == (x_source - x_target, 0.0, 0.0)
+            assert transform.rotation == UNIT
             if source != target:
-                assert found.stamp_ns == (stamp_s or 10) * S
+                assert transform.stamp_ns == (stamp_s or 10) * S
             assert buffer.can_transform(target, source, stamp_s * S)
 
 
@@ -78,15 +78,15 @@ def test_a_ring_of_nine_frames_by_45_degrees_has_canonical_signs(
             buffer.set_transform(parent, child, stamp, forward, step)
     for i, target in enumerate(names):
         for j, source in enumerate(names):
-            found = buffer.lookup(target, source, stamp_s * S)
+            transform = buffer.lookup(target, source, stamp_s * S)
             angle = (j - i) * math.pi / 4
-            assert found.translation == pytest.approx(
+            assert transform.translation == pytest.approx(
                 (math.cos(angle) - 1.0, math.sin(angle), 0.0), abs=1e-12
             )
             z, w = math.sin(angle / 2), math.cos(angle / 2)
             trace = 1 + 2 * math.cos(angle)
             sign = math.copysign(1.0, w if trace > 0 else z)  # tf2's canonical sign
-            assert found.rotation == pytest.approx((0.0, 0.0, sign * z, sign * w), abs=1e-12)
+            assert transform.rotation == pytest.approx((0.0, 0.0, sign * z, sign * w), abs=1e-12)
 
 
 def test_two_trees_are_not_connected(buffer: TransformBuffer, put: Put) -> None:
@@ -138,8 +138,8 @@ def test_an_empty_frame_or_a_leading_slash_is_an_invalid_argument(
 def test_a_frame_in_itself_is_the_identity_without_validation(
     buffer: TransformBuffer, frame: str
 ) -> None:
-    found = buffer.lookup(frame, frame, 7)
-    assert (found.translation, found.rotation, found.stamp_ns) == (ZERO, UNIT, 7)
+    transform = buffer.lookup(frame, frame, 7)
+    assert (transform.translation, transform.rotation, transform.stamp_ns) == (ZERO, UNIT, 7)
     assert buffer.lookup(frame, frame, 0).stamp_ns == 0
     assert buffer.can_transform(frame, frame, 7)
 
@@ -237,9 +237,9 @@ def test_the_full_question_looks_at_two_times_past_a_frame_that_did_not_move(
     for stamp, x in ((1.0, 0.0), (2.0, 10.0)):
         put("odom", "base", stamp, x)
         put("base", "laser", stamp, 1.0)
-    found = buffer.lookup_full("base", 2 * S, "laser", S, "odom")
-    assert found.translation == (-9.0, 0.0, 0.0)
-    assert found.stamp_ns == 2 * S
+    transform = buffer.lookup_full("base", 2 * S, "laser", S, "odom")
+    assert transform.translation == (-9.0, 0.0, 0.0)
+    assert transform.stamp_ns == 2 * S
     assert buffer.lookup_full("base", 0, "base", S, "odom").translation == (-10.0, 0.0, 0.0)
     with pytest.raises(LookupException, match="argument fixed_frame does not exist"):
         buffer.lookup_full("base", S, "laser", S, "fixed")

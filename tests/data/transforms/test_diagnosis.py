@@ -20,18 +20,18 @@ def test_a_moving_frame_is_reported_with_rate_age_and_history(
 ) -> None:
     for i in range(21):
         put("map", "odom", 10.0 + i / 20, authority="slam")
-    found = report(buffer, "odom", 11.1)
-    assert (found.parent, found.is_static, found.publishers) == ("map", False, ("slam",))
-    assert found.rate_hz == pytest.approx(20.0)
-    assert found.age_ns == 100_000_000
-    assert (found.samples, found.history_ns, found.newest_ns) == (21, S, 11 * S)
-    assert found.problems == ()
+    result = report(buffer, "odom", 11.1)
+    assert (result.parent, result.is_static, result.publishers) == ("map", False, ("slam",))
+    assert result.rate_hz == pytest.approx(20.0)
+    assert result.age_ns == 100_000_000
+    assert (result.samples, result.history_ns, result.newest_ns) == (21, S, 11 * S)
+    assert result.problems == ()
 
 
 def test_a_static_frame_has_neither_age_nor_rate(buffer: TransformBuffer, put: Put) -> None:
     put("base", "laser", is_static=True)
-    found = report(buffer, "laser", 50.0)
-    assert (found.is_static, found.age_ns, found.rate_hz) == (True, None, 0.0)
+    result = report(buffer, "laser", 50.0)
+    assert (result.is_static, result.age_ns, result.rate_hz) == (True, None, 0.0)
 
 
 def test_the_delay_is_the_time_from_stamp_to_reception(buffer: TransformBuffer) -> None:
@@ -123,9 +123,9 @@ def test_refused_transforms_are_counted_with_the_reason(buffer: TransformBuffer,
 def test_a_cleared_frame_is_reported_as_silent(buffer: TransformBuffer, put: Put) -> None:
     put("map", "odom", 1.0)
     buffer.clear()
-    found = report(buffer, "odom", 1.0)
-    assert (found.parent, found.samples) == ("", 0)
-    assert "since the transforms were cleared" in found.problems[0]
+    result = report(buffer, "odom", 1.0)
+    assert (result.parent, result.samples) == ("", 0)
+    assert "since the transforms were cleared" in result.problems[0]
 
 
 def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(

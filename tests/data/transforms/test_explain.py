@@ -42,25 +42,25 @@ def test_an_available_transform_is_ok(buffer: TransformBuffer, put: Put) -> None
 
 
 def test_an_empty_frame_id_is_the_publishers_to_fill(buffer: TransformBuffer) -> None:
-    found = why(buffer, "", 1.0)
-    assert found.kind == Kind.EMPTY_FRAME
-    assert "header.frame_id" in found.sentence
+    result = why(buffer, "", 1.0)
+    assert result.kind == Kind.EMPTY_FRAME
+    assert "header.frame_id" in result.sentence
 
 
 def test_a_leading_slash_is_named_with_the_right_spelling(
     buffer: TransformBuffer, put: Put
 ) -> None:
     put("map", "laser", 1.0)
-    found = why(buffer, "/laser", 1.0)
-    assert found.kind == Kind.LEADING_SLASH
-    assert 'use "laser"' in found.sentence
+    result = why(buffer, "/laser", 1.0)
+    assert result.kind == Kind.LEADING_SLASH
+    assert 'use "laser"' in result.sentence
     assert why(buffer, "laser", 1.0, fixed="/map").kind == Kind.LEADING_SLASH
 
 
 def test_without_any_transform_the_topics_are_named(buffer: TransformBuffer) -> None:
-    found = why(buffer, "laser", 1.0)
-    assert found.kind == Kind.NO_TRANSFORMS
-    assert "/tf" in found.sentence
+    result = why(buffer, "laser", 1.0)
+    assert result.kind == Kind.NO_TRANSFORMS
+    assert "/tf" in result.sentence
 
 
 @pytest.mark.parametrize(
@@ -78,9 +78,9 @@ def test_a_frame_that_is_a_slip_of_another_comes_with_its_name(
 ) -> None:
     put("map", "base_scan", 1.0)
     put("map", "camera/lens", 1.0)
-    found = why(buffer, name, 1.0)
-    assert found.kind == Kind.UNKNOWN_FRAME
-    assert found.sentence.startswith(f'Frame "{name}" does not exist. Did you mean "{meant}"?')
+    result = why(buffer, name, 1.0)
+    assert result.kind == Kind.UNKNOWN_FRAME
+    assert result.sentence.startswith(f'Frame "{name}" does not exist. Did you mean "{meant}"?')
 
 
 @pytest.mark.parametrize(
@@ -119,9 +119,9 @@ def test_a_fixed_frame_never_seen_comes_with_what_was_meant_or_the_root_of_the_l
     put("odom", "base", 1.0)
     put("base", "laser", 1.0)
     put("world", "drone", 1.0)
-    found = why(buffer, "laser", 1.0, fixed="Odom")
-    assert found.kind == Kind.UNKNOWN_FIXED_FRAME
-    assert found.sentence == 'Fixed frame "Odom" does not exist. Did you mean "odom"?'
+    result = why(buffer, "laser", 1.0, fixed="Odom")
+    assert result.kind == Kind.UNKNOWN_FIXED_FRAME
+    assert result.sentence == 'Fixed frame "Odom" does not exist. Did you mean "odom"?'
     assert why(buffer, "laser", 1.0, fixed="earth").sentence == (
         'Fixed frame "earth" does not exist. Use "odom", the root of the largest tree (3 frames).'
     )
@@ -144,12 +144,12 @@ def test_two_trees_are_named_by_their_roots_with_who_usually_connects_them(
     for link in pairwise(chain):
         if link != missing:
             put(*link, 1.0)
-    found = why(buffer, "lens", 1.0, fixed="landmark")
-    assert found.kind == Kind.NOT_CONNECTED
-    assert f'the root "{missing[1]}", the other "map"' in found.sentence
-    assert remedy in found.sentence
-    assert found.other_frame == ("laser" if remedy.endswith("or use") else "")
-    assert not found.other_frame or why(buffer, "lens", 1.0, fixed=found.other_frame).kind == (
+    result = why(buffer, "lens", 1.0, fixed="landmark")
+    assert result.kind == Kind.NOT_CONNECTED
+    assert f'the root "{missing[1]}", the other "map"' in result.sentence
+    assert remedy in result.sentence
+    assert result.other_frame == ("laser" if remedy.endswith("or use") else "")
+    assert not result.other_frame or why(buffer, "lens", 1.0, fixed=result.other_frame).kind == (
         Kind.AVAILABLE
     )
 
@@ -158,9 +158,9 @@ def test_a_loop_is_spelled_out(buffer: TransformBuffer, put: Put) -> None:
     put("map", "other", 1.0)
     put("a", "b", 1.0)
     put("b", "a", 1.0)
-    found = why(buffer, "a", 1.0)
-    assert found.kind == Kind.LOOP
-    assert "a → b → a" in found.sentence
+    result = why(buffer, "a", 1.0)
+    assert result.kind == Kind.LOOP
+    assert "a → b → a" in result.sentence
 
 
 def test_a_stamp_ahead_names_the_link_that_lags_and_by_how_much(
@@ -170,14 +170,14 @@ def test_a_stamp_ahead_names_the_link_that_lags_and_by_how_much(
         put("map", "odom", stamp, authority="amcl")
     for stamp in (10.0, 10.5, 10.58):
         put("odom", "base", stamp)
-    found = why(buffer, "base", 10.583, 10.6)
-    assert found.kind == Kind.AHEAD
-    assert found.is_catching_up
-    assert found.lag_ns == 83_000_000
+    result = why(buffer, "base", 10.583, 10.6)
+    assert result.kind == Kind.AHEAD
+    assert result.is_catching_up
+    assert result.lag_ns == 83_000_000
     assert 'The stamp is 83 ms ahead of the newest transform "map" → "odom" (from amcl)' in (
-        found.sentence
+        result.sentence
     )
-    assert "100 ms old" in found.sentence
+    assert "100 ms old" in result.sentence
 
 
 @pytest.mark.parametrize(
@@ -202,10 +202,10 @@ def test_a_stamp_that_one_link_cannot_reach(
 ) -> None:
     for stamp in stamps:
         put("map", "odom", float(stamp))
-    found = why(buffer, "odom", at, now)
-    assert found.kind == kind
-    assert phrase in found.sentence
-    assert not found.is_catching_up
+    result = why(buffer, "odom", at, now)
+    assert result.kind == kind
+    assert phrase in result.sentence
+    assert not result.is_catching_up
 
 
 def test_transforms_that_come_stamped_late_are_told_from_those_that_stopped(
@@ -215,10 +215,10 @@ def test_transforms_that_come_stamped_late_are_told_from_those_that_stopped(
         buffer.set_transform(
             "map", "odom", stamp, (0, 0, 0), (0, 0, 0, 1), received_ns=stamp + 2 * S
         )
-    found = why(buffer, "odom", 13.0, 13.0)
-    assert found.kind == Kind.CLOCKS
-    assert not found.is_catching_up
-    assert 'transform "map" → "odom", which comes stamped 2.0 s in the past' in found.sentence
+    result = why(buffer, "odom", 13.0, 13.0)
+    assert result.kind == Kind.CLOCKS
+    assert not result.is_catching_up
+    assert 'transform "map" → "odom", which comes stamped 2.0 s in the past' in result.sentence
     assert "which has stopped: its last is 7.0 s old" in why(buffer, "odom", 18.0, 18.0).sentence
 
 
@@ -238,8 +238,8 @@ def test_a_refused_transform_explains_only_its_frames(buffer: TransformBuffer, p
     put("base", "laser", 1.0, x=math.nan)
     put("torso", "arm", 1.0, x=math.nan)
     for frame, cause in (("laser", "laser"), ("arm", "arm"), ("torso", "arm")):
-        found = why(buffer, frame, 1.0)
-        assert (found.kind, found.cause) == (Kind.REFUSED, cause)
+        result = why(buffer, frame, 1.0)
+        assert (result.kind, result.cause) == (Kind.REFUSED, cause)
     put("lone", "wheel", 1.0)
     assert why(buffer, "wheel", 1.0).kind is Kind.NOT_CONNECTED
 
@@ -258,10 +258,10 @@ def test_wall_time_against_simulated_time_is_recognised_either_way(
 ) -> None:
     put("map", "odom", tf_s)
     put("map", "odom", tf_s + 1)
-    found = why(buffer, "odom", data_s)
-    assert found.kind == Kind.CLOCKS
-    assert "use_sim_time" in found.sentence
-    simulated, wall = found.sentence.split("the transform" if data_s < tf_s else "the data")
+    result = why(buffer, "odom", data_s)
+    assert result.kind == Kind.CLOCKS
+    assert "use_sim_time" in result.sentence
+    simulated, wall = result.sentence.split("the transform" if data_s < tf_s else "the data")
     assert ("12.0 s" if data_s < tf_s else "13.0 s") in simulated
     assert "1700000" in wall
 
@@ -269,9 +269,9 @@ def test_wall_time_against_simulated_time_is_recognised_either_way(
 def test_clocks_hours_apart_are_told_as_such(buffer: TransformBuffer, put: Put) -> None:
     put("map", "odom", 1.7e9)
     put("map", "odom", 1.7e9 + 1)
-    found = why(buffer, "odom", 1.7e9 + 18_001)
-    assert found.kind == Kind.CLOCKS
-    assert "5.0 hours apart" in found.sentence
+    result = why(buffer, "odom", 1.7e9 + 18_001)
+    assert result.kind == Kind.CLOCKS
+    assert "5.0 hours apart" in result.sentence
 
 
 def test_a_jump_back_in_time_is_recognised_by_refused_transforms(
@@ -281,11 +281,11 @@ def test_a_jump_back_in_time_is_recognised_by_refused_transforms(
         put("map", "odom", stamp)
     for stamp in (50.0, 50.1):
         assert not put("map", "odom", stamp)
-    found = why(buffer, "odom", 50.1, 50.2)
-    assert found.kind == Kind.JUMPED_BACK
-    assert "60 s older" in found.sentence
-    assert "2 older transforms were refused" in found.sentence
-    assert "Reset" in found.sentence
+    result = why(buffer, "odom", 50.1, 50.2)
+    assert result.kind == Kind.JUMPED_BACK
+    assert "60 s older" in result.sentence
+    assert "2 older transforms were refused" in result.sentence
+    assert "Reset" in result.sentence
 
 
 def test_a_link_that_stopped_before_all_that_others_keep_is_named(
@@ -298,9 +298,9 @@ def test_a_link_that_stopped_before_all_that_others_keep_is_named(
     for stamp_s in range(5, 15):
         put("map", "odom", float(stamp_s))
         put("base", "laser", float(stamp_s))
-    found = why(buffer, "laser", 0.0, 14.5)
-    assert (found.kind, found.link) == (Kind.NO_DATA, "base")
-    assert found.sentence == (
+    result = why(buffer, "laser", 0.0, 14.5)
+    assert (result.kind, result.link) == (Kind.NO_DATA, "base")
+    assert result.sentence == (
         'The transform "odom" → "base" has stopped: its last is 12 s old, older than all that are '
         'kept of "map" → "odom". Restart its publisher.'
     )
@@ -309,18 +309,18 @@ def test_a_link_that_stopped_before_all_that_others_keep_is_named(
 def test_a_single_sample_at_another_time_is_too_little(buffer: TransformBuffer, put: Put) -> None:
     put("map", "odom", 1.0)
     put("odom", "base", 1.1)
-    found = explain(buffer, "map", "base", 0)
-    assert found.kind == Kind.NO_DATA
-    assert 'Only one transform "odom" → "base" has arrived' in found.sentence
+    result = explain(buffer, "map", "base", 0)
+    assert result.kind == Kind.NO_DATA
+    assert 'Only one transform "odom" → "base" has arrived' in result.sentence
 
 
 def test_after_a_clear_the_silent_link_is_named(buffer: TransformBuffer, put: Put) -> None:
     put("map", "odom", 1.0)
     buffer.clear()
     for stamp in (0.0, 1.0):
-        found = why(buffer, "odom", stamp)
-        assert found.kind == Kind.NO_DATA
-        assert '"odom" has arrived since the transforms were cleared' in found.sentence
+        result = why(buffer, "odom", stamp)
+        assert result.kind == Kind.NO_DATA
+        assert '"odom" has arrived since the transforms were cleared' in result.sentence
 
 
 @pytest.mark.parametrize(
@@ -358,5 +358,5 @@ def test_the_largest_tree_is_that_of_now(buffer: TransformBuffer, put: Put) -> N
 def test_a_loop_is_one_reason_for_all_its_frames(buffer: TransformBuffer, put: Put) -> None:
     for parent, child in (("a", "b"), ("b", "c"), ("c", "a"), ("a", "tail"), ("map", "odom")):
         put(parent, child)
-    found = distinct(["a", "b", "c", "tail"], lambda frame: why(buffer, frame, 0.0), 5)
-    assert [reason.kind for reason in found.values()] == [Kind.LOOP]
+    result = distinct(["a", "b", "c", "tail"], lambda frame: why(buffer, frame, 0.0), 5)
+    assert [reason.kind for reason in result.values()] == [Kind.LOOP]

@@ -39,12 +39,12 @@ def test_local_coordinates_are_those_of_proj(origin: Geodetic, place: Geodetic) 
 
 @given(latitude=st.floats(-80, 84), longitude=st.floats(-180, 179.999))
 def test_utm_is_that_of_proj_in_the_zone_it_names(latitude: float, longitude: float) -> None:
-    found = to_utm(latitude, longitude)
-    assert found is not None
+    result = to_utm(latitude, longitude)
+    assert result is not None
     south = " +south" if latitude < 0 else ""
-    zone = pyproj.Proj(f"+proj=utm +zone={found.zone}{south} +ellps=WGS84")
+    zone = pyproj.Proj(f"+proj=utm +zone={result.zone}{south} +ellps=WGS84")
     np.testing.assert_allclose(
-        (found.easting, found.northing), zone(longitude, latitude), atol=1e-3
+        (result.easting, result.northing), zone(longitude, latitude), atol=1e-3
     )
 
 
@@ -85,8 +85,8 @@ def test_tiles_are_those_of_the_projection(latitude: float, longitude: float, zo
     x, y = MERCATOR.transform(longitude, latitude)
     edge = MERCATOR.transform(180.0, 0.0)[0]
     expected = (x / edge + 1.0) / 2.0 * 2**zoom, (1.0 - y / edge) / 2.0 * 2**zoom
-    found = TilePlane(Geodetic(latitude, longitude), zoom).center
-    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+    result = TilePlane(Geodetic(latitude, longitude), zoom).center
+    np.testing.assert_allclose(result, expected, rtol=1e-9, atol=1e-9)
 
 
 @given(latitude=st.floats(-80, 80), longitude=st.floats(-179, 179))

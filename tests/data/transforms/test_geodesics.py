@@ -86,8 +86,8 @@ def test_a_chain_is_the_product_of_its_links_in_order(links: list[Pose]) -> None
     product = np.eye(4)
     for pose in links:
         product = product @ matrix(Transform(pose[:3], pose[3:], 0))
-    found = chain_of(links).lookup("f0", f"f{len(links)}", S)
-    assert matrix(found) == pytest.approx(product, abs=1e-8)
+    transform = chain_of(links).lookup("f0", f"f{len(links)}", S)
+    assert matrix(transform) == pytest.approx(product, abs=1e-8)
 
 
 @given(poses(), poses(), st.integers(0, S))
@@ -97,14 +97,14 @@ def test_interpolation_stays_on_the_geodesic_at_constant_speed(
     buffer = TransformBuffer()
     buffer.set_transform("a", "b", S, start[:3], start[3:])
     buffer.set_transform("a", "b", 2 * S, end[:3], end[3:])
-    found = buffer.lookup("a", "b", S + offset)
+    transform = buffer.lookup("a", "b", S + offset)
     ratio = offset / S
     straight = [(1 - ratio) * u + ratio * v for u, v in zip(start[:3], end[:3], strict=True)]
-    assert found.translation == pytest.approx(straight, abs=1e-9)
+    assert transform.translation == pytest.approx(straight, abs=1e-9)
     first, last = Rotation.from_quat(start[3:]), Rotation.from_quat(end[3:])
     whole = (first.inv() * last).magnitude()
     assume(whole < math.pi - 1e-3)  # half a turn has two shortest ways
-    here = Rotation.from_quat(found.rotation)
+    here = Rotation.from_quat(transform.rotation)
     assert (first.inv() * here).magnitude() == pytest.approx(ratio * whole, abs=1e-7)
     assert (here.inv() * last).magnitude() == pytest.approx((1 - ratio) * whole, abs=1e-7)
 
@@ -113,16 +113,16 @@ def test_interpolation_stays_on_the_geodesic_at_constant_speed(
 def test_the_canonical_quaternion_is_the_same_rotation_of_unit_length(
     rotation: tuple[float, float, float, float],
 ) -> None:
-    found = canonical(*rotation)
-    assert math.hypot(*found) == pytest.approx(1.0, abs=1e-12)
-    assert abs(np.dot(found, rotation)) == pytest.approx(1.0, abs=1e-12)
+    result = canonical(*rotation)
+    assert math.hypot(*result) == pytest.approx(1.0, abs=1e-12)
+    assert abs(np.dot(result, rotation)) == pytest.approx(1.0, abs=1e-12)
     trace = 4 * rotation[3] ** 2 - 1
     assume(abs(trace) > 1e-9)
     if trace > 0:
-        assert found[3] > 0
+        assert result[3] > 0
     else:
-        largest = max(abs(value) for value in found[:3])
-        assert any(value > 0 for value in found[:3] if abs(value) > largest - 1e-9)
+        largest = max(abs(value) for value in result[:3])
+        assert any(value > 0 for value in result[:3] if abs(value) > largest - 1e-9)
 
 
 @given(st.lists(st.tuples(poses(), poses()), min_size=1, max_size=5))

@@ -64,10 +64,10 @@ def test_everything_is_answered_in_time(graph: TransformBuffer) -> None:
     start = time.thread_time()
     assert not graph.poses_in("odd").ok.any()
     for stamp_ns in (0, SECOND):
-        found = graph.poses_in("map", None, stamp_ns)
-        for i in range(0, len(found.frames), 500):
+        poses = graph.poses_in("map", None, stamp_ns)
+        for i in range(0, len(poses.frames), 500):
             # A chain of more than 1000 links counts as a loop for single look-ups, as in tf2.
-            assert found.ok[i] >= graph.can_transform("map", found.frames[i], stamp_ns)
+            assert poses.ok[i] >= graph.can_transform("map", poses.frames[i], stamp_ns)
     graph.largest_tree()
     assert diagnose(graph, 2 * SECOND).loops
     assert time.thread_time() - start < IN_TIME_S

@@ -175,6 +175,6 @@ def test_damage_of_a_bag_is_reported(tmp_path: Path, capsys: pytest.CaptureFixtu
     whole = file.read_bytes()
     file.write_bytes(whole[: len(whole) // 2])
     main(["frames", "--bag", str(file)])
-    said = capsys.readouterr()
-    assert said.out.startswith("odom\n└─ base")
-    assert str(file) in said.err
+    output = capsys.readouterr()
+    assert output.out.startswith("odom\n└─ base")
+    assert str(file) in output.err

@@ -106,13 +106,13 @@ def test_every_lookup_in_a_recorded_tree_agrees_with_scipy(bag: Path, chain: lis
 @needs_data
 def test_all_frames_of_a_recorded_tree_have_a_pose_as_one_at_a_time() -> None:
     buffer, _ = replayed(NAV2)
-    found = buffer.poses_in("map")
-    assert found.ok.all()
-    for i, frame in enumerate(found.frames):
+    poses = buffer.poses_in("map")
+    assert poses.ok.all()
+    for i, frame in enumerate(poses.frames):
         one = buffer.lookup("map", frame, 0)
-        assert found.stamps_ns[i] == one.stamp_ns
-        assert found.translations[i] == pytest.approx(one.translation, abs=1e-9)
-        assert found.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
+        assert poses.stamps_ns[i] == one.stamp_ns
+        assert poses.translations[i] == pytest.approx(one.translation, abs=1e-9)
+        assert poses.rotations[i] == pytest.approx(one.rotation, abs=1e-9)
 
 
 @needs_data

@@ -50,8 +50,8 @@ def test_a_report_is_unpacked_and_its_messages_are_played(desk: Desk) -> None:
     ],
 )
 def test_no_other_folder_is_readable(desk: Desk, path: str) -> None:
-    wanted = path.format(outside=desk.outside, library=desk.folder)
-    assert desk.guest.do("OpenRecording", path=wanted) == NOT_LISTED
+    expected = path.format(outside=desk.outside, library=desk.folder)
+    assert desk.guest.do("OpenRecording", path=expected) == NOT_LISTED
     assert desk.names() == ()
 
 

@@ -43,11 +43,11 @@ SCAN = WatchRule(display="Scan", status="error", lasting="2s")
 
 def fired(watcher: RuleWatcher, levels: dict[float, Level | None]) -> list[float]:
     """Return when a rule about the display Scan fires, given its levels by time."""
-    found = []
+    results = []
     for at_s, level in levels.items():
         displays = {} if level is None else {"Scan": level}
-        found += [at_s for _ in watcher.fired(WatchedMoment(at_s, displays))]
-    return found
+        results += [at_s for _ in watcher.fired(WatchedMoment(at_s, displays))]
+    return results
 
 
 def test_a_rule_fires_once_its_condition_has_held_long_enough() -> None:
@@ -197,13 +197,13 @@ def until(bench: Bench, is_reached: Callable[[State], bool]) -> State:
 
 def causes(bench: Bench) -> set[str]:
     """Return why something is being saved in the next 5 s of the doctor."""
-    found = set[str]()
+    results = set[str]()
     for _ in range(50):
         shown = bench.do(Refresh()).black_box
-        found |= {shown.saving} if shown is not None else set()
+        results |= {shown.saving} if shown is not None else set()
         bench.clock += 0.1
         time.sleep(0.01)
-    return found
+    return results
 
 
 def saved(bench: Bench) -> list[Path]:

@@ -229,20 +229,20 @@ def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(b: Any, hold: Hands
 def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     b: Any, hold: Hands, caplog: pytest.LogCaptureFixture
 ) -> None:
-    sent: list[Future[int]] = []
+    messages: list[Future[int]] = []
 
     def publish(advertisement: Advertisement, cdr: bytes) -> Future[int]:
-        sent.append(Future())
-        return sent[-1]
+        messages.append(Future())
+        return messages[-1]
 
     b.source.graph.publish = publish
     hand = hold()
-    until(lambda: len(sent) > 1)
+    until(lambda: len(messages) > 1)
     hand.vanish()
     until(lambda: not b.viewer.controllers.is_moving())
-    until(lambda: all(each.cancelled() for each in sent[:-1]))
-    assert not sent[-1].cancelled()
-    sent[-1].set_result(1)
+    until(lambda: all(each.cancelled() for each in messages[:-1]))
+    assert not messages[-1].cancelled()
+    messages[-1].set_result(1)
     assert caplog.records == []
     assert steer(b, teleop(b), 1, STILL).problem == ""
 

@@ -121,11 +121,11 @@ def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) ->
     b.do(SetLayout(arranged))
     b.do(SaveLayout("lab"))
     b.do(RemovePanel(first))
-    kept = Layout(
+    remaining = Layout(
         beside=(DockedPanel(panel="doctor"), DockedPanel(panel="Joints 2")),
         over=(FloatingPanel(panel="Joints"),),
     )
-    assert layouts(b) == (kept, {"lab": kept})
+    assert layouts(b) == (remaining, {"lab": remaining})
     b.do(Undo())
     assert layouts(b) == (arranged, {"lab": arranged})
     assert len(b.states[-1].panels) == 3

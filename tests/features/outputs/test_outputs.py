@@ -59,6 +59,6 @@ def test_the_newest_are_kept() -> None:
         outputs.add(Path(str(number)), "report", "Saved.", PROGRAM)
     assert len(outputs.all) == MAX_OUTPUTS
     assert outputs.find(1) is None
-    found = outputs.find(MAX_OUTPUTS + 5)
-    assert found
-    assert found.path == Path(str(MAX_OUTPUTS + 4)).absolute()
+    result = outputs.find(MAX_OUTPUTS + 5)
+    assert result
+    assert result.path == Path(str(MAX_OUTPUTS + 4)).absolute()

@@ -73,8 +73,8 @@ def test_nothing_is_sent_saved_or_opened_from_there(make: Callable[..., Memory])
     }.items():
         assert "Not allowed" in own.do(command, **arguments), command
     assert own.do("LookBackAlone", at_s=0.0) == NOT_HERE
-    sent = own.do("UseTool", tool="2D Goal Pose", points=[[0, 0, 0]], yaw=0.0)
-    assert sent == REWOUND
+    answer = own.do("UseTool", tool="2D Goal Pose", points=[[0, 0, 0]], yaw=0.0)
+    assert answer == REWOUND
 
 
 def test_only_its_own_browser_comes_to_it(make: Callable[..., Memory]) -> None:

@@ -103,9 +103,9 @@ def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
     first = strings(0, 2).write(tmp_path / "first")
     second = strings(1, 5).write(tmp_path / "second")
     viewer = theater([second, first, first], "displays: [{type: Text, topic: /words}]")
-    shown = viewer.playback
-    assert set(shown.names) == {"first", "second"}
-    assert shown.end_ns - shown.start_ns == ns(5)
+    playback = viewer.playback
+    assert set(playback.names) == {"first", "second"}
+    assert playback.end_ns - playback.start_ns == ns(5)
     viewer.source.want({"/words": Subscription("std_msgs/msg/String", Topic("/words"))})
     viewer.source.inbox.drain()
     viewer.source.jump(START_NS)
@@ -173,10 +173,10 @@ def test_each_topic_is_read_by_its_own_definition(tmp_path: Path, is_last: bool)
         bag.add(topic, type_name, definition=definition)
         bag.put(0, topic, CDR + (number or struct.pack("<ihh", 2, 1, -1)))
     player = Player(BagHistory(bag.write(tmp_path / "run")))
-    found = arrived(player, {topic: type_ for topic, (type_, _, _) in topics.items()})
-    assert found["/apple"].weight == 7
-    assert found["/basket"].apple.weight == 0.5
-    assert [apple.weight for apple in found["/crate"].apples] == [1, -1]
+    arrivals = arrived(player, {topic: type_ for topic, (type_, _, _) in topics.items()})
+    assert arrivals["/apple"].weight == 7
+    assert arrivals["/basket"].apple.weight == 0.5
+    assert [apple.weight for apple in arrivals["/crate"].apples] == [1, -1]
     assert decode(live, CDR + b"\x07").apple.weight == decode(APPLE, CDR + b"\x07").weight == 7
     player.close()
 
@@ -193,8 +193,8 @@ def test_bags_and_live_topics_may_define_a_type_otherwise(tmp_path: Path) -> Non
     together, alone = Player(BagHistory(paths)), Player(BagHistory(paths[0]))
     register(BASKET, f"Apple apple\n{PART}uint8 weight\n")
     assert arrived(alone, {"/first": BASKET})["/first"].apple.weight == 7
-    found = arrived(together, {"/first": BASKET, "/second": BASKET})
-    assert [each.apple.weight for each in found.values()] == [7, 0.5]
+    arrivals = arrived(together, {"/first": BASKET, "/second": BASKET})
+    assert [each.apple.weight for each in arrivals.values()] == [7, 0.5]
     assert decode(BASKET, CDR + b"\x09").apple.weight == 9
     alone.close()
     together.close()
@@ -232,8 +232,8 @@ def test_a_bag_needs_no_ros(tmp_path: Path) -> None:
         "import sys; sys.modules['rclpy'] = None; import webviz\n"
         f"with webviz.Viewer(bag={str(path)!r}, port=0) as viewer: print(viewer.fixed_frame)"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-    assert (done.stdout, done.stderr) == ("odom\n", "")
+    completed = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert (completed.stdout, completed.stderr) == ("odom\n", "")
 
 
 def test_it_plays_once_a_browser_connects(tmp_path: Path) -> None:
@@ -267,7 +267,7 @@ def test_a_mistake_is_one_sentence(
 ) -> None:
     path = strings(0).write(tmp_path / "run")
     assert cli([each.format(run=path) for each in arguments]) == status
-    said = capsys.readouterr().err
-    assert said.startswith("webviz: ")
-    assert sentence in said
-    assert said.count("\n") == 1
+    output = capsys.readouterr().err
+    assert output.startswith("webviz: ")
+    assert sentence in output
+    assert output.count("\n") == 1

@@ -54,12 +54,12 @@ def test_of_many_the_most_severe_stay_and_a_sample_of_the_others(tmp_path: Path)
     warning = encode(LOG, {"level": WARN, "name": "driver", "msg": "slow"})
     bag = logged((0.5, ERROR, "first"), (9.5, FATAL, "last"))
     bag.messages += [(1 + 8 * i / count, "/rosout", warning) for i in range(count)]
-    found = read_log([bag.write(tmp_path / "run")])
-    assert len(found.events) == MAX_EVENTS
-    assert [e.text for e in found.events if e.level is Level.ERROR] == ["first", "last"]
-    late = [e for e in found.events if e.at_ns > START_NS + ns(5)]
+    log = read_log([bag.write(tmp_path / "run")])
+    assert len(log.events) == MAX_EVENTS
+    assert [e.text for e in log.events if e.level is Level.ERROR] == ["first", "last"]
+    late = [e for e in log.events if e.at_ns > START_NS + ns(5)]
     assert len(late) == pytest.approx(MAX_EVENTS / 2, rel=0.2)
-    assert not found.warning
+    assert not log.warning
 
 
 def test_any_bytes_on_rosout_are_bounded_and_skipped(tmp_path: Path) -> None:
@@ -67,10 +67,10 @@ def test_any_bytes_on_rosout_are_bounded_and_skipped(tmp_path: Path) -> None:
     whole = encode(LOG, {"level": ERROR, "name": "n" * 1_000_000, "msg": "long name"})
     for number, cdr in enumerate((b"", b"\0\1\0\0", whole[:13], whole[:40], b"\xff" * 99, whole)):
         bag.put(4 + number, "/rosout", cdr)
-    found = read_log([bag.write(tmp_path / "run")])
-    texts = [event.text for event in found.events]
+    log = read_log([bag.write(tmp_path / "run")])
+    texts = [event.text for event in log.events]
     assert texts == ["x" * (MAX_TEXT - 1) + "…", "", "a\r\x1b[31m", "long name"]
-    assert len(found.events[-1].name) == MAX_NAME
+    assert len(log.events[-1].name) == MAX_NAME
 
 
 def test_a_log_that_is_too_large_is_reported(
@@ -110,16 +110,16 @@ def row(
 
 
 def test_loading_is_no_event() -> None:
-    found = DisplayEvents()
-    found.note(0, [row(Level.OK)])
-    found.note(ns(1), [row(Level.WARN, "Loading.", key=LOADING)])
-    assert not found.events
-    found.note(ns(2), [row(Level.ERROR, "There is no file.")])
-    assert [event.text for event in found.events] == ["There is no file."]
+    events = DisplayEvents()
+    events.note(0, [row(Level.OK)])
+    events.note(ns(1), [row(Level.WARN, "Loading.", key=LOADING)])
+    assert not events.events
+    events.note(ns(2), [row(Level.ERROR, "There is no file.")])
+    assert [event.text for event in events.events] == ["There is no file."]
 
 
 def test_a_rising_level_is_noted_once_per_sentence_and_second() -> None:
-    found = DisplayEvents()
+    events = DisplayEvents()
     for at_s, level, text in [
         (0.0, Level.WARN, "Wrong from the start."),
         (0.1, Level.OK, "Fine."),
@@ -131,23 +131,23 @@ def test_a_rising_level_is_noted_once_per_sentence_and_second() -> None:
         (1.5, Level.IDLE, "Not received."),
         (2.3, Level.WARN, "Slow."),
     ]:
-        found.note(ns(at_s), [row(level, text), row(level, text, "g", "Group")])
-    assert [(event.at_ns / 1e9, event.text) for event in found.events] == [
+        events.note(ns(at_s), [row(level, text), row(level, text, "g", "Group")])
+    assert [(event.at_ns / 1e9, event.text) for event in events.events] == [
         (1.0, "Slow."),
         (1.4, "Lost."),
         (2.3, "Slow."),
     ]
-    before = found.events
-    found.note(ns(3), [row(Level.WARN)])
-    assert found.events is before
-    found.note(ns(3), [])
-    assert not found.events
+    before = events.events
+    events.note(ns(3), [row(Level.WARN)])
+    assert events.events is before
+    events.note(ns(3), [])
+    assert not events.events
 
 
 def test_notes_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("webviz.features.playback.MAX_EVENTS", 3)
-    found = DisplayEvents()
+    events = DisplayEvents()
     for second in range(10):
-        found.note(ns(second), [row(Level.OK)])
-        found.note(ns(second + 0.5), [row(Level.WARN)])
-    assert [event.at_ns / 1e9 for event in found.events] == [7.5, 8.5, 9.5]
+        events.note(ns(second), [row(Level.OK)])
+        events.note(ns(second + 0.5), [row(Level.WARN)])
+    assert [event.at_ns / 1e9 for event in events.events] == [7.5, 8.5, 9.5]

@@ -194,11 +194,11 @@ def test_a_program_that_has_to_be_ended_by_force_leaves_no_part(tmp_path: Path) 
         "    end_in_time()\n"
         "    while True: time.sleep(1)\n"
     )
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-c", program], cwd=tmp_path, timeout=COMMAND_S, capture_output=True
     )
-    assert done.returncode == 1
-    assert b"exiting by force" in done.stderr
+    assert completed.returncode == 1
+    assert b"exiting by force" in completed.stderr
     assert not list(tmp_path.iterdir())
 
 

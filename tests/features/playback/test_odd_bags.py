@@ -97,8 +97,8 @@ def test_files_of_a_folder_that_overlap_in_time_are_merged(
     viewer = theater(folder)
     places = []
     for is_forward in [True] * 8 + [False] * 7:
-        shown = viewer.do(StepMessage("/words", is_forward)).playback
-        places.append(shown.position_s)
+        playback = viewer.do(StepMessage("/words", is_forward)).playback
+        places.append(playback.position_s)
     assert places == [0, 1, 2, 3, 4, 5, 6, 7, 6, 5, 4, 3, 2, 1, 0]
 
 

@@ -80,11 +80,11 @@ def test_topics_stay_subscribed_to_and_remembered_while_a_recording_is_shown(
 ) -> None:
     live = drive(recorded(4), STEADY)
     live.do(SaveMemory(path="saved"))
-    wanted = live.source.wanted
+    expected = live.source.wanted
     live.do(OpenRecording("saved"))
     live.do(Seek(1.0))
     live.do(Seek(0.5))
-    assert live.source.wanted == wanted, "nothing is asked for again, so that nothing is missed"
+    assert live.source.wanted == expected, "nothing is asked for again, so that nothing is missed"
 
     def remembered() -> int:
         memory = live.loop.state().memory

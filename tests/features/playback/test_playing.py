@@ -50,10 +50,10 @@ def bag() -> Bag:
 
 
 def test_a_bag_is_paused_at_its_start(theater: Callable, bag: Bag) -> None:
-    shown = theater(bag).playback
-    assert (shown.start_ns, shown.end_ns) == (START_NS, START_NS + ns(4))
-    assert (shown.position_s, shown.rate, shown.is_playing) == (0.0, 1.0, False)
-    assert shown.names == ("bag0.mcap",)
+    playback = theater(bag).playback
+    assert (playback.start_ns, playback.end_ns) == (START_NS, START_NS + ns(4))
+    assert (playback.position_s, playback.rate, playback.is_playing) == (0.0, 1.0, False)
+    assert playback.names == ("bag0.mcap",)
 
 
 def test_playing_moves_the_position_and_stops_at_the_end(theater: Callable, bag: Bag) -> None:
@@ -71,9 +71,9 @@ def test_at_the_end_playing_starts_over(theater: Callable, bag: Bag) -> None:
     viewer.do(Seek(4.0))
     before = [*viewer.scene.visible()]
     viewer.do(SetRate(0.01))
-    shown = viewer.do(Play()).playback
-    assert shown.is_playing
-    assert shown.position_s < 0.5
+    playback = viewer.do(Play()).playback
+    assert playback.is_playing
+    assert playback.position_s < 0.5
     assert len([*viewer.scene.visible()]) == 1 < len(before)
 
 
@@ -111,8 +111,8 @@ def test_a_rate_is_seconds_of_the_recording_per_second(
 def test_a_loop_plays_the_selected_span(theater: Callable, bag: Bag) -> None:
     viewer = theater(bag, CONFIG)
     viewer.do(SetLoop())
-    shown = viewer.do(SelectSpan(1.0, 2.0)).playback
-    assert (shown.loop, shown.selected) == (True, (1.0, 2.0))
+    playback = viewer.do(SelectSpan(1.0, 2.0)).playback
+    assert (playback.loop, playback.selected) == (True, (1.0, 2.0))
     viewer.do(SetRate(0))
     viewer.do(Play())
     # Asking for the state takes turns, which may pass over the end each time it is reached.
@@ -131,9 +131,9 @@ def test_outside_of_the_selected_span_playing_begins_at_its_start(
     viewer.do(SelectSpan(1.0, 2.0))
     viewer.do(Seek(outside_s))
     viewer.do(SetRate(0.01))
-    shown = viewer.do(Play()).playback
-    assert shown.is_playing
-    assert shown.position_s == pytest.approx(1.0, abs=0.1)
+    playback = viewer.do(Play()).playback
+    assert playback.is_playing
+    assert playback.position_s == pytest.approx(1.0, abs=0.1)
 
 
 def test_a_loop_over_a_moment_ends(theater: Callable) -> None:

@@ -445,16 +445,16 @@ def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
     recent = player.memory.recent  # pyright: ignore[reportOptionalMemberAccess]
     recent.seconds, recent.max_bytes = 60, 10**6
     source.inbox.read_along(lambda: recent.put)
-    wanted = Subscription(PATH, Topic("/path"), lookbacks=(Lookback(count=1),))
-    player.want({"/path": wanted})
+    subscription = Subscription(PATH, Topic("/path"), lookbacks=(Lookback(count=1),))
+    player.want({"/path": subscription})
     source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 5))
     at_ns = player.history.end_ns - ns(2)
     player.jump(at_ns)
     player.play_until(at_ns)
     assert len(source.inbox.drain()["/path"]) == 1
-    player.want({"/path": replace(wanted, asked=1)})
+    player.want({"/path": replace(subscription, asked=1)})
     assert source.inbox.drain() == {}
-    player.want({"/path": replace(wanted, asked=2)})
+    player.want({"/path": replace(subscription, asked=2)})
     assert len(source.inbox.drain()["/path"]) == 1
 
 

@@ -138,15 +138,15 @@ def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> Non
     chance = random.Random(5)
     stepped, played = BagViewer(path, CONFIG), BagViewer(path, CONFIG)
     stepped.do(Seek(4.0))
-    found: dict[float, Any] = {}
+    result: dict[float, Any] = {}
     for _ in range(10):
         topic = chance.choice(["", "/odom", "/scan"])
         stepped.do(StepMessage(topic, is_forward=chance.random() < 0.4))
-        found[(stepped.source.reached_ns - stepped.source.history.start_ns) / 1e9] = plain(
+        result[(stepped.source.reached_ns - stepped.source.history.start_ns) / 1e9] = plain(
             stepped.shown()
         )
-    assert len(found) > 4
-    for at_s, shown in sorted(found.items()):
+    assert len(result) > 4
+    for at_s, shown in sorted(result.items()):
         played.play_to(at_s)
         assert shown == plain(played.shown()), at_s
     stepped.close()

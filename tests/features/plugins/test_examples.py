@@ -177,8 +177,8 @@ def test_speeding_is_a_check_of_odometry(
             twist = {"twist": {"linear": {"x": speed}}}
             harness.publish("/odom", "nav_msgs/msg/Odometry", {"twist": twist}, frame="odom")
 
-        found = {each.id: each.cause for each in harness.findings(publish=drive)}
-        assert found.get("DATA901") == expected
+        findings = {each.id: each.cause for each in harness.findings(publish=drive)}
+        assert findings.get("DATA901") == expected
     finally:
         register_checks(str(path), [])
 

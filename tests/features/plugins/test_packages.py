@@ -80,8 +80,8 @@ def run(tmp_path: Path) -> Callable[[str], str]:
 def test_a_display_of_another_package_is_a_type_among_the_built_in_ones(
     run: Callable[[str], str],
 ) -> None:
-    found = run("from webviz.api.registry import display_types; print(*display_types())").split()
-    assert {"Fence", "Grid", "LaserScan"} <= set(found)
+    result = run("from webviz.api.registry import display_types; print(*display_types())").split()
+    assert {"Fence", "Grid", "LaserScan"} <= set(result)
 
 
 def test_a_config_can_name_it_and_is_saved_so(run: Callable[[str], str]) -> None:
@@ -115,12 +115,12 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
     Path(run("import os; print(os.getcwd())").strip(), "own.py").write_text(
         "from webviz import Display\n\nclass Fence(Display):\n    pass\n"
     )
-    said = run(
+    text = run(
         "from webviz.shell.cli import main\n"
         "import sys; sys.stderr = sys.stdout\n"
         "print(main(['--plugin', 'own.py', '--port', '0']))"
     )
-    assert said.splitlines() == [
+    assert text.splitlines() == [
         "webviz: own.py cannot be used: an installed package has a display named Fence. "
         "Rename the class.",
         "1",
@@ -128,13 +128,13 @@ def test_a_file_cannot_take_its_name(run: Callable[[str], str]) -> None:
 
 
 def test_its_checks_are_run_and_take_no_ids_of_others(run: Callable[[str], str]) -> None:
-    found = run(
+    result = run(
         "with open('acme_displays/checks.py', 'a') as file:\n"
         "    file.write('class Thief(Check):\\n    id = \"TF003\"\\n')\n"
         "from webviz.api.check_registry import known_checks\n"
         "for check in known_checks(): print(check.id, check.__module__)"
     ).splitlines()
-    assert "DATA950 acme_displays.checks" in found
-    assert [each for each in found if each.startswith("TF003 ")] == [
+    assert "DATA950 acme_displays.checks" in result
+    assert [each for each in result if each.startswith("TF003 ")] == [
         "TF003 webviz.checks.frames.localisation_missing"
     ]

@@ -294,8 +294,10 @@ def test_a_display_kept_of_rviz_comes_to_life_and_keeps_what_only_rviz_knows(
     plugin: Any, bench: Benches
 ) -> None:
     plugin.load()
-    kept = "{Class: x/Outline, Name: Fence, Value: true, Topic: /polygon, Color: blue, Glow: 1}"
-    b = bench(*parse(f"displays: [{{type: x/Outline, rviz: {kept}}}]", "x.yaml").displays)
+    remaining = (
+        "{Class: x/Outline, Name: Fence, Value: true, Topic: /polygon, Color: blue, Glow: 1}"
+    )
+    b = bench(*parse(f"displays: [{{type: x/Outline, rviz: {remaining}}}]", "x.yaml").displays)
     assert "Unsupported display class" in b.statuses()["Config"][1]
     plugin.edit((COLOR, "    rviz = 'x/Outline'\n" + COLOR))
     shown(b, plugin)

@@ -46,9 +46,9 @@ def contents(path: Path) -> list[tuple[str, int]]:
     """Return topics and stamps of a recording."""
     recording = open_recording(path)
     assert recording.span_ns is not None
-    found = list(recording.messages(recording.channels, *recording.span_ns))
+    results = list(recording.messages(recording.channels, *recording.span_ns))
     recording.close()
-    return [(message.channel.topic, message.stamp_ns) for message in found]
+    return [(message.channel.topic, message.stamp_ns) for message in results]
 
 
 @pytest.fixture
@@ -299,9 +299,9 @@ def test_a_topic_whose_publishers_disagree_on_the_type_has_no_channel() -> None:
         for count in (1, 2)
     )
     channels = Channels(lambda: {"/one": one, "/two": two})
-    found = channels.find("/one")
-    assert found is not None
-    assert found.type == "nav_msgs/msg/Path"
+    channel = channels.find("/one")
+    assert channel is not None
+    assert channel.type == "nav_msgs/msg/Path"
     assert channels.find("/two") is None
 
 
@@ -384,10 +384,10 @@ def test_a_topic_whose_publishers_ended_keeps_its_type() -> None:
     channels.look()
     offers = {"/a": Offer(())}  # subscribed to, by somebody else
     channels.look()
-    found = channels.find("/a")
-    assert found is not None
-    assert found.type == STRING
-    assert "best_effort" in found.profiles
+    channel = channels.find("/a")
+    assert channel is not None
+    assert channel.type == STRING
+    assert "best_effort" in channel.profiles
     assert Channels(lambda: offers).find("/a") is None
 
 
@@ -448,6 +448,6 @@ def test_pages_read_that_there_is_no_memory(off: dict[str, float]) -> None:
 def test_pages_read_which_bound_of_a_memory_is_reached(
     is_full: bool, pinned: tuple[str, ...], sentences: str
 ) -> None:
-    found = recording_store(MemoryState(1.0, 1, is_full, pinned), None, LIMITS)
-    assert found is not None
-    assert found.about == f"{REMEMBERS} {sentences}"
+    result = recording_store(MemoryState(1.0, 1, is_full, pinned), None, LIMITS)
+    assert result is not None
+    assert result.about == f"{REMEMBERS} {sentences}"

@@ -259,8 +259,8 @@ def test_the_list_says_how_much_of_what_is_in_it() -> None:
 def test_a_selection_is_found_by_the_number_of_its_display() -> None:
     item = (5, 7, (1.0, 2.0, 3.0), (9, 8, 7))
     picks = Picks("plan/poses/0", "k", (item, item)), Picks("gone/poses", "k", (item,))
-    found = ReportedPick(1, "poses/0", "k", 7, (1.0, 2.0, 3.0), (9, 8, 7))
-    assert picked(picks, STATE.rows) == (found, found)
+    result = ReportedPick(1, "poses/0", "k", 7, (1.0, 2.0, 3.0), (9, 8, 7))
+    assert picked(picks, STATE.rows) == (result, result)
     things = reported_store(picked(picks[:1], STATE.rows), STATE.rows)
     assert things is not None
     assert things.things[0] == ReportedThing("plan", "k", 7, (1.0, 2.0, 3.0))

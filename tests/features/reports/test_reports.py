@@ -40,10 +40,10 @@ def picture(size: tuple[int, int] = (2, 1), kind: str = "PNG", behind: int = 0) 
 
 @pytest.mark.parametrize(("kind", "ending"), [("PNG", ".png"), ("JPEG", ".jpg")])
 def test_a_picture_is_a_member_with_the_ending_of_its_format(kind: str, ending: str) -> None:
-    found = read_picture(sent := picture(kind=kind))
-    assert found is not None
-    assert found[0].endswith(ending)
-    assert found[1] == base64.b64decode(sent)
+    result = read_picture(sent := picture(kind=kind))
+    assert result is not None
+    assert result[0].endswith(ending)
+    assert result[1] == base64.b64decode(sent)
 
 
 def test_no_picture_is_no_member() -> None:
@@ -130,28 +130,28 @@ def test_a_report_says_whether_it_has_names_and_how_large_it_is(
     path = tmp_path / "bug.zip"
     image = base64.b64decode(picture()) + os.urandom(1_234_567)
     sent = base64.b64encode(image).decode()
-    said = live.do(SaveReport(sent, path=str(path), with_names=with_names))
-    assert float(said.removeprefix("Saved bug.zip, ").removesuffix(" MB.")) == pytest.approx(
+    answer = live.do(SaveReport(sent, path=str(path), with_names=with_names))
+    assert float(answer.removeprefix("Saved bug.zip, ").removesuffix(" MB.")) == pytest.approx(
         path.stat().st_size / 1e6, rel=0.01
     )
     assert read_report(path, tmp_path).report.has_names is with_names
 
 
 def test_a_small_report_has_not_zero_megabytes(live: webviz.Viewer, tmp_path: Path) -> None:
-    said = live.do(SaveReport(path=str(tmp_path / "bug.zip")))
+    answer = live.do(SaveReport(path=str(tmp_path / "bug.zip")))
     size = (tmp_path / "bug.zip").stat().st_size
-    assert said == f"Saved bug.zip, {max(1, round(size / 1000)) / 1000:.3g} MB."
-    assert "0 MB" not in said
+    assert answer == f"Saved bug.zip, {max(1, round(size / 1000)) / 1000:.3g} MB."
+    assert "0 MB" not in answer
 
 
 def test_without_a_path_it_is_in_the_working_folder(
     live: webviz.Viewer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    said = live.do(SaveReport())
+    answer = live.do(SaveReport())
     (path,) = tmp_path.iterdir()
     assert re.fullmatch(r"webviz_report_.*\.zip", path.name)
-    assert path.name in said
+    assert path.name in answer
 
 
 def test_a_report_waits_for_some_rounds_of_the_doctor_but_not_for_long(

@@ -106,13 +106,13 @@ def test_an_operator_asks_and_the_owner_answers(
 
 def test_everything_that_is_done_with_rights_is_in_the_journal(house: House) -> None:
     owner, operator = house.enter(Role.OWNER), house.enter(Role.OPERATOR)
-    said = [
+    answer = [
         operator.do("AskOwner", name=CALIBRATE),
         owner.do("Decline", name=CALIBRATE),
         owner.do("Allow", name=CALIBRATE),
         owner.do("Forbid", name=CALIBRATE),
     ]
-    assert house.journal() == [*reversed(said)]
+    assert house.journal() == [*reversed(answer)]
 
 
 def test_nothing_is_allowed_on_a_bag(make: Callable[..., House]) -> None:

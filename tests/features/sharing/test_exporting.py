@@ -39,9 +39,9 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
         moment = SharedMoment(tmp_path / "run.mcap", tmp_path / "c.yaml", made, "lab", 1.5)
         files: dict[str, bytes] = {}
         values = {"progress": lambda share: None, "stopped": threading.Event()} | options
-        said = export(moment, HostProgram(files.__setitem__), **values)  # pyright: ignore
+        text = export(moment, HostProgram(files.__setitem__), **values)  # pyright: ignore
         assert files == {"run.html": b"the file"}
-        return said
+        return text
 
     return run
 

@@ -70,16 +70,16 @@ def test_a_clicked_point_has_its_true_height(b: Any) -> None:
 
 
 def test_a_message_that_was_published_is_reported_with_its_values(b: Any) -> None:
-    sent: list[Any] = []
+    messages: list[Any] = []
     told: list[Status] = []
 
     def published(*message: Any) -> None:
-        sent.append(message)
+        messages.append(message)
 
     point = ((1.0, 2.0, 0.5),)
     b.viewer.enqueue(UseTool("Publish Point", point, report=told.append, published=published))
     b.turn()
     header = {"stamp": {"sec": 112, "nanosec": 345}, "frame_id": "map"}
     values = {"header": header, "point": {"x": 1.0, "y": 2.0, "z": 0.5}}
-    assert sent == [("/clicked_point", "geometry_msgs/msg/PointStamped", values)]
+    assert messages == [("/clicked_point", "geometry_msgs/msg/PointStamped", values)]
     assert told == [Status(Level.OK, "Published to /clicked_point, 1 subscription.")]

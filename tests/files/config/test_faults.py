@@ -83,12 +83,12 @@ def _is_at(fault: Fault, refusal: str) -> bool:
     """Compare the place with msgspec's, which does not name keys of mappings."""
     where = refusal.rpartition(" - at `")[2].removesuffix("`").rpartition("` in `")[2]
     steps = re.findall(r"\.(\w+)|\[(\d+)\]|(\[\.\.\.\])", where)
-    found = [key or number for key, number, _ in steps]
+    results = [key or number for key, number, _ in steps]
     path = [str(key) for key in fault.path]
     if "unknown field" in refusal:  # which is the last key of ours
         path = path[:-1]
-    return len(path) == len(found) and all(
-        not theirs or ours == theirs for ours, theirs in zip(path, found, strict=True)
+    return len(path) == len(results) and all(
+        not theirs or ours == theirs for ours, theirs in zip(path, results, strict=True)
     )
 
 

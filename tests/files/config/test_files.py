@@ -217,10 +217,10 @@ def test_a_disk_that_fills_up_keeps_the_old_file(path: Path) -> None:
         "except ConfigError as error:\n"
         "    print(error)\n"
     )
-    done = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-c", code, str(path)], capture_output=True, text=True, timeout=60
     )
-    assert done.stdout == f"Cannot write {path}: File too large; save it under another name.\n"
+    assert completed.stdout == f"Cannot write {path}: File too large; save it under another name.\n"
     assert path.read_text() == "one\n"
     assert list(path.parent.iterdir()) == [path]
 

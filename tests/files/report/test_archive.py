@@ -42,8 +42,8 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     assert size == path.stat().st_size
     assert path.stat().st_mode & 0o077 == 0
     (tmp_path / "out").mkdir()
-    found = read_report(path, tmp_path / "out")
-    assert (found.report, found.bag.read_bytes(), found.picture) == (REPORT, b"slice", None)
+    report = read_report(path, tmp_path / "out")
+    assert (report.report, report.bag.read_bytes(), report.picture) == (REPORT, b"slice", None)
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a.mcap", "bug.zip", "out"]
 
 

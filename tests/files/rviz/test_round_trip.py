@@ -269,12 +269,12 @@ Visualization Manager:
 """
     back = again(text)
     assert all(place.endswith("/Class") for place in lost(texts(text), texts(back)))
-    wanted = ["auto", "auto", "auto", "best_effort"]
+    expected = ["auto", "auto", "auto", "best_effort"]
     for each in (text, back):
         image, camera, robot, lossy = rviz.read(each, "x.rviz")[0].displays
         assert isinstance(camera, Camera)
         topics = [image.topic, camera.topic, robot.joint_states_topic, lossy.topic]  # pyright: ignore
-        assert [topic.reliability for topic in topics] == wanted
+        assert [topic.reliability for topic in topics] == expected
 
 
 def test_all_that_a_rviz_file_cannot_hold_is_reported() -> None:

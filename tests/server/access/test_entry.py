@@ -313,8 +313,8 @@ def test_invitations_in_a_burst_are_all_answered(house: House) -> None:
     answers = [owner.receive("Done") for _ in names]
     assert {answer["number"] for answer in answers} == {*range(len(names))}
     made = [names[answer["number"]] for answer in answers if answer["result"]]
-    kept = [token.name for token in token_file.read(house.path)]
-    assert sorted(made) == sorted(name for name in kept if name in names)
+    remaining = [token.name for token in token_file.read(house.path)]
+    assert sorted(made) == sorted(name for name in remaining if name in names)
     assert made
     refused = {answer["text"] for answer in answers if not answer["result"]}
     assert refused <= {
@@ -503,8 +503,8 @@ def test_watchers_may_send_a_selection_and_no_lists_that_are_slow_to_read(house:
 @pytest.mark.parametrize("path", [r"\ud83d", r"\\\udfff"])
 def test_half_a_letter_is_answered(house: House, path: str) -> None:
     owner = house.enter(Role.OWNER)
-    said = r'{"type":"Do","number":1,"command":"Save","arguments":{"path":"PATH"}}'
-    owner.say(said.replace("PATH", path))
+    text = r'{"type":"Do","number":1,"command":"Save","arguments":{"path":"PATH"}}'
+    owner.say(text.replace("PATH", path))
     answered = owner.receive("Done")
     assert (answered["number"], answered["text"]) == (1, HALF)
     assert house.reached == []
@@ -520,10 +520,10 @@ def test_no_secret_reaches_the_log(house: House, caplog: pytest.LogCaptureFixtur
     guest.do("Save")
     house.revoke(Role.OWNER)
     until(lambda: house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 403)
-    said = [r.getMessage() for r in caplog.records if r.name != "websockets.client"]
+    texts = [r.getMessage() for r in caplog.records if r.name != "websockets.client"]
     for token in house.tokens.values():
-        assert token.secret not in f"{said}"
-        assert token.cookie not in f"{said}"
+        assert token.secret not in f"{texts}"
+        assert token.cookie not in f"{texts}"
 
 
 def test_a_stopped_server_leaves_no_task(house: House, capfd: pytest.CaptureFixture[str]) -> None:

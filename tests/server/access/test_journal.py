@@ -24,9 +24,9 @@ def test_entries_are_lines_of_a_file_that_others_cannot_read(tmp_path: Path) -> 
     path = tmp_path / "journal.txt"
     path.touch(0o644)
     for text in ("Saved a.yaml.", "Opened \n\x1b[2J.yaml."):
-        kept = JournalFile(path)
-        Journal(kept.write).note(ADA if "Saved" in text else None, text)
-        kept.close()
+        journal_file = JournalFile(path)
+        Journal(journal_file.write).note(ADA if "Saved" in text else None, text)
+        journal_file.close()
     assert path.stat().st_mode & 0o777 == 0o600
     saved, opened = path.read_text().splitlines()
     time = r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00"
@@ -95,9 +95,9 @@ def test_what_is_no_file_of_this_user_is_refused(tmp_path: Path) -> None:
 def test_a_missing_entry_is_logged(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path = tmp_path / "folder" / "journal.txt"
     path.parent.mkdir()
-    kept = JournalFile(path)
+    journal_file = JournalFile(path)
     path.unlink()
     path.parent.rmdir()
-    kept.write("lost")
-    kept.close()
+    journal_file.write("lost")
+    journal_file.close()
     assert "An entry is missing in the journal" in caplog.text

@@ -23,9 +23,9 @@ TOKENS = [make(f"the {role.label}", role, datetime.now(UTC)) for role in Role]
 
 def test_a_log_gets_no_link(capsys: pytest.CaptureFixture[str]) -> None:
     show_links(TOKENS, "http://127.0.0.1:80", "127.0.0.1", ())
-    said = capsys.readouterr().out
-    assert "Run `webviz token list --links`" in said
-    assert not [token for token in TOKENS if token.secret in said]
+    output = capsys.readouterr().out
+    assert "Run `webviz token list --links`" in output
+    assert not [token for token in TOKENS if token.secret in output]
 
 
 def test_a_terminal_gets_all_links_and_a_qr_code(
@@ -33,10 +33,10 @@ def test_a_terminal_gets_all_links_and_a_qr_code(
 ) -> None:
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     show_links(TOKENS, "http://127.0.0.1:80", "127.0.0.1", ())
-    said = capsys.readouterr().out
+    output = capsys.readouterr().out
     for token, parameter in zip(TOKENS, ("watch", "operate", "own"), strict=True):
-        assert f"http://127.0.0.1:80/?{parameter}={token.secret}\n" in said
-    assert "▀▀▀" in said
+        assert f"http://127.0.0.1:80/?{parameter}={token.secret}\n" in output
+    assert "▀▀▀" in output
 
 
 def test_links_name_the_machine_as_others_reach_it() -> None:

@@ -73,8 +73,8 @@ OF_THE_SERVER = ("Dismiss", "Invite", "Revoke", "UseWidget")
 
 def every_command() -> set[str]:
     public = [getattr(commands, name) for name in commands.__all__]
-    found = {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
-    return found | {*OF_THE_SERVER}
+    results = {c.__name__ for c in public if isinstance(c, type) and issubclass(c, Command)}
+    return results | {*OF_THE_SERVER}
 
 
 def every_message() -> set[str]:
@@ -97,9 +97,9 @@ def test_every_message_to_viser_is_one_that_viser_knows() -> None:
 
 
 def test_programs_have_no_commands_that_the_server_carries_out_itself() -> None:
-    found = {n for n, each in feature.commands().items() if issubclass(each.type, PageCommand)}
-    assert found == {*OF_THE_SERVER}
-    assert found.isdisjoint(commands.__all__)
+    results = {n for n, each in feature.commands().items() if issubclass(each.type, PageCommand)}
+    assert results == {*OF_THE_SERVER}
+    assert results.isdisjoint(commands.__all__)
 
 
 def test_what_people_did_is_for_owners() -> None:

@@ -74,9 +74,9 @@ def test_a_time_that_makes_no_sense_is_refused(days: float) -> None:
 
 def test_a_link_gives_the_role_that_it_names_and_no_other() -> None:
     made = token()
-    known = access(made)
+    access_rights = access(made)
     for role in Role:
-        assert (known.by_secret(made.secret, role) is not None) == (role is Role.OPERATOR)
+        assert (access_rights.by_secret(made.secret, role) is not None) == (role is Role.OPERATOR)
     assert link("http://robot:8080", made) == f"http://robot:8080/?operate={made.secret}"
 
 
@@ -84,9 +84,9 @@ def test_a_link_gives_the_role_that_it_names_and_no_other() -> None:
     "given", ["", "é" * 32, "\ud800", "A" * (1 << 20), SECRET[:-1], SECRET + "A"]
 )
 def test_a_wrong_secret_or_cookie_gives_nothing(given: str) -> None:
-    known = access(Token("a", "owner", SECRET, NOW))
-    assert known.by_secret(given, Role.OWNER) is None
-    assert known.by_cookie(given) is None
+    access_rights = access(Token("a", "owner", SECRET, NOW))
+    assert access_rights.by_secret(given, Role.OWNER) is None
+    assert access_rights.by_cookie(given) is None
 
 
 def test_an_expired_token_counts_no_more() -> None:
@@ -105,11 +105,11 @@ def test_without_tokens_everybody_is_an_owner() -> None:
 
 
 def test_the_program_itself_is_a_watcher_that_nobody_sees() -> None:
-    known = access()
-    grant = known.by_cookie(known.own.cookie)
+    access_rights = access()
+    grant = access_rights.by_cookie(access_rights.own.cookie)
     assert grant is not None
     assert grant.role is Role.WATCHER
-    assert known.tokens == ()
+    assert access_rights.tokens == ()
 
 
 def test_the_file_is_private_and_comes_back(path: Path) -> None:
@@ -265,14 +265,14 @@ def test_a_file_is_read_again_only_if_it_has_changed_and_somebody_asks(
 def test_a_token_that_is_revoked_in_the_file_counts_no_more(path: Path) -> None:
     kept, revoked = token("kept"), token("revoked")
     token_file.modify(path, lambda _: [kept, revoked])
-    known = Access(True, path, now=lambda: NOW)
-    grant = known.by_cookie(revoked.cookie)
+    access_rights = Access(True, path, now=lambda: NOW)
+    grant = access_rights.by_cookie(revoked.cookie)
     assert grant is not None
     token_file.modify(path, lambda tokens: [t for t in tokens if t.name != "revoked"])
-    known.refresh()
-    assert not known.holds(grant)
-    assert known.by_cookie(revoked.cookie) is None
-    assert known.by_cookie(kept.cookie) is not None
+    access_rights.refresh()
+    assert not access_rights.holds(grant)
+    assert access_rights.by_cookie(revoked.cookie) is None
+    assert access_rights.by_cookie(kept.cookie) is not None
 
 
 def test_no_token_of_a_file_counts_that_others_may_read_meanwhile(
@@ -280,21 +280,21 @@ def test_no_token_of_a_file_counts_that_others_may_read_meanwhile(
 ) -> None:
     made = token()
     token_file.modify(path, lambda _: [made])
-    known = Access(True, path, now=lambda: NOW)
+    access_rights = Access(True, path, now=lambda: NOW)
     path.chmod(0o644)
-    known.refresh()
-    assert known.by_cookie(made.cookie) is None
+    access_rights.refresh()
+    assert access_rights.by_cookie(made.cookie) is None
     assert "chmod 600" in caplog.text
     path.chmod(0o600)
-    known.refresh()
-    assert known.by_cookie(made.cookie) is not None
+    access_rights.refresh()
+    assert access_rights.by_cookie(made.cookie) is not None
 
 
 def test_tokens_of_the_environment_are_taken_out_of_it() -> None:
     environment = {"WEBVIZ_TOKEN_OPERATE": SECRET, "HOME": "/"}
-    known = access_to("127.0.0.1", environment=environment)
-    assert known.asks
-    assert known.by_secret(SECRET, Role.OPERATOR) is not None
+    access_rights = access_to("127.0.0.1", environment=environment)
+    assert access_rights.asks
+    assert access_rights.by_secret(SECRET, Role.OPERATOR) is not None
     assert environment == {"HOME": "/"}
 
 
@@ -315,12 +315,12 @@ def test_this_machine_alone_needs_no_token_unless_asked(host: str, path: Path) -
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "", "192.0.2.1", "2001:db8::1"])
 def test_others_need_a_token(host: str, path: Path) -> None:
     assert not is_local(host)
-    known = access_to(host, path=path, environment={})
-    assert known.asks
-    assert known.by_cookie("") is None
+    access_rights = access_to(host, path=path, environment={})
+    assert access_rights.asks
+    assert access_rights.by_cookie("") is None
     assert not path.exists()
-    make_missing(known)
-    assert [each.role for each in known.tokens] == ["watcher", "operator", "owner"]
+    make_missing(access_rights)
+    assert [each.role for each in access_rights.tokens] == ["watcher", "operator", "owner"]
     before = path.read_bytes()
     make_missing(access_to(host, path=path, environment={}))
     assert path.read_bytes() == before
@@ -369,9 +369,9 @@ TYPED = Headers([("Sec-Fetch-Site", "none")])
 
 def test_a_cookie_is_that_of_the_port() -> None:
     made = token()
-    known = access(made)
-    assert login.grant_of(known, headers(f"webviz_80={made.cookie}"), 80)
-    assert login.grant_of(known, headers(f"a=b; webviz_80 = {made.cookie} ;c"), 80)
+    access_rights = access(made)
+    assert login.grant_of(access_rights, headers(f"webviz_80={made.cookie}"), 80)
+    assert login.grant_of(access_rights, headers(f"a=b; webviz_80 = {made.cookie} ;c"), 80)
     for wrong in (
         f"webviz_81={made.cookie}",
         f"Webviz_80={made.cookie}",
@@ -383,7 +383,7 @@ def test_a_cookie_is_that_of_the_port() -> None:
         "",
         ";" * 10_000 + f"webviz_80={made.cookie}",
     ):
-        assert login.grant_of(known, headers(wrong), 80) is None
+        assert login.grant_of(access_rights, headers(wrong), 80) is None
 
 
 def test_a_cookie_that_another_service_of_the_host_sets_shadows_none() -> None:

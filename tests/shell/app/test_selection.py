@@ -186,9 +186,9 @@ def test_a_click_on_a_beam_of_a_real_scan_gets_its_index_range_and_intensity(
         page.draw()
         page.tab.mouse.click(*on_screen(page, place))
         wait_for_titles(page, [f"Beam {beam}"])
-        told = page.tab.locator(".wv-selection").inner_text().split("\n")
-        assert told[told.index("Range") + 1] == f"{scan.ranges[beam]!s} m"
-        assert told[told.index("Intensity") + 1] == str(scan.intensities[beam])
+        text = page.tab.locator(".wv-selection").inner_text().split("\n")
+        assert text[text.index("Range") + 1] == f"{scan.ranges[beam]!s} m"
+        assert text[text.index("Intensity") + 1] == str(scan.intensities[beam])
 
 
 def places_of(scan: Any) -> NDArray[np.float64]:
@@ -320,16 +320,16 @@ def test_boxes_select_and_keys_add_and_remove(
 
 def wait_for_titles(page: Page, titles: list[str]) -> None:
     """Wait until the panel lists exactly these."""
-    found: list[str] = []
+    results: list[str] = []
 
     def is_so() -> bool:
-        found[:] = page.tab.locator(TITLE).all_inner_texts()
-        return sorted(found) == titles
+        results[:] = page.tab.locator(TITLE).all_inner_texts()
+        return sorted(results) == titles
 
     try:
         page.wait_for(is_so, "the selection", 60.0)
     except TimeoutError:
-        assert found == titles
+        assert results == titles
 
 
 def on_screen(page: Page, xy: Sequence[float]) -> tuple[float, float]:

@@ -519,8 +519,8 @@ def test_a_source_that_only_reads_says_so(
 def test_a_program_uses_a_tool_as_a_page_does(
     viewer: webviz.Viewer, graph: RememberingGraph
 ) -> None:
-    said = viewer.tool("2D Goal Pose").send(1.0, 2.0, math.pi)
-    assert said == "Published to /goal_pose, 1 subscription."
+    text = viewer.tool("2D Goal Pose").send(1.0, 2.0, math.pi)
+    assert text == "Published to /goal_pose, 1 subscription."
     ((_, goal),) = graph.published
     assert (goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.z) == (1.0, 2.0, 1.0)
     viewer.tool("2D Pose Estimate").send(3.0, 4.0)

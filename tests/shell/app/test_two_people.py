@@ -55,19 +55,19 @@ def test_each_takes_back_their_own_and_delete_is_about_what_came_back(pages: lis
     row(mine, "Grid").locator(".wv-tree-name").click()
     mine.tab.keyboard.press("Delete")
     wait_for(pages, "Axes", "TF")
-    shown = theirs.tab.get_by_role("checkbox", name="Show Axes")
-    shown.uncheck()
+    element = theirs.tab.get_by_role("checkbox", name="Show Axes")
+    element.uncheck()
     mine.wait_for(lambda: not mine.tab.get_by_role("checkbox", name="Show Axes").is_checked(), "it")
 
     mine.tab.keyboard.press("Control+z")
     wait_for(pages, "Grid", "Axes", "TF")
-    assert not shown.is_checked()  # the change of the other
+    assert not element.is_checked()  # the change of the other
     playwright.expect(row(mine, "Grid")).to_have_attribute("aria-selected", "true")
     mine.tab.keyboard.press("Delete")
     wait_for(pages, "Axes", "TF")
 
     theirs.tab.keyboard.press("Control+z")
-    theirs.wait_for(shown.is_checked, "the undone change")
+    theirs.wait_for(element.is_checked, "the undone change")
     wait_for(pages, "Axes", "TF")
 
 

@@ -138,8 +138,8 @@ def test_what_webviz_refuses_is_not_valid(written: str) -> None:
 
 
 def test_a_mistake_in_a_group_is_found() -> None:
-    found = faults("displays: [{type: Group, displays: [{type: Grid}, {type: Grid, alpha: 2}]}]")
-    assert found == ["$.displays[0].displays[1].alpha: 2 is greater than the maximum of 1"]
+    result = faults("displays: [{type: Group, displays: [{type: Grid}, {type: Grid, alpha: 2}]}]")
+    assert result == ["$.displays[0].displays[1].alpha: 2 is greater than the maximum of 1"]
 
 
 def test_displays_of_others_are_no_error() -> None:

@@ -225,27 +225,27 @@ def test_views_change_as_in_a_viewer(file: OpenFile) -> None:
             Rig((chance.uniform(-9, 9), 2.0, 0.5), from_rpy(0.0, 0.0, chance.uniform(-3, 3)))
             for _ in range(2)
         ]
-        wanted = mimic(view, rigs[0], like(cls, view), rigs[1], 480.0)
-        told = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(wanted), asdict(rigs[1])]
-        cases.append([told, msgspec.to_builtins(wanted)])
+        expected = mimic(view, rigs[0], like(cls, view), rigs[1], 480.0)
+        told = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(expected), asdict(rigs[1])]
+        cases.append([told, msgspec.to_builtins(expected)])
     made = file.page.evaluate(MIMIC, [told for told, _ in cases])
-    for view, (_, wanted) in zip(made, cases, strict=True):
-        assert view.keys() == wanted.keys()
-        for key, value in wanted.items():
+    for view, (_, expected) in zip(made, cases, strict=True):
+        assert view.keys() == expected.keys()
+        for key, value in expected.items():
             assert view[key] == (
                 value if isinstance(value, str | bool) else pytest.approx(value, abs=2e-6)
             )
 
 
 def test_a_view_follows_a_frame_through_the_run(file: OpenFile) -> None:
-    found = []
+    results = []
     file.page.evaluate(FOLLOW, "base")
     for at_s in (1.0, 4.0):
         file.seek(at_s)
-        found.append(file.page.evaluate(PIXEL, [at_s, 0.0, 0.0]))
+        results.append(file.page.evaluate(PIXEL, [at_s, 0.0, 0.0]))
     file.page.evaluate(FOLLOW, "<Fixed Frame>")
-    assert found[0] == pytest.approx(found[1], abs=3.0)
-    assert file.page.evaluate(PIXEL, [1.0, 0.0, 0.0]) != pytest.approx(found[1], abs=30.0)
+    assert results[0] == pytest.approx(results[1], abs=3.0)
+    assert file.page.evaluate(PIXEL, [1.0, 0.0, 0.0]) != pytest.approx(results[1], abs=30.0)
 
 
 def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile) -> None:
@@ -257,8 +257,8 @@ def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile)
     page.mouse.down()
     page.mouse.move(left + width - 2, top + height - 2, steps=3)
     page.mouse.up()
-    shown = page.locator(".wv-selection")
-    expect(shown.get_by_text("Odometry").first).to_be_attached()
+    element = page.locator(".wv-selection")
+    expect(element.get_by_text("Odometry").first).to_be_attached()
     page.keyboard.press("Escape")
 
 
@@ -277,9 +277,9 @@ def test_a_map_is_selected_without_the_values_of_its_cells(file: OpenFile) -> No
     )
     x, y = min(places, key=lambda each: math.dist(each, (columns / 2, rows / 2)))
     page.mouse.click(left + x * width / columns, top + y * width / columns)
-    shown = page.locator(".wv-selection")
-    expect(shown).to_contain_text("/map")
-    expect(shown).to_contain_text(NOT_IN_THE_FILE)
+    element = page.locator(".wv-selection")
+    expect(element).to_contain_text("/map")
+    expect(element).to_contain_text(NOT_IN_THE_FILE)
     page.keyboard.press("Escape")
 
 
@@ -331,9 +331,9 @@ def test_a_click_shows_the_values_of_a_point(file: OpenFile) -> None:
     x, y = page.evaluate(PIXEL, [1.9 + 2.0 * math.cos(0.1), 2.0 * math.sin(0.1), 0.0])
     (left, top, width, _), (columns, _) = page.evaluate(BOX), page.evaluate(CANVAS)
     page.mouse.click(left + x * width / columns, top + y * width / columns)
-    shown = page.locator(".wv-selection")
-    expect(shown).to_contain_text(re.compile(r"Beam 1.*Range\s*2 m", re.DOTALL))
-    expect(shown).to_contain_text(re.compile(r"Angle\s*0\.100000 rad, 5\.73°"))
+    element = page.locator(".wv-selection")
+    expect(element).to_contain_text(re.compile(r"Beam 1.*Range\s*2 m", re.DOTALL))
+    expect(element).to_contain_text(re.compile(r"Angle\s*0\.100000 rad, 5\.73°"))
     page.keyboard.press("Escape")
 
 
@@ -434,10 +434,10 @@ def test_a_point_of_a_large_cloud_says_where_its_values_are(
         page.keyboard.press("s")
         left, top, width, height = page.evaluate(BOX)
         page.mouse.click(left + width / 2, top + height / 2)
-        shown = page.locator(".wv-selection")
-        expect(shown).to_contain_text("lidar")
-        expect(shown).to_contain_text(NOT_IN_THE_FILE)
-        expect(shown).not_to_contain_text("Position")
+        element = page.locator(".wv-selection")
+        expect(element).to_contain_text("lidar")
+        expect(element).to_contain_text(NOT_IN_THE_FILE)
+        expect(element).not_to_contain_text("Position")
 
 
 @pytest.mark.parametrize(
@@ -536,10 +536,10 @@ def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
     assert b"onerror=alert" not in path.read_bytes()
     context = browser.new_context(viewport=SIZE, offline=True)
     page = context.new_page()
-    said: list[str] = []
+    texts: list[str] = []
 
     def dismiss(dialog: playwright.Dialog) -> None:
-        said.append(dialog.message)
+        texts.append(dialog.message)
         dialog.dismiss()
 
     page.on("dialog", dismiss)
@@ -562,4 +562,4 @@ def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
     page.evaluate("document.getElementById('wv-tab-plugin-Plot').click()")
     expect(page.locator(".wv-panel")).to_contain_text("/odom.pose.pose.position.x")
     context.close()
-    assert said == []
+    assert texts == []

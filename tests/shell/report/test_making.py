@@ -128,12 +128,12 @@ def test_a_slice_has_no_finding_that_the_bag_lacks(tmp_path: Path, ahead_s: floa
     config, zipped = parse(text, "the config"), tmp_path / "bug.zip"
     with opened(path) as source:
         make_report(config, source, Pictured(None), zipped, span=(10.0, 18.0), name="run")
-    found: list[set[str]] = []
+    results: list[set[str]] = []
     for each in (path, read_report(zipped, tmp_path).bag):
         with opened(each) as source:
             report = examine_bag(source, config, each.name, lambda what, share: None)
-            found.append({finding.id for finding in report.findings})
-    assert not found[1] - found[0]
+            results.append({finding.id for finding in report.findings})
+    assert not results[1] - results[0]
 
 
 def test_a_slice_that_ends_in_a_gap_does_not_say_that_a_topic_stops(tmp_path: Path) -> None:
@@ -175,14 +175,14 @@ def test_the_browser_of_the_picture_is_nobodys(browser: playwright.Browser) -> N
 def test_the_shown_moment_is_in_the_span(
     bag: Path, span: tuple[float, float], at: float | None, sentence: str
 ) -> None:
-    config, said = parse("{displays: []}", "it"), ""
+    config, text = parse("{displays: []}", "it"), ""
     with opened(bag) as source:
         try:
             listed = make_report(config, source, Pictured(None), None, span=span, at=at)
             assert "slice.mcap: 0.5 s of " in listed
         except TimeError as error:
-            said = str(error)
-    assert said == sentence
+            text = str(error)
+    assert text == sentence
 
 
 @pytest.mark.parametrize(

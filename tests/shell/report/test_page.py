@@ -66,14 +66,14 @@ def test_a_report_of_the_page_opens_as_it_was(
     bag = stories.write(tmp_path / "turned", "turned")
     (config := tmp_path / "lab.yaml").write_text(stories.CONFIG)
     with open_viewer(bag, config) as viewer:
-        found = made(viewer, browser, tmp_path)
-    assert found.picture is not None
-    assert found.picture.suffix == ".jpg"
-    assert found.report.selection
+        result = made(viewer, browser, tmp_path)
+    assert result.picture is not None
+    assert result.picture.suffix == ".jpg"
+    assert result.report.selection
     # Browsers of tests draw in software, which is a finding of its own.
-    assert [each.id for each in found.report.findings if each.id != "WEB002"] == ["DATA001"]
-    with open_viewer(found.bag, found.config) as viewer:
-        show(viewer, found.report)
+    assert [each.id for each in result.report.findings if each.id != "WEB002"] == ["DATA001"]
+    with open_viewer(result.bag, result.config) as viewer:
+        show(viewer, result.report)
         assert viewer.position == pytest.approx(AT_S)
         assert isinstance(viewer.view, Orbit)
         assert viewer.view.distance == pytest.approx(6.0, rel=1e-3)

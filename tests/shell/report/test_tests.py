@@ -134,8 +134,8 @@ OF_STATUSES = ["test_1_scan_map", "test_2_plan_a", "test_3_it", f"test_4_{'x' * 
 def test_findings_are_tested_or_else_statuses(
     tmp_path: Path, severities: dict[str, str], names: list[str]
 ) -> None:
-    found = [FindingEntry(id, severity, "", "", "") for id, severity in severities.items()]
-    report = zipped(tmp_path / "bug.zip", statuses=STATUSES, findings=(*found, *found))
+    results = [FindingEntry(id, severity, "", "", "") for id, severity in severities.items()]
+    report = zipped(tmp_path / "bug.zip", statuses=STATUSES, findings=(*results, *results))
     test = tmp_path / "test_bug.py"
     part = "statuses" if names == OF_STATUSES else "findings"
     assert write_test(report, test, None) == f"wrote {test}, {len(names)} tests of {part}."
@@ -144,8 +144,8 @@ def test_findings_are_tested_or_else_statuses(
 
 
 def test_one_test_is_of_one_finding_and_none_of_another_part(tmp_path: Path) -> None:
-    found = (FindingEntry("TF001", "error", "", "", ""),)
-    report, test = zipped(tmp_path / "bug.zip", findings=found), tmp_path / "test_bug.py"
+    result = (FindingEntry("TF001", "error", "", "", ""),)
+    report, test = zipped(tmp_path / "bug.zip", findings=result), tmp_path / "test_bug.py"
     with pytest.raises(Error, match="has no status to test"):
         write_test(report, test, "status")
     assert not test.exists()

@@ -51,10 +51,10 @@ def test_nodes_have_their_parameters_with_types(reader: Reader) -> None:
     assert {"max_speed", "qos_overrides./tf.depth"} < set(names)
     assert len(names) == 10
     asked = ("max_speed", "count", "name", "is_on", "key", "gains", "joints", "missing")
-    found = values(reader, *asked)
-    assert [each.type for each in found] == [3, 2, 4, 1, 5, 8, 9, 0]
-    assert (found[0].double_value, found[1].integer_value) == (0.5, 3)
-    assert (bytes(found[4].byte_array_value), list(found[5].double_array_value)) == (
+    result = values(reader, *asked)
+    assert [each.type for each in result] == [3, 2, 4, 1, 5, 8, 9, 0]
+    assert (result[0].double_value, result[1].integer_value) == (0.5, 3)
+    assert (bytes(result[4].byte_array_value), list(result[5].double_array_value)) == (
         b"\x01\xff",
         [1.0, 2.5],
     )
@@ -73,8 +73,8 @@ def test_parameters_are_set_and_what_the_server_keeps_is_told(reader: Reader) ->
     assert change(reader, "count", type=2, integer_value=7).successful
     assert change(reader, "key", type=5, byte_array_value=b"\x05").successful
     assert change(reader, "gains", type=8, double_array_value=[3.0]).successful
-    found = values(reader, "count", "key", "gains")
-    assert [found[0].integer_value, bytes(found[1].byte_array_value)] == [7, b"\x05"]
+    result = values(reader, "count", "key", "gains")
+    assert [result[0].integer_value, bytes(result[1].byte_array_value)] == [7, b"\x05"]
     refused = change(reader, "wheel_radius", type=3, double_value=0.2)
     assert (refused.successful, refused.reason) == (False, "The bridge keeps it at 0.1.")
     with pytest.raises(NotConnected, match="no infinite numbers"):
@@ -138,8 +138,8 @@ def test_lies_about_parameters_are_bounded(
     assert len(reader.bridge.parameters.nodes) <= 5
     assert reader.bridge.parameters.changes < 10
     reader.until(lambda: any(r.startswith("3 frames") for r in reader.bridge.remarks))
-    found = values(reader, *map(str, range(len(odd))), "speed")
-    assert [each.type for each in found] == [3, 2, 4, 4, 4, 4, 4, 1, 0, 4]
+    result = values(reader, *map(str, range(len(odd))), "speed")
+    assert [each.type for each in result] == [3, 2, 4, 4, 4, 4, 4, 1, 0, 4]
     calls = [get_all(reader) for _ in range(4)]
     assert "owes 3 answers" in str(calls[3].exception(20))
     assert "does not answer within 0.5 s" in str(calls[0].exception(20))

@@ -303,8 +303,8 @@ def test_a_message_above_the_limit_is_a_problem_of_its_topic(
     reader = liar(script)
     reader.want(words=STRING)
     reader.until(lambda: "/words" in reader.source.offers())
-    said = "a message of 5 MB is above the limit of 3 MB; publish smaller ones"
-    reader.until(lambda: reader.source.offers()["/words"].problem == said)
+    text = "a message of 5 MB is above the limit of 3 MB; publish smaller ones"
+    reader.until(lambda: reader.source.offers()["/words"].problem == text)
 
 
 def test_a_frame_above_all_limits_ends_the_connection(

@@ -481,9 +481,9 @@ def test_what_the_link_carries_is_that_of_the_last_seconds() -> None:
 def test_the_rates_of_thinned_topics_are_those_of_their_last_messages() -> None:
     link = Link(2 * 125e3, ROBOT)
     link.run(60)
-    found = link.pacer.thinned(link.now)
-    assert found.keys() == {"/points", "/image"}
-    for topic, hz in found.items():
+    result = link.pacer.thinned(link.now)
+    assert result.keys() == {"/points", "/image"}
+    for topic, hz in result.items():
         last = link.outcomes[topic].moments[-10:]
         assert hz == pytest.approx(9 / (link.now - last[0]), rel=0.02)
     later = link.pacer.thinned(link.now + 100.0)

@@ -316,8 +316,8 @@ def test_silence_of_rosapi_is_said(liar: Liar, monkeypatch: pytest.MonkeyPatch) 
     reader.until(lambda: reader.bridge.is_up)
     assert not reader.bridge.remarks
     monkeypatch.setattr(rosapi, "LATE_S", 0.0)
-    said = r"rosapi has not answered for \d s, so topics may be missing"
-    reader.until(lambda: any(re.match(said, r) for r in reader.bridge.remarks))
+    text = r"rosapi has not answered for \d s, so topics may be missing"
+    reader.until(lambda: any(re.match(text, r) for r in reader.bridge.remarks))
 
 
 def test_a_flood_of_statuses_keeps_the_newest(liar: Liar) -> None:

@@ -14,28 +14,28 @@ from webviz.sources.zenoh.address import PASSWORD, USER, is_zenoh, session_confi
 
 
 def test_several_endpoints_and_no_scouting() -> None:
-    found = zenoh_address("tcp/robot:7447, tls/cloud.example:7447", {"ROS_DOMAIN_ID": "12"})
-    assert found.endpoints == ("tcp/robot:7447", "tls/cloud.example:7447")
-    assert found.domain == 12
-    config = session_config(found)
+    result = zenoh_address("tcp/robot:7447, tls/cloud.example:7447", {"ROS_DOMAIN_ID": "12"})
+    assert result.endpoints == ("tcp/robot:7447", "tls/cloud.example:7447")
+    assert result.domain == 12
+    config = session_config(result)
     assert config.get_json("scouting/multicast/enabled") == "false"
     assert config.get_json("mode") == '"client"'
     assert config.get_json("connect/endpoints") == '["tcp/robot:7447","tls/cloud.example:7447"]'
 
 
 def test_credentials_come_from_the_environment_and_are_not_shown() -> None:
-    found = zenoh_address("quic/robot:7447", {USER: "ann", PASSWORD: "secret"})
-    assert session_config(found).get_json("transport/auth/usrpwd/user") == '"ann"'
-    assert "secret" not in repr(found)
-    assert "secret" not in found.name
+    result = zenoh_address("quic/robot:7447", {USER: "ann", PASSWORD: "secret"})
+    assert session_config(result).get_json("transport/auth/usrpwd/user") == '"ann"'
+    assert "secret" not in repr(result)
+    assert "secret" not in result.name
 
 
 def test_a_session_config(tmp_path: Path) -> None:
     path = tmp_path / "zenoh.json5"
     path.write_text("{mode: 'peer', connect: {endpoints: ['tcp/[::1]:7447']}} // of mine")
-    found = zenoh_address(str(path), {})
-    assert found.endpoints == ("tcp/[::1]:7447",)
-    config = session_config(found)
+    result = zenoh_address(str(path), {})
+    assert result.endpoints == ("tcp/[::1]:7447",)
+    config = session_config(result)
     assert config.get_json("mode") == '"peer"'
     assert config.get_json("scouting/multicast/enabled") == "false"
     path.write_text("{connect: {endpoints: {client: ['tcp/a:1'], peer: ['tcp/b:2']}}}")

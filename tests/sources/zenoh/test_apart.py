@@ -104,15 +104,15 @@ def test_a_huge_message_takes_bounded_memory(stack: ExitStack) -> None:
     before = peak = process.memory_info().rss
     sender.send(str(HUGE))
     sender.send("small")
-    found: list[str] = []
+    results: list[str] = []
 
     def look() -> None:
         nonlocal peak
         peak = max(peak, process.memory_info().rss)
-        found.extend(heard())
+        results.extend(heard())
 
-    until(lambda: "small" in found, turn=look, look_s=0.005)
-    assert found[-1] == "small"
+    until(lambda: "small" in results, turn=look, look_s=0.005)
+    assert results[-1] == "small"
     assert peak - before < MAX_TOTAL + ELSE
     assert source.bridges[0].is_up
 
@@ -132,13 +132,13 @@ def test_a_robot_whose_clock_is_wrong(
     sender = Sender(router.endpoint, LD_PRELOAD=library, SHIFT_S=str(hours * 3600))
     stack.callback(sender.close)
     _, heard = listening(stack, router.endpoint)
-    found: list[str] = []
-    until(lambda: found.extend(heard()) or found)
-    assert found == ["cached"]
+    results: list[str] = []
+    until(lambda: results.extend(heard()) or results)
+    assert results == ["cached"]
     for number in range(10):
         sender.send(f"live {number}")
-    until(lambda: found.extend(heard()) or len(found) > 10)
-    assert found == ["cached", *(f"live {number}" for number in range(10))]
+    until(lambda: results.extend(heard()) or len(results) > 10)
+    assert results == ["cached", *(f"live {number}" for number in range(10))]
 
 
 @pytest.mark.parametrize("place", ["laptop", "cloud", "robot"])
@@ -162,15 +162,15 @@ def test_one_router_of_a_tree_restarts(stack: ExitStack, place: str) -> None:
     order = Advertisement("/orders", STRING)
 
     def both_ways(text: str) -> None:
-        found: list[str] = []
+        results: list[str] = []
 
         def send() -> None:
             publish({"data": text})
             if source.bridges[0].is_up:
                 source.graph.publish(order, encode(STRING, {"data": text})).result(5)
-            found.extend(heard())
+            results.extend(heard())
 
-        until(lambda: text in found, turn=send, look_s=0.1)
+        until(lambda: text in results, turn=send, look_s=0.1)
         until(lambda: text in [message.data for message, _ in driven], turn=send, look_s=0.1)
 
     both_ways("before")

@@ -45,9 +45,9 @@ def test_messages_come_by_the_keys_of_the_bridge(
     assert offer.publishers[0].label == "the bridge"
     source.want({"/robot1/words": Subscription(STRING, Topic("/robot1/words"))})
     if is_latched:
-        found: list[str] = []
-        until(lambda: found.extend(heard(source, "/robot1/words")) or found)
-        assert found == ["before"]
+        results: list[str] = []
+        until(lambda: results.extend(heard(source, "/robot1/words")) or results)
+        assert results == ["before"]
     time.sleep(0.3)
     publish({"data": "after"})
     later: list[str] = []
@@ -57,14 +57,14 @@ def test_messages_come_by_the_keys_of_the_bridge(
 
 
 def test_publishes_and_calls_through_the_bridge(source: ZenohSource, bridged: BridgedRobot) -> None:
-    found = bridged.subscription("/cmd_vel", TWIST)
+    result = bridged.subscription("/cmd_vel", TWIST)
     bridged.service("/light", SET_BOOL, lambda request: {"success": request.data})
     until(lambda: "/robot1/cmd_vel" in source.snapshot.readers)
     until(lambda: source.graph.services().get("/robot1/light") == SET_BOOL)
     cdr = encode(TWIST, {"angular": {"z": 0.5}})
     assert source.graph.publish(Advertisement("/robot1/cmd_vel", TWIST), cdr).result(5) == 1
-    until(lambda: found)
-    assert found[0].angular.z == 0.5
+    until(lambda: result)
+    assert result[0].angular.z == 0.5
     request = encode(f"{SET_BOOL}_Request", {"data": True})
     response = source.graph.call("/robot1/light", SET_BOOL, request, 5).result(5)
     assert decode(f"{SET_BOOL}_Response", response).success

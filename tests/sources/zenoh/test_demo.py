@@ -43,17 +43,17 @@ def test_no_process_of_it_has_dds(source: ZenohSource) -> None:
 
 
 def test_the_robot_is_there(source: ZenohSource) -> None:
-    wanted = {
+    expected = {
         "/scan": "sensor_msgs/msg/LaserScan",
         "/map": "nav_msgs/msg/OccupancyGrid",
         "/tf": "tf2_msgs/msg/TFMessage",
         "/tf_static": "tf2_msgs/msg/TFMessage",
         "/robot_description": "std_msgs/msg/String",
     }
-    source.want({topic: Subscription(type, Topic(topic)) for topic, type in wanted.items()})
-    until(lambda: set(source.inbox.received()) == set(wanted))
+    source.want({topic: Subscription(type, Topic(topic)) for topic, type in expected.items()})
+    until(lambda: set(source.inbox.received()) == set(expected))
     arrived = source.inbox.drain()
-    scan = decode(wanted["/scan"], arrived["/scan"][-1].cdr)
+    scan = decode(expected["/scan"], arrived["/scan"][-1].cdr)
     assert len(scan.ranges) == 360
     assert source.offers()["/scan"].publishers[0].node == "/sim"
     assert source.offers()["/scan"].publishers[0].reliability == "best_effort"

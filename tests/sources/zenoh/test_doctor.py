@@ -38,18 +38,18 @@ def examine(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("ROS_DOMAIN_ID", "0")
 
     def run(*arguments: str, until_found: str = "", seconds: float = 6) -> Any:
-        found: dict[str, Any] = {}
+        result: dict[str, Any] = {}
 
         def is_found() -> bool:
             main(["doctor", *arguments, "--json", "--seconds", str(seconds)])
             findings = json.loads(capfd.readouterr().out)["findings"]
-            found.clear()
-            found.update({each["id"]: each for each in reversed(findings)})
-            found["first"] = findings[0] if findings else {}
-            return until_found in found
+            result.clear()
+            result.update({each["id"]: each for each in reversed(findings)})
+            result["first"] = findings[0] if findings else {}
+            return until_found in result
 
-        until(is_found, lambda: found)
-        return found
+        until(is_found, lambda: result)
+        return result
 
     return run
 
@@ -75,35 +75,35 @@ def repeated(*publications: tuple[Callable[..., None], object]) -> Iterator[None
 
 def test_no_router(examine: Examine) -> None:
     endpoint = f"tcp/127.0.0.1:{free_port()}"
-    found = examine("--connect", endpoint, until_found="NET007", seconds=2.5)
-    assert found["first"]["cause"].startswith(
+    result = examine("--connect", endpoint, until_found="NET007", seconds=2.5)
+    assert result["first"]["cause"].startswith(
         f"{endpoint} is not connected. Nothing listens on 127.0.0.1:"
     )
-    assert found["first"]["command"] == "ros2 run rmw_zenoh_cpp rmw_zenohd"
+    assert result["first"]["command"] == "ros2 run rmw_zenoh_cpp rmw_zenohd"
 
 
 def test_the_domain_of_the_robot(router: ZenohRouter, examine: Examine) -> None:
     robot = ZenohRobot(router.endpoint, domain=7)
-    found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"] == (
+    result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"] == (
         "ROS_DOMAIN_ID 0 has no nodes on this network, but 7 has 1 node."
     )
-    assert found["first"]["remedy"] == "Start webviz with ROS_DOMAIN_ID=7."
-    assert "NET008" not in found
+    assert result["first"]["remedy"] == "Start webviz with ROS_DOMAIN_ID=7."
+    assert "NET008" not in result
     robot.close()
 
 
 def test_a_router_without_nodes(router: ZenohRouter, examine: Examine, tmp_path: Path) -> None:
     config = tmp_path / "scan.yaml"
     config.write_text("displays: [{type: LaserScan, topic: /scan}]\n")
-    found = examine(
+    result = examine(
         "--connect", router.endpoint, "-d", str(config), until_found="GRAPH001", seconds=8
     )
-    assert found["first"]["cause"] == (
+    assert result["first"]["cause"] == (
         f"No other ROS node is visible on the Zenoh router {router.endpoint}."
     )
-    assert "RMW_IMPLEMENTATION=rmw_zenoh_cpp" in found["first"]["remedy"]
-    assert "multicast" not in found["first"]["command"]
+    assert "RMW_IMPLEMENTATION=rmw_zenoh_cpp" in result["first"]["remedy"]
+    assert "multicast" not in result["first"]["command"]
 
 
 def test_another_version_of_a_type(
@@ -111,11 +111,11 @@ def test_another_version_of_a_type(
 ) -> None:
     publish = robot.publisher("/scan", SCAN, hash=f"RIHS01_{'ab' * 32}")
     with repeated((publish, RANGES)):
-        found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"].startswith(
+        result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"].startswith(
         "The publishers of /scan have another version of its type than this machine"
     )
-    assert found["first"]["remedy"] == "Source the workspace of the robot."
+    assert result["first"]["remedy"] == "Source the workspace of the robot."
 
 
 @pytest.mark.parametrize("hash", [f"RIHS01_{'cd' * 32}", "TypeHashNotSupported"])
@@ -126,29 +126,29 @@ def test_nodes_of_two_distributions(
     steering = ZenohRobot(router.endpoint, "/joystick")
     steering.publisher("/cmd_vel", TWIST)
     robot.token("MS", "/cmd_vel", TWIST, hash=hash)
-    found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"] == (
+    result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"] == (
         "Publishers and subscriptions of /cmd_vel have different versions of its type, so nothing "
         "passes between them."
     )
-    assert "the same ROS distribution" in found["first"]["remedy"]
+    assert "the same ROS distribution" in result["first"]["remedy"]
     robot.subscription("/cmd_vel", TWIST)
     steering.close()
 
 
 def test_a_bridge_that_routes_nothing(router: ZenohRouter, examine: Examine) -> None:
     bridge = BridgedRobot(router.endpoint, "robot1")
-    found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"] == "A zenoh-bridge-ros2dds routes nothing."
-    assert "`allow` and `deny`" in found["first"]["remedy"]
+    result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"] == "A zenoh-bridge-ros2dds routes nothing."
+    assert "`allow` and `deny`" in result["first"]["remedy"]
     bridge.close()
 
 
 def test_a_bridge_whose_nodes_are_unknown(router: ZenohRouter, examine: Examine) -> None:
     bridge = BridgedRobot(router.endpoint, "robot1")
     with repeated((bridge.publisher("/scan", SCAN), RANGES)):
-        found = examine("--connect", router.endpoint, until_found="TF001")
-    assert not {"GRAPH001", "NET014"} & set(found)
+        result = examine("--connect", router.endpoint, until_found="TF001")
+    assert not {"GRAPH001", "NET014"} & set(result)
     bridge.close()
 
 
@@ -156,8 +156,8 @@ def test_two_bridges_of_one_robot(router: ZenohRouter, examine: Examine) -> None
     bridges = [BridgedRobot(router.endpoint) for _ in range(2)]
     publish = [bridge.publisher("/scan", SCAN) for bridge in bridges]
     with repeated(*((each, RANGES) for each in publish)):
-        found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"] == (
+        result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"] == (
         "Each message on /scan may come twice, through two zenoh-bridge-ros2dds."
     )
     for bridge in bridges:
@@ -168,9 +168,9 @@ def test_rmw_zenoh_and_a_bridge(router: ZenohRouter, robot: ZenohRobot, examine:
     bridge = BridgedRobot(router.endpoint)
     direct, through = robot.publisher("/scan", SCAN), bridge.publisher("/scan", SCAN)
     with repeated((direct, RANGES), (through, RANGES)):
-        found = examine("--connect", router.endpoint, until_found="NET014")
-    assert found["first"]["cause"].startswith("Two ways lead to one robot: /scan come over")
-    assert found["first"]["remedy"] == "Stop the bridge; webviz reads rmw_zenoh only."
+        result = examine("--connect", router.endpoint, until_found="NET014")
+    assert result["first"]["cause"].startswith("Two ways lead to one robot: /scan come over")
+    assert result["first"]["remedy"] == "Stop the bridge; webviz reads rmw_zenoh only."
     bridge.close()
 
 
@@ -196,12 +196,12 @@ def test_tokens_without_data(examine: Examine) -> None:
     robot = ZenohRobot(router.endpoint)
     scan, odometry = robot.publisher("/scan", SCAN), robot.publisher("/odom", ODOMETRY)
     with repeated((scan, RANGES), (odometry, {"header": {"frame_id": "odom"}})):
-        found = examine("--connect", router.endpoint, until_found="NET015")
-    assert found["first"]["cause"] == (
+        result = examine("--connect", router.endpoint, until_found="NET015")
+    assert result["first"]["cause"] == (
         f"{router.endpoint} announces /odom, /scan, but passes on no message."
     )
-    assert "`access_control`" in found["first"]["remedy"]
-    assert "GRAPH008" not in found
+    assert "`access_control`" in result["first"]["remedy"]
+    assert "GRAPH008" not in result
     robot.close()
     router.close()
 
@@ -211,10 +211,10 @@ def test_one_silent_topic_is_of_its_node(
 ) -> None:
     robot.publisher("/odom", ODOMETRY)
     with repeated((robot.publisher("/scan", SCAN), RANGES)):
-        found = examine("--connect", router.endpoint, until_found="GRAPH008")
-    assert found["GRAPH008"]["cause"].startswith("Nothing has arrived on /odom from /robot")
-    assert "access_control" in found["GRAPH008"]["remedy"]
-    assert "NET015" not in found
+        result = examine("--connect", router.endpoint, until_found="GRAPH008")
+    assert result["GRAPH008"]["cause"].startswith("Nothing has arrived on /odom from /robot")
+    assert "access_control" in result["GRAPH008"]["remedy"]
+    assert "NET015" not in result
 
 
 def test_dds_and_zenoh_at_once(
@@ -236,12 +236,12 @@ def test_dds_and_zenoh_at_once(
         repeated((robot.publisher("/scan", SCAN), RANGES)),
     ):
         driver.create_publisher(LaserScan, "/robot1/scan", 10)
-        found = examine("-d", str(config), until_found="NET016", seconds=8)
-    assert found["NET016"]["cause"].startswith(
+        result = examine("-d", str(config), until_found="NET016", seconds=8)
+    assert result["NET016"]["cause"].startswith(
         f"Two ways lead to robot1: others publish /robot1/scan here, besides its connection "
         f"{router.endpoint}"
     )
-    assert found["NET016"]["remedy"].startswith("Remove the connection of robot1")
+    assert result["NET016"]["remedy"].startswith("Remove the connection of robot1")
 
 
 @pytest.mark.parametrize(

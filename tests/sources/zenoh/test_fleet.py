@@ -56,15 +56,15 @@ def test_a_domain_or_a_key_prefix_each(router: ZenohRouter, has_domain: bool) ->
         time.sleep(0.1)
         for number, each in enumerate(publish, start=1):
             each({"data": f"of robot {number}"})
-        found: dict[str, str] = {}
+        result: dict[str, str] = {}
 
         def take() -> bool:
             for topic, raws in fleet.inbox.drain().items():
-                found[topic] = decode(STRING, raws[-1].cdr).data
-            return len(found) == 4
+                result[topic] = decode(STRING, raws[-1].cdr).data
+            return len(result) == 4
 
         until(take)
-        assert found == {
+        assert result == {
             "/robot1/words": "of robot 1",
             "/robot2/words": "of robot 2",
             "/robot1/map": "map of robot 1",

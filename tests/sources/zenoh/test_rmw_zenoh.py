@@ -45,15 +45,15 @@ def robot(router: ZenohRouter) -> Iterator[None]:
 def first(source: ZenohSource, topic: str) -> str:
     """Return the first message of a topic."""
     source.want({topic: Subscription(STRING, Topic(topic))})
-    found: list[str] = []
+    results: list[str] = []
 
     def look() -> bool:
         arrived = source.inbox.drain().get(topic, ())
-        found.extend(decode(STRING, raw.cdr, raw.types).data for raw in arrived)
-        return bool(found)
+        results.extend(decode(STRING, raw.cdr, raw.types).data for raw in arrived)
+        return bool(results)
 
     until(look, seconds=PATIENCE_S)
-    return found[0]
+    return results[0]
 
 
 def test_its_topics_nodes_and_caches_are_read(source: ZenohSource, robot: None) -> None:

@@ -29,9 +29,9 @@ TWIST = "geometry_msgs/msg/Twist"
 def block(name: str, **replaced: str) -> str:
     """Return a config of the page, with other places for what has to be another here."""
     text = PAGE.read_text(encoding="utf-8")
-    found = re.search(rf'```json5 title="{name}"\n(.*?)```', text, re.DOTALL)
-    assert found, name
-    result = found[1]
+    match = re.search(rf'```json5 title="{name}"\n(.*?)```', text, re.DOTALL)
+    assert match, name
+    result = match[1]
     for old, new in replaced.items():
         assert PLACES[old] in result, old
         result = result.replace(PLACES[old], new)

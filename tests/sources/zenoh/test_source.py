@@ -50,9 +50,9 @@ def test_messages_arrive_and_the_robot_sees_the_subscription(
     assert source.offers()["/words"].requested == ("reliable", "volatile")
     time.sleep(0.1)
     publish({"data": "over Zenoh"})
-    found: list[str] = []
-    until(lambda: found.extend(heard(source)) or found)
-    assert found == ["over Zenoh"]
+    results: list[str] = []
+    until(lambda: results.extend(heard(source)) or results)
+    assert results == ["over Zenoh"]
     (own,) = [token for token in tokens_of(robot) if "/MS/" in token]
     assert "/MS/%/%/webviz/%words/std_msgs::msg::dds_::String_/RIHS01_" in own
 
@@ -75,9 +75,9 @@ def test_latched_messages_come_from_the_cache_of_the_publisher(
     until(lambda: "/words" in source.offers())
     assert source.offers()["/words"].is_latched
     want(source, "/words")
-    found: list[str] = []
-    until(lambda: found.extend(heard(source)) or found)
-    assert found == ["latched"]
+    results: list[str] = []
+    until(lambda: results.extend(heard(source)) or results)
+    assert results == ["latched"]
     want(source, "/words", asked=1)
     again: list[str] = []
     until(lambda: again.extend(heard(source)) or again)
@@ -110,22 +110,22 @@ def test_other_domains_are_others(source: ZenohSource, router: ZenohRouter) -> N
 
 
 def test_publishes_with_number_time_and_identity(source: ZenohSource, robot: ZenohRobot) -> None:
-    found = robot.subscription("/cmd_vel", TWIST)
+    result = robot.subscription("/cmd_vel", TWIST)
     advertisement = Advertisement("/cmd_vel", TWIST)
     source.graph.advertise([advertisement]).result(5)
     until(lambda: "/cmd_vel" in source.snapshot.readers)
     for speed in (1.0, 2.0):
         cdr = encode(TWIST, {"linear": {"x": speed}})
         assert source.graph.publish(advertisement, cdr).result(5) == 1
-    until(lambda: len(found) == 2)
-    assert [message.linear.x for message, _ in found] == [1.0, 2.0]
-    numbers = [int.from_bytes(sent[:8], "little") for _, sent in found]
+    until(lambda: len(result) == 2)
+    assert [message.linear.x for message, _ in result] == [1.0, 2.0]
+    numbers = [int.from_bytes(sent[:8], "little") for _, sent in result]
     assert numbers[1] == numbers[0] + 1
-    stamp_ns = int.from_bytes(found[0][1][8:16], "little")
+    stamp_ns = int.from_bytes(result[0][1][8:16], "little")
     assert abs(stamp_ns - time.time_ns()) < 60e9
     (own,) = [token for token in tokens_of(robot) if "/MP/" in token]
     digest = xxhash.xxh3_128_intdigest(own.encode()).to_bytes(16, "little")
-    assert found[0][1][17:] == digest, "the identity is that of the token in the graph"
+    assert result[0][1][17:] == digest, "the identity is that of the token in the graph"
     source.graph.advertise([]).result(5)
     until(lambda: not [token for token in tokens_of(robot) if "/MP/" in token])
 
@@ -173,12 +173,12 @@ def test_reconnects_to_a_router_that_restarts() -> None:
         router = ZenohRouter(port)
         until(lambda: source.bridges[0].is_up)
         until(lambda: not source.offers()["/words"].problem)
-        found: list[str] = []
+        results: list[str] = []
 
         def again() -> bool:
             publish({"data": "again"})
-            found.extend(heard(source))
-            return bool(found)
+            results.extend(heard(source))
+            return bool(results)
 
         until(again)
     finally:
