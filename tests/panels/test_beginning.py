@@ -130,6 +130,6 @@ def test_what_a_panel_begins_with_is_bounded(
 
     monkeypatch.setattr(Plot, "take", count)
     plot = add(memory, live, "Plot", curves=[X])
-    until(lambda: plot.series[X].history.newest)
+    until(lambda: X in plot.series and plot.series[X].history.newest)
     assert len(given) == 7
     assert given == sorted(given)
