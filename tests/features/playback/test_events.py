@@ -114,8 +114,8 @@ def test_loading_is_no_event() -> None:
     events.note(0, [row(Level.OK)])
     events.note(ns(1), [row(Level.WARN, "Loading.", key=LOADING)])
     assert not events.events
-    events.note(ns(2), [row(Level.ERROR, "There is no file.")])
-    assert [event.text for event in events.events] == ["There is no file."]
+    events.note(ns(2), [row(Level.ERROR, "The file does not exist.")])
+    assert [event.text for event in events.events] == ["The file does not exist."]
 
 
 def test_a_rising_level_is_noted_once_per_sentence_and_second() -> None:

@@ -162,7 +162,7 @@ export const nodes = () => page().nodeRefFromName;
 export const node = (name) => page().nodeRefFromName[name];
 
 /**
- * Return the position of a node in its parent. Texts have one, too, although they are no objects.
+ * Return the position of a node in its parent. Labels have one as well, but are not objects.
  *
  * @param {string} name
  * @returns {Vec3 | undefined}

@@ -125,7 +125,7 @@ class ConnectionGraph:
 
 
 def _names(ids: tuple[str, ...]) -> tuple[str, ...]:
-    """Node names; ids that are no names, as some servers have them, are kept as they are."""
+    """Node names; ids of some servers that are not valid names are kept unchanged."""
     return tuple(sorted(set(ids)))
 
 
