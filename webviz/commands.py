@@ -23,5 +23,5 @@ def __getattr__(name: str) -> Any:
     if (value := _of_features.get(name)) is not None:
         return value
     if missing := ", ".join(broken_features()):
-        raise MissingCommand(f"There is no {name} without {missing}. Install webviz anew.")
+        raise MissingCommand(f"There is no {name} without {missing}. Reinstall webviz.")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -12,11 +12,11 @@ from webviz.api.status import Status
 from webviz.api.tool import Position
 from webviz.api.views import View
 from webviz.engine.commands import *  # noqa: F403
-from webviz.engine.commands import Command, FileCommand, Picks
+from webviz.engine.commands import Command, FileCommand, NodePicks
 from webviz.engine.pipeline.trace import Trace
 from webviz.files.config import Config, Layout
 from webviz.files.report import ReportedPick
-from webviz.sources.bag.ghost import Align
+from webviz.sources.bag.comparison import Align
 
 __all__: list[str]
 
@@ -208,7 +208,7 @@ class Forbid(Command, frozen=True):
 class Identify(Command, frozen=True):
     """Answer with one line about a thing, "" if it does not exist any more."""
 
-    picks: Picks
+    picks: NodePicks
 
 class InspectLatency(Command, frozen=True):
     """Trace samples of all displays while a page shows their latencies."""
@@ -534,7 +534,7 @@ class SaveReport(FileCommand, frozen=True):
     """
 
     picture: str = ...
-    selection: tuple[Picks, ...] = ...
+    selection: tuple[NodePicks, ...] = ...
     with_names: bool = ...
     path: str = ...
 
@@ -566,7 +566,7 @@ class Select(Command, frozen=True):
         total: how many things there were to select.
     """
 
-    picks: tuple[Picks, ...] = ...
+    picks: tuple[NodePicks, ...] = ...
     keep: tuple[int, ...] = ...
     total: int = ...
 

@@ -169,9 +169,9 @@ class CameraInfo(Display):
             ctx.ok("Image", f"{size[0]} x {size[1]}.")
 
 
-def _cells(found: RawImage | Encoded | transports.Decompression) -> Cells:
+def _cells(source: RawImage | Encoded | transports.Decompression) -> Cells:
     """RGBA (H, W, 4) of an image, and its full size."""
-    image = found.run() if isinstance(found, transports.Decompression) else found
+    image = source.run() if isinstance(source, transports.Decompression) else source
     if isinstance(image, Encoded):
         picture: Pixels | Encoded = image
     else:

@@ -50,12 +50,12 @@ class _State(ImageState):
     Args:
         poses: of the frame in the fixed frame by number of the message, from that of the
             texture on.
-        shown: what is drawn.
+        texture: what is drawn.
     """
 
     textures: Newest[_Texture] = msgspec.field(default_factory=Newest[_Texture])
     poses: dict[int, Pose] = msgspec.field(default_factory=dict)
-    shown: _Texture | None = None
+    texture: _Texture | None = None
 
 
 class ImagePlane(ImageDisplay):
@@ -97,12 +97,12 @@ class ImagePlane(ImageDisplay):
             return
         pose = state.poses.get(texture.number, newest.pose)
         state.poses = {n: each for n, each in state.poses.items() if n >= texture.number}
-        state.shown = texture
+        state.texture = texture
         self._place(texture, pose, ctx)
 
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a pixel, with its value if it is a measurement."""
-        texture: _Texture | None = ctx.state.shown
+        texture: _Texture | None = ctx.state.texture
         if texture is None or not isinstance(hit.node, Image):
             return None
         picture, x, y = (

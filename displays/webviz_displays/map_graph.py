@@ -58,7 +58,7 @@ class MapGraph(Display):
         Color, Prop(rviz="Local loop closure", help="Colour of loops found nearby.")
     ] = (255, 255, 0)
     landmark: Annotated[Color, Prop(help="Colour of links to landmarks.")] = (0, 128, 0)
-    user: Annotated[Color, Prop(help="Colour of links that somebody added.")] = (255, 0, 0)
+    user: Annotated[Color, Prop(help="Colour of links that users added.")] = (255, 0, 0)
     virtual: Annotated[Color, Prop(help="Colour of virtual links.")] = (255, 0, 255)
     alpha: Annotated[Alpha, Prop(help="Opacity of the links.")] = 1.0
 

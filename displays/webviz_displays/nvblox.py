@@ -134,7 +134,7 @@ EDGE = 4
 class _State(msgspec.Struct):
     """State of what is drawn: blocks and their node, by region."""
 
-    drawn: dict[Key, tuple[Sequence[MapBlock], Node]] = msgspec.field(default_factory=dict)
+    regions: dict[Key, tuple[Sequence[MapBlock], Node]] = msgspec.field(default_factory=dict)
 
 
 class NvbloxDisplay(Display):
@@ -180,11 +180,11 @@ class NvbloxDisplay(Display):
                 left_out += size
                 continue
             count += size
-            before = state.drawn.get(key)
+            before = state.regions.get(key)
             is_known = before is not None and list(map(id, before[0])) == list(map(id, blocks))
             by_region[key] = before if before and is_known else (blocks, self.node(blocks, layer))
             ctx.add("region {} {} {}".format(*key), by_region[key][1])
-        state.drawn = by_region
+        state.regions = by_region
         self._report(layer, count, left_out, ctx)
 
     def size(self, block: MapBlock) -> int:

@@ -20,7 +20,7 @@ class _State(msgspec.Struct):
     """Kept between messages."""
 
     newest: Pane | None = None
-    shown: Pane | None = None
+    pane: Pane | None = None
     shown_ns: int = 0
     settings: tuple[Any, ...] = ()
     paths: list[FieldPath] = msgspec.field(default_factory=list)
@@ -63,13 +63,13 @@ class Text(Display):
         state: _State = ctx.state
         settings = (tuple(self.fields), self.digits, self.array_length)
         if settings != state.settings:
-            state.settings, state.shown = settings, None
+            state.settings, state.pane = settings, None
             self._read_paths(state)
         readout = Readout(
             topic=self.topic.name,
             type=sample.type,
             message=sample.message,
-            paths=self._found(sample, state, ctx),
+            paths=self._paths(sample, state, ctx),
             received_s=sample.received_ns / SECOND,
             digits=self.digits,
             max_items=self.array_length,
@@ -83,10 +83,10 @@ class Text(Display):
         since_ns = ctx.frames.now_ns - state.shown_ns
         # ROS time may stand still, or go back.
         is_early = 0 < since_ns < self.update_interval * SECOND
-        if state.newest is not state.shown and (state.shown is None or not is_early):
-            state.shown, state.shown_ns = state.newest, ctx.frames.now_ns
-        if state.shown is not None:
-            ctx.add("pane", state.shown)
+        if state.newest is not state.pane and (state.pane is None or not is_early):
+            state.pane, state.shown_ns = state.newest, ctx.frames.now_ns
+        if state.pane is not None:
+            ctx.add("pane", state.pane)
 
     def _read_paths(self, state: _State) -> None:
         state.paths, state.problems = [], []
@@ -98,7 +98,7 @@ class Text(Display):
         if len(self.fields) > MAX_FIELDS:
             state.problems.append(f"Only the first {MAX_FIELDS} fields are shown.")
 
-    def _found(self, sample: Sample, state: _State, ctx: Context) -> tuple[FieldPath, ...]:
+    def _paths(self, sample: Sample, state: _State, ctx: Context) -> tuple[FieldPath, ...]:
         """Return the chosen fields that the message has; says which are missing."""
         paths: list[FieldPath] = []
         problems = list(state.problems)

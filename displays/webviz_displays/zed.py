@@ -157,17 +157,23 @@ class ZedOdDisplay(Display):
         return Details(label_of(detected), values)
 
     def _draw_boxes(
-        self, found: Sequence[Any], rows: Rows, colors: U8, origin: F64, group: Group, ctx: Context
+        self,
+        objects: Sequence[Any],
+        rows: Rows,
+        colors: U8,
+        origin: F64,
+        group: Group,
+        ctx: Context,
     ) -> None:
-        corners = np.array([each.bounding_box_3d.corners for each in found], np.float64)
+        corners = np.array([each.bounding_box_3d.corners for each in objects], np.float64)
         ok = is_drawable(corners).all(axis=1)
         if invalid := int((~ok).sum()):
-            text = f"{invalid} of {len(found)} boxes left out: corners are missing or invalid."
+            text = f"{invalid} of {len(objects)} boxes left out: corners are missing or invalid."
             ctx.warn("Boxes", text)
         corners, rows = corners[ok] - origin, rows[ok]
         if not len(rows):
             return
-        states = np.array([_state_of(each) for each in found], np.intp)[ok]
+        states = np.array([_state_of(each) for each in objects], np.intp)[ok]
         self._lines("boxes", corners[:, BOX_EDGES], colors[ok], rows, self.link_size, group)
         group.instances(
             "corners",
@@ -179,11 +185,17 @@ class ZedOdDisplay(Display):
         )
 
     def _draw_skeletons(
-        self, found: Sequence[Any], rows: Rows, colors: U8, origin: F64, group: Group, ctx: Context
+        self,
+        objects: Sequence[Any],
+        rows: Rows,
+        colors: U8,
+        origin: F64,
+        group: Group,
+        ctx: Context,
     ) -> None:
         bright = np.clip(colors + np.array((100, 50, -50)), 0, 255).astype(np.uint8)
         bones, joints, bone_of, joint_of = [], [], [], []
-        for number, each in enumerate(found):
+        for number, each in enumerate(objects):
             if not each.skeleton_available:
                 continue
             if not 0 <= each.body_format < len(BODIES):
@@ -251,24 +263,24 @@ def box_color(label_id: int) -> tuple[int, int, int]:
     return 30 * step % 256, 60 * step % 256, 120 * step % 256
 
 
-def label_of(found: Any) -> str:
+def label_of(item: Any) -> str:
     """Return the label of an object: its number and kind."""
-    number = "" if found.label_id == -1 else str(found.label_id)
-    if found.skeleton_available:
+    number = "" if item.label_id == -1 else str(item.label_id)
+    if item.skeleton_available:
         return "-".join(filter(None, ("Person", number)))
-    kind = found.label
-    if found.sublabel != found.label:
-        kind += f" [{found.sublabel}]"
+    kind = item.label
+    if item.sublabel != item.label:
+        kind += f" [{item.sublabel}]"
     return f"{number}-{kind}" if number else kind
 
 
-def _is_tracked(found: Any) -> bool:
+def _is_tracked(item: Any) -> bool:
     """Return whether an object is shown: while tracking is on, only those in sight."""
-    if not found.tracking_available:
+    if not item.tracking_available:
         return True
-    return found.label_id != -1 and found.tracking_state == TRACKED
+    return item.label_id != -1 and item.tracking_state == TRACKED
 
 
-def _state_of(found: Any) -> int:
+def _state_of(item: Any) -> int:
     """Return the tracking state of an object; unknown ones count as off."""
-    return found.tracking_state if 0 <= found.tracking_state < len(TRACKING) else 0
+    return item.tracking_state if 0 <= item.tracking_state < len(TRACKING) else 0

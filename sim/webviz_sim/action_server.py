@@ -16,7 +16,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from webviz.data.messages import decode, encode, interfaces
 from webviz.ros.types import from_cdr, message_class, service_class, to_cdr
 
-KEPT = 20
+MAX_ENDED = 20
 """Goals that have ended, whose results clients may still request."""
 MAX_WAITING = 100
 """Requests for results that wait; of more, the oldest get none."""
@@ -120,7 +120,7 @@ class ActionServer:
             else:
                 self._waiting.append((goal_id, header))
         ended = [id for id, each in self._goals.items() if not each.is_active]
-        for old in ended[:-KEPT]:
+        for old in ended[:-MAX_ENDED]:
             del self._goals[old]
         self._publish_status()
 

@@ -26,23 +26,24 @@ class Crowd:
         self._random = np.random.default_rng([seed, 2])
         self._places = planner.spread(start, count=12) if count else []
         self._walks = [self._walk(self._place()) for _ in range(count if self._places else 0)]
-        self._gone = [0.0] * len(self._walks)
+        self._distances = [0.0] * len(self._walks)
 
     @property
     def circles(self) -> Circles:
         """Return where they are."""
         here = [
-            _along(walk, distance) for walk, distance in zip(self._walks, self._gone, strict=True)
+            _along(walk, distance)
+            for walk, distance in zip(self._walks, self._distances, strict=True)
         ]
         return np.array([(*point, RADIUS) for point in here]) if here else NONE
 
     def step(self, seconds: float) -> None:
         """Let them walk on; who arrives sets out for another place."""
         for number, walk in enumerate(self._walks):
-            self._gone[number] += SPEED * seconds
-            if self._gone[number] >= _length(walk):
+            self._distances[number] += SPEED * seconds
+            if self._distances[number] >= _length(walk):
                 self._walks[number] = self._walk(Pose2D(*walk[-1]))
-                self._gone[number] = 0.0
+                self._distances[number] = 0.0
 
     def _place(self) -> Pose2D:
         return self._places[int(self._random.integers(len(self._places)))]

@@ -39,11 +39,11 @@ class Follower:
         self._path = path
         self._yaw = yaw
         self._passed = 0
-        self.done = False
+        self.is_done = False
 
     def remaining(self) -> NDArray[np.float64]:
         """Return the points still ahead, shape (n, 2); none when the robot has arrived."""
-        return self._path[self._passed :] if not self.done else self._path[:0]
+        return self._path[self._passed :] if not self.is_done else self._path[:0]
 
     def step(
         self, pose: Pose2D, velocity: tuple[float, float], speed: float, seconds: float
@@ -56,13 +56,13 @@ class Follower:
             speed: Maximum linear velocity in m/s.
             seconds: Length of the step.
         """
-        linear, angular = self._wanted(pose, speed)
+        linear, angular = self._velocity_to(pose, speed)
         return (
             _approach(velocity[0], linear, ACCELERATION * seconds),
             _approach(velocity[1], angular, ANGULAR_ACCELERATION * seconds),
         )
 
-    def _wanted(self, pose: Pose2D, speed: float) -> tuple[float, float]:
+    def _velocity_to(self, pose: Pose2D, speed: float) -> tuple[float, float]:
         here = pose.x, pose.y
         # Look ahead a little only, so that a path that crosses itself is not cut short.
         window = self._path[self._passed : self._passed + 30]
@@ -89,8 +89,8 @@ class Follower:
 
     def _final_turn(self, pose: Pose2D) -> float:
         error = 0.0 if self._yaw is None else wrap(self._yaw - pose.yaw)
-        self.done = abs(error) < 0.05
-        return 0.0 if self.done else min(max(2.5 * error, -TURN_RATE), TURN_RATE)
+        self.is_done = abs(error) < 0.05
+        return 0.0 if self.is_done else min(max(2.5 * error, -TURN_RATE), TURN_RATE)
 
 
 def _approach(value: float, target: float, step: float) -> float:
@@ -263,7 +263,7 @@ class Simulation:
         velocity = follower.step(
             robot.pose, (robot.linear, robot.angular), self.settings.tour_speed, seconds
         )
-        if follower.done:
+        if follower.is_done:
             self._arrive()
         elif self._is_stuck() and not self._goes_around():
             self._follower = None

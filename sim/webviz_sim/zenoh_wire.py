@@ -77,7 +77,7 @@ class ZenohNode:
         self._namespace = namespace
         self._name = name
         self._ids = itertools.count()
-        self._kept: list[Any] = []
+        self._declarations: list[Any] = []
         self._declare("NN", "")
 
     def publisher(
@@ -91,7 +91,7 @@ class ZenohNode:
             cache=zenoh.ext.CacheConfig(depth) if is_latched else None,
             publisher_detection=is_latched,
         )
-        self._kept.append(declared)
+        self._declarations.append(declared)
         reliability, latched = "" if depth else "2", "1" if is_latched else ""
         qos = f"{reliability}:{latched}:,{depth or 5}:,:,:,,"
         token = self._declare("MP", self._endpoint(topic, type, qos))
@@ -105,7 +105,7 @@ class ZenohNode:
             arrive(sample.payload)
 
         handler: Any = zenoh.handlers.Callback(take, indirect=False)
-        self._kept.append(self._session.declare_subscriber(self._key(topic, type), handler))
+        self._declarations.append(self._session.declare_subscriber(self._key(topic, type), handler))
         self._declare("MS", self._endpoint(topic, type, f"::,{DEPTH}:,:,:,,"))
 
     def _full(self, topic: str) -> str:
@@ -123,7 +123,7 @@ class ZenohNode:
             f"@ros2_lv/{self._domain}/{self._session.zid()}/0/{next(self._ids)}/{kind}/%"
             f"/{_mangled(self._namespace or '/')}/{self._name}{endpoint}"
         )
-        self._kept.append(self._session.liveliness().declare_token(token))
+        self._declarations.append(self._session.liveliness().declare_token(token))
         return token
 
 

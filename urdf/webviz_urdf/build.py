@@ -191,7 +191,7 @@ class _Builder:
         self._skip = skip
         self._refused: dict[str, str] = {}
         self._bytes = 0
-        self._done = 0
+        self._progress_count = 0
         self._total = sum(
             len(link.visuals) + (len(link.collisions) if collisions else 0)
             for link in description.model.links
@@ -200,7 +200,7 @@ class _Builder:
     def build(self) -> Robot:
         description = self._description
         links = {link.name: self._link(link) for link in description.model.links}
-        self._progress(self._done, self._total, description.root)
+        self._progress(self._progress_count, self._total, description.root)
         warnings = (
             *description.warnings,
             *self._materials.warnings,
@@ -235,9 +235,9 @@ class _Builder:
     ) -> tuple[RobotShape, ...]:
         shapes: dict[str, RobotShape] = {}
         for index, (element, material) in enumerate(elements):
-            number = self._done
+            number = self._progress_count
             self._progress(number, self._total, link)
-            self._done += 1
+            self._progress_count += 1
             name = element.name or f"{kind}_{index}"
             while name in shapes:
                 name = f"{name}_{index}"

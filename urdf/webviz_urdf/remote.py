@@ -115,6 +115,6 @@ def _target(package: str, path: str) -> Path | None:
 @functools.cache
 def folder() -> Path:
     """Return the folder of fetched files, which is removed at the end of the program."""
-    made = Path(tempfile.mkdtemp(prefix="webviz-robot-files-"))
-    atexit.register(shutil.rmtree, made, ignore_errors=True)
-    return made
+    path = Path(tempfile.mkdtemp(prefix="webviz-robot-files-"))
+    atexit.register(shutil.rmtree, path, ignore_errors=True)
+    return path

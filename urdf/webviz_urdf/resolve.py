@@ -63,7 +63,7 @@ class Resolver:
             ament_prefix_path = os.environ.get("AMENT_PREFIX_PATH", "")
         self.ament_prefix_path = ament_prefix_path
         self.base = None if base is None else Path(base).absolute()
-        self._found: dict[str, list[Path]] = {}
+        self._folders: dict[str, list[Path]] = {}
 
     def relative_to(self, base: str | Path) -> Resolver:
         """Return the same resolver for a description in the folder `base`."""
@@ -75,7 +75,7 @@ class Resolver:
 
     def _with(self, **changed: Any) -> Resolver:
         resolver = copy.copy(self)
-        vars(resolver).update(changed, _found={})  # what was not there may be now
+        vars(resolver).update(changed, _folders={})  # what was not there may be now
         return resolver
 
     def resolve(self, uri: str) -> Path:
@@ -170,9 +170,9 @@ class Resolver:
 
     def _package_folders(self, package: str) -> list[Path]:
         """Return the folders of a package, looked for once: a robot has dozens of meshes in it."""
-        if package not in self._found:
-            self._found[package] = list(dict.fromkeys(self._look_for(package)))
-        return self._found[package]
+        if package not in self._folders:
+            self._folders[package] = list(dict.fromkeys(self._look_for(package)))
+        return self._folders[package]
 
     def _look_for(self, package: str) -> Iterator[Path]:
         yield from self._packages_below.get(package, ())

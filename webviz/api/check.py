@@ -43,7 +43,7 @@ class Check:
     id: ClassVar[str] = ""
     """A level of causes and three digits, such as NET004; it never changes its meaning."""
 
-    def find(self, seen: Observation) -> Iterable[Finding]:
+    def find(self, observation: Observation) -> Iterable[Finding]:
         """Return a finding for each cause of this kind, none if all is well.
 
         It is called about once a second by the frame loop, so it may not block.

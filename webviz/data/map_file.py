@@ -68,13 +68,15 @@ def _read(entries: dict[str, Any], folder: Path) -> MapFile:
         raise MapFileError(f"resolution must be above 0, not {resolution:g}")
     origin = entries.get("origin")
     if not (isinstance(origin, list) and len(origin) == 3 and all(map(_finite, origin))):
-        raise MapFileError(f"origin must be three finite numbers (x, y, yaw), not {_shown(origin)}")
+        raise MapFileError(
+            f"origin must be three finite numbers (x, y, yaw), not {_excerpt(origin)}"
+        )
     image = entries.get("image")
     if not isinstance(image, str) or not image:
         raise MapFileError("image must name a file")
     mode = entries.get("mode", "trinary")
     if mode not in ("trinary", "scale", "raw"):
-        raise MapFileError(f"mode must be trinary, scale or raw, not {_shown(mode)}")
+        raise MapFileError(f"mode must be trinary, scale or raw, not {_excerpt(mode)}")
     shade, alpha = _load_image(folder / image)
     cells = _occupancy(
         shade,
@@ -140,15 +142,15 @@ def _load_image(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64] | 
             has_alpha = "A" in image.getbands() or "transparency" in image.info
             pixels = np.asarray(image.convert("RGBA"), dtype=np.float64)
     except FileNotFoundError:
-        raise MapFileError(f"its image {_shown(path, MAX_PATH)} does not exist") from None
+        raise MapFileError(f"its image {_excerpt(path, MAX_PATH)} does not exist") from None
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise MapFileError(f"its image {_shown(path, MAX_PATH)} cannot be read") from None
+        raise MapFileError(f"its image {_excerpt(path, MAX_PATH)} cannot be read") from None
     # Divided once, as by map_server: a mean of quotients is off by a bit, which decides ties of .5.
     shade = pixels[..., :3].mean(axis=-1) / 255.0
     return shade, pixels[..., 3] / 255.0 if has_alpha else None
 
 
-def _shown(value: Any, most: int = MAX_SHOWN) -> str:
+def _excerpt(value: Any, most: int = MAX_SHOWN) -> str:
     return shortened(str(value), most)
 
 
@@ -160,7 +162,7 @@ def _number(entries: dict[str, Any], key: str) -> float:
     if key not in entries:
         raise MapFileError(f"{key} is missing")
     if not _finite(entries[key]):
-        raise MapFileError(f"{key} must be a finite number, not {_shown(entries[key])}")
+        raise MapFileError(f"{key} must be a finite number, not {_excerpt(entries[key])}")
     return float(entries[key])
 
 
@@ -171,4 +173,4 @@ def _flag(entries: dict[str, Any], key: str) -> bool:
         return bool(value)
     if isinstance(value, str) and value.lower() in ("yes", "on", "y", "no", "off", "n"):
         return value.lower() in ("yes", "on", "y")
-    raise MapFileError(f"{key} must be 0 or 1, not {_shown(value)}")
+    raise MapFileError(f"{key} must be 0 or 1, not {_excerpt(value)}")

@@ -26,14 +26,14 @@ class MemoryBudget:
     def __init__(self, total: int, loaded: int | None = None) -> None:
         self.total = total
         self._most_held = total // 2 if loaded is None else loaded
-        self._taken = self._held = 0
+        self._decode_size = self._loaded_size = 0
         self._changed = threading.Condition()
         self._mine = threading.local()
 
     @property
     def room(self) -> int:
         """Bytes that work may take if there is no other."""
-        return self.total - self._held
+        return self.total - self._loaded_size
 
     @property
     def least_room(self) -> int:
@@ -43,7 +43,7 @@ class MemoryBudget:
     @property
     def is_scarce(self) -> bool:
         """Return whether little is left for what is loaded, so that caches should be emptied."""
-        return self._held > self._most_held // 2
+        return self._loaded_size > self._most_held // 2
 
     @contextlib.contextmanager
     def take(self, size: int, stopped: threading.Event | None = None) -> Iterator[None]:
@@ -53,7 +53,7 @@ class MemoryBudget:
 
         Args:
             size: in bytes.
-            stopped: ends waiting; whoever sets it calls `wake`, and the work checks it.
+            stopped: ends waiting once it is set and `wake` called; the work checks it.
 
         Raises:
             OverBudgetError: there is not so much even without other work.
@@ -63,19 +63,23 @@ class MemoryBudget:
             while not (stopped and stopped.is_set()):
                 if size > self.room:
                     text = f"takes {_mb(size)} to decode; the limit is {_mb(self.room)}"
-                    beside = f" beside {_mb(self._held)} of what is loaded" if self._held else ""
+                    beside = (
+                        f" beside {_mb(self._loaded_size)} already loaded"
+                        if self._loaded_size
+                        else ""
+                    )
                     raise OverBudgetError(text + beside)
-                if reserved or self._taken + size <= self.room:
+                if reserved or self._decode_size + size <= self.room:
                     break
                 self._changed.wait()
-            self._taken += size
+            self._decode_size += size
         self._mine.held = reserved + size
         try:
             yield
         finally:
             self._mine.held = reserved
             with self._changed:
-                self._taken -= size
+                self._decode_size -= size
                 self._changed.notify_all()
 
     def hold(self, owner: object, size: int) -> None:
@@ -85,13 +89,13 @@ class MemoryBudget:
             OverBudgetError: too much is held already.
         """
         with self._changed:
-            left = self._most_held - self._held
+            left = self._most_held - self._loaded_size
             if size > left:
                 limit = _mb(self._most_held)
                 raise OverBudgetError(
                     f"takes {_mb(size)} of memory; {_mb(left)} of {limit} are left"
                 )
-            self._held += size
+            self._loaded_size += size
         weakref.finalize(owner, self._give_back, size).atexit = False
 
     def wake(self) -> None:
@@ -101,7 +105,7 @@ class MemoryBudget:
 
     def _give_back(self, size: int) -> None:
         with self._changed:
-            self._held -= size
+            self._loaded_size -= size
             self._changed.notify_all()
 
 

@@ -27,7 +27,7 @@ def readable(name: str, mark: str = " ") -> str:
 
 def escaped(json: str) -> str:
     """Return JSON whose texts have only readable characters; it means the same."""
-    return _UNREADABLE.sub(lambda found: found[0] if found[0] == "\n" else _escape(found[0]), json)
+    return _UNREADABLE.sub(lambda match: match[0] if match[0] == "\n" else _escape(match[0]), json)
 
 
 def _escape(character: str) -> str:

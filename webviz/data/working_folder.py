@@ -76,12 +76,12 @@ def _remove_abandoned(prefix: str, beside: Path) -> None:
 
 def remove_if_abandoned(folder: Path) -> None:
     """Remove a folder unless a program has its lock."""
-    held = os.open(folder / LOCK, os.O_RDWR)
+    descriptor = os.open(folder / LOCK, os.O_RDWR)
     try:
-        if lock(held):
+        if lock(descriptor):
             _remove(folder)
     finally:
-        os.close(held)
+        os.close(descriptor)
 
 
 def _remove(folder: Path) -> None:

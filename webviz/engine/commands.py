@@ -13,8 +13,8 @@ __all__ = [
     "PROGRAM",
     "Command",
     "FileCommand",
+    "NodePicks",
     "Pick",
-    "Picks",
     "Sender",
     "mistaken",
     "wrong_text",
@@ -94,7 +94,7 @@ along an arrow); and the colour of a point, None if all have the same.
 """
 
 
-class Picks(msgspec.Struct, frozen=True):
+class NodePicks(msgspec.Struct, frozen=True):
     """Things of one node.
 
     Args:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from webviz.api.environment import Environment
 from webviz.api.finding import Finding
 from webviz.api.rule import Rule, Verdict
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Part, PartContext
 from webviz.sources.past_state import Event
 
 SLICE_S = 0.001
@@ -20,13 +20,13 @@ class Examiner(Part, abc.ABC):
     """Examines a viewer in rounds; a viewer without one finds nothing.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
     """
 
     name = "Doctor"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self.slice_s = SLICE_S
         """Time for checks in one turn."""
         self.listening_since_s = time.monotonic()

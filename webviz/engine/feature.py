@@ -81,7 +81,7 @@ def broken_features() -> Mapping[str, str]:
 def missing_features() -> Mapping[str, Status]:
     """Return statuses of the same."""
     return {
-        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Install webviz anew.")
+        f"Feature {name}": Status(Level.WARN, f"{name} is missing: {reason}. Reinstall webviz.")
         for name, reason in broken_features().items()
     }
 
@@ -115,21 +115,24 @@ def texts_of(feature: type[Feature]) -> Mapping[str, str]:
 @functools.cache
 def loaded() -> tuple[dict[str, type[Feature]], dict[str, str]]:
     """Return all features by name, and the reasons of those that cannot be loaded."""
-    found: dict[str, type[Feature]] = {}
+    features: dict[str, type[Feature]] = {}
     broken: dict[str, str] = {}
-    taken = {*engine_commands.__all__, *(name for part in PARTS for name in commands_of(part))}
+    names_in_use = {
+        *engine_commands.__all__,
+        *(name for part in PARTS for name in commands_of(part)),
+    }
     for point in sorted(installed(GROUP), key=lambda point: point.name):
         try:
             feature = point.load()
             names = {*commands_of(feature), *stores_of(feature)}
-            if both := taken & names:
+            if both := names_in_use & names:
                 raise ValueError(f"{', '.join(sorted(both))} exists already")
             texts_of(feature)
-            taken |= names
-            found[point.name] = feature
+            names_in_use |= names
+            features[point.name] = feature
         except Exception as error:  # those of other packages may raise anything
             broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
-    return found, broken
+    return features, broken
 
 
 def _united(of: Callable[[type[Part]], Mapping[str, Any]]) -> dict[str, Any]:

@@ -158,7 +158,7 @@ def _kind(each: Property) -> PropertyKind:
         return "switches"
     if each.choices:
         return "choice"
-    match _given(each.type):
+    match _value_type(each.type):
         case inspect.BoolType():
             return "bool"
         case inspect.IntType():
@@ -179,7 +179,7 @@ def _kind(each: Property) -> PropertyKind:
     return "list"
 
 
-def _given(type_: inspect.Type) -> inspect.Type:
+def _value_type(type_: inspect.Type) -> inspect.Type:
     """Return the type of an optional value that is not None."""
     if isinstance(type_, inspect.UnionType):
         types = [one for one in type_.types if not isinstance(one, inspect.NoneType)]

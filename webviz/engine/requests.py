@@ -15,7 +15,7 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.data.disk import in_thread
 from webviz.engine.commands import MAX_PRIORITY, Command, FileCommand, Sender
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 
 MAX_REQUESTS = 1000
 """Largest number of requests that wait for the frame loop; those of a lower priority fill a part of
@@ -100,12 +100,12 @@ class Requests:
     commands overtake them.
 
     Args:
-        guard: logs unexpected exceptions of commands.
+        boundary: logs unexpected exceptions of commands.
         wake: called from any thread when slow work is done.
     """
 
-    def __init__(self, guard: Guard, wake: Callable[[], None]) -> None:
-        self._guard = guard
+    def __init__(self, boundary: ErrorBoundary, wake: Callable[[], None]) -> None:
+        self._boundary = boundary
         self._wake = wake
         self._waiting: queue.SimpleQueue[Request] = queue.SimpleQueue()
         self._files: list[Request] = []
@@ -211,7 +211,7 @@ class Requests:
         except AttributeError as error:
             raise Refused(f"Not changed: {error}.") from error
         except (Exception, SystemExit) as error:
-            raise Refused(self._guard.note("Command", error)) from error
+            raise Refused(self._boundary.note("Command", error)) from error
 
     def _defer(self, request: Request) -> None:
         browser = request[1].browser

@@ -22,7 +22,7 @@ from webviz.server.access.access import Access
 from webviz.server.access.journal import Journal
 from webviz.server.access.rules import UNKNOWN, commands
 from webviz.server.channel.channel import Channel
-from webviz.server.channel.messages import Do, Download
+from webviz.server.channel.messages import CommandRequest, Download
 
 NOT_OF_PAGES = frozenset({"browser", "made", "opened", "deliver", "report", "published"})
 """Fields that the server fills in: a page acts for itself and gets what it made with the answer."""
@@ -76,7 +76,7 @@ class Dispatcher:
         self._clock = clock
         self._recent: dict[tuple[int, str], deque[float]] = {}
         """Times when each browser sent its last commands that are limited."""
-        channel.on(Do, self._do)
+        channel.on(CommandRequest, self._run)
 
     def take(
         self,
@@ -99,37 +99,39 @@ class Dispatcher:
         """Note what a browser did, from any thread."""
         self.journal.note(self.channel.visitors().get(browser), text)
 
-    def _do(self, browser: int, do: Do) -> None:
+    def _run(self, browser: int, request: CommandRequest) -> None:
         addresses: dict[str, str] = {}
         try:
             command = command_of(
-                do.command,
-                do.arguments,
+                request.command,
+                request.arguments,
                 made=functools.partial(addresses.__setitem__, "display"),
                 opened=functools.partial(addresses.__setitem__, "address"),
-                deliver=functools.partial(self._deliver, browser, do),
+                deliver=functools.partial(self._deliver, browser, request),
             )
         except ValueError as error:
-            PageRequest(self.channel, browser, do).refuse(str(error))
+            PageRequest(self.channel, browser, request).refuse(str(error))
             return
-        is_noted = feature.commands()[do.command].is_noted
+        is_noted = feature.commands()[request.command].is_noted
         note = functools.partial(self.note, browser) if is_noted else None
-        request = PageRequest(self.channel, browser, do, note)
-        limit = self._most.get(do.command)
-        if limit and (most := limit(command)) and self._is_flood(browser, do.command, most):
-            request.refuse(f"Not sent: more than {most} gestures within a second. Wait a moment.")
-        elif (handler := self._handlers.get(do.command)) is not None:
-            handler(request, command)
+        page_request = PageRequest(self.channel, browser, request, note)
+        limit = self._most.get(request.command)
+        if limit and (most := limit(command)) and self._is_flood(browser, request.command, most):
+            page_request.refuse(
+                f"Not sent: more than {most} gestures within a second. Wait a moment."
+            )
+        elif (handler := self._handlers.get(request.command)) is not None:
+            handler(page_request, command)
         elif isinstance(command, Command):
 
-            def tell(done: Future[str]) -> None:
-                if not request.refused_by(done):
-                    request.answer(done.result(), **addresses)
+            def tell(future: Future[str]) -> None:
+                if not page_request.refused_by(future):
+                    page_request.answer(future.result(), **addresses)
 
-            self.enqueue(command, request.sender).add_done_callback(tell)
+            self.enqueue(command, page_request.sender).add_done_callback(tell)
 
-    def _deliver(self, browser: int, do: Do, text: str) -> None:
-        self.channel.send(Download(do.arguments.get("name") or "webviz.yaml", text), browser)
+    def _deliver(self, browser: int, request: CommandRequest, text: str) -> None:
+        self.channel.send(Download(request.arguments.get("name") or "webviz.yaml", text), browser)
 
     def _is_flood(self, browser: int, command: str, most: int) -> bool:
         """Return whether a browser is faster than people are; if not, counts this command."""
@@ -145,7 +147,9 @@ class Dispatcher:
 
 def _handler(method: Callable[..., object]) -> Handler:
     """Return what calls a method with the fields of its command."""
-    return lambda asked, command: method(asked=asked, **msgspec.structs.asdict(command))
+    return lambda page_request, command: method(
+        page_request=page_request, **msgspec.structs.asdict(command)
+    )
 
 
 def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
@@ -166,7 +170,7 @@ def command_of(name: str, arguments: dict[str, Any], **own: Any) -> object:
     try:
         values = msgspec.structs.asdict(msgspec.convert(arguments, form))
     except (msgspec.ValidationError, RecursionError) as error:
-        raise ValueError(f"Not done: {error}.") from error
+        raise ValueError(f"Failed: {error}.") from error
     _refuse_endless({key: value for key, value in arguments.items() if key not in LARGE})
     return class_(**values, **{key: own[key] for key in own if key in class_.__struct_fields__})
 
@@ -177,7 +181,7 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
     count = characters = depth = 0
     while level:
         if depth > MAX_DEPTH:
-            raise ValueError(f"Not done: expected at most {MAX_DEPTH} nested levels.")
+            raise ValueError(f"Failed: expected at most {MAX_DEPTH} nested levels.")
         below: list[Any] = []
         for value in level:
             if isinstance(value, str):
@@ -188,10 +192,10 @@ def _refuse_endless(arguments: dict[str, Any]) -> None:
             if isinstance(value, list):
                 count += len(value)
                 if count > MAX_VALUES:
-                    raise ValueError(f"Not done: expected at most {MAX_VALUES} values.")
+                    raise ValueError(f"Failed: expected at most {MAX_VALUES} values.")
                 below += value
         if characters > MAX_TEXT:
-            raise ValueError(f"Not done: expected at most {MAX_TEXT} characters.")
+            raise ValueError(f"Failed: expected at most {MAX_TEXT} characters.")
         level, depth = below, depth + 1
 
 

@@ -10,8 +10,8 @@ from webviz.api.registry import display_types
 from webviz.api.roles import Role
 from webviz.commands import Refresh
 from webviz.engine.commands import PROGRAM, Command, Sender
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.feature import stores
-from webviz.engine.guard import Guard
 from webviz.engine.parts.declaring import stores_of
 from webviz.engine.parts.part import Part
 from webviz.engine.store import PageStore
@@ -43,7 +43,7 @@ class Pages:
     ) -> None:
         self._channel = channel
         self._enqueue = enqueue
-        self._guard = Guard("The page", strict=False)
+        self._boundary = ErrorBoundary("The page", strict=False)
         self.journal = Journal(keep)
         """Journal of who did what."""
 
@@ -56,12 +56,12 @@ class Pages:
         self._with_stores = [part for part in parts if stores_of(type(part))]
         self._watched: dict[Part, set[str]] = {}
         """The stores of each part that are watched."""
-        self._made: dict[str, tuple[object, PageStore | None]] = {}
+        self._cache: dict[str, tuple[object, PageStore | None]] = {}
         """The last of each store that is watched, and what it was made of."""
         self._types = display_types()
         for part in parts:
             if isinstance(part, PageFeature):
-                self._guard(part.name, part.attach, dispatcher)
+                self._boundary(part.name, part.attach, dispatcher)
         # A store that a page begins to watch is filled on the next turn of the frame loop.
         channel.on_watch = lambda browser: request(Refresh(), Sender(browser))
         channel.may_watch = _may_watch
@@ -79,7 +79,7 @@ class Pages:
         self._forget(watched)
         self._note_watched(watched)
         for store in watched:
-            self._guard(store, self._fill, store)
+            self._boundary(store, self._fill, store)
 
     def _note_watched(self, watched: set[str]) -> None:
         """Tell parts which of their stores are watched, if these are others than before."""
@@ -90,7 +90,7 @@ class Pages:
         before, self._watched = self._watched, now
         changed = [part for part, own in now.items() if own != before.get(part, set())]
         for part in changed:
-            self._guard(part.name, part.watched, now[part])
+            self._boundary(part.name, part.watched, now[part])
         if changed:
             self._enqueue(Refresh(), PROGRAM)  # what they read for it is received from then on
 
@@ -101,21 +101,21 @@ class Pages:
             return
         declared = stores_of(type(maker))[name]
         of = declared.of(maker) if declared.of else None
-        last = self._made.get(store)
+        last = self._cache.get(store)
         if last is not None and declared.of and last[0] == of:
             return
         store_value = declared.make(maker, argument)
         if last is None or store_value is None or store_value is not last[1]:
             self._channel.show(store, {} if store_value is None else store_value.by_key())
-        self._made[store] = of, store_value
+        self._cache[store] = of, store_value
 
     def _forget(self, watched: set[str]) -> None:
         """Have stores made anew that are not watched any more, and all if there are other types."""
         if (types := display_types()) != self._types:
             self._types = types
-            self._made.clear()
-        for store in self._made.keys() - watched:
-            del self._made[store]
+            self._cache.clear()
+        for store in self._cache.keys() - watched:
+            del self._cache[store]
 
 
 def _ranked(channel: Channel, sender: Sender) -> Sender:

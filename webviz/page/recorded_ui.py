@@ -41,7 +41,7 @@ class ChartWidget(Widget):
         self._seek = seek
         self._keys: dict[str, int] = {}
         self._count = itertools.count()
-        self._made: dict[str, tuple[Chunk, Mapping[str, Any]]] = {}
+        self._cache: dict[str, tuple[Chunk, Mapping[str, Any]]] = {}
 
     def show(
         self, curves: Sequence[Curve], window_s: float, now_s: float, across: str = ""
@@ -58,7 +58,7 @@ class ChartWidget(Widget):
             key = self._keys[curve.name]
             for chunk in curve.chunks:
                 name = f"{key}.{chunk.number}"
-                cached = self._made.get(name)
+                cached = self._cache.get(name)
                 parts[name] = cached if cached and cached[0] is chunk else (chunk, _part(chunk))
             numbers = [chunk.number for chunk in curve.chunks]
             facts.append(
@@ -71,7 +71,7 @@ class ChartWidget(Widget):
                     "chunks": [numbers[0], numbers[-1] + 1] if numbers else [0, 0],
                 }
             )
-        self._made = parts
+        self._cache = parts
         self.parts = {name: part for name, (_, part) in parts.items()}
         self.set(
             curves=facts, window=window_s, now=round(now_s, 3), across=self._keys.get(across, -1)
@@ -87,7 +87,7 @@ class ChartWidget(Widget):
         except (TypeError, ValueError):
             raise ValueError("This curve has been removed already.") from None
         if self._seek is None or not abs(time_s) < MAX_TIME_S:
-            raise ValueError("This chart has no such time to go to.")
+            raise ValueError("This time is outside of the chart. Choose another one.")
         self._seek(time_s, browser)
 
 

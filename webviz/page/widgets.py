@@ -192,7 +192,7 @@ class CustomWidget(Widget):
     ) -> None:
         super().__init__(kind=f"own {clean(kind, MAX_CELL)}")
         self._use = use
-        self._made: dict[str, tuple[Mapping[str, Any], Any]] = {}
+        self._cache: dict[str, tuple[Mapping[str, Any], Any]] = {}
         self.show(values)
 
     def show(
@@ -208,10 +208,10 @@ class CustomWidget(Widget):
             raise ValueError(f"Expected at most {MAX_PARTS} parts.")
         part_cache: dict[str, tuple[Mapping[str, Any], Any]] = {}
         for key, part in parts.items():
-            cached = self._made.get(key)
+            cached = self._cache.get(key)
             part_cache[key] = cached if cached and cached[0] is part else (part, _as_json(part))
         self.set(values=_as_json(values))
-        self._made = part_cache
+        self._cache = part_cache
         self.parts = {key: part for key, (_, part) in part_cache.items()}
 
     def use(self, value: Any, browser: int | None) -> None:

@@ -23,7 +23,7 @@ import { timeOfDay } from "webviz/time_text.js";
  */
 
 const ROW_PX = 24;
-const KEPT = 120; // values of a sparkline
+const MAX_VALUES = 120; // values of a sparkline
 const MAX_CURVES = 2000;
 const LEVELS = ["ok", "warn", "error", "idle"];
 const WORDS = ["OK", "Warning", "Error", "Stale"];
@@ -43,7 +43,7 @@ function diagnostics(curves) {
   const part = signal("");
   const folds = signal(/** @type {Map<string, boolean>} */ (new Map()));
   const opened = signal(/** @type {string | null} */ (null));
-  const found = computed(() =>
+  const matches = computed(() =>
     statuses.value.filter(({ path, message }) =>
       `${path.join("/")} ${message}`.toLowerCase().includes(part.value),
     ),
@@ -59,8 +59,8 @@ function diagnostics(curves) {
   );
   const list = tree(folds, (key) => (opened.value = key));
   effect(() => {
-    const topics = new Set(found.value.map(({ path }) => path[0]));
-    const root = treeOf(found.value, topics.size < 2 ? 1 : 0);
+    const topics = new Set(matches.value.map(({ path }) => path[0]));
+    const root = treeOf(matches.value, topics.size < 2 ? 1 : 0);
     list.show(rowsOf(root, folds.value, part.value !== ""));
   });
   const empty = { class: "wv-empty", role: "status", hidden: () => !problem.value };
@@ -77,7 +77,7 @@ function diagnostics(curves) {
     head: el(
       "span",
       { class: "wv-panel-tools" },
-      el("span", { class: "wv-quiet" }, () => summaryOf(found.value)),
+      el("span", { class: "wv-quiet" }, () => summaryOf(matches.value)),
       search,
     ),
     /**
@@ -184,7 +184,7 @@ function factsOf({ path, level, message, hardware, values, at }, curves, close) 
       el("b", { class: "wv-ellipsis" }, name),
       iconButton("close", "Close", close),
     ),
-    el("div", {}, message || "Without a message."),
+    el("div", {}, message || "No message."),
     el("div", { class: "wv-quiet" }, facts.join(" · ")),
     el("table", {}, el("tbody", {}, rows)),
   ];
@@ -201,14 +201,14 @@ function sparklines() {
    * @param {number} number
    */
   function note(name, at, number) {
-    const known = history.get(name);
-    if (!known) {
+    const curve = history.get(name);
+    if (!curve) {
       if (history.size < MAX_CURVES) history.set(name, { at, values: [number] });
-    } else if (known.at !== at) {
-      if (at < known.at) known.values = [];
-      known.at = at;
-      known.values.push(number);
-      if (known.values.length > KEPT) known.values.shift();
+    } else if (curve.at !== at) {
+      if (at < curve.at) curve.values = [];
+      curve.at = at;
+      curve.values.push(number);
+      if (curve.values.length > MAX_VALUES) curve.values.shift();
     }
   }
 

@@ -32,12 +32,12 @@ class _DeviceStatus(msgspec.Struct):
     """A status.
 
     Args:
-        shown: as pages receive it, with its level as reported.
+        row: as pages receive it, with its level as reported.
         received_ns: ROS time of the newest report.
         is_stale: whether it was shown as stale.
     """
 
-    shown: dict[str, Any]
+    row: dict[str, Any]
     received_ns: int
     is_stale: bool = False
 
@@ -72,7 +72,7 @@ class Diagnostics(Panel):
 
     def start_over(self) -> None:
         """Forget all statuses."""
-        self.known: dict[tuple[str, str], _DeviceStatus] = {}
+        self.devices: dict[tuple[str, str], _DeviceStatus] = {}
         self.parts: list[dict[str, Any] | None] = []
         self.places: dict[tuple[str, str], int] = {}
         self.ignored = 0
@@ -84,14 +84,14 @@ class Diagnostics(Panel):
         for status in message.status:
             name = readable(status.name[:MAX_NAME]) or "(no name)"
             key = topic, name
-            if key not in self.known:
-                if len(self.known) >= MAX_STATUSES:
+            if key not in self.devices:
+                if len(self.devices) >= MAX_STATUSES:
                     self.ignored += 1
                     continue
-                self.places[key] = len(self.known)
-                if len(self.known) % PER_PART == 0:
+                self.places[key] = len(self.devices)
+                if len(self.devices) % PER_PART == 0:
                     self.parts.append(None)
-            self.known[key] = _DeviceStatus(
+            self.devices[key] = _DeviceStatus(
                 {
                     "path": list(_path(topic, name, is_aggregated=topic == self.aggregated)),
                     "level": min(int(status.level), STALE),
@@ -114,15 +114,15 @@ class Diagnostics(Panel):
     def show(self, clock: PanelTimes, offers: Mapping[str, Offer]) -> None:
         """Show the tree, and why there is none."""
         oldest_ns = clock.ros_ns - self.stale_after * NS_PER_S
-        for key, each in self.known.items():
+        for key, each in self.devices.items():
             is_stale = each.received_ns < oldest_ns
             if is_stale != each.is_stale:
                 each.is_stale = is_stale
                 self.parts[self.places[key] // PER_PART] = None
         if None in self.parts:
             rows = [
-                {**each.shown, "level": STALE} if each.is_stale else each.shown
-                for each in self.known.values()
+                {**each.row, "level": STALE} if each.is_stale else each.row
+                for each in self.devices.values()
             ]
             self.parts = [
                 part or {"statuses": rows[at * PER_PART : (at + 1) * PER_PART]}
@@ -138,9 +138,9 @@ class Diagnostics(Panel):
         if self.ignored:
             limit = f"the limit is {MAX_STATUSES}. Publish fewer."
             return f"{counted(self.ignored, 'diagnostic')} not shown; {limit}"
-        if not self.known and not any(topic in offers for topic in self._topics()):
+        if not self.devices and not any(topic in offers for topic in self._topics()):
             return f"No publisher on {' or '.join(self._topics())}. Start a diagnostic updater."
-        return "" if self.known else "No message yet."
+        return "" if self.devices else "No message yet."
 
     def _topics(self) -> list[str]:
         topics = dict.fromkeys((self.topic, self.aggregated))

@@ -32,13 +32,13 @@ export default function install(page) {
 }
 
 function graph() {
-  const given = signal("[]"); // topics as JSON: most updates change nothing
+  const json = signal("[]"); // topics as JSON: most updates change nothing
   const problem = signal("");
-  const model = modelOf(computed(() => /** @type {Topic[]} */ (JSON.parse(given.value))));
+  const model = modelOf(computed(() => /** @type {Topic[]} */ (JSON.parse(json.value))));
   const { canvas } = model.view;
   effect(() => canvas.setAttribute("aria-label", `Graph: ${model.sum()}`));
   paintInto(canvas, model.picture, ({ context, width, height, color }) => {
-    const look = model.view.seen();
+    const look = model.view.current();
     draw(context, model.drawing.value, { ...model.picture.value, look, width, height, color });
   });
   listenToBoxes(canvas, model.view, model);
@@ -58,7 +58,7 @@ function graph() {
     update(values, part) {
       problem.value = values.problem ?? "";
       const numbers = Array.from({ length: values.parts ?? 0 }, (_, i) => String(i));
-      given.value = JSON.stringify(numbers.flatMap((number) => part(number)?.topics ?? []));
+      json.value = JSON.stringify(numbers.flatMap((number) => part(number)?.topics ?? []));
     },
   };
 }
@@ -93,7 +93,7 @@ function modelOf(topics) {
     ...{ topics, folding, drawing, chosen, view, search, rateOf, picture },
     sum: () => sumText(drawing.value, search.isFound()),
     /** @param {MouseEvent} event */
-    boxAt: ({ offsetX, offsetY }) => boxAt(drawing.value.boxes, view.seen(), offsetX, offsetY),
+    boxAt: ({ offsetX, offsetY }) => boxAt(drawing.value.boxes, view.current(), offsetX, offsetY),
     /** @param {Box | null | undefined} box */
     choose: (box) => (chosen.key.value = box?.key ?? ""),
     /** @param {string} namespace */
@@ -192,22 +192,22 @@ function looks(drawing) {
   const canvas = el("canvas", { class: "wv-graph-canvas", role: "img", tabindex: 0 });
   const moved = signal(/** @type {Look | null} */ (null));
   const size = () => ({ width: canvas.clientWidth, height: canvas.clientHeight });
-  const seen = () => moved.value ?? whole(drawing(), size());
+  const current = () => moved.value ?? whole(drawing(), size());
   return {
     canvas,
     moved,
-    seen,
+    current: current,
     showAll: () => (moved.value = null),
     /** @param {Box} box */
-    centre: (box) => (moved.value = centred(seen(), box, size())),
+    centre: (box) => (moved.value = centred(current(), box, size())),
     /** @param {number} dx @param {number} dy in pixels */
     move(dx, dy) {
-      const { x, y, scale } = seen();
+      const { x, y, scale } = current();
       moved.value = { x: x - dx / scale, y: y - dy / scale, scale };
     },
     /** @param {number} factor @param {number} [x] @param {number} [y] */
     zoom(factor, x = canvas.clientWidth / 2, y = canvas.clientHeight / 2) {
-      moved.value = zoomed(seen(), factor, x, y);
+      moved.value = zoomed(current(), factor, x, y);
     },
   };
 }

@@ -140,10 +140,10 @@ function drawBox({ context, color, sight, isFound, chosen }, box) {
  */
 function remembered(ask) {
   /** @type {Map<string, string>} */
-  const known = new Map();
+  const cache = new Map();
   return (/** @type {string} */ name) => {
-    const value = known.get(name) ?? ask(name);
-    known.set(name, value);
+    const value = cache.get(name) ?? ask(name);
+    cache.set(name, value);
     return value;
   };
 }

@@ -27,10 +27,10 @@ const SWEEPS = 6;
  * @param {string} name
  */
 export function namespacesOf(name) {
-  const found = [];
+  const namespaces = [];
   for (let at = name.indexOf("/", 1); at > 0; at = name.indexOf("/", at + 1))
-    found.push(name.slice(0, at));
-  return found;
+    namespaces.push(name.slice(0, at));
+  return namespaces;
 }
 
 /**
@@ -71,10 +71,10 @@ export function boxesOf(topics, isFolded) {
   /** @type {Map<string, Box>} */
   const boxes = new Map();
   /** @type {{node: Map<string, Box>, topic: Map<string, Box>}} */
-  const known = { node: new Map(), topic: new Map() };
+  const index = { node: new Map(), topic: new Map() };
   /** @type {BoxOf} */
   const boxOf = (kind, name) => {
-    let box = known[kind].get(name);
+    let box = index[kind].get(name);
     if (box) return box;
     const group = namespacesOf(name).find((each) => folded.has(each));
     const key = group ? `group ${group}` : `${kind} ${name}`;
@@ -82,7 +82,7 @@ export function boxesOf(topics, isFolded) {
       ...{ key, kind: group ? "group" : kind, name: group ?? name, about: kind, topics: [] },
       ...{ layer: 0, x: 0, y: 0, width: 0 },
     };
-    known[kind].set(name, box);
+    index[kind].set(name, box);
     boxes.set(key, box);
     return box;
   };
@@ -154,7 +154,7 @@ function layer(boxes, links) {
     degrees.set(each.to, (degrees.get(each.to) ?? 0) + 1);
   }
   /** @type {Set<Box>} */
-  const done = new Set();
+  const visitedBoxes = new Set();
   const ready = boxes.filter((box) => !degrees.get(box));
   // In a loop, the box that the fewest links lead to is first; nodes before topics.
   const rest = boxes.toSorted(
@@ -163,17 +163,17 @@ function layer(boxes, links) {
       Number(a.kind === "topic") - Number(b.kind === "topic"),
   );
   let at = 0;
-  while (done.size < boxes.length) {
+  while (visitedBoxes.size < boxes.length) {
     let box = ready.pop();
     while (!box && at < rest.length) {
-      if (!done.has(rest[at])) box = rest[at];
+      if (!visitedBoxes.has(rest[at])) box = rest[at];
       at += 1;
     }
     if (!box) break;
-    if (done.has(box)) continue;
-    done.add(box);
+    if (visitedBoxes.has(box)) continue;
+    visitedBoxes.add(box);
     for (const { to } of out.get(box) ?? []) {
-      if (done.has(to)) continue;
+      if (visitedBoxes.has(to)) continue;
       to.layer = Math.max(to.layer, box.layer + 1);
       const left = (degrees.get(to) ?? 0) - 1;
       degrees.set(to, left);

@@ -25,10 +25,10 @@ export function makeSearch({ boxes, goTo }) {
   function onKey(event) {
     if (event.key !== "Enter") return;
     event.preventDefault();
-    const found = [...boxes()].filter(isFound.value ?? (() => false));
-    if (!found.length) return;
-    hit = (hit + (event.shiftKey ? -1 : 1) + found.length) % found.length;
-    goTo(found[hit]);
+    const matches = [...boxes()].filter(isFound.value ?? (() => false));
+    if (!matches.length) return;
+    hit = (hit + (event.shiftKey ? -1 : 1) + matches.length) % matches.length;
+    goTo(matches[hit]);
   }
 
   /** @type {HTMLInputElement} */

@@ -122,8 +122,8 @@ export function rateText(rates) {
  */
 export function foldsOf({ name, kind }, foldable, opened) {
   /** @type {[string, string][]} */
-  const found = kind === "group" ? [["Unfold", name]] : [];
+  const entries = kind === "group" ? [["Unfold", name]] : [];
   const inner = namespacesOf(name).findLast((each) => foldable.has(each) && opened.has(each));
-  if (inner) found.push([`Fold ${inner}`, inner]);
-  return found;
+  if (inner) entries.push([`Fold ${inner}`, inner]);
+  return entries;
 }

@@ -48,8 +48,8 @@ class Indicator(PathPanel):
     def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the value, and the first rule that fits."""
         problem = self.follow(offers, panels)
-        if not problem and len(self.found) != 1:
-            problem = f"Expected one value, got {len(self.found)}. Add [0] or a filter."
+        if not problem and len(self.values) != 1:
+            problem = f"Expected one value, got {len(self.values)}. Add [0] or a filter."
         rules: list[Rule] = []
         for text in self.rules[:MAX_RULES]:
             rule = parse(text)
@@ -57,7 +57,7 @@ class Indicator(PathPanel):
                 problem = rule
             else:
                 rules.append(rule)
-        value = self.found[0] if len(self.found) == 1 else None
+        value = self.values[0] if len(self.values) == 1 else None
         color, label = judged(value, rules) if value is not None else ("grey", "")
         self.lamp.show({"color": color, "label": label, "problem": problem})
 

@@ -49,11 +49,11 @@ export default function install({ widget }) {
 
 /** @param {(place: [number, number]) => unknown} send */
 function log(send) {
-  const given = signal(NOTHING);
+  const latest = signal(NOTHING);
   const filter = filters();
   const linesOf = computed(() => linesBy(filter.matches()));
   const lines = computed(() => {
-    const { values, part } = given.value;
+    const { values, part } = latest.value;
     const [first, end] = values.chunks ?? [0, 0];
     const numbers = Array.from({ length: end - first }, (_, i) => first + i);
     return numbers.flatMap((number) => {
@@ -78,12 +78,12 @@ function log(send) {
     toEnd();
     requestAnimationFrame(toEnd); // the list may have no height yet
   });
-  const beginnings = computed(() => given.value.values.beginnings);
+  const beginnings = computed(() => latest.value.values.beginnings);
   effect(() => {
     if (beginnings.value !== undefined) isFollowing.value = true; // those of another time
   });
   const sentence = () => {
-    const { problem, total } = given.value.values;
+    const { problem, total } = latest.value.values;
     if (problem || lines.value.length) return problem ?? "";
     return total ? "No line matches these filters." : "No line yet.";
   };
@@ -103,7 +103,7 @@ function log(send) {
     update: (values, part) =>
       batch(() => {
         filter.begin(values);
-        given.value = { values, part };
+        latest.value = { values, part };
       }),
   };
 }
@@ -201,15 +201,15 @@ function textFilter(label) {
  */
 function linesBy(matches) {
   /** @type {WeakMap<Chunk, Line[]>} */
-  const known = new WeakMap();
+  const cache = new WeakMap();
   /**
    * @param {Chunk} chunk
    * @param {number} number
    */
   return (chunk, number) => {
-    const found = known.get(chunk) ?? linesIn(chunk, number, matches);
-    known.set(chunk, found);
-    return found;
+    const lines = cache.get(chunk) ?? linesIn(chunk, number, matches);
+    cache.set(chunk, lines);
+    return lines;
   };
 }
 

@@ -74,7 +74,7 @@ class Log(Panel):
             self.sizes: deque[int] = deque([0])
             self.size = 0
             self.first = 0
-            self.shown: dict[str, Any] | None = None
+            self.columns: dict[str, Any] | None = None
 
     def build(self, ui: Ui, send: Send) -> None:
         """Show the lines, which the page filters."""
@@ -129,7 +129,7 @@ class Log(Panel):
             size = len(line[2]) + len(line[3]) + len(line[4])
             self.size += size
             self.sizes[-1] += size
-            self.shown = None
+            self.columns = None
             if len(self.open) == PER_CHUNK or self.sizes[-1] > MAX_CHUNK_CHARACTERS:
                 self.chunks.append(_columns(self.open))
                 self.open = []
@@ -161,10 +161,10 @@ class Log(Panel):
         types = [each.type for each in offer.publishers] if offer else []
         self.type = ROS_1_LOG if ROS_1_LOG in types and LOG not in types else LOG
         with self.lock:
-            self.shown = self.shown or _columns(self.open)
+            self.columns = self.columns or _columns(self.open)
             numbers = range(self.first, self.first + len(self.chunks) + 1)
             total = sum(map(len, self.times))
-            parts = dict(zip(map(str, numbers), [*self.chunks, self.shown], strict=True))
+            parts = dict(zip(map(str, numbers), [*self.chunks, self.columns], strict=True))
         problem = self.problem
         if not types and len(parts) == 1 and not self.open:
             problem = f"No publisher on {self.topic}. Start a node, or choose another topic."

@@ -32,7 +32,7 @@ class PathPanel(Panel):
         self.reading = PathReading("")
         self.filled: PathReading | None = None
         """The last one that was given what is remembered."""
-        self.found: list[Any] = []
+        self.values: list[Any] = []
         """The values in the newest message."""
         self.names: ValueNames = NO_NAMES
         """Their names, where the type of the message has some."""
@@ -50,8 +50,8 @@ class PathPanel(Panel):
 
     def take(self, topic: str, message: Any, *, is_past: bool = False) -> None:
         """Read the values of a message; of one of the past only if there is no newer one."""
-        if topic == self.reading.topic and not (is_past and self.found):
-            self.found = self.reading.values(message)
+        if topic == self.reading.topic and not (is_past and self.values):
+            self.values = self.reading.values(message)
             self.names = self.reading.value_names(message)
             self.revision += 1
 
@@ -73,7 +73,7 @@ class PathPanel(Panel):
 
     def start_over(self) -> None:
         """Forget the values."""
-        self.found = []
+        self.values = []
         self.revision += 1
         self.reading = PathReading(self.path)
 

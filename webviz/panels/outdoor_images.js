@@ -9,26 +9,26 @@ const MOST = 400;
  */
 export function makeImages(decoded) {
   /** @type {Map<string, {data: string, image: ImageBitmap | null}>} */
-  const known = new Map(); // null while it is decoded, and without one
+  const tiles = new Map(); // null while it is decoded, and without one
 
   return {
     /** @param {string} name */
-    has: (name) => known.has(name),
+    has: (name) => tiles.has(name),
     /** @param {string} name */
-    imageOf: (name) => known.get(name)?.image,
+    imageOf: (name) => tiles.get(name)?.image,
     /**
      * @param {string} name
      * @param {string} data as base64, "" without an image
      */
     async add(name, data) {
-      if (known.get(name)?.data === data) return;
+      if (tiles.get(name)?.data === data) return;
       /** @type {{data: string, image: ImageBitmap | null}} */
       const tile = { data, image: null };
-      known.set(name, tile);
-      for (const [oldest, { image }] of known) {
-        if (known.size <= MOST) break;
+      tiles.set(name, tile);
+      for (const [oldest, { image }] of tiles) {
+        if (tiles.size <= MOST) break;
         image?.close();
-        known.delete(oldest);
+        tiles.delete(oldest);
       }
       if (!data) return;
       const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
@@ -40,8 +40,8 @@ export function makeImages(decoded) {
       decoded();
     },
     clear() {
-      for (const { image } of known.values()) image?.close();
-      known.clear();
+      for (const { image } of tiles.values()) image?.close();
+      tiles.clear();
     },
   };
 }

@@ -38,8 +38,8 @@ function outdoorMap(send) {
   const map = new OutdoorMap(send);
   const { canvas } = map;
   const text = (/** @type {() => string} */ read) => ({ hidden: () => !read() });
-  const problem = () => map.given.value.problem ?? "";
-  const credit = () => map.given.value.credit ?? "";
+  const problem = () => map.latest.value.problem ?? "";
+  const credit = () => map.latest.value.credit ?? "";
   const place = () => map.placeText();
   map.listen();
   return {
@@ -71,14 +71,14 @@ function outdoorMap(send) {
 
 /** A canvas with tracks and the tiles that are asked for. */
 class OutdoorMap {
-  given = signal(/** @type {Partial<Values>} */ ({}));
+  latest = signal(/** @type {Partial<Values>} */ ({}));
   isFollowed = signal(true);
   /** @type {Line[]} */
   #tracks = [];
   #look = signal(/** @type {Look} */ ({ x: 0.5, y: 0.5, zoom: FURTHEST }));
   #pointer = signal(/** @type {Vec2 | null} */ (null));
   #hasPlace = false;
-  #asked = "";
+  #request = "";
   #timer = 0;
   #redraw = oncePerFrame(() => this.#show());
   #images = makeImages(this.#redraw);
@@ -110,9 +110,9 @@ class OutdoorMap {
     return `${latitude.toFixed(6)}°, ${longitude.toFixed(6)}°`;
   }
 
-  /** @param {boolean} wanted */
-  follow(wanted) {
-    this.isFollowed.value = wanted;
+  /** @param {boolean} isFollowed */
+  follow(isFollowed) {
+    this.isFollowed.value = isFollowed;
     this.#redraw();
   }
 
@@ -155,12 +155,12 @@ class OutdoorMap {
     this.#goOn();
     const { context } = fitted(this.canvas);
     const [look, size] = [this.#look.value, this.#size()];
-    const wanted = tilesOf(look, size);
+    const tiles = tilesOf(look, size);
     const { imageOf } = this.#images;
-    for (const tile of wanted) drawTile(context, tile, { look, size, imageOf });
+    for (const tile of tiles) drawTile(context, tile, { look, size, imageOf });
     for (const [index, line] of this.#tracks.entries())
       drawTrack(context, line, { index, look, size });
-    if (this.#hasPlace) this.#ask(wanted);
+    if (this.#hasPlace) this.#ask(tiles);
   }
 
   // The map goes on with the newest fix, and begins near the first one.
@@ -176,15 +176,15 @@ class OutdoorMap {
     this.#look.value = next;
   }
 
-  /** @param {Tile[]} wanted */
-  #ask(wanted) {
-    const isMissing = wanted.some((tile) => !this.#images.has(tile.join("/")));
-    const text = JSON.stringify(wanted);
-    if (!this.given.value.address || !isMissing || text === this.#asked) return;
+  /** @param {Tile[]} tiles */
+  #ask(tiles) {
+    const isMissing = tiles.some((tile) => !this.#images.has(tile.join("/")));
+    const text = JSON.stringify(tiles);
+    if (!this.latest.value.address || !isMissing || text === this.#request) return;
     if (this.canvas.closest(".wv-locked")) return; // those of others are shown
-    this.#asked = text;
+    this.#request = text;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#send(wanted), ASK_MS);
+    this.#timer = setTimeout(() => this.#send(tiles), ASK_MS);
   }
 
   /**
@@ -192,19 +192,19 @@ class OutdoorMap {
    * @param {(key: string) => any} part
    */
   update(values, part) {
-    if (values.address !== this.given.value.address) {
-      this.#asked = "";
+    if (values.address !== this.latest.value.address) {
+      this.#request = "";
       this.#images.clear();
     }
-    this.given.value = values;
+    this.latest.value = values;
     this.#tracks = (values.tracks ?? []).map((track, index) => ({
       track,
       lines: linesOf(track, (number) => part(`track/${index}/${number}`)?.places ?? []),
     }));
     for (const tile of tilesOf(this.#look.value, this.#size())) {
       const name = tile.join("/");
-      const found = part(`tile/${name}`);
-      if (found) this.#images.add(name, found.image);
+      const entry = part(`tile/${name}`);
+      if (entry) this.#images.add(name, entry.image);
     }
     this.#redraw();
   }

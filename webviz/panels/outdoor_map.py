@@ -48,20 +48,20 @@ class TileShelf:
         self.timeout_s = timeout_s
         self._lock = threading.Lock()
         self._tiles: OrderedDict[Tile, Mapping[str, Any]] = OrderedDict()
-        self._wanted: OrderedDict[Tile, None] = OrderedDict()
+        self._queue: OrderedDict[Tile, None] = OrderedDict()
         self._source: TileSource | None = None
         self._is_busy = False
 
     def want(self, tiles: Iterable[Tile]) -> None:
         """Read these tiles as soon as possible, in place of those that are still waited for."""
         with self._lock:
-            self._wanted.clear()
+            self._queue.clear()
             for tile in [each for each in tiles if is_tile(each)][:MAX_TILES]:
                 if tile in self._tiles:
                     self._tiles.move_to_end(tile)
                 else:
-                    self._wanted[tile] = None
-            if self._is_busy or not self._wanted or not self.address:
+                    self._queue[tile] = None
+            if self._is_busy or not self._queue or not self.address:
                 return
             self._is_busy = True
         try:
@@ -78,10 +78,10 @@ class TileShelf:
     def _read(self) -> None:
         while True:
             with self._lock:
-                if not self._wanted:
+                if not self._queue:
                     self._is_busy = False
                     return
-                tile, _ = self._wanted.popitem(last=False)
+                tile, _ = self._queue.popitem(last=False)
             part = self._part(tile)
             with self._lock:
                 self._tiles[tile] = part
@@ -140,7 +140,7 @@ class _Track:
         self.invalid = 0
         """Messages without a place in succession."""
         self.newest: Place | None = None
-        self._made: dict[int, tuple[int, Mapping[str, Any]]] = {}
+        self._cache: dict[int, tuple[int, Mapping[str, Any]]] = {}
 
     def add(self, place: Place) -> None:
         """Go on to a place."""
@@ -155,16 +155,16 @@ class _Track:
             del self.parts[0]
             self.first += 1
 
-    def shown(self) -> dict[int, Mapping[str, Any]]:
+    def segments(self) -> dict[int, Mapping[str, Any]]:
         """Return the parts by number; the same objects as before if they have not changed."""
         for number, part in enumerate(self.parts, self.first):
-            entry = self._made.get(number)
+            entry = self._cache.get(number)
             if entry is None or entry[0] != len(part):
                 flat = [round(degree, 7) for place in part for degree in place]
-                self._made[number] = len(part), {"places": flat}
+                self._cache[number] = len(part), {"places": flat}
         numbers = range(self.first, self.first + len(self.parts))
-        self._made = {number: self._made[number] for number in numbers}
-        return {number: part for number, (_, part) in self._made.items()}
+        self._cache = {number: self._cache[number] for number in numbers}
+        return {number: part for number, (_, part) in self._cache.items()}
 
 
 class OutdoorMap(Panel):
@@ -252,7 +252,7 @@ class OutdoorMap(Panel):
         parts = {f"tile/{name}": part for name, part in self.shelf.parts().items()}
         tracks: list[Mapping[str, Any]] = []
         for index, (topic, track) in enumerate(self.tracks.items()):
-            segments = track.shown()
+            segments = track.segments()
             parts |= {f"track/{index}/{number}": part for number, part in segments.items()}
             is_path = self.types.get(topic) == PATH
             newest = None if is_path or track.newest is None else list(track.newest)
@@ -261,10 +261,10 @@ class OutdoorMap(Panel):
         values = {"address": self.object_uri, "credit": self.shelf.attribution, "tracks": tracks}
         self.map.show(values | {"problem": self._problem(chosen)}, parts)
 
-    def _problem(self, wanted: Sequence[str]) -> str:
-        if not wanted:
+    def _problem(self, topics: Sequence[str]) -> str:
+        if not topics:
             return "No publisher of NavSatFix or GeoPath. Start the node of the receiver."
-        for topic in wanted:
+        for topic in topics:
             track = self.tracks[topic]
             if topic not in self.types:
                 return f"No publisher of NavSatFix or GeoPath on {topic}. Start it."
@@ -274,7 +274,7 @@ class OutdoorMap(Panel):
                 invalid = counted(track.invalid, "message")
                 return f"{topic}: {invalid} without a place on the map. Check the receiver."
         if not any(track.parts for track in self.tracks.values()):
-            return f"No place yet on {', '.join(wanted)}."
+            return f"No place yet on {', '.join(topics)}."
         if not self.object_uri:
             return "No tiles are chosen. Enter a file, folder or address below, in Properties."
         return self.shelf.problem

@@ -47,14 +47,14 @@ export function tilesOf({ x, y, zoom }, { width, height }) {
   const size = TILE * 2 ** (zoom - level);
   const [left, top] = [x * count - width / size / 2, y * count - height / size / 2];
   /** @type {Tile[]} */
-  const found = [];
+  const tiles = [];
   for (let row = Math.floor(top); row < top + height / size; row++)
     for (let column = Math.floor(left); column < left + width / size; column++)
       if (row >= 0 && row < count && column >= 0 && column < count)
-        found.push([level, column, row]);
+        tiles.push([level, column, row]);
   /** @param {Tile} tile */
   const far = ([, column, row]) => Math.hypot(column + 0.5 - x * count, row + 0.5 - y * count);
-  return found.toSorted((a, b) => far(a) - far(b));
+  return tiles.toSorted((a, b) => far(a) - far(b));
 }
 
 /**

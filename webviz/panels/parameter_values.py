@@ -58,15 +58,15 @@ EXAMPLES = {
 }
 
 
-def of_node(found: Any, node: str) -> Mapping[str, Any]:
+def of_node(document: Any, node: str) -> Mapping[str, Any]:
     """Return the parameters of a node in a file as `ros2 param dump` writes it.
 
     Raises:
         Error: the file is not about this node.
     """
-    if isinstance(found, Mapping):
+    if isinstance(document, Mapping):
         for name in (node, node.removeprefix("/"), node.rpartition("/")[2], "/**"):
-            inner = found.get(name)
+            inner = document.get(name)
             if isinstance(inner, Mapping) and isinstance(inner.get("ros__parameters"), Mapping):
                 return inner["ros__parameters"]
     raise Error(f"The file has no `{node}: ros__parameters:`. Choose another file or node.")
@@ -81,11 +81,11 @@ def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     return flattened
 
 
-def to_yaml(node: str, known: Mapping[str, Mapping[str, Any]]) -> str:
+def to_yaml(node: str, rows: Mapping[str, Mapping[str, Any]]) -> str:
     """Parameters as `ros2 param load` takes them; bytes, which YAML does not have, are left out."""
     values = {
         name: row["value"]
-        for name, row in known.items()
+        for name, row in rows.items()
         if row["value"] is not None and row["kind"] != BYTES
     }
     return write_yaml({node: {"ros__parameters": _nested(values)}})

@@ -31,8 +31,8 @@ const NONE = { node: "", rows: [], note: "", problem: "", outcome: "", undo: 0, 
 export default function install(page) {
   page.widget("parameters", (_, send) => {
     /** @type {Signal<Values>} */
-    const shown = signal(NONE);
-    const read = () => shown.value;
+    const latest = signal(NONE);
+    const read = () => latest.value;
     const part = signal("");
     const node = computed(() => read().node);
     const right = permission({
@@ -46,18 +46,18 @@ export default function install(page) {
     );
     const list = rowList({ ...rowsOf(send), height: touchable(ROW_PX) });
     effect(() => list.show(rows(read(), part.value, right.isRefused())));
-    const said = () => [read().problem, read().outcome, read().note].filter(Boolean).join(" ");
+    const sentence = () => [read().problem, read().outcome, read().note].filter(Boolean).join(" ");
     const element = el(
       "div",
       { class: "wv-plugin-fill wv-parameters" },
       right.element,
-      el("div", { class: "wv-empty", role: "status", hidden: () => !said() }, said),
+      el("div", { class: "wv-empty", role: "status", hidden: () => !sentence() }, sentence),
       list.element,
     );
     return {
       head: bar({ read, send, search, isRefused: right.isRefused }),
       element,
-      update: (values) => (shown.value = { ...NONE, ...values }),
+      update: (values) => (latest.value = { ...NONE, ...values }),
       close: list.close,
     };
   });

@@ -52,8 +52,8 @@ class Parameters(Panel):
     def __post_init__(self) -> None:
         """Without parameters."""
         self.lock = threading.Lock()
-        self.chosen = self.asked = self.node
-        self.known: dict[str, dict[str, Any]] = {}
+        self.chosen = self.requested_node = self.node
+        self.rows: dict[str, dict[str, Any]] = {}
         self.steps: list[tuple[str, dict[str, tuple[int, Value]]]] = []
         self.problem = self.outcome = ""
         self.refused: dict[str, str] = {}
@@ -64,7 +64,7 @@ class Parameters(Panel):
         self.send = send
         self.nodes = ui.choice("Node", self.node, self.choose, "Node with parameters.")
         self.list = ui.widget("parameters", {}, self.use)
-        self.asked = NOTHING
+        self.requested_node = NOTHING
 
     @property
     def uses(self) -> tuple[str, ...]:
@@ -79,17 +79,17 @@ class Parameters(Panel):
         nodes.update(node for bridge in bridges for node in bridge.parameters.nodes)
         self.nodes.offer([NOTHING, *sorted(nodes)], self.chosen)
         changes = [bridge.parameters.changes for bridge in bridges]
-        if self.asked != self.chosen or changes != self.changes:
+        if self.requested_node != self.chosen or changes != self.changes:
             self.changes = changes
             self.refresh(None)
         with self.lock:
-            self.list.show(self._shown())
+            self.list.show(self._rows())
 
     def choose(self, node: str, browser: int | None) -> None:
         """Show another node."""
         with self.lock:
             self.chosen = node
-            self.known, self.refused = {}, {}
+            self.rows, self.refused = {}, {}
             self.problem = self.outcome = ""
 
     def use(self, value: Any, browser: int | None) -> None:
@@ -97,7 +97,7 @@ class Parameters(Panel):
         if "set" in value:
             name, text = value["set"]
             with self.lock:
-                row = self.known.get(name)
+                row = self.rows.get(name)
             if row is None:
                 raise Error(f"{str(name)[:100]} is no longer a parameter of this node.")
             self.change({name: (row["kind"], parse(text, row["kind"]))}, browser)
@@ -110,7 +110,7 @@ class Parameters(Panel):
 
     def refresh(self, browser: int | None) -> None:
         """Ask the node for its parameters."""
-        self.asked = node = self.chosen
+        self.requested_node = node = self.chosen
         if not node:
             return
         self._call(
@@ -121,7 +121,7 @@ class Parameters(Panel):
         """Change what a YAML text says of this node, as `ros2 param load` does."""
         loaded = flat(of_node(read_yaml(text), self.chosen))
         with self.lock:
-            kinds = {name: row["kind"] for name, row in self.known.items()}
+            kinds = {name: row["kind"] for name, row in self.rows.items()}
         changes = {
             name: (kinds[name], fitting(value, kinds[name]))
             for name, value in loaded.items()
@@ -152,16 +152,16 @@ class Parameters(Panel):
         node = self.chosen
         with self.lock:
             before = {
-                name: (self.known[name]["kind"], self.known[name]["value"])
+                name: (self.rows[name]["kind"], self.rows[name]["value"])
                 for name in changes
-                if name in self.known and self.known[name]["value"] is not None
+                if name in self.rows and self.rows[name]["value"] is not None
             }
         parameters = [
             {"name": name, "value": {"type": kind, KINDS[kind][1]: value}}
             for name, (kind, value) in changes.items()
         ]
 
-        def taken(response: Any) -> None:
+        def on_response(response: Any) -> None:
             results = dict(zip(changes, response.results, strict=False))
             refused = {
                 name: readable(result.reason[:MAX_TEXT]) or "The node gave no reason."
@@ -177,7 +177,12 @@ class Parameters(Panel):
             self.refresh(browser)
 
         self._call(
-            "set_parameters", "SetParameters", {"parameters": parameters}, taken, browser, node
+            "set_parameters",
+            "SetParameters",
+            {"parameters": parameters},
+            on_response,
+            browser,
+            node,
         )
 
     def undo(self, browser: int | None) -> None:
@@ -191,10 +196,10 @@ class Parameters(Panel):
             self.steps = self.steps[:-1]
         self.change(before, browser, is_undo=True)
 
-    def _shown(self) -> dict[str, Any]:
+    def _rows(self) -> dict[str, Any]:
         rows: list[dict[str, Any]] = []
         size = 0
-        for name, row in self.known.items():
+        for name, row in self.rows.items():
             value = row["value"]
             text = value if isinstance(value, str) else "" if value is None else inline(value)
             cells = {
@@ -210,9 +215,9 @@ class Parameters(Panel):
             if size > MAX_CHARACTERS:
                 break
             rows.append(cells)
-        rest = len(self.known) - len(rows)
+        rest = len(self.rows) - len(rows)
         note = f"{counted(rest, 'parameter')} more." if rest else ""
-        yaml = to_yaml(self.chosen, self.known) if rows else ""
+        yaml = to_yaml(self.chosen, self.rows) if rows else ""
         return {
             "node": self.chosen,
             "rows": rows,
@@ -224,7 +229,7 @@ class Parameters(Panel):
         }
 
     def _take_names(self, response: Any) -> None:
-        node = self.asked
+        node = self.requested_node
         names = sorted(response.result.names)[:MAX_PARAMETERS]
         with self.lock:
             self.problem = "" if names else "This node has no parameters."
@@ -254,7 +259,7 @@ class Parameters(Panel):
             }
         with self.lock:
             if node == self.chosen:
-                self.known = rows
+                self.rows = rows
 
     def _call(
         self,
@@ -282,10 +287,10 @@ class Parameters(Panel):
         )
 
 
-def _outcome(taken: int, refused: Mapping[str, str]) -> Iterator[str]:
+def _outcome(count: int, refused: Mapping[str, str]) -> Iterator[str]:
     """Say how many parameters were set, and why the first of the others was not."""
-    if taken or not refused:
-        yield f"{counted(taken, 'parameter')} set."
+    if count or not refused:
+        yield f"{counted(count, 'parameter')} set."
     if refused:
         yield f"The node refused {listed([*refused], 1)}: {next(iter(refused.values()))}"
 

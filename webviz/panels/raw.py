@@ -25,23 +25,23 @@ class RawMessage(PathPanel):
         """Show the path and the tree."""
         self.build_path(ui, send)
         self.tree = ui.widget("raw", {}, lambda value, browser: None)
-        self.drawn = -1
-        self.shown: Any = None
+        self.drawn_revision = -1
+        self.content: Any = None
 
     def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the newest values."""
         problem = self.follow(offers, panels)
-        if self.drawn != self.revision:
-            self.drawn, self.shown = self.revision, self._tree()
-        self.tree.show({"path": self.path, "tree": self.shown, "problem": problem})
+        if self.drawn_revision != self.revision:
+            self.drawn_revision, self.content = self.revision, self._tree()
+        self.tree.show({"path": self.path, "tree": self.content, "problem": problem})
 
     def _tree(self) -> Any:
         """Return the values as a tree: the fields of a single one, else their number and all."""
-        if not self.found:
+        if not self.values:
             return None
         several = self.reading.path is not None and self.reading.path.finds_many
-        if not several and (text := named(self.found[0], self.names)):
+        if not several and (text := named(self.values[0], self.names)):
             return {"fields": {"value": text}}
-        tree = to_tree(self.found if several else self.found[0], max_items=100)
+        tree = to_tree(self.values if several else self.values[0], max_items=100)
         is_message = isinstance(tree, dict) and "fields" in tree
         return tree if is_message else {"fields": {"value": tree}}

@@ -100,9 +100,9 @@ function ownCamera(canvas, send) {
       clearTimeout(timer);
       timer = setTimeout(keep, REST_MS);
     },
-    /** @param {SceneCamera} kept as the server says it; not while it is moved here */
-    take(kept) {
-      if (timer === undefined) value.value = kept;
+    /** @param {SceneCamera} camera as the server says it; not while it is moved here */
+    take(camera) {
+      if (timer === undefined) value.value = camera;
     },
   };
 }
@@ -126,7 +126,7 @@ function head({ value, change }, hidden) {
     item("Orbit"),
     item("TopDownOrtho", { yaw: NORTH_UP }),
     null,
-    { label: "As the main scene", icon: "eye", run: async () => set(await seen()) },
+    { label: "As the main scene", icon: "eye", run: async () => set(await mainCamera()) },
     { label: "Zero", icon: "reset", run: () => set({ ...STANDARD, type: value.value.type }) },
   ];
   /** @type {HTMLElement} */
@@ -155,7 +155,7 @@ function head({ value, change }, hidden) {
  *
  * @returns {Promise<Partial<SceneCamera>>}
  */
-const seen = () =>
+const mainCamera = () =>
   once(`view:${window.webviz.browser}`, (view) => {
     const names = /** @type {const} */ ([
       "target_frame",

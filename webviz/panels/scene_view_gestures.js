@@ -21,27 +21,27 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], Arrow
  */
 export function listen(canvas, change) {
   /** @type {Map<number, Vec2>} */
-  const held = new Map();
+  const pointers = new Map();
   /** @param {Vec2} by */
   const move = (by) => change((camera) => moved(camera, by, canvas.clientHeight));
   /** @param {PointerEvent} event */
-  const release = ({ pointerId }) => held.delete(pointerId);
+  const release = ({ pointerId }) => pointers.delete(pointerId);
 
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    held.set(event.pointerId, [event.clientX, event.clientY]);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
   });
   for (const name of /** @type {const} */ (["pointerup", "pointercancel"]))
     canvas.addEventListener(name, release);
   canvas.addEventListener("pointermove", (event) => {
-    const before = held.get(event.pointerId);
+    const before = pointers.get(event.pointerId);
     if (!before) return;
     /** @type {Vec2} */
     const now = [event.clientX, event.clientY];
     /** @type {Vec2} */
     const by = [now[0] - before[0], now[1] - before[1]];
-    const other = [...held].find(([id]) => id !== event.pointerId)?.[1];
-    held.set(event.pointerId, now);
+    const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
+    pointers.set(event.pointerId, now);
     if (other) {
       move([by[0] / 2, by[1] / 2]);
       change((camera) => zoomed(camera, apart(before, other) / apart(now, other)));

@@ -84,9 +84,9 @@ class Selector(Panel):
             chosen = self.chosen.get(topic, DEFAULT)
             first = [] if topic in self.chosen else [DEFAULT]
             self.choices[topic].offer([*first, *self.names.get(parameter, ())], chosen)
-        self.result.text(self._said())
+        self.result.text(self._sentence())
 
-    def _said(self) -> str:
+    def _sentence(self) -> str:
         if self.outcome.level is Level.ERROR:
             return self.outcome.text
         if missing := dict(self.missing):  # which other threads change

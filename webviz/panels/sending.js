@@ -33,8 +33,8 @@ const LONGEST = 60; // characters of what was sent, in a menu
 /** @param {Page} page */
 export default function install(page) {
   page.widget("form", (_, send) => {
-    const shown = signal(NONE);
-    const form = () => shown.value;
+    const latest = signal(NONE);
+    const form = () => latest.value;
     const name = computed(() => (form().name.startsWith("/") ? form().name : ""));
     const right = permission({
       name: () => name.value,
@@ -68,7 +68,7 @@ export default function install(page) {
       element,
       update(/** @type {Form} */ values) {
         if (!values.verb) return;
-        shown.value = values;
+        latest.value = values;
         response.show(values.response ?? null);
       },
       close: response.close,

@@ -213,17 +213,17 @@ def template(type_name: str) -> dict[str, Any]:
     return _template(type_name, MAX_DEPTH, itertools.count())
 
 
-def _template(type_name: str, depth: int, made: Iterator[int]) -> dict[str, Any]:
+def _template(type_name: str, depth: int, counter: Iterator[int]) -> dict[str, Any]:
     tree: dict[str, Any] = {}
     defaults = message_class(type_name)()
     for field in typestore.fields(type_name):
-        if next(made) >= MAX_FIELDS:
+        if next(counter) >= MAX_FIELDS:
             break
         if field.name == typestore.PLACEHOLDER[0]:
             continue
         if field.is_message:
             if field.size is None and depth > 0:
-                tree[field.name] = _template(field.base, depth - 1, made)
+                tree[field.name] = _template(field.base, depth - 1, counter)
             elif field.size == 0:
                 tree[field.name] = []
             continue

@@ -129,8 +129,8 @@ class SlamToolbox(Panel):
         is_paused, is_editing = (self.state.get(name) for name in PARAMETERS)
         self.status.table(
             [
-                ("New scans", _said(is_paused, "paused", "used") or self.why or "unknown"),
-                ("Editing", _said(is_editing, "on", "off") or "unknown"),
+                ("New scans", _state_text(is_paused, "paused", "used") or self.why or "unknown"),
+                ("Editing", _state_text(is_editing, "on", "off") or "unknown"),
             ]
         )
         self.pause.label = "Use new scans" if is_paused else "Pause new scans"
@@ -213,7 +213,7 @@ class SlamToolbox(Panel):
         return f"/{self.node.strip('/')}/{name}"
 
 
-def _said(value: bool | None, true: str, false: str) -> str:
+def _state_text(value: bool | None, true: str, false: str) -> str:
     """Return a word for a state, "" if it is not known."""
     return "" if value is None else true if value else false
 

@@ -30,9 +30,9 @@ export default function install({ widget }) {
 
 /** @param {(value: string | number) => unknown} send */
 function states(send) {
-  const given = signal({ span: [0, 1], tracks: /** @type {Track[]} */ ([]) });
-  const span = computed(() => given.value.span);
-  const tracks = () => given.value.tracks;
+  const latest = signal({ span: [0, 1], tracks: /** @type {Track[]} */ ([]) });
+  const span = computed(() => latest.value.span);
+  const tracks = () => latest.value.tracks;
   const isEmpty = () => !tracks().length;
   return {
     element: el(
@@ -55,7 +55,7 @@ function states(send) {
     ),
     /** @param {{start: number, end: number, tracks: Track[]}} values */
     update({ start = 0, end = 1, tracks = [] }) {
-      given.value = { span: [start, end], tracks };
+      latest.value = { span: [start, end], tracks };
     },
   };
 }
@@ -88,7 +88,7 @@ function bands(name, track, span, send) {
   effect(() => {
     if (track.value && span.value) draw();
   });
-  const said = () => {
+  const valueText = () => {
     const at = pointed.value ?? Infinity;
     const i = track.value.times.findLastIndex((each) => each <= at);
     const text = i < 0 ? "" : track.value.states[i];
@@ -102,7 +102,7 @@ function bands(name, track, span, send) {
       "div",
       { class: "wv-states-name" },
       el("span", { class: "wv-ellipsis", "data-tip": name }, name),
-      el("span", { class: "wv-quiet" }, said),
+      el("span", { class: "wv-quiet" }, valueText),
       iconButton("close", `Remove ${name}`, () => send(name)),
     ),
     canvas,

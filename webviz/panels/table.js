@@ -24,10 +24,10 @@ export default function install({ widget }) {
 }
 
 function table() {
-  const given = signal({ rows: /** @type {Row[]} */ ([]), note: "", problem: "" });
+  const latest = signal({ rows: /** @type {Row[]} */ ([]), note: "", problem: "" });
   const columns = signal(/** @type {string[]} */ ([]));
   const sorting = signal(UNSORTED);
-  const rows = computed(() => sorted(given.value.rows, sorting.value));
+  const rows = computed(() => sorted(latest.value.rows, sorting.value));
   const host = el("div", { class: "wv-table" });
   const list = rowList({
     label: "Table",
@@ -40,16 +40,16 @@ function table() {
   host.append(head(columns, sorting), list.element);
   effect(() => list.show(rows.value));
   effect(() => {
-    const widths = columns.value.map((name, column) => widthOf(given.value.rows, name, column));
+    const widths = columns.value.map((name, column) => widthOf(latest.value.rows, name, column));
     const least = widths.reduce((sum, width) => sum + width, 0);
     const all = widths.map((width) => `minmax(${width}ch, ${width}fr)`);
     host.style.setProperty("--wv-columns", all.join(" "));
     host.style.setProperty("--wv-least", `calc(${least}ch + ${8 * widths.length}px)`);
   });
-  const problem = () => given.value.problem;
-  const note = () => [`${given.value.rows.length} rows`, given.value.note].filter(Boolean);
+  const problem = () => latest.value.problem;
+  const note = () => [`${latest.value.rows.length} rows`, latest.value.note].filter(Boolean);
   const save = () =>
-    download("table.csv", csvText([columns.value, ...given.value.rows.map(({ cells }) => cells)]));
+    download("table.csv", csvText([columns.value, ...latest.value.rows.map(({ cells }) => cells)]));
   return {
     element: el(
       "div",
@@ -72,7 +72,7 @@ function table() {
           sorting.value = UNSORTED;
         }
         const all = (values.rows ?? []).map((cells, i) => ({ key: String(i), cells }));
-        given.value = { rows: all, note: values.note ?? "", problem: values.problem ?? "" };
+        latest.value = { rows: all, note: values.note ?? "", problem: values.problem ?? "" };
       }),
   };
 }

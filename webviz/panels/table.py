@@ -42,15 +42,15 @@ class MessageTable(PathPanel):
         """Show the path and the table."""
         self.build_path(ui, send)
         self.table = ui.widget("table", {}, lambda value, browser: None)
-        self.drawn = -1
-        self.shown: dict[str, Any] = {"columns": [], "rows": [], "note": ""}
+        self.drawn_revision = -1
+        self.content: dict[str, Any] = {"columns": [], "rows": [], "note": ""}
 
     def show(self, offers: Mapping[str, Offer], panels: Sequence[PanelTab]) -> None:
         """Show the newest values."""
         problem = self.follow(offers, panels)
-        if self.drawn != self.revision:
-            self.drawn, self.shown = self.revision, table_of(self.found)
-        self.table.show({**self.shown, "problem": problem})
+        if self.drawn_revision != self.revision:
+            self.drawn_revision, self.content = self.revision, table_of(self.values)
+        self.table.show({**self.content, "problem": problem})
 
 
 def table_of(values: list[Any]) -> dict[str, Any]:

@@ -31,8 +31,8 @@ class _Call(msgspec.Struct, eq=False):
         deadline: monotonic time by which the response must arrive.
         give_up: monotonic time by which the service must appear.
         may_send: false as long as the request has to wait.
-        sent: rclpy's future, None until the request is sent.
-        gone: monotonic time at which the service was found missing after that.
+        future: rclpy's future, None until the request is sent.
+        missing_since: monotonic time at which the service was found missing after that.
     """
 
     client: Client
@@ -41,8 +41,8 @@ class _Call(msgspec.Struct, eq=False):
     deadline: float
     give_up: float
     may_send: Callable[[], bool] = lambda: True
-    sent: Any = None
-    gone: float | None = None
+    future: Any = None
+    missing_since: float | None = None
 
     @property
     def name(self) -> str:
@@ -133,16 +133,16 @@ class Calls:
         """Return the serialised response, None while it is awaited."""
         name = call.name
         is_ready = call.client.service_is_ready()
-        if call.sent is None:
+        if call.future is None:
             if is_ready and call.may_send():
-                call.sent = call.client.call_async(call.request)
+                call.future = call.client.call_async(call.request)
             elif now > call.give_up:
                 raise Missing(f"No node offers {name}.")
             return None
-        if call.sent.done():
-            return to_cdr(call.sent.result())
-        call.gone = None if is_ready else call.gone or now
-        if call.gone is not None and now > call.gone + WAIT_S:
+        if call.future.done():
+            return to_cdr(call.future.result())
+        call.missing_since = None if is_ready else call.missing_since or now
+        if call.missing_since is not None and now > call.missing_since + WAIT_S:
             raise Missing(f"The node that offered {name} has ended.")
         if now > call.deadline:
             raise NotConnected(f"{name} did not answer in time.")
@@ -150,5 +150,5 @@ class Calls:
 
     def _forget(self, call: _Call) -> None:
         """Expect no response any more."""
-        if call.sent is not None:
-            call.client.remove_pending_request(call.sent)
+        if call.future is not None:
+            call.client.remove_pending_request(call.future)

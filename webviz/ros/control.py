@@ -294,10 +294,10 @@ class ControlNode:
         if module is None:
             return []
 
-        def fill(response: Any, done: Future[Any]) -> None:
+        def fill(response: Any, future: Future[Any]) -> None:
             response.id = self._node.get_fully_qualified_name()
-            if done.exception() is None:
-                response.status = module.statuses_of(done.result())
+            if future.exception() is None:
+                response.status = module.statuses_of(future.result())
                 response.passed = bytes([response.status[0].level == b"\0"])
 
         type, work = module.SelfTest, viewer.doctor
@@ -353,11 +353,11 @@ class _Service:
         refused.set_exception(Error("Too many requests at once. Try again later."))
         self._respond(refused, response, header)
 
-    def _respond(self, done: Future[Any], response: Any, header: Any) -> None:
-        error = done.exception()
+    def _respond(self, future: Future[Any], response: Any, header: Any) -> None:
+        error = future.exception()
         if error is not None and not isinstance(error, Error):
             log.error("A service failed", exc_info=error)
-        self._fill(response, done)
+        self._fill(response, future)
         self._send(response, header)
 
 
@@ -372,12 +372,12 @@ def _diagnostics() -> ModuleType | None:
     return diagnostics
 
 
-def _say(response: Any, done: Future[Any]) -> None:
+def _say(response: Any, future: Future[Any]) -> None:
     """Fill the response of a Trigger; that of Empty has no fields."""
     if hasattr(response, "success"):
-        error = done.exception()
+        error = future.exception()
         response.success = error is None
-        response.message = str(error) if error is not None else done.result()
+        response.message = str(error) if error is not None else future.result()
 
 
 def _values(viewer: Controlled) -> dict[str, str]:

@@ -38,8 +38,10 @@ if TYPE_CHECKING:
 
 LOOK_S = 0.5
 """Time between two looks at the graph, of whose changes rclpy says nothing."""
-STEADY_S = 10.0
-"""Time without a change, after which it is looked at half as often."""
+LONG_LOOK_S = 2.0
+"""The same of a graph that has not changed for longer."""
+STEADY_SHARE = 0.1
+"""Time between two looks as a share of that without a change."""
 PENDING_S = 0.05
 """Time to wait while calls are pending."""
 THOROUGH_EVERY = 8
@@ -98,8 +100,8 @@ class RosSource:
         self.control = ControlNode(self._node, self._guard_condition.trigger)
         self._executor = distribution.executor(self._context)
         self.graph = RosGraph(self._node, self._guard_condition.trigger)
-        self._wanted: Mapping[str, Subscription] = {}
-        self._held: dict[str, _SubscribedTopic] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
+        self._topics: dict[str, _SubscribedTopic] = {}
         self._offers: dict[str, Offer] = {}
         self._problems: dict[str, str] = {}
         self._looks = 0
@@ -113,8 +115,8 @@ class RosSource:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Replace all subscriptions; takes effect soon."""
-        if subscriptions != self._wanted:
-            self._wanted = dict(subscriptions)
+        if subscriptions != self._subscriptions:
+            self._subscriptions = dict(subscriptions)
             self._guard_condition.trigger()
 
     def offers(self) -> Mapping[str, Offer]:
@@ -160,11 +162,11 @@ class RosSource:
             while not self._stop.is_set():
                 self._guard_condition.reset()
                 now = time.monotonic()
-                is_new = target is not self._wanted
+                is_new = target is not self._subscriptions
                 if is_new or now >= next_look:
-                    is_steady = now - self._changed_s > STEADY_S
-                    next_look = now + (2 * LOOK_S if is_steady else LOOK_S)
-                    target = self._wanted
+                    steady_s = now - self._changed_s
+                    next_look = now + max(LOOK_S, min(LONG_LOOK_S, STEADY_SHARE * steady_s))
+                    target = self._subscriptions
                     if self._look(target) or is_new:
                         self._reconcile(target)
                     self.graph.look()
@@ -183,7 +185,7 @@ class RosSource:
             self._node.destroy_node()
             self._context.try_shutdown()
 
-    def _look(self, wanted: Iterable[str]) -> bool:
+    def _look(self, extra: Iterable[str]) -> bool:
         """Refresh the offers of the topics of the graph and of those that are wanted.
 
         Returns:
@@ -193,7 +195,7 @@ class RosSource:
         is_thorough = self._looks % THOROUGH_EVERY == 0
         topics = [name for name, _ in self._node.get_topic_names_and_types()]
         offers = {
-            topic: self._offer(topic, is_thorough) for topic in dict.fromkeys([*topics, *wanted])
+            topic: self._offer(topic, is_thorough) for topic in dict.fromkeys([*topics, *extra])
         }
         if offers == self._offers:
             return False
@@ -206,7 +208,7 @@ class RosSource:
 
         To count them takes a tenth of the time.
         """
-        former, subscribed = self._offers.get(topic, NO_OFFER), self._held.get(topic)
+        former, subscribed = self._offers.get(topic, NO_OFFER), self._topics.get(topic)
         requested = subscribed.policies if subscribed else None
         is_same = requested == former.requested and not is_thorough
         node, publishers, readers = self._node, former.publishers, former.readers
@@ -226,12 +228,12 @@ class RosSource:
             readers=readers,
         )
 
-    def _reconcile(self, wanted: Mapping[str, Subscription]) -> None:
+    def _reconcile(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Subscribe and unsubscribe to what is wanted, with the QoS that matches now."""
-        for topic in [t for t in self._held if t not in wanted]:
+        for topic in [t for t in self._topics if t not in subscriptions]:
             self._release(topic)
             self.inbox.close(topic)
-        for topic, subscription in wanted.items():
+        for topic, subscription in subscriptions.items():
             if self._stop.is_set():  # the first subscriptions take longest
                 return
             publishers = self._offers[topic].publishers if topic in self._offers else ()
@@ -244,28 +246,28 @@ class RosSource:
             )
             if policies[1] == "volatile" and not is_mixed:
                 subscription = replace(
-                    subscription, asked=0
+                    subscription, resubscriptions=0
                 )  # no latched message could be sent again
             fitting = _SubscribedTopic(subscription, policies, is_mixed)
-            if self._held.get(topic) != fitting:
+            if self._topics.get(topic) != fitting:
                 self._release(topic)
                 self._subscribe(topic, fitting)
 
-    def _subscribe(self, topic: str, held: _SubscribedTopic) -> None:
-        self.inbox.open(topic, TF_LIMIT if held.subscription.type == TF_TYPE else INBOX_LIMIT)
-        reliability, durability = held.policies
+    def _subscribe(self, topic: str, subscribed: _SubscribedTopic) -> None:
+        self.inbox.open(topic, TF_LIMIT if subscribed.subscription.type == TF_TYPE else INBOX_LIMIT)
+        reliability, durability = subscribed.policies
         durabilities: list[qos.Durability] = [durability]
-        if held.is_mixed:
+        if subscribed.is_mixed:
             durabilities = ["transient_local", "volatile"]
         try:
-            learn(type_name := held.subscription.type)
+            learn(type_name := subscribed.subscription.type)
             layout = UndefinedMessages(type_name) if may_differ(type_name) else None
-            held.subscriptions = [
+            subscribed.subscriptions = [
                 self._node.create_subscription(
                     message_class(type_name),
                     topic,
                     functools.partial(self._arrive, topic, layout),
-                    qos.profile(held.subscription, reliability, each),
+                    qos.profile(subscribed.subscription, reliability, each),
                     raw=True,
                     event_callbacks=distribution.NO_EVENTS_OF_SUBSCRIPTIONS,
                 )
@@ -275,10 +277,10 @@ class RosSource:
             self._problems[topic] = f"cannot subscribe: {' '.join(str(error).split())}"
         else:
             self._problems.pop(topic, None)
-        self._held[topic] = held
+        self._topics[topic] = subscribed
 
     def _release(self, topic: str) -> None:
-        subscribed = self._held.pop(topic, None)
+        subscribed = self._topics.pop(topic, None)
         if subscribed is None:
             return
         for subscription in subscribed.subscriptions:

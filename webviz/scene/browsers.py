@@ -91,12 +91,12 @@ class ViserBrowsers:
             self._came = {each: self._came.get(each, now) for each in browsers}
             self._vitals = {i: each for i, each in self._vitals.items() if i in browsers}
             vitals = dict(self._vitals)
-        found: list[BrowserSeen] = []
+        observations: list[BrowserSeen] = []
         for browser in sorted(browsers):
             heard_s, report = vitals.get(browser, (self._came[browser], None))
             congestion = channel.congestion(browser)
             view = views.get(browser)
-            found.append(
+            observations.append(
                 BrowserSeen(
                     id=browser,
                     name=_name(visitors.get(browser)),
@@ -114,7 +114,7 @@ class ViserBrowsers:
                     size=self._cameras.size(browser) if view else (0.0, 0.0),
                 )
             )
-        return found
+        return observations
 
     def probe(self) -> int:
         """Ask all browsers when they paint what was flushed; the number of the probe."""

@@ -132,13 +132,13 @@ class ViserCameras:
                     self._browsers[id_] = _Browser(view, report.number, report.number, size)
         return clients
 
-    def _view(self, known: _Browser, client: viser.ClientHandle) -> View:
-        if known.obeyed != known.number:
-            return known.view
+    def _view(self, browser: _Browser, client: viser.ClientHandle) -> View:
+        if browser.obeyed != browser.number:
+            return browser.view
         position, (w, x, y, z), pivot = self._link.camera(client)
         forward = np.array((2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)))
         camera = Camera(position, position + forward * np.linalg.norm(pivot - position))
-        return view_of(known.view, camera, known.size[1])
+        return view_of(browser.view, camera, browser.size[1])
 
     # Called on viser's event loop
 

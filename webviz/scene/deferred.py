@@ -25,7 +25,7 @@ class DeferredMessages:
         """Called in any thread when there is something to send."""
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-scene")
         self._jobs: dict[str, Future[None]] = {}
-        self._made: dict[str, Callable[[], None]] = {}
+        self._callbacks: dict[str, Callable[[], None]] = {}
         self._changed = threading.Condition()
 
     def put(self, name: str, make: Callable[[], T], send: Callable[[T], None]) -> None:
@@ -50,12 +50,12 @@ class DeferredMessages:
                 return
             with self._changed:
                 if self._jobs.get(name) is job:
-                    self._made[name] = lambda: send(message)
+                    self._callbacks[name] = lambda: send(message)
                     self._changed.notify_all()
             self.wake()
 
         with self._changed:
-            self._made.pop(name, None)
+            self._callbacks.pop(name, None)
             if name in self._jobs:
                 self._jobs[name].cancel()
             job = self._jobs[name] = self._pool.submit(run)
@@ -71,7 +71,7 @@ class DeferredMessages:
     def deliver(self) -> None:
         """Send the messages that are ready."""
         with self._changed:
-            messages = dict(self._made)
+            messages = dict(self._callbacks)
         for name, send in messages.items():
             try:
                 send()
@@ -88,7 +88,7 @@ class DeferredMessages:
         """
         with self._changed:
             is_made = self._changed.wait_for(
-                lambda: self._made.keys() == self._jobs.keys(), timeout
+                lambda: self._callbacks.keys() == self._jobs.keys(), timeout
             )
         if not is_made:
             raise TimeoutError(f"Pictures were not encoded within {timeout:g} s.")
@@ -101,5 +101,5 @@ class DeferredMessages:
 
     def _forget(self, name: str) -> None:
         self._jobs.pop(name, None)
-        self._made.pop(name, None)
+        self._callbacks.pop(name, None)
         self._changed.notify_all()

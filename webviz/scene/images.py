@@ -42,10 +42,10 @@ class ImageVisual:
         self._link = link
         self._name = name
         self._frame = link.server.scene.add_frame(name, show_axes=False)
-        self._wanted: set[Tile] = set()
+        self._tiles: set[Tile] = set()
         self._handles: dict[Tile, ImageHandle] = {}
         self._extents: dict[Tile, Extent] = {}
-        self._sent: Image | None = None
+        self._node: Image | None = None
 
     def draw(self, node: Image) -> None:
         """Send the tiles that changed.
@@ -56,20 +56,20 @@ class ImageVisual:
         cells, shape = node.cells, node.cells.shape
         if cells.dtype != np.uint8 or shape[2:] != (() if node.palette is not None else (4,)):
             raise ValueError(f"Cells of type {cells.dtype} and shape {shape} are not supported.")
-        old, self._sent = self._sent, node
+        old, self._node = self._node, node
         height, width = _shape(node)
         rows, columns = range(0, shape[0], height), range(0, shape[1], width)
         tiles = {(node.layer, y, x) for y in rows for x in columns}
-        for tile in self._wanted - tiles:
+        for tile in self._tiles - tiles:
             self._drop(tile)
         for tile in sorted(tiles):
-            if old is None or tile not in self._wanted or not _is_same(tile, node, old):
+            if old is None or tile not in self._tiles or not _is_same(tile, node, old):
                 self._draw_tile(tile, node)
-        self._wanted = tiles
+        self._tiles = tiles
 
     def remove(self) -> None:
         """Remove the image from the scene."""
-        for tile in self._wanted:
+        for tile in self._tiles:
             self._drop(tile)
         self._frame.remove()
 

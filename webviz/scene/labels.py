@@ -36,8 +36,8 @@ class LabelsVisual:
         self._name = name
         self._frame = link.server.scene.add_frame(name, show_axes=False)
         self._labels: list[LabelHandle] = []
-        self._sent: list[_Label] = []
-        self._wanted: list[tuple[str, list[float], float]] = []
+        self._shapes: list[_Label] = []
+        self._texts: list[tuple[str, list[float], float]] = []
         """Texts, their positions, and heights; most of very many are never sent."""
         self._anchor = ""
 
@@ -49,17 +49,17 @@ class LabelsVisual:
         positions = node.positions[:MAX_LABELS]
         labels = list(zip(texts, positions.tolist(), heights, strict=True))
         finite = np.flatnonzero(np.isfinite(positions).all(axis=1))
-        self._wanted = [labels[index] for index in finite.tolist()]
+        self._texts = [labels[index] for index in finite.tolist()]
         self._anchor = anchor
         budget = self._link.label_budget
-        for index, old in enumerate(self._sent[: len(self._wanted)]):
+        for index, old in enumerate(self._shapes[: len(self._texts)]):
             new = self._label(index)
             if not budget.change(old.text, new.text):
                 self._remove_from(index)
                 break
             self._change(index, old, new)
-            self._sent[index] = new
-        self._remove_from(len(self._wanted))
+            self._shapes[index] = new
+        self._remove_from(len(self._texts))
         self._add_more()
 
     def remove(self) -> None:
@@ -72,31 +72,31 @@ class LabelsVisual:
         """Give back the room of labels that go with their group."""
         budget = self._link.label_budget
         budget.leave(self._name)
-        for label in self._sent:
+        for label in self._shapes:
             budget.free(label.text)
 
     def _add_more(self) -> None:
         budget = self._link.label_budget
         budget.leave(self._name)
-        for index in range(len(self._labels), len(self._wanted)):
+        for index in range(len(self._labels), len(self._texts)):
             new = self._label(index)
             if not budget.take(new.text):
                 budget.wait(self._name, self._add_more)
                 return
             self._add(index, new)
-            self._sent.append(new)
+            self._shapes.append(new)
 
     def _label(self, index: int) -> _Label:
-        text, (x, y, z), height = self._wanted[index]
+        text, (x, y, z), height = self._texts[index]
         look = {"font_scene_height": height, "anchor": self._anchor}
         return _Label(_encodable(text), (x, y, z), look)
 
     def _remove_from(self, index: int) -> None:
-        for label, shape in zip(self._labels[index:], self._sent[index:], strict=True):
+        for label, shape in zip(self._labels[index:], self._shapes[index:], strict=True):
             label.remove()
             self._link.label_budget.free(shape.text)
         self._link.count_removals(len(self._labels[index:]))
-        del self._labels[index:], self._sent[index:]
+        del self._labels[index:], self._shapes[index:]
 
     def _add(self, index: int, new: _Label) -> None:
         name = f"{self._name}/{index}"

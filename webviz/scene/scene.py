@@ -104,7 +104,7 @@ class ViserScene:
         self.link = Adapter(server)
         self._groups: dict[str, _Group] = {}
         self._dirty: dict[str, _Group] = {}
-        self._gone: list[_Group] = []
+        self._removals: list[_Group] = []
         keep_shaders(server.scene, ROOT)
         self.cameras = ViserCameras(self.link)
         self._capacities = PointCapacities(self.link)
@@ -158,7 +158,7 @@ class ViserScene:
         """Remove a group with its nodes and pose, if it exists."""
         self._dirty.pop(group, None)
         if group in self._groups:
-            self._gone.append(self._groups.pop(group))
+            self._removals.append(self._groups.pop(group))
 
     def set_visible(self, group: str, visible: bool) -> None:
         """Hides or shows a group; hidden nodes may be changed."""
@@ -188,12 +188,12 @@ class ViserScene:
         """
         self.link.deferred.deliver()
         texts = self.link.label_budget
-        if not self._dirty and not self._gone and not texts.is_waiting:
+        if not self._dirty and not self._removals and not texts.is_waiting:
             return
         moves: list[Move] = []
         with self.link.atomic():
-            while self._gone:
-                self._gone.pop().remove(self.link)
+            while self._removals:
+                self._removals.pop().remove(self.link)
             texts.deliver()
             try:
                 for name, group in tuple(self._dirty.items()):
@@ -245,7 +245,7 @@ class _Group:
         self._sent_position: Position | None = None
         self._sent_wxyz: Wxyz | None = None
         self._sent_visible = True
-        self._drawn: dict[str, tuple[Node, Pose, NodeVisual[Any]]] = {}
+        self._visuals: dict[str, tuple[Node, Pose, NodeVisual[Any]]] = {}
 
     def send(self, link: Adapter, moves: list[Move]) -> None:
         """Send the changes, except for the pose of the group, which is added to `moves`."""
@@ -270,11 +270,11 @@ class _Group:
             pane.set_visible(self.visible)
 
     def _send_node(self, link: Adapter, key: str) -> None:
-        entry, former = self.nodes.get(key), self._drawn.get(key)
+        entry, former = self.nodes.get(key), self._visuals.get(key)
         if former is not None and (entry is None or type(entry[0]) is not type(former[0])):
             former[2].remove()
             link.count_removals(1)
-            del self._drawn[key]
+            del self._visuals[key]
             former = None
         if entry is None:
             return
@@ -288,18 +288,18 @@ class _Group:
         if pose != (_IDENTITY if former is None else former[1]) or (is_new and pose != _IDENTITY):
             link.set_position(path, pose.position)
             link.set_orientation(path, pose.wxyz)
-        self._drawn[key] = (node, pose, handle)
+        self._visuals[key] = (node, pose, handle)
 
     def _panes(self) -> list[PaneVisual]:
-        return [pane for _, _, pane in self._drawn.values() if isinstance(pane, PaneVisual)]
+        return [pane for _, _, pane in self._visuals.values() if isinstance(pane, PaneVisual)]
 
     def remove(self, link: Adapter) -> None:
         link.deferred.drop(self._path)
-        for _, _, handle in self._drawn.values():  # all others are below the frame of the group
+        for _, _, handle in self._visuals.values():  # all others are below the frame of the group
             if isinstance(handle, PaneVisual):
                 handle.remove()
             elif isinstance(handle, LabelsVisual):
                 handle.forget()
         if self._handle is not None:
             self._handle.remove()
-            link.count_removals(1 + len(self._drawn))
+            link.count_removals(1 + len(self._visuals))

@@ -1,4 +1,4 @@
-"""A guarded viser server that looks like RViz."""
+"""A viser server behind checks that looks like RViz."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from webviz.server.access.proxies import Proxies
 from webviz.server.channel.channel import Channel
 from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import ConnectionLimits
-from webviz.server.http.guard import RequestGuard
 from webviz.server.http.hosts import HostList
 from webviz.server.http.listener import Handshakes, Listener, listen
+from webviz.server.http.middleware import Middleware
 from webviz.server.http.revocation import Revocation
 from webviz.server.http.shared import SharedFile
 from webviz.server.http.steps import Step, at, behind, page, with_link, within
@@ -125,10 +125,13 @@ def _opened(
     """Serve an empty scene."""
     channel = Channel()
     begin = Revocation(door.access, limits).begin
-    guard = RequestGuard(
+    middleware = Middleware(
         listener, steps, limits, tls, channel, begin, door.link_rate, door.embedders
     )
-    with _opening, replaced(websocket, "serve", functools.partial(guard.serve, websocket.serve)):
+    with (
+        _opening,
+        replaced(websocket, "serve", functools.partial(middleware.serve, websocket.serve)),
+    ):
         server = Server(channel, modules, shared, limits.close, door, port=door.port, verbose=False)
     greet(server, channel, modules)
     _prepare(server)

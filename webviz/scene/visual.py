@@ -44,7 +44,7 @@ class SingleNode(ABC, Generic[NodeT]):
         self._link = link
         self._name = name
         self._handle = self.create(link.server.scene, name)
-        self._sent: tuple[Props, ...] = ()
+        self._props: tuple[Props, ...] = ()
 
     @abstractmethod
     def create(self, scene: SceneApi, name: str) -> SceneNodeHandle:
@@ -58,9 +58,9 @@ class SingleNode(ABC, Generic[NodeT]):
         """Send the sets of properties that changed."""
         sets = self.props(node)
         for index, props in enumerate(sets):
-            if index >= len(self._sent) or not _is_same(props, self._sent[index]):
+            if index >= len(self._props) or not _is_same(props, self._props[index]):
                 self._link.update(self._name, props)
-        self._sent = sets
+        self._props = sets
 
     def remove(self) -> None:
         """Remove the node from the scene."""

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from webviz.shell.remappings import remappings
 from webviz.sources import Source
+from webviz.sources.bag.comparison import ComparisonRun
 from webviz.sources.bag.extras import Extra
-from webviz.sources.bag.ghost import Ghost
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
 
@@ -17,7 +17,7 @@ def bag_player(
     paths: Path | Sequence[Path],
     extras: Sequence[Extra] = (),
     ros_args: Sequence[str] = (),
-    ghost: Ghost | None = None,
+    comparison: ComparisonRun | None = None,
 ) -> Player:
     """Return a player of one or several bags, merged by time.
 
@@ -25,12 +25,12 @@ def bag_player(
         paths: MCAP files, db3 files or rosbag2 folders.
         extras: messages to add, see `webviz.sources.bag.extras`.
         ros_args: remappings of topics: `["--ros-args", "-r", "/scan:=/front/scan"]`.
-        ghost: a second run to show beside it.
+        comparison: a second run to show beside it.
 
     Raises:
         Error: a bag cannot be read, or an argument is unsupported.
     """
-    return Player(BagHistory(paths, extras, remappings(ros_args, "a bag"), ghost))
+    return Player(BagHistory(paths, extras, remappings(ros_args, "a bag"), comparison))
 
 
 def bag_of(source: Source | None) -> BagHistory | None:

@@ -169,7 +169,7 @@ def index(types: Mapping[str, type[Display]], notes: Notes) -> str:
     lines += table(("key", "values", "default"), rows)
     lines += [
         "",
-        "A `depth` of 0 is what suits the message type; `filter_size` is how many messages may "
+        "A `depth` of 0 suits the message type; `filter_size` is how many messages may "
         "wait for their transform.",
     ]
     lines += ["", "## Differs from RViz2, because", ""]
@@ -191,9 +191,9 @@ def pictures(folder: str) -> dict[str, str]:
     }
 
 
-def gallery(shown: Mapping[str, str]) -> list[str]:
+def gallery(pictures: Mapping[str, str]) -> list[str]:
     """Pictures with captions, two per row."""
-    cells = [f"![{what}]({link})<br>{what}" for what, link in shown.items()]
+    cells = [f"![{what}]({link})<br>{what}" for what, link in pictures.items()]
     rows = [(*cells[i : i + 2], "")[:2] for i in range(0, len(cells), 2)]
     return table(("", ""), rows)
 
@@ -228,9 +228,11 @@ def properties_table(cls: type[Declared]) -> list[str]:
     return table(("property", "key", "values", "default", "what it does"), rows)
 
 
-def property_rows(found: tuple[Property, ...], declared: Declared) -> Iterator[tuple[str, ...]]:
+def property_rows(
+    properties: tuple[Property, ...], declared: Declared
+) -> Iterator[tuple[str, ...]]:
     """Yield a row for each property, including nested ones."""
-    for each in found:
+    for each in properties:
         if each.path in FIRST:
             continue
         if each.children and not is_topic(each):

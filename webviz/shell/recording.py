@@ -11,7 +11,7 @@ from webviz.api.display import Display
 from webviz.data.recordings import RecordingError
 from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import counted
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.inputs import Inputs
 from webviz.files.config import Branch, Config, Item
 from webviz.sources import Offer, Source, Subscription
@@ -39,7 +39,7 @@ class TopicRecorder:
         self._channels = Channels(source.offers)
         self._offers: Mapping[str, Offer] = {}
         self._problems: dict[str, str] = {}
-        self._told: set[str] = set()
+        self._reported_topics: set[str] = set()
         self._recorder = Recorder(folder, self._channels)
         source.inbox.readers = (self._recorder.put,)
 
@@ -66,13 +66,13 @@ class TopicRecorder:
         offers = self._source.offers()
         if offers is not self._offers:
             self._offers = offers
-            self._source.want(self._wanted(offers))
+            self._source.want(self._subscriptions(offers))
         self._check()
 
     def new_problems(self) -> list[str]:
         """Sentences on what cannot be recorded, each once."""
-        new = [text for topic, text in self._problems.items() if topic not in self._told]
-        self._told.update(self._problems)
+        new = [text for topic, text in self._problems.items() if topic not in self._reported_topics]
+        self._reported_topics.update(self._problems)
         return new
 
     def progress(self) -> str:
@@ -98,7 +98,7 @@ class TopicRecorder:
         if self._recorder.problem:
             raise RecordingError(self._recorder.problem)
 
-    def _wanted(self, offers: Mapping[str, Offer]) -> dict[str, Subscription]:
+    def _subscriptions(self, offers: Mapping[str, Offer]) -> dict[str, Subscription]:
         subscriptions = {}
         for topic, offer in offers.items():
             if not offer.publishers or not self._is_chosen(topic):
@@ -122,20 +122,20 @@ def topics_of(config: Config, resolve: Callable[[str], str]) -> Sequence[str]:
         config: of which displays that are switched off are left out.
         resolve: the full name of a topic; raises ValueError.
     """
-    guard = Guard("", strict=True)
+    boundary = ErrorBoundary("", strict=True)
     names = [
         name
-        for display in _shown(config.displays)
-        for name in Inputs(display, guard, resolve).topics()
+        for display in _displays(config.displays)
+        for name in Inputs(display, boundary, resolve).topics()
         if name
     ]
     return list(dict.fromkeys([*names, "/tf", "/tf_static", "/rosout"]))
 
 
-def _shown(items: Sequence[Item]) -> Iterator[Display]:
+def _displays(items: Sequence[Item]) -> Iterator[Display]:
     for item in items:
         if isinstance(item, Branch):
-            yield from _shown(item.displays) if item.group.enabled else ()
+            yield from _displays(item.displays) if item.group.enabled else ()
         elif isinstance(item, Display) and item.enabled:
             yield item
 

@@ -72,12 +72,12 @@ def _commands(app: App, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...
             yield from _commands(app[name], (*words, name))
 
 
-def _options(arguments: ArgumentCollection, known: set[str]) -> Iterator[tuple[str, str, str]]:
+def _options(arguments: ArgumentCollection, flag_names: set[str]) -> Iterator[tuple[str, str, str]]:
     for each in sorted(arguments, key=_place):
         # Assembled apart from the program, subcommands lack its rule against negative names.
         names = [each.names[0], *(name for name in each.names if name[:2] != "--")]
         flags = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
-        if each.show and flags not in known:
+        if each.show and flags not in flag_names:
             value = each.field_info.default
             has_default = each.parameter.show_default is None and value not in (None, "")
             is_given = isinstance(value, int | float | str) and not isinstance(value, bool)

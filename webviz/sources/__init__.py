@@ -1,9 +1,9 @@
 """Sources of messages: a live ROS graph, a bridge or a bag, behind one interface."""
 
 from webviz.api.offer import Endpoint, Offer, Publisher
-from webviz.sources.gate import AllowList, Gate, Rights
 from webviz.sources.graph import Advertisement, Goal, Graph, Missing, NotConnected, ReadOnly
 from webviz.sources.inbox import Inbox, Raw
+from webviz.sources.restricted_graph import AllowList, RestrictedGraph, Rights
 from webviz.sources.source import Fleet, Source, Subscriber, Subscription, merged
 
 __all__ = [
@@ -11,7 +11,6 @@ __all__ = [
     "AllowList",
     "Endpoint",
     "Fleet",
-    "Gate",
     "Goal",
     "Graph",
     "Inbox",
@@ -21,6 +20,7 @@ __all__ = [
     "Publisher",
     "Raw",
     "ReadOnly",
+    "RestrictedGraph",
     "Rights",
     "Source",
     "Subscriber",

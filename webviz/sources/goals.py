@@ -93,14 +93,14 @@ class Goals:
         action: str,
         type: str,
         goal: bytes,
-        sent: Goal,
+        handle: Goal,
         feedback: Callable[[bytes], object],
     ) -> None:
         """Send a goal, and wait for its result if it is accepted; from one thread."""
         parts = interfaces.action(type)
-        values = {"goal_id": _id(sent.id), "goal": decode(parts.goal, goal)}
+        values = {"goal_id": _id(handle.id), "goal": decode(parts.goal, goal)}
         request = encode(f"{parts.send_goal}_Request", values)
-        self._feedback[sent.id] = feedback
+        self._feedback[handle.id] = feedback
         may_send = self._listen(f"{action}/_action/feedback", parts.feedback, self._arrive)
         answer: Future[bytes] = Future()
 
@@ -108,18 +108,18 @@ class Goals:
             try:
                 is_accepted = bool(_read(f"{parts.send_goal}_Response", cdr, action).accepted)
             except NotConnected:
-                sent.cancel()  # the server may have accepted it
+                handle.cancel()  # the server may have accepted it
                 raise
             if is_accepted:
-                self._await(action, parts, sent)
+                self._await(action, parts, handle)
             else:
-                _fail(sent.result, NotConnected(f"{action} rejected the goal."))
+                _fail(handle.result, NotConnected(f"{action} rejected the goal."))
             return is_accepted
 
         def on_answer(answered: Future[bytes]) -> None:
-            _then(answered, sent.accepted, take)
-            if error := sent.accepted.exception():
-                _fail(sent.result, error)
+            _then(answered, handle.accepted, take)
+            if error := handle.accepted.exception():
+                _fail(handle.result, error)
 
         answer.add_done_callback(on_answer)
         self._send(
@@ -131,16 +131,16 @@ class Goals:
             may_send,  # lose no feedback
         )
 
-    def _await(self, action: str, parts: interfaces.Action, sent: Goal) -> None:
-        request = encode(f"{parts.get_result}_Request", {"goal_id": _id(sent.id)})
+    def _await(self, action: str, parts: interfaces.Action, goal: Goal) -> None:
+        request = encode(f"{parts.get_result}_Request", {"goal_id": _id(goal.id)})
 
         def status(cdr: bytes) -> tuple[int, bytes]:
             return int(_read(f"{parts.get_result}_Response", cdr, action).status), cdr
 
         forever = float("inf")
         answer = self._call(f"{action}/_action/get_result", parts.get_result, request, forever)
-        sent.result.add_done_callback(lambda _: answer.cancel())
-        _then(answer, sent.result, status)
+        goal.result.add_done_callback(lambda _: answer.cancel())
+        _then(answer, goal.result, status)
 
     def _arrive(self, cdr: bytes) -> None:
         """Pass feedback on to who sent the goal."""

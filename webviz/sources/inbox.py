@@ -84,6 +84,7 @@ class Inbox:
         """Accept messages of a topic, at most `limit` between two calls of `drain`."""
         with self._lock:
             self._limits[topic] = limit
+            self._received.setdefault(topic, (0, 0))
 
     def close(self, topic: str) -> None:
         """Discard the messages of a topic, and ignore new ones."""

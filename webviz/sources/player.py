@@ -266,7 +266,7 @@ class Player:
 
     @property
     def graph(self) -> Graph:
-        """For output, which the gate refuses while the past is shown."""
+        """For output, which the restricted graph refuses while the past is shown."""
         return self.live.graph if self.live else self._read_only
 
     @property

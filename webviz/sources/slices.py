@@ -18,8 +18,8 @@ from webviz.data.messages import KNOWN, MessageError, decode, defined
 from webviz.data.recordings import RecordedChannel
 from webviz.data.recordings.latched import TF
 from webviz.data.recordings.mcap_writing import McapFile
+from webviz.sources.bag.comparison import DIFFERENCE, DISTANCE, ComparisonRun
 from webviz.sources.bag.file import BagChannel
-from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Ghost
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.bag.log import LOG, ROSOUT
 from webviz.sources.history import HistoryChannel, NeededMessages, Recorded
@@ -121,24 +121,24 @@ class BagSlice(msgspec.Struct, frozen=True):
 
     Args:
         paths: of the bags, which are opened anew.
-        wanted: subscriptions by topic.
+        subscriptions: subscriptions by topic.
         renamed: names of topics that the slice has other names for.
         span_ns: the first and the last time of recording.
         shown_ns: the moment that is shown.
-        ghost: a second run beside them.
+        comparison: a second run beside them.
     """
 
     paths: Sequence[Path]
-    wanted: Mapping[str, Subscription]
+    subscriptions: Mapping[str, Subscription]
     renamed: Mapping[str, str]
     span_ns: tuple[int, int]
     shown_ns: int
-    ghost: Ghost | None = None
+    comparison: ComparisonRun | None = None
 
     @property
     def topics(self) -> int:
         """`Slice.topics`."""
-        return len(self.wanted)
+        return len(self.subscriptions)
 
     @property
     def seconds(self) -> float:
@@ -148,15 +148,17 @@ class BagSlice(msgspec.Struct, frozen=True):
     def messages(self) -> Iterator[SliceMessage]:
         """`Slice.messages`; raises BagError."""
         first_ns, last_ns = self.span_ns
-        history = BagHistory(self.paths, ghost=self.ghost)
+        history = BagHistory(self.paths, comparison=self.comparison)
         try:
             by_channel = {
                 HistoryChannel(each.topic, each.type): each for each in history.files.channels
             }
             chosen = {each: own for each, own in by_channel.items() if self._is_chosen(each)}
-            wishes = {each.topic: self._wish(history, each, own) for each, own in chosen.items()}
-            before = [each for each in chosen if wishes[each.topic].lookbacks]
-            for recorded in NeededMessages(history, before, wishes, first_ns).messages():
+            subscriptions = {
+                each.topic: self._subscription(history, each, own) for each, own in chosen.items()
+            }
+            before = [each for each in chosen if subscriptions[each.topic].lookbacks]
+            for recorded in NeededMessages(history, before, subscriptions, first_ns).messages():
                 if recorded.stamp_ns < first_ns:
                     yield self._message(chosen, recorded, first_ns)
             for recorded in history.messages(chosen, first_ns, last_ns):
@@ -171,12 +173,14 @@ class BagSlice(msgspec.Struct, frozen=True):
     def _is_chosen(self, channel: HistoryChannel) -> bool:
         if channel.topic in ALWAYS:
             return True
-        subscription = self.wanted.get(channel.topic)
+        subscription = self.subscriptions.get(channel.topic)
         return subscription is not None and subscription.type == channel.type
 
-    def _wish(self, history: BagHistory, channel: HistoryChannel, own: BagChannel) -> Subscription:
+    def _subscription(
+        self, history: BagHistory, channel: HistoryChannel, own: BagChannel
+    ) -> Subscription:
         """Return the subscription of a channel, with the lookback of latched messages."""
-        subscription = self.wanted.get(channel.topic)
+        subscription = self.subscriptions.get(channel.topic)
         if subscription is None:
             subscription = Subscription(channel.type, Topic(channel.topic), lookbacks=())
         is_latched = any(each.durability == "transient_local" for each in own.publishers)
@@ -306,7 +310,7 @@ def slice_around(player: Player, around: Margins | None = None) -> tuple[Slice, 
         span_ns = max(first_ns, history.start_ns), min(last_ns, history.end_ns)
         renamed = {ours: theirs for theirs, ours in history.remappings.items()}
         subscriptions = dict(player.subscriptions)
-        part = BagSlice(history.paths, subscriptions, renamed, span_ns, at_ns, history.ghost)
+        part = BagSlice(history.paths, subscriptions, renamed, span_ns, at_ns, history.comparison)
         return part, ", ".join(history.names)
     memory = player.memory
     if around is not None and player.is_live and memory is not None:

@@ -20,13 +20,14 @@ from webviz.sources.inbox import Inbox
 
 @dataclass(frozen=True)
 class Subscription:
-    """A wanted subscription.
+    """A request for a subscription.
 
     Args:
         type: the message type, such as "nav_msgs/msg/Path".
         topic: full name, and the QoS that the user chose.
         latched: transient local, whatever publishers offer.
-        asked: increased to make publishers repeat latched messages; see `Subscriber`.
+        resubscriptions: counter, increased to make publishers repeat latched messages; see
+            `Subscriber`.
         lookbacks: which past messages of a recording readers need; `since` is a topic. By default
             the newest one.
         is_placed: whether messages need the transforms at their stamp.
@@ -35,7 +36,7 @@ class Subscription:
     type: str
     topic: Topic
     latched: bool = False
-    asked: int = 0
+    resubscriptions: int = 0
     lookbacks: tuple[Lookback, ...] = field(default=(Lookback(count=1),), compare=False)
     is_placed: bool = field(default=False, compare=False)
 
@@ -60,7 +61,7 @@ def _shared(first: Subscription, other: Subscription) -> Subscription:
     """Return a subscription that serves both."""
     first = replace(
         first,
-        asked=max(first.asked, other.asked),
+        resubscriptions=max(first.resubscriptions, other.resubscriptions),
         lookbacks=(*first.lookbacks, *other.lookbacks),
         is_placed=first.is_placed or other.is_placed,
     )
@@ -143,23 +144,23 @@ class Subscriber:
     """
 
     def __init__(self) -> None:
-        self._asked: dict[tuple[str, str], int] = {}
+        self._counts: dict[tuple[str, str], int] = {}
 
-    def subscribe(self, wanted: Mapping[str, Subscription]) -> dict[str, Subscription]:
+    def subscribe(self, subscriptions: Mapping[str, Subscription]) -> dict[str, Subscription]:
         """Read exactly these topics, by full name.
 
         Returns:
-            The same subscriptions with `asked`, which is higher for topics and types that were not
+            The same subscriptions with `resubscriptions`, higher for topics and types that were not
             in the previous call.
         """
-        former, self._asked = self._asked, {}
+        previous, self._counts = self._counts, {}
         counted_subscriptions = {}
-        for name, subscription in wanted.items():
+        for name, subscription in subscriptions.items():
             key = name, subscription.type
-            self._asked[key] = count = former.get(key) or next(_COUNT)
-            counted_subscriptions[name] = replace(subscription, asked=count)
+            self._counts[key] = count = previous.get(key) or next(_COUNT)
+            counted_subscriptions[name] = replace(subscription, resubscriptions=count)
         return counted_subscriptions
 
     def ask(self) -> None:
         """Request all latched messages again."""
-        self._asked.clear()
+        self._counts.clear()

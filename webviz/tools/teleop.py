@@ -30,7 +30,9 @@ class Teleop(Tool):
     icon = "wheel"
 
     topic: Annotated[
-        Topic, Output(TWIST), Prop(help="Where commands are published while somebody drives.")
+        Topic,
+        Output(TWIST),
+        Prop(help="Topic of the velocity commands."),
     ] = Topic("/cmd_vel")
     message: Annotated[
         Literal["Twist", "TwistStamped"], Prop(help="Message type of the commands.")

@@ -39,7 +39,7 @@ export default function install({ beforeRender, canvas, gesture, groundAt, makeL
     draw();
   }
 
-  gesture("outline", (tool, done) => ({
+  gesture("outline", (tool, finish) => ({
     hint: "Draw an outline on the ground. Esc cancels.",
     cursor: "crosshair",
     leave: clear,
@@ -51,7 +51,7 @@ export default function install({ beforeRender, canvas, gesture, groundAt, makeL
       }
       if (!corners.length) return false;
       if (event.type === "pointermove") add(event);
-      if (event.type === "pointerup") done({ points: corners });
+      if (event.type === "pointerup") finish({ points: corners });
       if (event.type === "pointerup" || event.type === "pointercancel") clear();
       return true;
     },

@@ -13,12 +13,12 @@ class QuietTopics(Panel):
 
     def build(self, ui: Ui, send: Send) -> None:
         """Add a sentence, a table and a button; called once."""
-        self.said = ui.area()
+        self.sentence = ui.area()
         self.topics = ui.area()
-        ui.button("Look into none", lambda browser: send(InspectTopic(""), browser))
+        ui.button("Stop inspecting topics", lambda browser: send(InspectTopic(""), browser))
 
     def show(self, traffic: Mapping[str, Traffic]) -> None:
         """Show what the parameters name; called a few times per second."""
         quiet = [name for name, measured in traffic.items() if measured.rate_hz == 0.0]
-        self.said.text("" if quiet else "Every topic that is shown has messages.")
+        self.sentence.text("" if quiet else "All subscribed topics have messages.")
         self.topics.table([(name, "no messages") for name in sorted(quiet)])

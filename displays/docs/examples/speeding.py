@@ -23,9 +23,9 @@ class Speeding(Check):
 
     id = "DATA901"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for _, each in seen.samples("nav_msgs/msg/Odometry"):
+        for _, each in observation.samples("nav_msgs/msg/Odometry"):
             velocity = each.message.twist.twist.linear
             speed = math.hypot(velocity.x, velocity.y)
             if speed > LIMIT:

@@ -10,7 +10,7 @@ from webviz import Color, Prop
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, Metres
 
-SHOWN = ("value", True)
+IF_ENABLED = ("value", True)
 
 
 class LaneView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -18,29 +18,29 @@ class LaneView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
 
     value: Annotated[bool, Prop(help="Draw the lane.")] = True
     constant_width: Annotated[
-        bool, Prop(when=SHOWN, help="Use Width instead of the width of the vehicle.")
+        bool, Prop(when=IF_ENABLED, help="Use Width instead of the width of the vehicle.")
     ] = False
     width: Annotated[
         float,
         Prop(ge=0, le=LONGEST, unit="m", when=("constant_width", True), help="Width of the lane."),
     ] = 2.0
-    alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the lane.")] = 1.0
-    min_velocity_color: Annotated[Color, Prop(when=SHOWN, help="Colour at standstill.")] = (
+    alpha: Annotated[Alpha, Prop(when=IF_ENABLED, help="Opacity of the lane.")] = 1.0
+    min_velocity_color: Annotated[Color, Prop(when=IF_ENABLED, help="Colour at standstill.")] = (
         63,
         46,
         227,
     )
     mid_velocity_color: Annotated[
-        Color, Prop(when=SHOWN, help="Colour at half of Color Border Vel Max.")
+        Color, Prop(when=IF_ENABLED, help="Colour at half of Color Border Vel Max.")
     ] = (32, 138, 174)
     max_velocity_color: Annotated[
-        Color, Prop(when=SHOWN, help="Colour at Color Border Vel Max and above.")
+        Color, Prop(when=IF_ENABLED, help="Colour at Color Border Vel Max and above.")
     ] = (0, 230, 120)
     fade_out_distance: Annotated[
-        float, Prop(ge=0, unit="m", when=SHOWN, help="Fade out this much of the end.")
+        float, Prop(ge=0, unit="m", when=IF_ENABLED, help="Fade out this much of the end.")
     ] = 0.0
     constant_color: Annotated[
-        bool, Prop(when=SHOWN, help="Use Color, as older versions of the plug-in can.")
+        bool, Prop(when=IF_ENABLED, help="Use Color, as older versions of the plug-in can.")
     ] = False
     color: Annotated[
         Color, Prop(when=("constant_color", True), help="Colour of the whole lane.")
@@ -51,12 +51,12 @@ class VelocityView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     """Appearance of the velocities: a line that is higher where the vehicle is faster."""
 
     value: Annotated[bool, Prop(help="Draw the velocities.")] = True
-    alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the line.")] = 1.0
-    scale: Annotated[float, Prop(ge=0.1, le=10, when=SHOWN, help="Height in metres of 1 m/s.")] = (
-        0.3
-    )
+    alpha: Annotated[Alpha, Prop(when=IF_ENABLED, help="Opacity of the line.")] = 1.0
+    scale: Annotated[
+        float, Prop(ge=0.1, le=10, when=IF_ENABLED, help="Height in metres of 1 m/s.")
+    ] = 0.3
     constant_color: Annotated[
-        bool, Prop(when=SHOWN, help="Use Color instead of those of velocities.")
+        bool, Prop(when=IF_ENABLED, help="Use Color instead of those of velocities.")
     ] = False
     color: Annotated[
         Color, Prop(when=("constant_color", True), help="Colour of the whole line.")
@@ -67,17 +67,18 @@ class TextView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     """Appearance of numbers at the points."""
 
     value: Annotated[bool, Prop(help="Show the numbers.")] = False
-    scale: Annotated[Metres, Prop(le=LONGEST, when=SHOWN, help="Height of the numbers.")] = 0.3
+    scale: Annotated[Metres, Prop(le=LONGEST, when=IF_ENABLED, help="Height of the numbers.")] = 0.3
 
 
 class FootprintView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Appearance of the vehicle's outline at each point, and its size."""
 
     value: Annotated[bool, Prop(help="Draw the outlines.")] = False
-    alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the outlines.")] = 1.0
-    color: Annotated[Color, Prop(when=SHOWN, help="Colour of the outlines.")] = (230, 230, 50)
+    alpha: Annotated[Alpha, Prop(when=IF_ENABLED, help="Opacity of the outlines.")] = 1.0
+    color: Annotated[Color, Prop(when=IF_ENABLED, help="Colour of the outlines.")] = (230, 230, 50)
     vehicle_length: Annotated[
-        float, Prop(ge=0, le=LONGEST, unit="m", when=SHOWN, rviz="Vehicle Length", help="Length.")
+        float,
+        Prop(ge=0, le=LONGEST, unit="m", when=IF_ENABLED, rviz="Vehicle Length", help="Length."),
     ] = 4.77
     vehicle_width: Annotated[
         float,
@@ -95,7 +96,7 @@ class FootprintView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
             ge=0,
             le=LONGEST,
             unit="m",
-            when=SHOWN,
+            when=IF_ENABLED,
             rviz="Rear Overhang",
             help="Length behind the rear axle, where the poses are.",
         ),
@@ -106,7 +107,7 @@ class FootprintView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
             ge=-LONGEST,
             le=LONGEST,
             unit="m",
-            when=SHOWN,
+            when=IF_ENABLED,
             rviz="Offset from BaseLink",
             help="Leave out this length at both ends.",
         ),
@@ -117,12 +118,14 @@ class PointView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     """Appearance of the points as discs."""
 
     value: Annotated[bool, Prop(help="Draw the points.")] = False
-    alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the points.")] = 1.0
-    color: Annotated[Color, Prop(when=SHOWN, help="Colour of the points.")] = (0, 60, 255)
-    radius: Annotated[Metres, Prop(le=LONGEST, when=SHOWN, help="Radius of the discs.")] = 0.1
+    alpha: Annotated[Alpha, Prop(when=IF_ENABLED, help="Opacity of the points.")] = 1.0
+    color: Annotated[Color, Prop(when=IF_ENABLED, help="Colour of the points.")] = (0, 60, 255)
+    radius: Annotated[Metres, Prop(le=LONGEST, when=IF_ENABLED, help="Radius of the discs.")] = 0.1
     offset: Annotated[
         float,
-        Prop(ge=-LONGEST, le=LONGEST, unit="m", when=SHOWN, help="Place them this much ahead."),
+        Prop(
+            ge=-LONGEST, le=LONGEST, unit="m", when=IF_ENABLED, help="Place them this much ahead."
+        ),
     ] = 0.0
 
 
@@ -130,8 +133,8 @@ class DrivableAreaView(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     """Appearance of the bounds of the drivable area."""
 
     value: Annotated[bool, Prop(help="Draw the bounds.")] = True
-    alpha: Annotated[Alpha, Prop(when=SHOWN, help="Opacity of the bounds.")] = 0.999
-    color: Annotated[Color, Prop(when=SHOWN, help="Colour of the bounds.")] = (0, 148, 205)
+    alpha: Annotated[Alpha, Prop(when=IF_ENABLED, help="Opacity of the bounds.")] = 0.999
+    color: Annotated[Color, Prop(when=IF_ENABLED, help="Colour of the bounds.")] = (0, 148, 205)
     width: Annotated[
-        float, Prop(ge=0.001, le=LONGEST, unit="m", when=SHOWN, help="Width of the bounds.")
+        float, Prop(ge=0.001, le=LONGEST, unit="m", when=IF_ENABLED, help="Width of the bounds.")
     ] = 0.3

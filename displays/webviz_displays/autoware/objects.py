@@ -117,7 +117,7 @@ class ObjectsDisplay(Display):
         group = ctx.follow(None, offset=compose(sample.pose, Pose(tuple(origin.tolist()))))
         self._draw(sketch, origin, group)
 
-    def is_wanted(self, given: Any) -> bool:
+    def is_wanted(self, item: Any) -> bool:
         """Return whether an object of a message is to be shown."""
         return True
 
@@ -204,19 +204,19 @@ class ObjectsDisplay(Display):
         sketch.draw_ellipses(origin, group)
         sketch.draw_texts(origin, group)
 
-    def _report(self, total: int, wanted: int, invalid: int, ctx: Context) -> None:
+    def _report(self, total: int, matching: int, invalid: int, ctx: Context) -> None:
         if not total:
             ctx.warn("Objects", "No objects in the newest message.")
-        elif not wanted:
+        elif not matching:
             text = f"None of {counted(total, 'object')} has this Dynamic Status."
             ctx.warn("Objects", text)
         elif invalid:
-            text = f"{invalid} of {counted(wanted, 'object')} left out: the pose or shape is"
+            text = f"{invalid} of {counted(matching, 'object')} left out: the pose or shape is"
             ctx.warn("Objects", f"{text} not finite or too large. Fix the publisher.")
-        elif wanted > MAX_OBJECTS:
-            ctx.warn("Objects", f"Showing the first {MAX_OBJECTS} of {wanted} objects.")
+        elif matching > MAX_OBJECTS:
+            ctx.warn("Objects", f"Showing the first {MAX_OBJECTS} of {matching} objects.")
         else:
-            ctx.ok("Objects", f"{counted(wanted, 'object')}.")
+            ctx.ok("Objects", f"{counted(matching, 'object')}.")
 
 
 class DetectedObjects(ObjectsDisplay):
@@ -278,11 +278,11 @@ class TrackedObjects(IdentifiedObjects):
         Literal["All", "Dynamic", "Static"], Prop(help="Show only objects that move or stand.")
     ] = "All"
 
-    def is_wanted(self, given: Any) -> bool:
+    def is_wanted(self, item: Any) -> bool:
         """By whether it moves."""
         if self.dynamic_status == "All":
             return True
-        return given.kinematics.is_stationary == (self.dynamic_status == "Static")
+        return item.kinematics.is_stationary == (self.dynamic_status == "Static")
 
 
 class PredictedObjects(IdentifiedObjects):
@@ -345,9 +345,9 @@ def _speed(each: SeenObject) -> str:
     return f"{int(3.6 * each.speed)}[km/h]"
 
 
-def _density(share: float, found: tuple[float, float, float]) -> float:
+def _density(share: float, size: tuple[float, float, float]) -> float:
     """Return the opacity of an ellipse: the larger, the fainter."""
-    return min(max(share / max(found[0] * found[1], 1e-9), 0.1), 0.5)
+    return min(max(share / max(size[0] * size[1], 1e-9), 0.1), 0.5)
 
 
 def _deviation(variance: float) -> float:

@@ -20,7 +20,7 @@ CLASSES = (
     *("ANIMAL", "HAZARD"),
 )
 """Names by the label of an ObjectClassification; others are unknown."""
-KNOWN = 2
+AVAILABLE = 2
 """`orientation_availability` of an object whose front is known."""
 
 
@@ -77,37 +77,37 @@ class SeenObject(msgspec.Struct, frozen=True, eq=False):
         return points @ self.turn.T + self.xyz
 
 
-def seen(number: int, given: Any) -> SeenObject | None:
+def seen(number: int, item: Any) -> SeenObject | None:
     """Return an object of a message, None if its pose or shape cannot be drawn."""
-    kinematics = given.kinematics
+    kinematics = item.kinematics
     pose = _of(kinematics, "pose_with_covariance")
     twist = _of(kinematics, "twist_with_covariance")
     accel = _of(kinematics, "acceleration_with_covariance")
     p, q = pose.pose.position, pose.pose.orientation
     xyz, wxyz = np.array((p.x, p.y, p.z)), np.array((q.w, q.x, q.y, q.z))
-    d = given.shape.dimensions
+    d = item.shape.dimensions
     size = np.array((d.x, d.y, d.z))
-    footprint = np.asarray(given.shape.footprint.points, np.float64).reshape(-1, 3)[:, :2]
+    footprint = np.asarray(item.shape.footprint.points, np.float64).reshape(-1, 3)[:, :2]
     lengths = np.concatenate((size, footprint.ravel()))
     if not is_drawable(xyz) or not np.isfinite(wxyz).all() or not _are_metres(lengths):
         return None
     if (size < 0).any():
         return None
     (turn,) = matrices(normalized(wxyz)[0])
-    id = getattr(given, "object_id", None)
-    classes = sorted(given.classification, key=lambda each: each.probability)
+    id = getattr(item, "object_id", None)
+    classes = sorted(item.classification, key=lambda each: each.probability)
     label = classes[-1].label if classes else 0
     return SeenObject(
         number,
         CLASSES[label] if label < len(CLASSES) else CLASSES[0],
-        float(given.existence_probability),
+        float(item.existence_probability),
         "" if id is None else bytes(id.uuid).hex(),
         xyz,
         turn,
-        given.shape.type,
+        item.shape.type,
         size,
         footprint,
-        getattr(kinematics, "orientation_availability", KNOWN) == KNOWN,
+        getattr(kinematics, "orientation_availability", AVAILABLE) == AVAILABLE,
         _vector(twist.twist.linear),
         float(_vector(twist.twist.angular)[2]),
         None if accel is None else _vector(accel.accel.linear),
@@ -132,7 +132,7 @@ def _are_metres(values: F64) -> bool:
     return bool((np.abs(values) < LONGEST).all())
 
 
-def _vector(given: Any) -> F64:
+def _vector(item: Any) -> F64:
     """Return a geometry_msgs/msg/Vector3; zero if it is not finite or too large."""
-    values = np.array((given.x, given.y, given.z))
+    values = np.array((item.x, item.y, item.z))
     return values if _are_metres(values) else np.zeros(3)

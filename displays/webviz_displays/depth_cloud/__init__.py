@@ -66,7 +66,7 @@ class _State(msgspec.Struct):
         hidden: what the points of earlier images hide; only used by the work for `newest`.
         clouds: points by the number of their image.
         poses: of these images in the fixed frame, as far as they were known last.
-        drawn: the clouds as they were drawn, until something that they depend on changes.
+        cloud_nodes: the clouds as they were drawn, until something that they depend on changes.
     """
 
     newest: Newest[tuple[int, DepthPoints]] = msgspec.field(
@@ -75,7 +75,7 @@ class _State(msgspec.Struct):
     hidden: Hidden = msgspec.field(default_factory=Hidden)
     clouds: dict[int, DepthPoints] = msgspec.field(default_factory=dict)
     poses: dict[int, Pose] = msgspec.field(default_factory=dict)
-    drawn: dict[int, _CloudNodes] = msgspec.field(default_factory=dict)
+    cloud_nodes: dict[int, _CloudNodes] = msgspec.field(default_factory=dict)
 
 
 class DepthCloud(PointsDisplay):
@@ -198,11 +198,11 @@ class DepthCloud(PointsDisplay):
             return
         self._hold(*newest, images, ctx.state)
         state: _State = ctx.state
-        state.drawn = {
-            number: self._drawn(number, points, state.poses[number], ctx)
+        state.cloud_nodes = {
+            number: self._cloud_nodes(number, points, state.poses[number], ctx)
             for number, points in state.clouds.items()
         }
-        for cloud in state.drawn.values():
+        for cloud in state.cloud_nodes.values():
             ctx.groups.update(cloud.groups)
             ctx.statuses.update(cloud.statuses)
             ctx.color_scale = cloud.scale
@@ -247,10 +247,12 @@ class DepthCloud(PointsDisplay):
         numbers = {number, newest} | image_numbers
         state.poses = {n: pose for n, pose in state.poses.items() if n in numbers or n > number}
 
-    def _drawn(self, number: int, points: DepthPoints, pose: Pose, ctx: Context) -> _CloudNodes:
+    def _cloud_nodes(
+        self, number: int, points: DepthPoints, pose: Pose, ctx: Context
+    ) -> _CloudNodes:
         """Draw the points of an image, unless they are drawn already."""
         look = pose, msgspec.structs.astuple(self)
-        former: _CloudNodes | None = ctx.state.drawn.get(number)
+        former: _CloudNodes | None = ctx.state.cloud_nodes.get(number)
         if former and former.points is points and former.look == look:
             return former
         own = Context(ctx.frames, ctx.background, None)

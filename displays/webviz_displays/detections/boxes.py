@@ -99,14 +99,14 @@ class BoxesDisplay(Display):
             written = tuple(text for _, text in above)
             group.labels("texts", places, written, TEXT_HEIGHT, ids=rows[labelled])
 
-    def _report(self, count: int, shown: int, valid: int, ctx: Context) -> None:
-        if valid < shown:
+    def _report(self, count: int, limit: int, valid: int, ctx: Context) -> None:
+        if valid < limit:
             ctx.error(
                 "Boxes",
-                f"Boxes with an invalid size, position or orientation: {shown - valid} of {shown}. "
+                f"Boxes with an invalid size, position or orientation: {limit - valid} of {limit}. "
                 "Fix the publisher.",
             )
-        elif shown < count:
+        elif limit < count:
             ctx.warn("Boxes", f"Showing the first {MAX_BOXES} of {count} boxes.")
         else:
             ctx.ok("Boxes", "Showing 1 box." if count == 1 else f"Showing {count} boxes.")

@@ -13,7 +13,7 @@ from webviz.data.images import ImageError
 from webviz_displays.image import transports, video
 from webviz_displays.image.annotated import (
     INPUT,
-    KEPT,
+    MAX_MESSAGES,
     AnnotatedImage,
     AnnotatedState,
     Annotations,
@@ -58,7 +58,7 @@ class Image(AnnotatedImage):
     def lookback(self, name: str) -> Lookback:
         """Return the newest message, or all packets of a video since its last key frame."""
         if name == INPUT:
-            return Lookback(count=KEPT)
+            return Lookback(count=MAX_MESSAGES)
         return Lookback(starts_over=video.stands_alone)
 
     def fold(self, name: str, sample: Sample, state: Any) -> Any:

@@ -202,7 +202,7 @@ def _ns(stamp: Any) -> int:
 
 
 INPUT = "annotations_topic"
-KEPT = 10
+MAX_MESSAGES = 10
 """Messages with annotations: those of an image may come before it or after it."""
 TOLERANCE_S = 1.0
 """Largest difference in seconds between the stamps of an image and of its annotations."""
@@ -217,7 +217,7 @@ class Annotations(msgspec.Struct, frozen=True):
         """Return these with one more message, which replaces that of its stamp."""
         stamp_ns = stamp_of(sample.message, sample.type)
         others = tuple(each for each in self.newest if each[0] != stamp_ns)
-        return Annotations((*others, (stamp_ns, sample.message, sample.type))[-KEPT:])
+        return Annotations((*others, (stamp_ns, sample.message, sample.type))[-MAX_MESSAGES:])
 
     def of(self, stamp_ns: int) -> tuple[Any, str, float]:
         """Return the message with the stamp of an image, else the newest.
@@ -239,10 +239,10 @@ class AnnotatedState(ImageState):
     """Kept between images.
 
     Args:
-        made: the newest marks, with their message and how they were made of it.
+        cache: the newest marks, with their message and how they were made of it.
     """
 
-    made: tuple[Any, bool, MessageMarks] | None = None
+    cache: tuple[Any, bool, MessageMarks] | None = None
 
 
 class AnnotatedImage(ImageDisplay):
@@ -277,18 +277,18 @@ class AnnotatedImage(ImageDisplay):
             ctx.state.pane = pane
         return ctx.state.pane
 
-    def marks(self, known: Annotations, stamp_ns: int, ctx: Context) -> tuple[Mark, ...]:
+    def marks(self, annotations: Annotations, stamp_ns: int, ctx: Context) -> tuple[Mark, ...]:
         """Return the marks of an image, and report on them."""
         if not self.annotations_topic.name:
             return ()
         try:
-            message, type_name, newer_s = known.of(stamp_ns)
+            message, type_name, newer_s = annotations.of(stamp_ns)
         except LookupError:
             return ()  # the status of the topic says why
-        cached = ctx.state.made
+        cached = ctx.state.cache
         if cached is None or cached[0] is not message or cached[1] != self.show_labels:
             marks = marks_of(message, type_name, self.show_labels)
-            cached = ctx.state.made = message, self.show_labels, marks
+            cached = ctx.state.cache = message, self.show_labels, marks
         drawn_marks: MessageMarks = cached[2]
         apart = "" if not newer_s else f"{abs(newer_s):.2g} s {_older_or_newer(newer_s)}"
         if abs(newer_s) > TOLERANCE_S:

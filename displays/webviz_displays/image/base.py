@@ -19,7 +19,7 @@ class RunningRange:
     """The medians of the lowest and the highest values of the newest images."""
 
     def __init__(self) -> None:
-        self._seen: deque[tuple[int, tuple[float, float]]] = deque()
+        self._ranges: deque[tuple[int, tuple[float, float]]] = deque()
 
     def of(self, number: int, image: RawImage, window: int) -> tuple[float, float] | None:
         """Return the range for an image, None if no image of the window has a valid value.
@@ -29,15 +29,15 @@ class RunningRange:
             image: of measurements.
             window: number of images.
         """
-        if not self._seen or self._seen[-1][0] != number:
+        if not self._ranges or self._ranges[-1][0] != number:
             own_range = value_range(values(image), image.layout.zero_is_invalid)
             if own_range is not None:
-                self._seen.append((number, own_range))
-        while len(self._seen) > window:
-            self._seen.popleft()
-        if not self._seen:
+                self._ranges.append((number, own_range))
+        while len(self._ranges) > window:
+            self._ranges.popleft()
+        if not self._ranges:
             return None
-        ranges = [each for _, each in self._seen]
+        ranges = [each for _, each in self._ranges]
         low = statistics.median(low for low, _ in ranges)
         return low, statistics.median(high for _, high in ranges)
 

@@ -19,7 +19,7 @@ class Newest(Generic[T]):
 
     def __init__(self) -> None:
         self._current: tuple[Hashable, Callable[[], T]] | None = None
-        self._done: tuple[Hashable, T] | None = None
+        self._result: tuple[Hashable, T] | None = None
 
     def of(self, key: Hashable, run: Callable[[], T], ctx: Context) -> T | None:
         """Return the result of `run`, or until that is ready the newest before it.
@@ -34,18 +34,18 @@ class Newest(Generic[T]):
         Raises:
             Exception: raised by `run`.
         """
-        if self._done is not None and self._done[0] == key:
-            return self._done[1]
+        if self._result is not None and self._result[0] == key:
+            return self._result[1]
         current = self._current or (key, run)
         try:
             result = ctx.background(current[0], current[1])
         except Exception:
-            self._current = self._done = None
+            self._current = self._result = None
             raise
         self._current = current
         if result is not None:
-            self._done, self._current = (current[0], result), None
+            self._result, self._current = (current[0], result), None
             if current[0] != key:
                 self._current = key, run
                 ctx.background(key, run)
-        return self._done[1] if self._done else None
+        return self._result[1] if self._result else None

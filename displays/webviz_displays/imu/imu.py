@@ -169,7 +169,7 @@ class Imu(Display):
                 Remedy("axes_properties.enable_axes", True, "Show the axes"),
             )
         else:
-            ctx.ok("Imu", f"Acceleration {_told(a, 'm/s²')}.")
+            ctx.ok("Imu", f"Acceleration {_vector_text(a, 'm/s²')}.")
 
     def inspect(self, hit: Hit, ctx: Context) -> Details:
         """Return what the sensor measures, in its own frame."""
@@ -183,8 +183,8 @@ class Imu(Display):
             "Inertial sensor",
             {
                 "Orientation": f"x {q.x:.4f}, y {q.y:.4f}, z {q.z:.4f}, w {q.w:.4f}",
-                f"Acceleration in {frame}": _told(acceleration, "m/s²"),
-                f"Turn rate in {frame}": _told(turn, "rad/s"),
+                f"Acceleration in {frame}": _vector_text(acceleration, "m/s²"),
+                f"Turn rate in {frame}": _vector_text(turn, "rad/s"),
             },
         )
 
@@ -232,5 +232,5 @@ class Imu(Display):
         return True
 
 
-def _told(vector: Any, unit: str) -> str:
+def _vector_text(vector: Any, unit: str) -> str:
     return f"{vector.x:.4g}, {vector.y:.4g}, {vector.z:.4g} {unit}"

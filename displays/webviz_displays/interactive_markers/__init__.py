@@ -95,13 +95,13 @@ def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[
             troubles[name] = True, "Its header has no frame id. Correct the server."
         elif place is None:
             troubles[name] = True, frames.why_not(source.frame, source.stamp_ns)
-        elif problem := server.shown[name].lost:
+        elif problem := server.by_name[name].lost:
             troubles[name] = True, problem
-        elif fault := server.shown[name].fault:
+        elif fault := server.by_name[name].fault:
             troubles[name] = True, fault
-        elif marker.made.problems:
-            troubles[name] = False, marker.made.problems[0]
-        elif not marker.made.parts:
+        elif marker.content.problems:
+            troubles[name] = False, marker.content.problems[0]
+        elif not marker.content.parts:
             troubles[name] = False, "It has no controls, so only its title is shown."
         elif frames.latest(place.frame) is None:
             troubles[name] = True, frames.why_not(place.frame)
@@ -119,7 +119,7 @@ def part_of(key: str) -> tuple[str, int | None] | None:
 
 def details(marker: Tracked, index: int | None) -> Details:
     """Return a marker, and one of its controls."""
-    completed, place = marker.made, marker.source
+    completed, place = marker.content, marker.source
     values: dict[str, object] = {"Marker": completed.name}
     if completed.description:
         values["Description"] = completed.description
@@ -176,7 +176,7 @@ class InteractiveMarkers(Display, Draggable):
         bool, Prop(help="Draw the axis along which, or about which, a marker is dragged.")
     ] = False
     enable_transparency: Annotated[
-        bool, Prop(help="Draw controls as transparent as their server says, else opaque.")
+        bool, Prop(help="Use the transparency that the server sets; otherwise opaque.")
     ] = True
 
     @property
@@ -258,11 +258,11 @@ class InteractiveMarkers(Display, Draggable):
         state: _State = ctx.state
         server = state.server
         marker = server.find(drag.handle) if server else None
-        if server is None or marker is None or drag.control >= len(marker.made.parts):
+        if server is None or marker is None or drag.control >= len(marker.content.parts):
             return
-        part, frames = marker.made.parts[drag.control], ctx.frames
+        part, frames = marker.content.parts[drag.control], ctx.frames
         if part.control.mode == "none" or (
-            drag.kind == "choose" and not can_choose(marker.made.menu, drag.entry)
+            drag.kind == "choose" and not can_choose(marker.content.menu, drag.entry)
         ):
             return
 

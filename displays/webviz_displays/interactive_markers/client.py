@@ -114,7 +114,7 @@ class Client(msgspec.Struct):
             return Status(Level.WARN, f"Loading the markers of {self.namespace}.")
         if self.state == "running" and not self.problem:
             markers = f"{count} marker{'s' * (count != 1)}"
-            gaps = f"; asked again after {self.gaps} gaps in the updates" if self.gaps else ""
+            gaps = f"; requested again after {self.gaps} gaps in the updates" if self.gaps else ""
             return Status(Level.OK, f"Connected to {self.namespace}, {markers}{gaps}.")
         return Status(Level.WARN, self.problem or f"Waiting for the answer of {service}.")
 

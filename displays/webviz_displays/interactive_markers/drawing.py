@@ -96,7 +96,7 @@ class ShownMarker:
         self._groups = dict(itertools.islice(reversed(ctx.groups.items()), added))
 
     def _make(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
-        completed = marker.made
+        completed = marker.content
         if self._parts is not completed.parts or self._look != look or self.lost:
             self._renew(marker, place, look, ctx.frames)
         whole = self._group(ctx, place, marker.key, place.pose.wxyz)
@@ -129,7 +129,7 @@ class ShownMarker:
         return ctx.follow(place.frame, offset=offset, is_rigid=True, key=key)
 
     def _renew(self, marker: Tracked, place: Place, look: MarkerLook, frames: Frames) -> None:
-        parts = marker.made.parts
+        parts = marker.content.parts
         if self._parts is not parts:
             self._pinned.clear()
         self._parts, self._look, self.lost, self.fault = parts, look, "", ""

@@ -52,7 +52,7 @@ def values_of(
     return {
         "header": {"stamp": {"sec": sec, "nanosec": nanosec}, "frame_id": frames.own(frame)},
         "client_id": client,
-        "marker_name": marker.made.name,
+        "marker_name": marker.content.name,
         "control_name": control,
         "event_type": event,
         "pose": _pose(place.pose),

@@ -39,7 +39,7 @@ class InteractiveMarkerServer:
         self.client_id = client_id
         self.markers: dict[str, Tracked] = {}
         """Markers by name."""
-        self.shown: dict[str, ShownMarker] = {}
+        self.by_name: dict[str, ShownMarker] = {}
         """Drawn markers, by name."""
         self.assets = Assets()
         """The files that shapes name."""
@@ -57,7 +57,7 @@ class InteractiveMarkerServer:
         self.is_waiting = False
         """True if something is not drawn because of a missing transform."""
         self._by_key: dict[str, Tracked] = {}
-        self._made = 0
+        self._count = 0
         self._size = 0
         """Bytes of the contents of all markers."""
         self._handles: Mapping[str, Handle] = {}
@@ -72,7 +72,7 @@ class InteractiveMarkerServer:
     def requests(self) -> set[LoadRequest]:
         """Return the files that shapes name."""
         return {
-            request for drawn_marker in self.shown.values() for request in drawn_marker.requests
+            request for drawn_marker in self.by_name.values() for request in drawn_marker.requests
         }
 
     def take(self, news: Sequence[News]) -> None:
@@ -99,7 +99,7 @@ class InteractiveMarkerServer:
         self.is_waiting = False
         stale: list[tuple[Tracked, Place, ShownMarker]] = []
         for name, marker in self.markers.items():
-            drawn_marker, place = self.shown[name], marker.place(ctx.frames)
+            drawn_marker, place = self.by_name[name], marker.place(ctx.frames)
             drawn_marker.forget(arrived)
             if place is None:
                 self.is_waiting = True
@@ -117,7 +117,7 @@ class InteractiveMarkerServer:
             drawn_marker.drawn_in = self.drawings
             count += 1
         self.undrawn = len(stale) - count
-        self.is_waiting |= any(drawn_marker.lost for drawn_marker in self.shown.values())
+        self.is_waiting |= any(drawn_marker.lost for drawn_marker in self.by_name.values())
         self.assets.start(ctx)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:
@@ -130,7 +130,7 @@ class InteractiveMarkerServer:
                 if (place := marker.place(frames)) is None:
                     self._handles_of = None  # until its transform is known
                     continue
-                looks = marker.made, tuple(marker.turned.items()), place.frame, aids, refusal
+                looks = marker.content, tuple(marker.turned.items()), place.frame, aids, refusal
                 looked, handle = self._looks.get(marker.key, (None, None))
                 if looked != looks or handle is None:
                     handle = _handle(marker, place, aids, refusal)
@@ -140,24 +140,24 @@ class InteractiveMarkerServer:
                 self._handles = handles
         return self._handles
 
-    def _add(self, name: str, made: Completed | RefusedMarker) -> None:
+    def _add(self, name: str, content: Completed | RefusedMarker) -> None:
         former = self.markers.get(name)
-        if isinstance(made, RefusedMarker):
-            self._ignore(name, made.reason)
+        if isinstance(content, RefusedMarker):
+            self._ignore(name, content.reason)
         elif former is None and len(self.markers) >= MAX_MARKERS:
             self.left_out += 1
-        elif self._size - (former.made.size if former else 0) + made.size > MAX_BYTES:
+        elif self._size - (former.content.size if former else 0) + content.size > MAX_BYTES:
             self._ignore(name, f"The markers of this server exceed {MAX_BYTES // 1_000_000} MB.")
         else:
             self.ignored.pop(name, None)
-            self._size += made.size - (former.made.size if former else 0)
+            self._size += content.size - (former.content.size if former else 0)
             if former is not None:
-                former.update(made)
+                former.update(content)
                 return
-            self._made += 1
-            marker = Tracked(f"m{self._made}", made)
+            self._count += 1
+            marker = Tracked(f"m{self._count}", content)
             self.markers[name] = self._by_key[marker.key] = marker
-            self.shown[name] = ShownMarker(self.assets)
+            self.by_name[name] = ShownMarker(self.assets)
 
     def _ignore(self, name: str, reason: str) -> None:
         if name in self.ignored or len(self.ignored) < MAX_IGNORED:
@@ -178,13 +178,13 @@ class InteractiveMarkerServer:
     def _erase(self, names: Set[str]) -> None:
         for name in names:
             marker = self.markers.pop(name)
-            self._size -= marker.made.size
-            del self._by_key[marker.key], self.shown[name]
+            self._size -= marker.content.size
+            del self._by_key[marker.key], self.by_name[name]
             self._looks.pop(marker.key, None)
 
 
 def _handle(marker: Tracked, place: Place, aids: bool, refusal: str) -> Handle:
-    completed = marker.made
+    completed = marker.content
     return Handle(
         name=completed.name,
         frame=place.frame,

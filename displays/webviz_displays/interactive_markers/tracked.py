@@ -27,12 +27,12 @@ class Tracked:
 
     Args:
         key: of its handle.
-        made: the newest version from the server.
+        completed: the newest version from the server.
     """
 
-    def __init__(self, key: str, made: Completed) -> None:
+    def __init__(self, key: str, completed: Completed) -> None:
         self.key = key
-        self.made = made
+        self.content = completed
         self.version = 0
         """Changes with its controls, their angles, and what `place` depends on."""
         self.turned: dict[str, float] = {}
@@ -40,9 +40,9 @@ class Tracked:
         self.problem = ""
         """Reason why the last message for it was ignored, a sentence."""
         self.is_held = False
-        self._place = Place(made.frame, made.stamp_ns, made.pose)
+        self._place = Place(completed.frame, completed.stamp_ns, completed.pose)
         self._later: Place | None = None
-        self._shown: tuple[str, Place] | None = None
+        self._place_cache: tuple[str, Place] | None = None
 
     @property
     def is_locked(self) -> bool:
@@ -59,13 +59,13 @@ class Tracked:
         """As the server has it, or as it was dragged since."""
         return self._place
 
-    def update(self, made: Completed) -> None:
+    def update(self, completed: Completed) -> None:
         """Take a new version; while it is dragged, its pose waits for the end."""
-        self.made, self.problem = made, ""
-        names = {part.control.name for part in made.parts}
+        self.content, self.problem = completed, ""
+        names = {part.control.name for part in completed.parts}
         self.turned = {name: angle for name, angle in self.turned.items() if name in names}
         self.version += 1
-        self.put(Place(made.frame, made.stamp_ns, made.pose))
+        self.put(Place(completed.frame, completed.stamp_ns, completed.pose))
 
     def put(self, place: Place) -> None:
         """Move it as the server wants; while it is dragged, at the end."""
@@ -81,13 +81,13 @@ class Tracked:
         """
         if self._place.stamp_ns == 0:
             return self._place if self._place.frame else None
-        if self._shown is None or self._shown[0] != frames.fixed_frame:
+        if self._place_cache is None or self._place_cache[0] != frames.fixed_frame:
             at = frames.at(self._place.frame, self._place.stamp_ns)
             if at is None:
                 return None
             placed = Place(frames.fixed_frame, 0, compose(at, self._place.pose))
-            self._shown = frames.fixed_frame, placed
-        return self._shown[1]
+            self._place_cache = frames.fixed_frame, placed
+        return self._place_cache[1]
 
     def press(self) -> None:
         """Begin to drag it."""
@@ -111,5 +111,5 @@ class Tracked:
             self._move(later)
 
     def _move(self, place: Place) -> None:
-        self._place, self._shown = place, None
+        self._place, self._place_cache = place, None
         self.version += 1

@@ -73,7 +73,7 @@ class Costmap(MapDisplay):
         """Return the colours of costs."""
         return cost_table(self.color_scheme, alpha, threshold)
 
-    def told(self, value: int) -> str | int:
+    def value_text(self, value: int) -> str | int:
         """Return the cost, 0 to 255."""
         cost = value & 255
         return f"{cost}, {_MEANINGS[cost]}" if cost in _MEANINGS else cost

@@ -59,7 +59,7 @@ def cell_details(
     grid: TiledGrid,
     corner: Corner,
     point: tuple[float, float, float],
-    told: Callable[[int], str | int],
+    text_of: Callable[[int], str | int],
 ) -> Details | None:
     """Return the cell at a point, None if there is none.
 
@@ -67,7 +67,7 @@ def cell_details(
         grid: the map.
         corner: of the tile.
         point: in metres from this corner, along rows and columns.
-        told: what is said about a value.
+        text_of: what is said about a value.
     """
     cells, size = grid.tiles[corner], grid.resolution
     y, x = floor(point[1] / size), floor(point[0] / size)
@@ -78,7 +78,7 @@ def cell_details(
     return Details(
         f"Cell {column}, {row}",
         {
-            "Value": told(int(cells[y, x])),
+            "Value": text_of(int(cells[y, x])),
             "Column (x)": column,
             "Row (y)": row,
             "Index": row * grid.width + column,
@@ -208,7 +208,7 @@ class MapDisplay(Display, SelfPlacing):
         """Return the colours of cells, cached; see `lookup_table`."""
         return lookup_table(self.color_scheme, alpha, threshold)
 
-    def told(self, value: int) -> str | int:
+    def value_text(self, value: int) -> str | int:
         """Return the label of a cell's value, -128 to 127."""
         meaning = MEANINGS[self.color_scheme].get(value)
         return f"{value}, {meaning}" if meaning else value
@@ -291,7 +291,7 @@ class MapDisplay(Display, SelfPlacing):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a cell, with the value that it has now."""
         grid, corner = _tile(ctx.state, hit.key)
-        return cell_details(grid, corner, hit.point, self.told) if grid and corner else None
+        return cell_details(grid, corner, hit.point, self.value_text) if grid and corner else None
 
     def _report(self, folded: Folded, grid: TiledGrid, ctx: Context) -> None:
         size = f"{grid.width} x {grid.height} cells of {grid.resolution:.4g} m"

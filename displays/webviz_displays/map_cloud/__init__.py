@@ -54,16 +54,16 @@ class _State(msgspec.Struct):
 
     Args:
         total: points of the clouds that it shows.
-        held: how many points browsers draw fast enough.
-        asked: nodes of the newest graph that were asked for.
+        budget: how many points browsers draw fast enough.
+        requests: nodes of the newest graph that were asked for.
         again_s: when to ask for them once more, monotonic time in seconds.
         missing: nodes of the newest graph whose data never came.
         refused: why they cannot be asked for, "" if they can.
     """
 
     total: int = 0
-    held: int = POINTS_HELD
-    asked: frozenset[int] = frozenset()
+    budget: int = POINTS_HELD
+    requests: frozenset[int] = frozenset()
     again_s: float = 0.0
     missing: tuple[int, ...] = ()
     refused: str = ""
@@ -146,14 +146,14 @@ class MapCloud(PointsDisplay, ProtocolClient):
             le=359,
             unit="°",
             rviz="Node filtering angle (degrees)",
-            help="Angle up to which two nodes look the same way; 0 shows all nodes.",
+            help="Directions of nodes that differ by less count as equal; 0 shows all nodes.",
         ),
     ] = 30.0
     download_namespace: Annotated[
         str,
         Prop(
             rviz="Download namespace",
-            help="Namespace of RTAB-Map, which is asked there for the data of older nodes.",
+            help="Namespace of RTAB-Map, where data of older nodes is requested.",
         ),
     ] = "rtabmap"
 
@@ -195,16 +195,16 @@ class MapCloud(PointsDisplay, ProtocolClient):
         except ValueError as error:
             state.refused = joined(str(error), "Correct Download Namespace.")
         missing = frozenset(state.missing[:MAX_ASKED])
-        if missing - state.asked or (missing and connection.clock_s >= state.again_s):
-            state.asked, state.again_s = missing, connection.clock_s + AGAIN_S
+        if missing - state.requests or (missing and connection.clock_s >= state.again_s):
+            state.requests, state.again_s = missing, connection.clock_s + AGAIN_S
             if not state.refused:
                 connection.publish(self._requests, {"data": sorted(missing)})
 
     def depends(self, ctx: Context) -> tuple[int, str]:
         """Return how many points browsers hold, and why no data can be asked for."""
         state: _State = ctx.state
-        state.held = ctx.share_of_points(state.total)
-        return (state.held if state.total > state.held else 0), state.refused
+        state.budget = ctx.share_of_points(state.total)
+        return (state.budget if state.total > state.budget else 0), state.refused
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """Draw the clouds, in the frame and at the stamp of the newest graph."""
@@ -214,7 +214,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
         rows = self._rows(map_data)
         ids = map_data.ids[rows].tolist()
         state.total = sum(len(map_data.clouds[id].xyz) for id in ids)
-        limit = min(state.held, DOTS_LIMIT) if self.style == "Points" else state.held
+        limit = min(state.budget, DOTS_LIMIT) if self.style == "Points" else state.budget
         # A power of two, so that a cloud changes seldom while the map grows.
         step = 1 << max(0, math.ceil(math.log2(max(state.total, 1) / max(limit, 1))))
         poses = [
@@ -252,12 +252,12 @@ class MapCloud(PointsDisplay, ProtocolClient):
                 return Details(f"Point of node {id}", values)
         return None
 
-    def _rows(self, known: KnownMap) -> NDArray[np.intp]:
+    def _rows(self, map_data: KnownMap) -> NDArray[np.intp]:
         """Return the nodes to show, as rows of the graph."""
-        rows = known.apart(self.node_filtering_radius, math.radians(self.node_filtering_angle))
-        rows = rows[[id in known.clouds for id in known.ids[rows].tolist()]]
+        rows = map_data.apart(self.node_filtering_radius, math.radians(self.node_filtering_angle))
+        rows = rows[[id in map_data.clouds for id in map_data.ids[rows].tolist()]]
         if self.decay_time and len(rows):
-            stamps = np.array([known.stamps[id] for id in known.ids[rows].tolist()])
+            stamps = np.array([map_data.stamps[id] for id in map_data.ids[rows].tolist()])
             rows = rows[stamps >= stamps.max() - self.decay_time]
         return rows
 
@@ -268,7 +268,7 @@ class MapCloud(PointsDisplay, ProtocolClient):
         transformer = self.color_transformer
         if transformer == "Auto":
             transformer = "RGB8" if is_colored else "Intensity"
-            ctx.ok("Colors", f"{transformer}, by what the nodes have.")
+            ctx.ok("Colors", f"{transformer}, chosen by the fields of the nodes.")
         xyz = np.concatenate([cloud.xyz for cloud in clouds])
         match transformer:
             case "RGB8" if is_colored:
@@ -293,15 +293,17 @@ class MapCloud(PointsDisplay, ProtocolClient):
                 ctx.warn("Colors", text, BY_DATA)
                 return 255, 255, 255
 
-    def _report(self, known: KnownMap, nodes: int, shown: int, state: _State, ctx: Context) -> None:
-        count = f"{counted(shown, 'point')} of {counted(nodes, 'node')}"
-        thinned = f", one of {round(state.total / shown)}" if shown < state.total else ""
-        if known.faults:
-            id, why = next(iter(known.faults.items()))
-            more = f", and {len(known.faults) - 1} more" if len(known.faults) > 1 else ""
+    def _report(
+        self, map_data: KnownMap, nodes: int, points: int, state: _State, ctx: Context
+    ) -> None:
+        count = f"{counted(points, 'point')} of {counted(nodes, 'node')}"
+        thinned = f", one of {round(state.total / points)}" if points < state.total else ""
+        if map_data.faults:
+            id, why = next(iter(map_data.faults.items()))
+            more = f", and {len(map_data.faults) - 1} more" if len(map_data.faults) > 1 else ""
             ctx.warn("Nodes", f"Node {id} is left out{more}: {why}.")
-        elif known.dropped:
-            text = f"{counted(known.dropped, 'node')} left out: the map has too many points."
+        elif map_data.dropped:
+            text = f"{counted(map_data.dropped, 'node')} left out: the map has too many points."
             ctx.warn("Nodes", f"{text} Increase Cloud Decimation or Cloud Voxel Size.")
         elif state.missing and state.refused:
             waits = f"{counted(len(state.missing), 'node')} without data."
@@ -309,14 +311,14 @@ class MapCloud(PointsDisplay, ProtocolClient):
         elif state.missing:
             topic = self._requests
             ctx.ok("Nodes", f"{counted(len(state.missing), 'node')} asked for on {topic}.")
-        if known.problem:
-            ctx.error("Points", joined(known.problem, "Fix the publisher."))
-        elif not shown and known.received and not known.clouds and not known.faults:
+        if map_data.problem:
+            ctx.error("Points", joined(map_data.problem, "Fix the publisher."))
+        elif not points and map_data.received and not map_data.clouds and not map_data.faults:
             sorts = ["depth images", "laser scans"]
             text = f"The nodes have no {sorts[self.cloud_from_scan]}. Change Cloud from scan."
             other = not self.cloud_from_scan
             ctx.warn("Points", text, Remedy("cloud_from_scan", other, f"Show {sorts[other]}"))
-        elif not shown:
+        elif not points:
             ctx.warn("Points", f"{count}: nothing to draw.")
         elif self.alpha == 0:
             ctx.warn("Points", "Invisible: alpha is 0. Increase it to show the points.", opaque())
@@ -324,11 +326,11 @@ class MapCloud(PointsDisplay, ProtocolClient):
             ctx.ok("Points", f"{count}{thinned}.")
 
 
-def _starts(known: KnownMap) -> dict[int, int]:
+def _starts(map_data: KnownMap) -> dict[int, int]:
     """Return the number of the first point of each node, among those of all."""
     starts: dict[int, int] = {}
     count = 0
-    for id, cloud in known.clouds.items():
+    for id, cloud in map_data.clouds.items():
         starts[id] = count
         count += len(cloud.xyz)
     return starts

@@ -38,15 +38,17 @@ class Effect(msgspec.Struct):
     duplicates: list[Key] = msgspec.field(default_factory=list)
     unknown: list[int] = msgspec.field(default_factory=list)
 
-    def doomed(self, known: Collection[Key]) -> list[Key]:
+    def doomed(self, candidates: Collection[Key]) -> list[Key]:
         """Return the known markers that are deleted for good."""
         if self.deletes_all or self.deleted_namespaces:
             named = self.deleted_namespaces
             keys = [
-                key for key in known if self.deletes_all or key[0] in named or key in self.deleted
+                key
+                for key in candidates
+                if self.deletes_all or key[0] in named or key in self.deleted
             ]
         else:
-            keys = [key for key in self.deleted if key in known]
+            keys = [key for key in self.deleted if key in candidates]
         added = self.added
         return [key for key in keys if key[1] not in added.get(key[0], ())]
 

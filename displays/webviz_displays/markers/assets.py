@@ -37,7 +37,7 @@ class Assets:
     """Meshes and pictures by what was requested."""
 
     def __init__(self) -> None:
-        self._known: dict[LoadRequest, LoadedMesh | PictureFile | str] = {}
+        self._assets: dict[LoadRequest, LoadedMesh | PictureFile | str] = {}
         self._loading: dict[LoadRequest, Loading] = {}
         self._failed: dict[LoadRequest, tuple[float, float]] = {}
         """Times when files that could not be loaded are tried again, and how long that is after."""
@@ -47,7 +47,7 @@ class Assets:
     @property
     def loading(self) -> int:
         """Return the number of files being loaded for the first time."""
-        return sum(request not in self._known for request in self._loading)
+        return sum(request not in self._assets for request in self._loading)
 
     def version(self) -> int:
         """Return what changes when `load` is to be called, as when failed files are due again."""
@@ -67,10 +67,10 @@ class Assets:
             used: what markers name. Other files are dropped if there are many, if little memory is
                 left, or if they came in a message.
         """
-        is_tight = len(self._known) > MAX_FILES // 2 or DECODING.is_scarce
-        self._known = {
+        is_tight = len(self._assets) > MAX_FILES // 2 or DECODING.is_scarce
+        self._assets = {
             request: v
-            for request, v in self._known.items()
+            for request, v in self._assets.items()
             if request in used or not (is_tight or request.data)
         }
         self._failed = {request: v for request, v in self._failed.items() if request in used}
@@ -98,10 +98,10 @@ class Assets:
             if not isinstance(result, str):
                 self._failed.pop(request, None)
             if isinstance(result, MeshContent):
-                name = f"{request.mesh} {len(self._known)}" if request.data else request.mesh
+                name = f"{request.mesh} {len(self._assets)}" if request.data else request.mesh
                 result = LoadedMesh(name, result)
-            if result != self._known.get(request):
-                self._known[request] = result
+            if result != self._assets.get(request):
+                self._assets[request] = result
                 self._arrived.add(request)
 
     def _fail(self, request: LoadRequest) -> None:
@@ -135,10 +135,10 @@ class Assets:
 
     def _asset(self, request: LoadRequest) -> LoadedMesh | PictureFile | str | None:
         """Return a mesh, a picture, why there is none, or None while it is being loaded."""
-        if request in self._known:
-            return self._known[request]
+        if request in self._assets:
+            return self._assets[request]
         if request not in self._loading:
-            if len(self._known) + len(self._loading) >= MAX_FILES:
+            if len(self._assets) + len(self._loading) >= MAX_FILES:
                 return f"The markers of this display name more than {MAX_FILES} files."
             self._loading[request] = Loading(request)
         return None

@@ -34,14 +34,14 @@ class Block(msgspec.Struct, frozen=True, eq=False):
     Args:
         nodes: by where their group is, and by key.
         faults: sentences about markers that cannot be seen, by row.
-        shown: how many markers are drawn.
+        count: how many markers are drawn.
         requests: the files that they name.
         left_out: how many markers are in places beyond `MAX_PLACES`.
     """
 
     nodes: Mapping[Place, Mapping[str, Node]] = msgspec.field(default_factory=dict)
     faults: Mapping[int, tuple[Level, str]] = msgspec.field(default_factory=dict)
-    shown: int = 0
+    count: int = 0
     requests: Set[LoadRequest] = frozenset()
     left_out: int = 0
 

@@ -30,7 +30,7 @@ def marker_details(store: Store, serial: int, now_ns: int) -> Details | None:
     table = store.table
     rows = np.flatnonzero(table.serials == serial)
     if not len(rows) or (key := table.keys[row := int(rows[0])]) is None:
-        deletion = store.remarks.gone.get(serial)
+        deletion = store.remarks.deletions.get(serial)
         return deletion and Details(
             f"Marker {name_of(deletion.key)}", {deletion.how: deletion.age(now_ns)}
         )

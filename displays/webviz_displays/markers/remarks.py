@@ -38,7 +38,7 @@ class Remarks(msgspec.Struct):
 
     Args:
         refused: why the newest version of a marker cannot be drawn.
-        gone: markers that were there, by their serial number.
+        deletions: markers that were there, by their serial number.
         tilted: all markers whose orientation is not a unit quaternion.
         duplicates: of the last array.
         unknown_actions: of the last message that had any.
@@ -46,7 +46,7 @@ class Remarks(msgspec.Struct):
     """
 
     refused: dict[Key, str] = msgspec.field(default_factory=dict)
-    gone: dict[int, DeletedMarker] = msgspec.field(default_factory=dict)
+    deletions: dict[int, DeletedMarker] = msgspec.field(default_factory=dict)
     tilted: set[Key] = msgspec.field(default_factory=set)
     duplicates: list[Key] = msgspec.field(default_factory=list)
     unknown_actions: list[int] = msgspec.field(default_factory=list)
@@ -56,9 +56,9 @@ class Remarks(msgspec.Struct):
         """Note that the newest version of a marker cannot be drawn."""
         _append(self.refused, key, why)
 
-    def go(self, serial: int, gone: DeletedMarker) -> None:
+    def go(self, serial: int, marker: DeletedMarker) -> None:
         """Note that a marker has expired, or was deleted."""
-        _append(self.gone, serial, gone)
+        _append(self.deletions, serial, marker)
 
     def accept(self, keys: Iterable[Key | None]) -> None:
         """Markers have a new version that is valid."""

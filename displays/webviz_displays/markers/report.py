@@ -46,7 +46,7 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         for key, why in remarks.refused.items()
     }
     faults = {**refused, **faults}
-    count = sum(block.shown for block in blocks)
+    count = sum(block.count for block in blocks)
     _report_total(store, count, off, ctx)
     worst = sorted(faults.items(), key=lambda item: -item[1][0])
     for key, (level, text) in worst[:NAMED]:
@@ -91,7 +91,7 @@ def report_markers(store: Store, blocks: Blocks, off: Set[str], loading: int, ct
         )
 
 
-def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None:
+def _report_total(store: Store, count: int, off: Set[str], ctx: Context) -> None:
     table = store.table
     total = len(table)
     namespaces = table.namespaces
@@ -101,8 +101,8 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
     if not total:
         return  # see report_nothing
     text = (
-        f"{shown} of {counted(total, 'marker')} shown"
-        if shown < total
+        f"{count} of {counted(total, 'marker')} shown"
+        if count < total
         else counted(total, "marker")
     )
     parts = [f"{text} in {counted(len(namespaces), 'namespace')}"]
@@ -111,7 +111,7 @@ def _report_total(store: Store, shown: int, off: Set[str], ctx: Context) -> None
     if waiting:
         parts.append(f"{waiting} waiting for a transform")
     text = f"{'; '.join(parts)}."
-    if shown:
+    if count:
         ctx.ok("Markers", text)
     else:
         ctx.warn("Markers", text, Remedy("namespaces", {}, "Show all namespaces") if off else None)
@@ -121,7 +121,7 @@ def report_nothing(store: Store, ctx: Context) -> None:
     """Report why there are no markers."""
     if len(store.table) or store.is_unfinished:
         return
-    last = next(reversed(store.remarks.gone.values()), None)
+    last = next(reversed(store.remarks.deletions.values()), None)
     if last is None:
         ctx.warn("Markers", "No markers. None has arrived. Check what the publisher sends.")
         return

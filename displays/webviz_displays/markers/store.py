@@ -47,7 +47,7 @@ class Store:
         self.version = 0
         """Changes whenever something else is to be drawn or said."""
         self.changed: set[int] = set()
-        """Rows to be drawn anew; whoever draws them clears it."""
+        """Rows to be drawn anew, until they are."""
         self.waiting: dict[Place, list[int]] = {}
         """Rows whose newest version has no pose yet."""
         self._has_removed = False

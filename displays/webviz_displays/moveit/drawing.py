@@ -72,12 +72,12 @@ class DrawnObjects(NamedTuple):
                 group.add(name, node)
 
 
-def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
+def draw_objects(objects: Iterable[ShownObject], prefix: str) -> DrawnObjects:
     """Objects as nodes, whose keys begin with `prefix`: solids of one look together."""
-    shown = list(shown)
+    objects = list(objects)
     owners: dict[str, object] = {}
     groups: list[PlacedNodes] = []
-    for body, pose, rgba in shown:
+    for body, pose, rgba in objects:
         if not len(body.faces) or len(owners) >= MAX_MESHES or not is_placeable(pose):
             continue
         if opacity := opacity_of(rgba):
@@ -85,7 +85,7 @@ def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
             mesh = Mesh(body.vertices, body.faces, rgb_of(rgba), opacity)
             groups.append(PlacedNodes(key, pose, {key: mesh}))
             owners[key] = body
-    solids = _solids(shown)
+    solids = _solids(objects)
     if solids:
         origin = np.array(origin_near(solids[0].positions))
         for each in solids:
@@ -93,25 +93,25 @@ def drawn(shown: Iterable[ShownObject], prefix: str) -> DrawnObjects:
         x, y, z = origin.tolist()
         nodes = {prefix + kind: node for kind, node in instances_of(solids).items()}
         groups.append(PlacedNodes(f"{prefix}solids", Pose((x, y, z)), nodes))
-        bodies = [body for body, _, _ in shown]
+        bodies = [body for body, _, _ in objects]
         owners |= dict.fromkeys(nodes, bodies)
     return DrawnObjects(groups, owners)
 
 
-def _solids(shown: Sequence[ShownObject]) -> list[Solids]:
+def _solids(objects: Sequence[ShownObject]) -> list[Solids]:
     """Return the solids of objects in the frame of the scene, those of one kind together."""
     some: dict[Solid, list[int]] = {}
-    for number, (body, _, _) in enumerate(shown):
+    for number, (body, _, _) in enumerate(objects):
         for kind in body.solids:
             some.setdefault(kind, []).append(number)
     solids_list: list[Solids] = []
     for kind, numbers in some.items():
-        parts = [shown[number].body.solids[kind] for number in numbers]
+        parts = [objects[number].body.solids[kind] for number in numbers]
         local = Primitives(*map(np.concatenate, zip(*parts, strict=True)))
         rows = np.repeat(np.arange(len(parts)), [len(part.positions) for part in parts])
-        origins = np.array([shown[number].pose.position for number in numbers])[rows]
-        turns = np.array([shown[number].pose.wxyz for number in numbers])[rows]
-        colors = np.array([shown[number].rgba for number in numbers], np.float32)[rows]
+        origins = np.array([objects[number].pose.position for number in numbers])[rows]
+        turns = np.array([objects[number].pose.wxyz for number in numbers])[rows]
+        colors = np.array([objects[number].rgba for number in numbers], np.float32)[rows]
         positions = np.einsum("nij,nj->ni", matrices(turns), local.positions) + origins
         wxyzs = multiply_many(turns, local.wxyzs)
         ids = np.array(numbers)[rows]
@@ -155,7 +155,7 @@ class HeldObjects(msgspec.Struct):
             ShownObject(scene.attached[key].body, pose, scene.colors.get(key, rgba))
             for key, pose in attached.items()
         ]
-        nodes = drawn(objects, f"{prefix}attached ")
+        nodes = draw_objects(objects, f"{prefix}attached ")
         nodes.add(frame, ctx)
         self.owners = nodes.owners
         return [key for key in scene.attached if key not in attached]

@@ -26,31 +26,33 @@ class Places(msgspec.Struct):
 
     Args:
         world: of objects in the frame of the scene, with the object.
-        held: of attached objects in the frame of their link, with the object.
+        attached_objects: of attached objects in the frame of their link, with the object.
     """
 
     world: dict[str, tuple[Body, Pose]] = msgspec.field(default_factory=dict)
-    held: dict[str, tuple[Body, Pose]] = msgspec.field(default_factory=dict)
+    attached_objects: dict[str, tuple[Body, Pose]] = msgspec.field(default_factory=dict)
 
     def update(self, scene: KnownScene, frame: str, links: Links, frames: Frames) -> list[Body]:
         """Place what is new; the objects whose frame is unknown."""
         self.world = _still(self.world, scene.objects)
-        self.held = _still(self.held, {key: each.body for key, each in scene.attached.items()})
+        self.attached_objects = _still(
+            self.attached_objects, {key: each.body for key, each in scene.attached.items()}
+        )
         new = [body for key, body in scene.objects.items() if key not in self.world]
         if new:
             self.world = dict(self.world)
         unplaced = self._place(new, scene, frame, links, frames)
         for key, attached in scene.attached.items():
-            if key in self.held:
+            if key in self.attached_objects:
                 continue
             body, link = attached.body, links.get(attached.link)
             base = self.base(body.frame or attached.link, scene, frame, links, frames)
             if body.frame in ("", attached.link):
-                self.held[key] = body, body.pose
+                self.attached_objects[key] = body, body.pose
             elif base is None or link is None:
                 unplaced.append(body)
             else:
-                self.held[key] = body, compose(inverse(link), compose(base, body.pose))
+                self.attached_objects[key] = body, compose(inverse(link), compose(base, body.pose))
         return unplaced
 
     def _place(
@@ -65,7 +67,7 @@ class Places(msgspec.Struct):
             body = ready.popleft()
             if body.id in self.world:
                 continue
-            base = self._known(body.frame, scene, frame, links)
+            base = self._pose_of(body.frame, scene, frame, links)
             if base is None:
                 if body.frame not in outside:
                     outside[body.frame] = _between(frame, body.frame, frames)
@@ -82,23 +84,23 @@ class Places(msgspec.Struct):
     def attached(self, scene: KnownScene, links: Links) -> dict[str, Pose]:
         """Return the poses of attached objects in the scene's frame, where the link has one."""
         return {
-            key: compose(links[attached.link], self.held[key][1])
+            key: compose(links[attached.link], self.attached_objects[key][1])
             for key, attached in scene.attached.items()
-            if key in self.held and attached.link in links
+            if key in self.attached_objects and attached.link in links
         }
 
     def base(
         self, name: str, scene: KnownScene, frame: str, links: Links, frames: Frames
     ) -> Pose | None:
         """Return the pose of a frame in that of the scene."""
-        return self._known(name, scene, frame, links) or _between(frame, name, frames)
+        return self._pose_of(name, scene, frame, links) or _between(frame, name, frames)
 
-    def _known(self, name: str, scene: KnownScene, frame: str, links: Links) -> Pose | None:
+    def _pose_of(self, name: str, scene: KnownScene, frame: str, links: Links) -> Pose | None:
         """Return the pose of a frame of the scene, robot or object in the scene's frame."""
         if name in ("", frame):
             return _HERE
-        if (known := links.get(name) or scene.transforms.get(name)) is not None:
-            return known
+        if (link_pose := links.get(name) or scene.transforms.get(name)) is not None:
+            return link_pose
         key, _, subframe = name.partition("/")
         for whole, part in ((name, ""), (key, subframe)):
             if whole in self.world:
@@ -115,9 +117,9 @@ def _between(frame: str, name: str, frames: Frames) -> Pose | None:
 
 
 def _still(
-    known: dict[str, tuple[Body, Pose]], bodies: Mapping[str, Body]
+    poses: dict[str, tuple[Body, Pose]], bodies: Mapping[str, Body]
 ) -> dict[str, tuple[Body, Pose]]:
     """Those that are the same as before; the same mapping if all are."""
-    if all(bodies.get(key) is each[0] for key, each in known.items()):
-        return known
-    return {key: each for key, each in known.items() if bodies.get(key) is each[0]}
+    if all(bodies.get(key) is each[0] for key, each in poses.items()):
+        return poses
+    return {key: each for key, each in poses.items() if bodies.get(key) is each[0]}

@@ -32,12 +32,12 @@ class _Read(msgspec.Struct, frozen=True, eq=False):
     """Result of a worker.
 
     Args:
-        seen: what is drawn.
+        voxels: what is drawn.
         log_odds: of its voxels.
         fault: why there is nothing, or "".
     """
 
-    seen: VisibleVoxels | None = None
+    voxels: VisibleVoxels | None = None
     log_odds: Any = None
     fault: str = ""
 
@@ -48,12 +48,12 @@ class Octomap(msgspec.Struct):
     Args:
         message: octomap_msgs/OctomapWithPose.
         number: of the message.
-        shown: what is drawn of it.
+        reading: what is drawn of it.
     """
 
     message: Any = None
     number: int = 0
-    shown: _Read | None = None
+    reading: _Read | None = None
 
     def draw(
         self,
@@ -89,12 +89,12 @@ class Octomap(msgspec.Struct):
             return
         choice = VoxelChoice(rendering, LEVELS, -FARTHEST, FARTHEST)
         reading = ctx.background((KEY, self.number, rendering), _read, message.octomap, choice)
-        self.shown = reading or self.shown
+        self.reading = reading or self.reading
         if reading is None:
             ctx.warn("Octomap", "Reading the octomap.")
-        if self.shown is None or (visible := self.shown.seen) is None:
-            if self.shown is not None:
-                ctx.error("Octomap", self.shown.fault)
+        if self.reading is None or (visible := self.reading.voxels) is None:
+            if self.reading is not None:
+                ctx.error("Octomap", self.reading.fault)
             return
         voxels = visible.voxels
         if not len(voxels.nodes):
@@ -102,13 +102,13 @@ class Octomap(msgspec.Struct):
             ctx.warn("Octomap", text, None if rendering == "All Voxels" else ALL_VOXELS)
             return
         if reading is not None:
-            ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {visible.wanted}.")
+            ctx.ok("Octomap", f"Showing {counted(len(voxels.nodes), 'voxel')} of {visible.total}.")
         edges, heights = voxels.sizes / 2.0, voxels.centers[:, 2]
         if coloring == "Z-Axis":
             low, high = float((heights - edges).min()), float((heights + edges).max())
             colors, _ = by_height(voxels, low, high)
         else:
-            colors, _ = by_probability(self.shown.log_odds)
+            colors, _ = by_probability(self.reading.log_odds)
         if alpha > 0.0:
             origin = origin_near(voxels.centers)
             ctx.follow(frame, offset=compose(pose, Pose(origin)), key=KEY).instances(
@@ -123,7 +123,7 @@ class Octomap(msgspec.Struct):
 
     def inspect(self, hit: Hit) -> Details | None:
         """Return a voxel."""
-        visible = self.shown and self.shown.seen
+        visible = self.reading and self.reading.voxels
         if (
             hit.key != KEY
             or visible is None

@@ -193,22 +193,22 @@ class PathView(msgspec.Struct):
 
     robots: Robots
     player: PathPlayer = msgspec.field(default_factory=PathPlayer)
-    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
+    attached: HeldObjects = msgspec.field(default_factory=HeldObjects)
     _trail: PathTrail = msgspec.field(default_factory=PathTrail)
-    _made: tuple[Any, Poser, JointPath] | None = None
+    _path_cache: tuple[Any, Poser, JointPath] | None = None
 
     @property
     def newest(self) -> JointPath | None:
         """The newest path."""
-        return self._made and self._made[2]
+        return self._path_cache and self._path_cache[2]
 
     def take(self, message: Any, playback: Playback) -> None:
         """Take the newest message, None before the first."""
         model = self.robots.model
         if message is None or model is None:
-            self._made = None
-        elif self._made is None or self._made[:2] != (message, model.poser):
-            self._made = message, model.poser, path_of(message, model.poser)
+            self._path_cache = None
+        elif self._path_cache is None or self._path_cache[:2] != (message, model.poser):
+            self._path_cache = message, model.poser, path_of(message, model.poser)
         self.player.take(self.newest, playback.interrupts)
 
     def advance(self, playback: Playback, now_ns: int) -> object:
@@ -252,7 +252,7 @@ class PathView(msgspec.Struct):
         rgba = with_alpha(playback.attached, playback.look.alpha)
         scene = scene or KnownScene(attached=path.attached or {})
         if playback.look.visual or playback.look.collision:
-            self.held.draw(scene, poses, rgba, frame, PREFIX, ctx)
+            self.attached.draw(scene, poses, rgba, frame, PREFIX, ctx)
         if playback.trail:
             step = max(playback.step, -(-len(path) // MAX_STATES))
             if step > playback.step:
@@ -263,7 +263,7 @@ class PathView(msgspec.Struct):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a link, with the point of the path; or what the robot holds."""
         path = self.player.path
-        details = self.held.inspect(hit) or self._trail.inspect(hit)
+        details = self.attached.inspect(hit) or self._trail.inspect(hit)
         details = details or self.robots.inspect(hit, ctx.frames)
         if details is None or path is None or not hit.key.startswith(PREFIX):
             return details

@@ -289,7 +289,7 @@ class MotionPlanningTasks(Display, ProtocolClient):
         if not self.solution:
             name = self.task_solution_topic.name
             ctx.warn("Solution", f"No solution received on {name}. Plan a task, or choose one.")
-        elif request.wanted is None:
+        elif request.request is None:
             text = f"No task is known that has solution {self.solution}. Plan again, or choose 0."
             ctx.warn("Solution", text)
         elif request.problem:

@@ -25,7 +25,7 @@ PlanningSceneTopic = Annotated[
     Prop(help="Topic of the scene and of its changes."),
 ]
 MoveGroupNamespace = Annotated[
-    str, Prop(help="Namespace of the node move_group, which is asked for the scene at first.")
+    str, Prop(help="Namespace of move_group, from which the first scene is requested.")
 ]
 ShowVisual = Annotated[bool, Prop(help="Draw the links' visual shapes.")]
 ShowCollision = Annotated[bool, Prop(help="Draw the links' collision shapes.")]

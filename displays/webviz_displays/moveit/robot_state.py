@@ -47,7 +47,7 @@ class RobotStateDrawing(msgspec.Struct):
     """State of what is drawn."""
 
     robots: Robots = msgspec.field(default_factory=Robots)
-    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
+    attached: HeldObjects = msgspec.field(default_factory=HeldObjects)
 
 
 class RobotState(Display):
@@ -136,7 +136,7 @@ class RobotState(Display):
         robots.report(look, ctx)
         if self.visual_enabled or self.collision_enabled:
             rgba = with_alpha(self.attached_body_color, self.robot_alpha)
-            unplaced = state.held.draw(scene, stance.poses, rgba, frame, "", ctx)
+            unplaced = state.attached.draw(scene, stance.poses, rgba, frame, "", ctx)
             if unplaced:
                 ctx.error(
                     "Objects", f"The link or frame of object {named(unplaced[0])} is unknown."
@@ -150,7 +150,7 @@ class RobotState(Display):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return a link, or what the robot holds."""
         state: RobotStateDrawing = ctx.state
-        return state.held.inspect(hit) or state.robots.inspect(hit, ctx.frames)
+        return state.attached.inspect(hit) or state.robots.inspect(hit, ctx.frames)
 
     def _look(self, colors: dict[str, tuple[Rgb, float]]) -> RobotLook:
         return RobotLook(

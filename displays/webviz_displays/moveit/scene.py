@@ -44,7 +44,7 @@ class KnownScene(msgspec.Struct, frozen=True, eq=False):
         is_whole: whether a message with the whole scene was received.
         joints: of the robot.
         objects: by id.
-        gone: ids of objects that were removed.
+        removed: ids of objects that were removed.
         attached: by id of the object.
         loose: ids of objects that were detached.
         colors: of objects by id, 0 to 1.
@@ -59,7 +59,7 @@ class KnownScene(msgspec.Struct, frozen=True, eq=False):
     is_whole: bool = False
     joints: JointValues = msgspec.field(default_factory=JointValues)
     objects: Mapping[str, Body] = msgspec.field(default_factory=dict)
-    gone: frozenset[str] = frozenset()
+    removed: frozenset[str] = frozenset()
     attached: Mapping[str, Attached] = msgspec.field(default_factory=dict)
     loose: frozenset[str] = frozenset()
     colors: Mapping[str, Rgba] = msgspec.field(default_factory=dict)
@@ -69,7 +69,7 @@ class KnownScene(msgspec.Struct, frozen=True, eq=False):
 
     def over(self, base: KnownScene) -> KnownScene:
         """Return this scene, which has changes only, applied to a whole one."""
-        objects = {key: each for key, each in base.objects.items() if key not in self.gone}
+        objects = {key: each for key, each in base.objects.items() if key not in self.removed}
         attached = {key: each for key, each in base.attached.items() if key not in self.loose}
         return replace(
             self,
@@ -103,7 +103,7 @@ def updated(scene: KnownScene, message: Any) -> KnownScene:
         edit.transform(each)
     octomap = message.world.octomap if message.world.octomap.octomap.id else scene.octomap
     return replace(
-        edit.done(),
+        edit.result(),
         name=message.name or scene.name,
         robot=message.robot_model_name or scene.robot,
         frame=edit.joints.frame or _parent(message.fixed_frame_transforms) or scene.frame,
@@ -115,7 +115,7 @@ def updated_state(scene: KnownScene, state: Any) -> KnownScene:
     """Return a scene after a moveit_msgs/RobotState, with what the robot holds."""
     edit = _Edit(scene)
     edit.state(state)
-    return replace(edit.done(), frame=edit.joints.frame or scene.frame)
+    return replace(edit.result(), frame=edit.joints.frame or scene.frame)
 
 
 def _parent(transforms: Iterable[Any]) -> str:
@@ -132,18 +132,18 @@ class _Edit:
         self._attached: dict[str, Attached] | None = None
         self._colors: dict[str, Rgba] | None = None
         self._transforms: dict[str, Pose] | None = None
-        self._gone, self._loose = set(scene.gone), set(scene.loose)
+        self._removed, self._loose = set(scene.removed), set(scene.loose)
         self._faults: list[str] = []
         self._size = 0
 
-    def done(self) -> KnownScene:
+    def result(self) -> KnownScene:
         """Return the scene with all changes."""
         before = self._scene
         return replace(
             before,
             joints=self.joints,
             objects=before.objects if self._objects is None else self._objects,
-            gone=frozenset(self._gone),
+            removed=frozenset(self._removed),
             attached=before.attached if self._attached is None else self._attached,
             loose=frozenset(self._loose),
             colors=before.colors if self._colors is None else self._colors,
@@ -156,7 +156,7 @@ class _Edit:
         joints = joints_of(state)
         self.joints = joints.over(self.joints)
         if not state.is_diff and self._scene.attached and not joints.is_empty:
-            self._held().clear()
+            self._attachments().clear()
         for each in state.attached_collision_objects:
             if each.object.operation == REMOVE:
                 self._detach(each)
@@ -167,7 +167,7 @@ class _Edit:
         """Take an object of the world."""
         key, operation = message.id, int(message.operation)
         if operation == REMOVE and not key:
-            self._gone |= self._world().keys()
+            self._removed |= self._world().keys()
             self._world().clear()
             self._size = 0
         elif operation == REMOVE:
@@ -206,7 +206,7 @@ class _Edit:
 
     def _attach(self, message: Any) -> None:
         key = message.object.id
-        if not self._fits(key, self._held(), MAX_HELD):
+        if not self._fits(key, self._attachments(), MAX_HELD):
             return
         there = self._world().get(key)
         has_shapes = any(map(len, (message.object.primitives, message.object.meshes)))
@@ -216,13 +216,13 @@ class _Edit:
         elif (body := self._read(message.object)) is None:
             return
         self._drop(key)
-        self._held()[key] = Attached(message.link_name.lstrip("/"), body)
+        self._attachments()[key] = Attached(message.link_name.lstrip("/"), body)
         self._loose.discard(key)
 
     def _detach(self, message: Any) -> None:
         """Back into the world: one object, all of a link, or all."""
         key, link = message.object.id, message.link_name.lstrip("/")
-        attached_objects = self._held()
+        attached_objects = self._attachments()
         keys = (
             [key] if key else [k for k, each in attached_objects.items() if link in ("", each.link)]
         )
@@ -262,13 +262,13 @@ class _Edit:
             return
         self._size = size
         world[body.id] = body
-        self._gone.discard(body.id)
+        self._removed.discard(body.id)
 
     def _drop(self, key: str) -> None:
         if (before := self._world().pop(key, None)) is not None:
             self._size -= before.size
-        if self._fits(key, self._gone):
-            self._gone.add(key)
+        if self._fits(key, self._removed):
+            self._removed.add(key)
 
     def _fits(self, key: str, among: Any, most: int = MAX_NAMES) -> bool:
         if len(key) > LONGEST_KEY:
@@ -286,7 +286,7 @@ class _Edit:
             self._size = sum(each.size for each in self._objects.values())
         return self._objects
 
-    def _held(self) -> dict[str, Attached]:
+    def _attachments(self) -> dict[str, Attached]:
         if self._attached is None:
             self._attached = dict(self._scene.attached)
         return self._attached

@@ -93,24 +93,24 @@ class SolutionRequest(msgspec.Struct):
     """Asks the program that plans for a solution.
 
     Args:
-        wanted: service and id, None for none.
+        request: service and id, None for none.
         solution: the answer, None before.
         problem: why there is none, a sentence.
     """
 
-    wanted: tuple[str, int] | None = None
+    request: tuple[str, int] | None = None
     solution: Any = None
     problem: str = ""
     _answer: Future[bytes] | None = None
     _reading: Future[Any] | None = None
 
-    def step(self, wanted: tuple[str, int] | None, connection: GraphConnection) -> None:
+    def step(self, request: tuple[str, int] | None, connection: GraphConnection) -> None:
         """Ask once, and take the answer."""
-        if wanted != self.wanted:
-            self.wanted, self.solution, self.problem = wanted, None, ""
+        if request != self.request:
+            self.request, self.solution, self.problem = request, None, ""
             self._answer = self._reading = None
-            if wanted is not None:
-                self._ask(*wanted, connection)
+            if request is not None:
+                self._ask(*request, connection)
         try:
             if self._answer is not None and self._answer.done():
                 answer, self._answer = self._answer, None

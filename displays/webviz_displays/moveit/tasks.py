@@ -88,8 +88,8 @@ class KnownTasks(msgspec.Struct, frozen=True, eq=False):
         return next(reversed(list(self.plans)), "")
 
 
-def _newest(known: Mapping[str, Any], message: Any) -> dict[str, Any]:
-    newest = {key: each for key, each in known.items() if key != message.task_id}
+def _newest(statistics: Mapping[str, Any], message: Any) -> dict[str, Any]:
+    newest = {key: each for key, each in statistics.items() if key != message.task_id}
     newest[message.task_id] = message
     return dict(list(newest.items())[-MAX_TASKS:])
 
@@ -116,10 +116,10 @@ def _numbered(above: str, stages: list[Any]) -> list[tuple[str, Any]]:
     ]
 
 
-def _stage(number: str, stage: Any, known: Any) -> TaskStage:
+def _stage(number: str, stage: Any, former: Any) -> TaskStage:
     name = stage.name[:LONGEST_NAME]
-    if known is None:
+    if former is None:
         return TaskStage(number, name)
-    failed = max(len(known.failed), known.num_failed)
-    solved = tuple(map(int, known.solved))
-    return TaskStage(number, name, solved, failed, known.total_compute_time)
+    failed = max(len(former.failed), former.num_failed)
+    solved = tuple(map(int, former.solved))
+    return TaskStage(number, name, solved, failed, former.total_compute_time)

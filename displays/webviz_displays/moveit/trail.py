@@ -31,7 +31,7 @@ class PathTrail(msgspec.Struct):
     _of: tuple[JointPath, int] | None = None
     _rows: list[int] = msgspec.field(default_factory=list)
     _poses: dict[str, tuple[F64, F64]] = msgspec.field(default_factory=dict)
-    _made: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = msgspec.field(default_factory=dict)
+    _nodes: dict[int, tuple[Node, Shape | tuple[bytes, ...]]] = msgspec.field(default_factory=dict)
 
     def draw(
         self,
@@ -62,7 +62,7 @@ class PathTrail(msgspec.Struct):
         count = sum(row <= last for row in self._rows)
         group = ctx.follow(frame, key=KEY)
         self.owners.clear()
-        made_before, self._made = self._made, {}
+        made_before, self._nodes = self._nodes, {}
         for part in parts_of(model.robot, model.full, look.choices, robots.paint):
             node = robots.paint(part.node, color=look.color_of(part.link))
             if not isinstance(node, Mesh | Glb) or part.link not in self._poses:
@@ -71,7 +71,7 @@ class PathTrail(msgspec.Struct):
             here = _moved(xyz, wxyz, part.pose)
             before = made_before.get(id(node))
             same = before[1] if before and before[0] is node else _repeatable(node)
-            self._made[id(node)] = node, same
+            self._nodes[id(node)] = node, same
             for number, each in enumerate(_repeated(node, same, here)):
                 key = f"{KEY}{part.key} {number}"
                 group.add(key, each)

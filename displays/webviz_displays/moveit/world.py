@@ -14,7 +14,7 @@ from webviz_displays.moveit.drawing import (
     HeldObjects,
     ShownObject,
     body_details,
-    drawn,
+    draw_objects,
     owner_of,
     with_alpha,
 )
@@ -51,7 +51,7 @@ class _Look(msgspec.Struct, frozen=True, eq=False):
 
     def drawn(self) -> DrawnObjects:
         """Return the nodes."""
-        return drawn(
+        return draw_objects(
             [
                 ShownObject(body, pose, self.colors.get(key, self.default))
                 for key, (body, pose) in self.world.items()
@@ -66,7 +66,7 @@ class DrawnWorld(msgspec.Struct):
     Args:
         robots: draw its robot.
         owners: objects by the keys of nodes.
-        held: what the robot holds.
+        attached: what the robot holds.
         octomap: that of the scene.
         scene: that is drawn.
         frame: of the scene.
@@ -74,12 +74,12 @@ class DrawnWorld(msgspec.Struct):
 
     robots: Robots
     owners: Mapping[str, object] = msgspec.field(default_factory=dict)
-    held: HeldObjects = msgspec.field(default_factory=HeldObjects)
+    attached: HeldObjects = msgspec.field(default_factory=HeldObjects)
     octomap: Octomap = msgspec.field(default_factory=Octomap)
     scene: KnownScene = msgspec.field(default_factory=KnownScene)
     frame: str = ""
     _look: _Look | None = None
-    _made: tuple[_Look | None, DrawnObjects] = None, NOTHING
+    _cache: tuple[_Look | None, DrawnObjects] = None, NOTHING
     _stance: tuple[Poser, JointValues, int, Stance] | None = None
     _seen_ns: int = 0
     _is_still: bool = False
@@ -121,7 +121,7 @@ class DrawnWorld(msgspec.Struct):
         look = look_of(robot)
         self.robots.draw(links, look, frame, "", ctx)
         self.robots.report(look, ctx)
-        unplaced = self.held.places.update(scene, frame, links, ctx.frames)
+        unplaced = self.attached.places.update(scene, frame, links, ctx.frames)
         self.owners = {}
         if geometry.show_scene_geometry:
             color = with_alpha(geometry.scene_color, geometry.scene_alpha)
@@ -129,11 +129,11 @@ class DrawnWorld(msgspec.Struct):
             nodes.add(frame, ctx)
             self.owners = nodes.owners
             looks = geometry.voxel_rendering, geometry.voxel_coloring, geometry.scene_alpha
-            self.octomap.draw(scene, self.held.places, links, looks, frame, ctx)
+            self.octomap.draw(scene, self.attached.places, links, looks, frame, ctx)
         lost_held: list[str] = []
         if robot.show_robot_visual or robot.show_robot_collision:
             color = with_alpha(robot.attached_body_color, robot.robot_alpha)
-            lost_held = self.held.draw(scene, links, color, frame, "", ctx)
+            lost_held = self.attached.draw(scene, links, color, frame, "", ctx)
         report_objects(scene, unplaced, lost_held, ctx)
 
     def _objects(self, scene: KnownScene, default: Rgba, ctx: Context) -> DrawnObjects:
@@ -141,16 +141,16 @@ class DrawnWorld(msgspec.Struct):
 
         Many are made in a thread; until then the previous ones stay.
         """
-        world = self.held.places.world
+        world = self.attached.places.world
         look = self._look
         if look is None or not look.is_of(world, scene.colors, default):
             look = self._look = _Look(world, scene.colors, default)
-        if self._made[0] is not look:
+        if self._cache[0] is not look:
             if len(world) <= MAX_AT_ONCE:
-                self._made = look, look.drawn()
+                self._cache = look, look.drawn()
             elif (objects := ctx.background(look, look.drawn)) is not None:
-                self._made = look, objects
-        return self._made[1]
+                self._cache = look, objects
+        return self._cache[1]
 
     def _posed(self, poser: Poser, interval_s: float, now_ns: int) -> Stance:
         """Return where the links are, computed anew after some time at the earliest."""
@@ -168,8 +168,8 @@ class DrawnWorld(msgspec.Struct):
         """Return an object, by one of its shapes."""
         body = owner_of(hit, self.owners)
         if body is None:
-            return self.held.inspect(hit) or self.octomap.inspect(hit)
-        place = self.held.places.world.get(body.id)
+            return self.attached.inspect(hit) or self.octomap.inspect(hit)
+        place = self.attached.places.world.get(body.id)
         return body_details(body, {f"Pose in {self.frame}": place[1]} if place else {})
 
 
@@ -193,12 +193,12 @@ def report_joints(
 
 
 def report_names(
-    known: int, assumed: tuple[str, ...], unknown_joints: tuple[str, ...], what: str, ctx: Context
+    count: int, assumed: tuple[str, ...], unknown_joints: tuple[str, ...], what: str, ctx: Context
 ) -> None:
     """Report joints that a message or the robot does not know.
 
     Args:
-        known: joints with a position.
+        count: joints with a position.
         assumed: joints without one.
         unknown_joints: joints that the robot does not have.
         what: the message.
@@ -216,10 +216,12 @@ def report_names(
             f"{listed(list(assumed), NAMED)}. They stay at their default.",
         )
     else:
-        ctx.ok("Joints", f"The positions of {counted(known, 'joint')} are known.")
+        ctx.ok("Joints", f"The positions of {counted(count, 'joint')} are known.")
 
 
-def report_objects(scene: KnownScene, lost: list[Body], lost_held: list[str], ctx: Context) -> None:
+def report_objects(
+    scene: KnownScene, unplaced: list[Body], lost_held: list[str], ctx: Context
+) -> None:
     """Report how many objects there are, and which cannot be drawn."""
     name = f"{named(scene.name)}: " if scene.name else ""
     count = len(scene.objects)
@@ -230,11 +232,11 @@ def report_objects(scene: KnownScene, lost: list[Body], lost_held: list[str], ct
         faults += body.faults
         if len(faults) > NAMED:
             break
-    if lost:
-        first = lost[0]
+    if unplaced:
+        first = unplaced[0]
         ctx.error(
             "Object frames",
-            f"{counted(len(lost), 'object')} in an unknown frame, such as {named(first.id)} in "
+            f"{counted(len(unplaced), 'object')} in an unknown frame, such as {named(first.id)} in "
             f"{named(first.frame)}. Publish its transform, or give it in the frame of the scene.",
         )
     elif lost_held:

@@ -47,10 +47,10 @@ class _TreeReading(msgspec.Struct, frozen=True, eq=False):
 
     Args:
         message: that the others are of.
-        choice: that `seen` is of.
+        choice: that `voxels` is of.
         tree: None if it cannot be read.
         span: lowest and highest z of its leaves, metres.
-        seen: the voxels to draw, None without a tree.
+        voxels: the voxels to draw, None without a tree.
         fault: why there is none.
     """
 
@@ -58,7 +58,7 @@ class _TreeReading(msgspec.Struct, frozen=True, eq=False):
     choice: VoxelChoice | None = None
     tree: Octree | None = None
     span: tuple[float, float] = (0.0, 0.0)
-    seen: VisibleVoxels | None = None
+    voxels: VisibleVoxels | None = None
     fault: str = ""
 
 
@@ -66,12 +66,12 @@ class _State(msgspec.Struct):
     """Kept between messages, of which a large one may be drawn in a thread beside a small one.
 
     Args:
-        known: the octree read last.
-        drawn: the tree and what is drawn of it.
+        reading: the octree read last.
+        drawing: the tree and what is drawn of it.
     """
 
-    known: _TreeReading = msgspec.field(default_factory=_TreeReading)
-    drawn: tuple[Octree, VisibleVoxels] | None = None
+    reading: _TreeReading = msgspec.field(default_factory=_TreeReading)
+    drawing: tuple[Octree, VisibleVoxels] | None = None
 
 
 class OctreeDisplay(Display):
@@ -133,14 +133,14 @@ class OctreeDisplay(Display):
         state: _State = ctx.state
         levels = self.max_octree_depth or LEVELS
         choice = VoxelChoice(self.voxel_rendering, levels, self.min_height, self.max_height)
-        reading = state.known
+        reading = state.reading
         if reading.message is not sample.message or reading.fault or reading.choice != choice:
-            reading = state.known = _read(reading, sample.message, choice)
-        tree, visible = reading.tree, reading.seen
+            reading = state.reading = _read(reading, sample.message, choice)
+        tree, visible = reading.tree, reading.voxels
         if tree is None or visible is None:
             ctx.error("Octree", reading.fault)
             return
-        state.drawn = tree, visible
+        state.drawing = tree, visible
         self._report(tree, visible, levels, ctx)
         voxels = visible.voxels
         if not len(voxels.nodes) or self.voxel_alpha == 0:
@@ -160,9 +160,9 @@ class OctreeDisplay(Display):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return the voxel at the place of the one that was selected, with its newest values."""
         state: _State = ctx.state
-        if state.drawn is None:
+        if state.drawing is None:
             return None
-        tree, visible = state.drawn
+        tree, visible = state.drawing
         places = np.flatnonzero(places_of(tree, visible.voxels) == hit.id)
         if not len(places):
             return None
@@ -181,9 +181,9 @@ class OctreeDisplay(Display):
         return Details("Occupied voxel" if log_odds[0] >= 0 else "Free voxel", values)
 
     def _colors(
-        self, tree: Octree, seen: VisibleVoxels, span: tuple[float, float], ctx: Context
+        self, tree: Octree, visible: VisibleVoxels, span: tuple[float, float], ctx: Context
     ) -> NDArray[np.uint8]:
-        voxels = seen.voxels
+        voxels = visible.voxels
         if self.voxel_coloring == "Cell Color" and tree.colors is not None:
             return tree.colors[voxels.nodes]
         if self.voxel_coloring == "Cell Probability":
@@ -202,7 +202,7 @@ class OctreeDisplay(Display):
             return Remedy("max_height", FARTHEST, "Show all above")
         return Remedy("min_height", -FARTHEST, "Show all below")
 
-    def _report(self, tree: Octree, seen: VisibleVoxels, levels: int, ctx: Context) -> None:
+    def _report(self, tree: Octree, visible: VisibleVoxels, levels: int, ctx: Context) -> None:
         """Say what the tree is, what of it is drawn, and what is not as chosen."""
         nodes = len(tree.codes)
         ctx.ok("Octree", f"{tree.kind} of {nodes} nodes, smallest voxels {tree.resolution:g} m.")
@@ -213,9 +213,9 @@ class OctreeDisplay(Display):
                 "ColorOcTree or choose another Voxel Coloring.",
                 Remedy("voxel_coloring", "Z-Axis", "Colour by height"),
             )
-        count, noun = len(seen.voxels.nodes), _NOUNS[self.voxel_rendering]
+        count, noun = len(visible.voxels.nodes), _NOUNS[self.voxel_rendering]
         text = f"Showing {count} {noun}"
-        if enclosed := seen.wanted - count:
+        if enclosed := visible.total - count:
             text += f"; they enclose {enclosed} more"
         if not count:
             ctx.warn(
@@ -230,12 +230,12 @@ class OctreeDisplay(Display):
                 "Invisible: alpha is 0. Increase it to show the voxels.",
                 opaque("voxel_alpha"),
             )
-        elif seen.depth < levels:
+        elif visible.depth < levels:
             ctx.warn(
                 "Voxels",
-                f"{text}. More than {MAX_VOXELS} would be seen below depth {seen.depth}, so "
+                f"{text}. More than {MAX_VOXELS} would be seen below depth {visible.depth}, so "
                 "smaller ones are merged. Limit the heights to see them.",
-                Remedy("max_octree_depth", seen.depth, f"Stop at depth {seen.depth}"),
+                Remedy("max_octree_depth", visible.depth, f"Stop at depth {visible.depth}"),
             )
         else:
             ctx.ok("Voxels", f"{text}.")

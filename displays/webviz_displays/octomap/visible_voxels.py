@@ -45,12 +45,12 @@ class VisibleVoxels(msgspec.Struct, frozen=True, eq=False):
 
     Args:
         voxels: at most `MAX_VOXELS`.
-        wanted: how many there are with those inside.
+        total: how many there are with those inside.
         depth: at which the tree had to be cut off.
     """
 
     voxels: Voxels
-    wanted: int
+    total: int
     depth: int
 
 

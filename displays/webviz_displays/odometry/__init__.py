@@ -144,12 +144,12 @@ def kept_poses(
         for message in itertools.islice(newest_first, size - len(places)):
             places.append(None if fault(message) else rule.place_of(message))
         met = _met(places, rule) or 0
-        numbers = _kept(places[:met], rule)
+        numbers = _selection(places[:met], rule)
         if 0 < keep <= len(numbers):
             return numbers
         if len(places) < size:
             return [*range(len(places) - 1, met - 1, -1), *numbers]
-    return _kept(places, rule)
+    return _selection(places, rule)
 
 
 def _sizes() -> Iterator[int]:
@@ -183,7 +183,7 @@ def _met(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> int | No
     return None
 
 
-def _kept(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> Sequence[int]:
+def _selection(newest_first: Sequence[TrailPlace | None], rule: TrailRule) -> Sequence[int]:
     """Return the numbers of the places of the trail that begins with the oldest."""
     last: TrailPlace | None = None
     numbers: list[int] = []

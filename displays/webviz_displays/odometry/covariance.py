@@ -87,17 +87,17 @@ def has_negative_variance(covariances: F64) -> Mask:
     return variances.min(axis=1) < -_ROUNDING * np.abs(variances).max(axis=1)
 
 
-def ellipses(given: Covariances, positions: F64, rotations: F64, scale: float) -> Placed:
+def ellipses(covariances: Covariances, positions: F64, rotations: F64, scale: float) -> Placed:
     """Position ellipses of planar poses, for a disc of radius 1.
 
     Args:
-        given: of N poses.
+        covariances: of N poses.
         positions: (N, 3), metres.
         rotations: (N, 3, 3), of the frames in which the covariances are given.
         scale: standard deviations.
     """
-    chosen = given.is_planar
-    sigmas, vectors = _deviations(given.matrices[chosen, :2, :2])
+    chosen = covariances.is_planar
+    sigmas, vectors = _deviations(covariances.matrices[chosen, :2, :2])
     frames = np.zeros((len(sigmas), 3, 3))
     frames[:, :2, :2] = vectors * _bounded(scale * sigmas)[:, None, :]
     frames[:, 2, 2] = 1.0
@@ -105,28 +105,28 @@ def ellipses(given: Covariances, positions: F64, rotations: F64, scale: float) -
     return Placed(positions[chosen] + _LIFT * rotations[:, :, 2], rotations @ frames)
 
 
-def ellipsoids(given: Covariances, positions: F64, rotations: F64, scale: float) -> Placed:
+def ellipsoids(covariances: Covariances, positions: F64, rotations: F64, scale: float) -> Placed:
     """Position ellipsoids of the other poses, for a sphere of radius 1; as `ellipses`."""
-    chosen = ~given.is_planar
-    sigmas, vectors = _deviations(given.matrices[chosen, :3, :3])
+    chosen = ~covariances.is_planar
+    sigmas, vectors = _deviations(covariances.matrices[chosen, :3, :3])
     frames = vectors * _bounded(scale * sigmas)[:, None, :]
     return Placed(positions[chosen], rotations[chosen] @ frames)
 
 
 def wedges(
-    given: Covariances, positions: F64, rotations: F64, scale: float, offset: float
+    covariances: Covariances, positions: F64, rotations: F64, scale: float, offset: float
 ) -> Placed:
     """Yaw wedges of planar poses, for a `WEDGE`.
 
     Args:
-        given: of N poses.
+        covariances: of N poses.
         positions: (N, 3), metres.
         rotations: (N, 3, 3), of the frames whose x axes the wedges follow.
         scale: standard deviations.
         offset: length of the wedges, metres.
     """
-    chosen = given.is_planar
-    half_width = _tangent(scale * np.sqrt(np.maximum(given.matrices[chosen, 5, 5], 0.0)))
+    chosen = covariances.is_planar
+    half_width = _tangent(scale * np.sqrt(np.maximum(covariances.matrices[chosen, 5, 5], 0.0)))
     frames = np.zeros((len(half_width), 3, 3))
     frames[:, 0, 0] = offset
     frames[:, 1, 1] = offset * half_width
@@ -136,7 +136,7 @@ def wedges(
 
 
 def tip_discs(
-    given: Covariances,
+    covariances: Covariances,
     positions: F64,
     rotations: F64,
     scale: float,
@@ -148,9 +148,9 @@ def tip_discs(
     A small rotation w moves the tip e of an axis by w x e, which lies in the plane of the other
     two axes u and v: by w_v along u and by -w_u along v. As `wedges`, with `axis` 0, 1 or 2.
     """
-    chosen = ~given.is_planar
+    chosen = ~covariances.is_planar
     u, v = (axis + 1) % 3, (axis + 2) % 3
-    about = given.matrices[chosen, 3:, 3:]
+    about = covariances.matrices[chosen, 3:, 3:]
     moves = np.empty((len(about), 2, 2))
     moves[:, 0, 0], moves[:, 1, 1] = about[:, v, v], about[:, u, u]
     moves[:, 0, 1] = moves[:, 1, 0] = -about[:, max(u, v), min(u, v)]

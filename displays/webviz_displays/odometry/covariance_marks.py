@@ -92,7 +92,7 @@ def draw_covariances(
 def add_positions(
     group: Group,
     look: PositionCovariance,
-    given: Covariances,
+    covariances: Covariances,
     positions: F64,
     frames: F64,
     ids: Ids,
@@ -102,13 +102,13 @@ def add_positions(
     Args:
         group: where to draw.
         look: properties.
-        given: in the axes of `frames`.
+        covariances: in the axes of `frames`.
         positions: (N, 3), metres.
         frames: (N, 3, 3), rotations.
         ids: (N,), of the poses.
     """
-    flat = ellipses(given, positions, frames, look.scale)
-    full = ellipsoids(given, positions, frames, look.scale)
+    flat = ellipses(covariances, positions, frames, look.scale)
+    full = ellipsoids(covariances, positions, frames, look.scale)
     if len(flat.centers):
         scales, wxyzs = _turned(flat)
         scales[:, 2] = THICKNESS
@@ -120,7 +120,7 @@ def add_positions(
             look.color,
             wxyzs,
             look.alpha,
-            ids=ids[given.is_planar],
+            ids=ids[covariances.is_planar],
         )
     if len(full.centers):
         scales, wxyzs = _turned(full)
@@ -132,14 +132,14 @@ def add_positions(
             look.color,
             wxyzs,
             look.alpha,
-            ids=ids[~given.is_planar],
+            ids=ids[~covariances.is_planar],
         )
 
 
 def add_orientations(
     group: Group,
     look: OrientationCovariance,
-    given: Covariances,
+    covariances: Covariances,
     positions: F64,
     axes: F64,
     ids: Ids,
@@ -151,18 +151,18 @@ def add_orientations(
     Args:
         group: where to draw.
         look: properties.
-        given: covariances of rotations about `axes`.
+        covariances: covariances of rotations about `axes`.
         positions: (N, 3), metres.
         axes: (N, 3, 3), rotations.
         ids: (N,), of the poses.
     """
     colors = (look.color,) * 3 if look.color_style == "Unique" else _RGB
-    yaws = wedges(given, positions, axes, look.scale, look.offset)
+    yaws = wedges(covariances, positions, axes, look.scale, look.offset)
     if len(yaws.centers):
         vertices = yaws.images(WEDGE).reshape(-1, 3).astype(np.float32)
         faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
         group.add("wedges", Mesh(vertices, faces, colors[2], look.alpha))
-    discs = [tip_discs(given, positions, axes, look.scale, look.offset, i) for i in (0, 1, 2)]
+    discs = [tip_discs(covariances, positions, axes, look.scale, look.offset, i) for i in (0, 1, 2)]
     placed = Placed(*map(np.concatenate, zip(*discs, strict=True)))
     if len(placed.centers):
         scales, wxyzs = _turned(placed)
@@ -176,7 +176,7 @@ def add_orientations(
             each,
             wxyzs,
             look.alpha,
-            ids=np.tile(ids[~given.is_planar], 3),
+            ids=np.tile(ids[~covariances.is_planar], 3),
         )
 
 

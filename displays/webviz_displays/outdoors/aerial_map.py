@@ -50,7 +50,7 @@ class TileLoading(msgspec.Struct):
     tiles: dict[Tile, Cells | None] = msgspec.field(default_factory=dict)
     failures: dict[Tile, str] = msgspec.field(default_factory=dict)
 
-    def load(self, wanted: Sequence[Tile], ctx: Context) -> bool:
+    def load(self, tiles: Sequence[Tile], ctx: Context) -> bool:
         """Go on with loading what is wanted, in this order, and forget the rest.
 
         Returns:
@@ -65,11 +65,11 @@ class TileLoading(msgspec.Struct):
             )
             if self.source is None:
                 return False
-        needed = set(wanted)
+        needed = set(tiles)
         self.tiles = {tile: cells for tile, cells in self.tiles.items() if tile in needed}
         self.failures = {tile: why for tile, why in self.failures.items() if tile in needed}
         pending = 0
-        for tile in wanted:
+        for tile in tiles:
             if tile in self.tiles or tile in self.failures:
                 continue
             if pending == AT_ONCE or len(self.failures) >= MAX_FAILURES:
@@ -114,12 +114,12 @@ class _State(msgspec.Struct):
 
     Args:
         loading: of the chosen tiles.
-        drawn: nodes of tiles by number, with the opacity and size for which they were made.
+        nodes: nodes of tiles by number, with the opacity and size for which they were made.
         look: those.
     """
 
     loading: TileLoading | None = None
-    drawn: dict[Tile, Image] = msgspec.field(default_factory=dict)
+    nodes: dict[Tile, Image] = msgspec.field(default_factory=dict)
     look: tuple[object, ...] = ()
 
 
@@ -198,7 +198,7 @@ class AerialMap(Display):
 
     def _draw(
         self,
-        wanted: dict[Tile, tuple[int, int]],
+        layout: dict[Tile, tuple[int, int]],
         plane: TilePlane,
         here: TilePlane,
         pose: Pose,
@@ -215,17 +215,17 @@ class AerialMap(Display):
         layer = ctx.order - (BEHIND if self.draw_behind else 0)
         look = (self.object_uri, self.alpha, width, height, layer)
         if state.look != look:
-            state.look, state.drawn = look, {}
+            state.look, state.nodes = look, {}
         tiles = state.loading.tiles
-        state.drawn = {tile: node for tile, node in state.drawn.items() if tile in tiles}
-        for tile, at in wanted.items():
+        state.nodes = {tile: node for tile, node in state.nodes.items() if tile in tiles}
+        for tile, at in layout.items():
             cells = tiles.get(tile)
             if cells is None:
                 continue
-            if tile not in state.drawn:
-                state.drawn[tile] = Image(_faded(cells, self.alpha), width, height, layer)
+            if tile not in state.nodes:
+                state.nodes[tile] = Image(_faded(cells, self.alpha), width, height, layer)
             key = "/".join(map(str, tile))
-            group.add(key, state.drawn[tile], Pose((*plane.corner(*at), 0.0)))
+            group.add(key, state.nodes[tile], Pose((*plane.corner(*at), 0.0)))
 
     def _report(self, loading: TileLoading, is_complete: bool, count: int, ctx: Context) -> None:
         count_shown = sum(cells is not None for cells in loading.tiles.values())

@@ -103,18 +103,18 @@ class _State(msgspec.Struct):
     Args:
         clouds: when each arrived, ROS time in nanoseconds, by number.
         shares: how many clouds share the limit of points.
-        held: limit of points by what browsers draw fast enough.
+        budget: limit of points by what browsers draw fast enough.
         newest: number of the cloud drawn last, None before the first.
-        seen: that number and the time at which it was noticed, ROS time in nanoseconds.
+        newest_arrival: that number and the time at which it was noticed, ROS time in nanoseconds.
         size: of that cloud, in points.
         resting: number of a cloud that no other follows, None if one does.
     """
 
     clouds: dict[int, int] = msgspec.field(default_factory=dict)
     shares: int = 1
-    held: int = POINTS_HELD
+    budget: int = POINTS_HELD
     newest: int | None = None
-    seen: tuple[int | None, int] = (None, 0)
+    newest_arrival: tuple[int | None, int] = (None, 0)
     size: int = 1 << 40
     resting: int | None = None
 
@@ -167,13 +167,13 @@ class CloudDisplay(PointsDisplay):
         """
         state: _State = ctx.state
         now_ns, newest = ctx.frames.now_ns, state.newest
-        if state.seen[0] != newest:
-            state.seen = newest, now_ns
-        is_at_rest = now_ns - state.seen[1] > REST_NS and not self.decay_time
+        if state.newest_arrival[0] != newest:
+            state.newest_arrival = newest, now_ns
+        is_at_rest = now_ns - state.newest_arrival[1] > REST_NS and not self.decay_time
         state.resting = newest if is_at_rest else None
         # A cloud at rest is sent once, whatever browsers hold later: they thin it by themselves.
         if state.resting is None:
-            state.held = ctx.share_of_points(state.size)
+            state.budget = ctx.share_of_points(state.size)
         oldest = now_ns - round(min(self.decay_time * 1e9, 2**63))
         # A copy, as `draw` may add a cloud in its thread.
         for number in [n for n, received_ns in state.clouds.copy().items() if received_ns < oldest]:
@@ -183,9 +183,9 @@ class CloudDisplay(PointsDisplay):
         if count > shares or count < shares // 4:
             shares = 1 << (count - 1).bit_length()
         state.shares = shares
-        if self.max_points != AS_HELD or state.size * shares <= state.held:
+        if self.max_points != AS_HELD or state.size * shares <= state.budget:
             return shares, 0, None
-        return shares, state.held, state.resting
+        return shares, state.budget, state.resting
 
     def draw(self, sample: Sample, ctx: Context) -> None:
         """One cloud, in the frame of the sensor at the stamp."""
@@ -286,7 +286,7 @@ class CloudDisplay(PointsDisplay):
             )
         name, limit = f"max_points of {spaced(self.max_points)}", self.max_points or count
         if limit == AS_HELD:
-            limit = state.held
+            limit = state.budget
             name = f"the {spaced(limit)} that browsers hold at 20 frames a second"
         if self.style == "Points" and limit > DOTS_LIMIT:
             name, limit = f"the limit of the style Points of {spaced(DOTS_LIMIT)}", DOTS_LIMIT

@@ -58,18 +58,18 @@ class LoadedRobot(msgspec.Struct, frozen=True, eq=False):
         robot: without collision shapes.
         full: with them; None if they are switched off or still loading.
         placing: where its links are.
-        shown: links that are switched on.
+        visible_links: links that are switched on.
     """
 
     robot: Robot
     full: Robot | None
     placing: Placing
-    shown: tuple[str, ...]
+    visible_links: tuple[str, ...]
 
-    def lost(self, frames: Frames) -> list[str]:
+    def unplaced(self, frames: Frames) -> list[str]:
         """Return enabled links without a pose."""
         pose = self.placing.pose
-        return [link for link in self.shown if pose(link, frames) is None]
+        return [link for link in self.visible_links if pose(link, frames) is None]
 
 
 class RobotDrawing(msgspec.Struct):
@@ -210,7 +210,7 @@ class RobotModel(Display):
         """
         state: RobotDrawing = ctx.state
         loading = [progress(loading) for loading in state.loading.values()]
-        unplaced = state.model.lost(ctx.frames) if state.model else []
+        unplaced = state.model.unplaced(ctx.frames) if state.model else []
         return loading, unplaced, state.grey, self._round(ctx)
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
@@ -236,7 +236,7 @@ class RobotModel(Display):
         paint = state.paint
         paint.begin()
         state.owners.clear()
-        unplaced = state.grey = set(model.lost(ctx.frames))
+        unplaced = state.grey = set(model.unplaced(ctx.frames))
         for part in parts_of(model.robot, model.full, self._choices(), paint):
             group = model.placing.group(part.link, ctx, self.update_interval)
             color = GREY if part.link in unplaced else None
@@ -248,11 +248,13 @@ class RobotModel(Display):
         model: LoadedRobot | None = ctx.state.model
         if model is None:
             return
-        unplaced = model.lost(ctx.frames)
+        unplaced = model.unplaced(ctx.frames)
         placing = model.placing
         reasons = self._reasons(model, unplaced, ctx)
-        report_places(len(model.shown), unplaced, reasons, placing.source, placing.lacks, ctx)
-        chosen = {link: self.links[link] for link in model.shown if link in self.links}
+        report_places(
+            len(model.visible_links), unplaced, reasons, placing.source, placing.lacks, ctx
+        )
+        chosen = {link: self.links[link] for link in model.visible_links if link in self.links}
         for link in [link for link, chosen in chosen.items() if chosen.show_axes][:NAMED]:
             if pose := model.placing.pose(link, ctx.frames):
                 report_link(link, pose, ctx)
@@ -269,13 +271,15 @@ class RobotModel(Display):
         pose, frame = model.placing.pose(link, ctx.frames), model.placing.frame(link)
         return link_details(model.full or model.robot, link, pose, frame, ctx.frames)
 
-    def _reasons(self, model: LoadedRobot, lost: list[str], ctx: Context) -> dict[str, Explanation]:
+    def _reasons(
+        self, model: LoadedRobot, links: list[str], ctx: Context
+    ) -> dict[str, Explanation]:
         """Return why the first links are lost; texts contain times, so they change every second."""
         state: RobotDrawing = ctx.state
-        moment = (lost, ctx.frames.now_ns // SECOND)
+        moment = (links, ctx.frames.now_ns // SECOND)
         if state.reasons_of != moment:
             state.reasons_of = moment
-            state.reasons = model.placing.reasons(model.robot, lost, ctx.frames)
+            state.reasons = model.placing.reasons(model.robot, links, ctx.frames)
         return state.reasons
 
     def _draw_trails(self, model: LoadedRobot, links: list[str], ctx: Context) -> None:

@@ -96,12 +96,12 @@ class Paint:
     """Cache of shapes with another opacity or colour: a model can hold megabytes."""
 
     def __init__(self) -> None:
-        self._made: dict[tuple[int, float, Rgb | None], tuple[Node, Node]] = {}
+        self._nodes: dict[tuple[int, float, Rgb | None], tuple[Node, Node]] = {}
         self._before: dict[tuple[int, float, Rgb | None], tuple[Node, Node]] = {}
 
     def begin(self) -> None:
         """Start a round: shapes not used until the next call are dropped then."""
-        self._before, self._made = self._made, {}
+        self._before, self._nodes = self._nodes, {}
 
     def __call__(self, node: Node, alpha: float = 1.0, color: Rgb | None = None) -> Node:
         """`node` with its opacity multiplied by `alpha`, and optionally in another colour."""
@@ -110,8 +110,10 @@ class Paint:
             return node
         key = (id(node), alpha, color)
         # The unpainted node is held too, so that its id is not reused.
-        entry = self._made.get(key) or self._before.get(key) or (node, _painted(node, alpha, color))
-        self._made[key] = entry
+        entry = (
+            self._nodes.get(key) or self._before.get(key) or (node, _painted(node, alpha, color))
+        )
+        self._nodes[key] = entry
         return entry[1]
 
 

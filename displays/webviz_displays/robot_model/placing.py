@@ -41,7 +41,7 @@ class Placing(Protocol):
         """Return a group that moves with a link; without a pose it stays at the last one."""
         ...
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
+    def reasons(self, robot: Robot, links: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Return why links have no pose, unless another status says it: one sentence per cause."""
         ...
 
@@ -70,10 +70,10 @@ class ByTransforms:
         """Return a group in the link's frame."""
         return ctx.follow(self._prefix + link, keep_last=True, interval_s=interval_s)
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
+    def reasons(self, robot: Robot, links: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Return why the links' frames have no transforms, by the first link with each reason."""
         return distinct(
-            lost, lambda link: why_lost(robot, link, frames.explain(self.frame(link))), NAMED
+            links, lambda link: why_lost(robot, link, frames.explain(self.frame(link))), NAMED
         )
 
 
@@ -124,7 +124,7 @@ class ByJoints:
             self._root, offset=self._poses.get(link, Pose()), keep_last=True, key=link
         )
 
-    def reasons(self, robot: Robot, lost: Sequence[str], frames: Frames) -> dict[str, Explanation]:
+    def reasons(self, robot: Robot, links: Sequence[str], frames: Frames) -> dict[str, Explanation]:
         """Return why the root link has no transform."""
         return {} if frames.latest(self._root) else {robot.root: frames.explain(self._root)}
 

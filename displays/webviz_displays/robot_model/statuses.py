@@ -36,9 +36,11 @@ def report_robot(robot: Robot, full: Robot | None, ctx: Context) -> None:
         ctx.warn("URDF warnings", _first(robot.warnings))
 
 
-def report_unknown(kind: str, chosen: Sequence[str], known: Sequence[str], ctx: Context) -> None:
+def report_unknown(
+    kind: str, chosen: Sequence[str], all_names: Sequence[str], ctx: Context
+) -> None:
     """Report settings of links or joints that the robot does not have."""
-    unknown = sorted(set(chosen) - set(known))
+    unknown = sorted(set(chosen) - set(all_names))
     if unknown:
         names = listed(unknown, NAMED)
         ctx.warn(f"{kind} settings", f"The robot has no {kind.lower()} named {names}.")
@@ -68,7 +70,7 @@ def why_lost(robot: Robot, link: str, reason: Explanation) -> Explanation:
 
 def report_places(
     total: int,
-    lost: Sequence[str],
+    unplaced: Sequence[str],
     reasons: Mapping[str, Explanation],
     source: str,
     lacks: str,
@@ -78,18 +80,18 @@ def report_places(
 
     Args:
         total: links that should be drawn.
-        lost: names of the links without a pose.
+        unplaced: names of the links without a pose.
         reasons: by the first link that has each reason.
         source: of the poses.
         lacks: what the lost links have not.
         ctx: receives the statuses.
     """
-    if not lost:
+    if not unplaced:
         ctx.ok("Links", f"{counted(total, 'link')} placed by {source}.")
         return
     ctx.error(
         "Links",
-        f"{len(lost)} of {counted(total, 'link')} without {lacks}: {listed(lost, NAMED)}. "
+        f"{len(unplaced)} of {counted(total, 'link')} without {lacks}: {listed(unplaced, NAMED)}. "
         "Links seen before stay in grey at their last pose.",
     )
     for link, reason in reasons.items():

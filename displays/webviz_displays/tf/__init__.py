@@ -116,7 +116,7 @@ class _State(msgspec.Struct):
         fixed_frame: in which `ages` were measured.
         ages: of frames.
         filter: by the properties.
-        known: by names and the shape of the tree.
+        selection: by names and the shape of the tree.
         last: the tick that was drawn last.
         reasons: why frames are lost.
         reasons_of: which frames, and at which second that was asked.
@@ -125,7 +125,7 @@ class _State(msgspec.Struct):
     fixed_frame: str = ""
     ages: Ages = msgspec.field(default_factory=Ages)
     filter: FrameFilter = msgspec.field(default_factory=lambda: FrameFilter(None, None, {}, True))
-    known: _FrameSelection | None = None
+    selection: _FrameSelection | None = None
     last: _Tick | None = None
     reasons: dict[str, Explanation] = msgspec.field(default_factory=dict)
     reasons_of: tuple[bytes, int] | None = None
@@ -193,7 +193,7 @@ class TF(Display):
         if state.fixed_frame != ctx.frames.fixed_frame:
             state.fixed_frame, state.ages = ctx.frames.fixed_frame, Ages()
         state.filter = FrameFilter(whitelist, blacklist, self.frames, self.all_enabled)
-        state.known = state.last = state.reasons_of = None
+        state.selection = state.last = state.reasons_of = None
 
     def tick(self, ctx: Context) -> None:
         """Draw every frame where it is at the latest common time with the fixed frame."""
@@ -209,7 +209,7 @@ class TF(Display):
             text = "No transforms received on /tf or /tf_static. Start robot_state_publisher."
             ctx.warn("Frames", f"No transforms yet: {recorded}." if recorded else text)
             return
-        selection = self._known(ctx, poses.names)
+        selection = self._selection(ctx, poses.names)
         ages = state.ages.update(poses.stamps_ns, now_ns, partial(receptions, ctx.frames.buffer))
         is_young = ages <= self.frame_timeout
         is_shown = selection.selected & poses.ok & is_young
@@ -224,18 +224,18 @@ class TF(Display):
         """Return a frame: its parent, its pose and how old that is."""
         return details(ctx.frames, hit.id)
 
-    def _known(self, ctx: Context, names: list[str]) -> _FrameSelection:
+    def _selection(self, ctx: Context, names: list[str]) -> _FrameSelection:
         state: _State = ctx.state
         version = (ctx.frames.structure, len(names))
-        if state.known is None or state.known.version != version:
+        if state.selection is None or state.selection.version != version:
             selected = state.filter.select(names)
             parents = parent_indices(ctx.frames, names)
             # As objects, or each name would take the memory of the longest one.
             order = np.argsort(np.array(names, object))
-            state.known = _FrameSelection(
+            state.selection = _FrameSelection(
                 version, selected, parents, order, outline(names, parents)
             )
-        return state.known
+        return state.selection
 
     def _draw(
         self,
@@ -263,10 +263,14 @@ class TF(Display):
             add_names(group, marks, scale)
 
     def _report(
-        self, selected: NDArray[np.bool_], shown: NDArray[np.bool_], poses: FramePoses, ctx: Context
+        self,
+        selected: NDArray[np.bool_],
+        visible: NDArray[np.bool_],
+        poses: FramePoses,
+        ctx: Context,
     ) -> None:
         unplaced = np.flatnonzero(selected & ~poses.ok)
-        count, total, selected_count = int(shown.sum()), len(poses.names), int(selected.sum())
+        count, total, selected_count = int(visible.sum()), len(poses.names), int(selected.sum())
         old = selected_count - count - len(unplaced)
         parts = [f"{count} of {total} frames shown" if count < total else f"{count} frames shown"]
         if selected_count < total:

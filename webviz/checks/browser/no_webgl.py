@@ -30,9 +30,9 @@ class PageNotStarted(Check):
 
     id = "WEB001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such browser."""
-        for each in seen.browsers:
+        for each in observation.browsers:
             if each.waited_s >= PATIENCE_S:
                 yield self.found(
                     f"The page of {each.name} has not started after {each.waited_s:.0f} s: "

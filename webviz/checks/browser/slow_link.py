@@ -25,9 +25,9 @@ class LinkTooSlow(Check):
 
     id = "WEB004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such browser."""
-        for each in seen.browsers:
+        for each in observation.browsers:
             if each.rate is not None and each.reduced:
                 yield self.found(
                     f"The link to {each.name} is slow: {each.reduced}.",

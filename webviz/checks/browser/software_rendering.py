@@ -26,9 +26,9 @@ class SoftwareRendering(Check):
 
     id = "WEB002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such browser."""
-        for each in seen.browsers:
+        for each in observation.browsers:
             if each.is_software and not each.is_hidden:
                 takes = f", {1000 * each.frame_s:.0f} ms for a frame" if each.frame_s else ""
                 yield self.found(

@@ -29,9 +29,9 @@ class ThrottledTab(Check):
 
     id = "WEB003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such browser."""
-        for each in seen.browsers:
+        for each in observation.browsers:
             if each.waited_s or not each.renderer:
                 continue
             evidence = {"silent_s": round(each.silent_s), "late_s": round(each.late_s, 1)}

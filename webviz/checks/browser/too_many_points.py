@@ -33,11 +33,15 @@ class TooManyPoints(Check):
 
     id = "WEB005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such viewer."""
-        slow = min((each for each in seen.browsers if each.points), key=_points, default=None)
+        slow = min(
+            (each for each in observation.browsers if each.points), key=_points, default=None
+        )
         points = {
-            each.display.name: each.wanted_points for each in seen.displays if each.wanted_points
+            each.display.name: each.wanted_points
+            for each in observation.displays
+            if each.wanted_points
         }
         if slow is None or sum(points.values()) <= slow.points:
             return

@@ -29,19 +29,21 @@ class ViewerBehind(Check):
 
     id = "WEB006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such viewer."""
-        if seen.load < BUSY or seen.is_recorded:
+        if observation.load < BUSY or observation.is_recorded:
             return
-        most = max(seen.displays, key=lambda each: each.core, default=None)
+        most = max(observation.displays, key=lambda each: each.core, default=None)
         if most is None or most.core < OWN:
             return
-        cores = {each.display.name: round(each.core, 3) for each in seen.displays if each.core}
+        cores = {
+            each.display.name: round(each.core, 3) for each in observation.displays if each.core
+        }
         name = most.display.name
         yield self.found(
-            f"The viewer cannot keep up: it wants {100 * seen.load:.0f} % of a core; {name} "
+            f"The viewer cannot keep up: it needs {100 * observation.load:.0f} % of a core; {name} "
             f"takes {100 * most.core:.0f} %.",
             f"Hide {name}, or send it fewer or smaller messages.",
             subject="viewer",
-            evidence={"load": round(seen.load, 2), **cores},
+            evidence={"load": round(observation.load, 2), **cores},
         )

@@ -25,9 +25,9 @@ class BeamCount(Check):
 
     id = "DATA008"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for _, each in seen.samples(SCAN):
+        for _, each in observation.samples(SCAN):
             scan, count = each.message, len(each.message.ranges)
             if not count or not scan.angle_increment:
                 continue

@@ -28,9 +28,9 @@ class BlindScan(Check):
 
     id = "DATA006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.samples(SCAN):
+        for display, each in observation.samples(SCAN):
             scan = each.message
             ranges = np.asarray(scan.ranges)
             if not len(ranges) or ((ranges >= scan.range_min) & (ranges <= scan.range_max)).any():

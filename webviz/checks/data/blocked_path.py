@@ -24,9 +24,9 @@ class BlockedPath(Check):
 
     id = "DATA005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such path."""
-        for display in seen.displays:
+        for display in observation.displays:
             if display.blocked and display.problem("Obstacles"):
                 yield self.found(
                     f"The path leads through {display.blocked} points of the laser scan.",

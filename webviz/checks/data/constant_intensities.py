@@ -28,9 +28,9 @@ class ConstantIntensities(Check):
 
     id = "DATA009"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for _, each in seen.samples(SCAN):
+        for _, each in observation.samples(SCAN):
             values = np.asarray(each.message.intensities)
             if len(values) >= FEWEST and float(values.min()) == float(values.max()):
                 yield self.found(

@@ -28,9 +28,9 @@ class Degrees(Check):
 
     id = "DATA016"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.samples(SCAN):
+        for display, each in observation.samples(SCAN):
             scan = each.message
             span = abs(scan.angle_increment) * len(scan.ranges)
             if span > WIDEST_RAD:

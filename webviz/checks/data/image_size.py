@@ -31,9 +31,9 @@ class ImageSize(Check):
 
     id = "DATA015"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.samples(IMAGE):
+        for display, each in observation.samples(IMAGE):
             image = each.message
             try:
                 layout = layout_of(image.encoding)

@@ -35,11 +35,11 @@ class InvalidJointStates(Check):
 
     id = "DATA017"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic while links of a robot lack transforms."""
-        symptoms = tuple(symptom for symptom, _ in seen.lost(*OF_LINKS))
-        stateless = dict(_stateless(seen))
-        for topic, state in seen.joint_states.items() if symptoms else ():
+        symptoms = tuple(symptom for symptom, _ in observation.lost(*OF_LINKS))
+        stateless = dict(_stateless(observation))
+        for topic, state in observation.joint_states.items() if symptoms else ():
             names, positions = state.name, np.asarray(state.position)
             pairs = zip(names, positions, strict=False)
             invalid = [name for name, at in pairs if not np.isfinite(at)]
@@ -67,20 +67,22 @@ class InvalidJointStates(Check):
                     "invalid": len(invalid),
                 },
                 command=f"ros2 topic echo --once {topic}",
-                explains=(*symptoms, *seen.symptom("Transforms")),
+                explains=(*symptoms, *observation.symptom("Transforms")),
                 causes=CauseLevel.FRAMES,
             )
 
 
-def _stateless(seen: Observation) -> Iterator[tuple[Symptom, str]]:
+def _stateless(observation: Observation) -> Iterator[tuple[Symptom, str]]:
     """Yield the joints that no state is of, each with the status of its link.
 
     None while several nodes publish joint states, as the newest message is of one of them.
     """
     publishers = [
-        p for topic in seen.joint_states for p in seen.offers.get(topic, NO_OFFER).publishers
+        p
+        for topic in observation.joint_states
+        for p in observation.offers.get(topic, NO_OFFER).publishers
     ]
-    joints = {name for state in seen.joint_states.values() for name in state.name}
-    for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME) if len(publishers) == 1 else ():
+    joints = {name for state in observation.joint_states.values() for name in state.name}
+    for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME) if len(publishers) == 1 else ():
         if reason.joint and reason.joint not in joints:
             yield symptom, reason.joint

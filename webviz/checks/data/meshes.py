@@ -24,9 +24,9 @@ class MissingMeshes(Check):
 
     id = "DATA011"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        for display in seen.displays:
+        for display in observation.displays:
             status = display.problem("Meshes")
             if status is not None:
                 yield self.found(

@@ -32,9 +32,9 @@ class Millimetres(Check):
 
     id = "DATA007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.samples(SCAN):
+        for display, each in observation.samples(SCAN):
             middle = middle_of(np.asarray(each.message.ranges))
             if middle > FARTHEST_M:
                 yield self.found(

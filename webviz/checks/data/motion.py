@@ -44,9 +44,9 @@ class Motions:
     def __init__(self) -> None:
         self._last: dict[str, _Motion] = {}
 
-    def since(self, seen: Observation) -> Iterator[Moved]:
+    def since(self, observation: Observation) -> Iterator[Moved]:
         """Yield the movements since the round before that are large enough to be compared."""
-        for _, each in seen.samples(ODOMETRY):
+        for _, each in observation.samples(ODOMETRY):
             now, before = _motion(each.message), self._last.get(each.topic)
             if before is None or now.at_s != before.at_s:
                 self._last[each.topic] = now

@@ -37,27 +37,29 @@ class OdometryFrame(Check):
 
     id = "DATA021"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        if seen.is_recorded:
+        if observation.is_recorded:
             return  # a recording does not tell which node sent what
         # Transforms whose own fault has another name differ from anything.
-        faulty = {each.subject for each in seen.findings if each.id == "TF026"}
-        faulty |= {frame for frame, _ in seen.buffer.conflicts.all()}
-        transforms = seen.offers.get("/tf", NO_OFFER).publishers
+        faulty = {each.subject for each in observation.findings if each.id == "TF026"}
+        faulty |= {frame for frame, _ in observation.buffer.conflicts.all()}
+        transforms = observation.offers.get("/tf", NO_OFFER).publishers
         senders = {each.node for each in transforms if each.node}
-        for _, each in seen.samples(ODOMETRY):
+        for _, each in observation.samples(ODOMETRY):
             odometry = each.message
             parent, child = odometry.header.frame_id, odometry.child_frame_id
-            nodes = {p.node for p in seen.offers.get(each.topic, NO_OFFER).publishers}
-            link = seen.buffer.link(child)
+            nodes = {p.node for p in observation.offers.get(each.topic, NO_OFFER).publishers}
+            link = observation.buffer.link(child)
             if not nodes & senders or link is None or link.parent != parent or child in faulty:
                 continue
-            if is_off(seen.buffer, child, seen.now_ns):
+            if is_off(observation.buffer, child, observation.now_ns):
                 continue
             stamp = odometry.header.stamp
             try:
-                transform = seen.buffer.lookup(parent, child, stamp.sec * 10**9 + stamp.nanosec)
+                transform = observation.buffer.lookup(
+                    parent, child, stamp.sec * 10**9 + stamp.nanosec
+                )
             except TransformException:
                 continue
             place, q = odometry.pose.pose.position, odometry.pose.pose.orientation

@@ -49,9 +49,9 @@ class OdometryScale(Check):
         """Ratios of the twist to the pose in the last rounds of steady motion, by topic and
         axis."""
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic and axis whose speeds have one ratio for some rounds."""
-        for moved in self._motions.since(seen):
+        for moved in self._motions.since(observation):
             if moved.is_steady:
                 ratios = self._ratios.setdefault((moved.topic, moved.axis), [])
                 ratios.append(moved.by_twist / moved.by_pose)

@@ -34,9 +34,9 @@ class OdometrySign(Check):
     def __init__(self) -> None:
         self._motions, self._wrong = Motions(), Streaks()
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic whose directions have differed for some rounds."""
-        for moved in self._motions.since(seen):
+        for moved in self._motions.since(observation):
             if abs(moved.by_twist) >= (LEAST_M if moved.axis == "linear.x" else MIN_RAD):
                 self._wrong.note(moved, moved.by_pose * moved.by_twist < 0.0)
         for topic, axis in self._wrong.lasting(ROUNDS):

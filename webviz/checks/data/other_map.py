@@ -24,9 +24,9 @@ class OtherMap(Check):
 
     id = "DATA004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, misfit in seen.misfits():
+        for display, misfit in observation.misfits():
             if misfit.fit.is_cured or misfit.is_placed:
                 continue
             yield self.found(

@@ -55,10 +55,10 @@ class SeesItself(Check):
         self._first: dict[str, _Sighting] = {}
         """Scan with which the near beams were seen first, by topic."""
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with near beams that stay near."""
-        for _, each in seen.samples(SCAN):
-            now = _seen(each.message)
+        for _, each in observation.samples(SCAN):
+            now = _sighting(each.message)
             near = int(now.near.sum())
             first = self._first.get(each.topic)
             if near < FEWEST or near > MOST * len(now.ranges):
@@ -80,7 +80,7 @@ class SeesItself(Check):
             )
 
 
-def _seen(scan: Any) -> _Sighting:
+def _sighting(scan: Any) -> _Sighting:
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     valid = (ranges >= scan.range_min) & (ranges <= scan.range_max)
     return _Sighting(ranges, valid & (ranges < NEAR_M), valid)

@@ -18,7 +18,7 @@ TURNED_RAD = math.radians(30.0)
 """Turn of the robot after which a shift of the laser has turned along, and one of the robot not."""
 STEADY_M = 0.15
 """Distance in metres by which a shift that stays may vary."""
-KEPT = 30
+MAX_SHIFTS = 30
 """Rounds whose shifts are compared, about one a second."""
 FEWEST = 3
 """Shifts that show a laser which is so little off that its scan fits in some rounds."""
@@ -51,14 +51,14 @@ class RobotMisplaced(Check):
         self._shifts: dict[str, list[_Shift | None]] = {}
         """Shifts in the last rounds by frame of the laser, None for one in which its scan fits."""
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
         before, self._shifts = self._shifts, {}
-        for display in seen.displays:
+        for display in observation.displays:
             if (scan_fit := display.fit) is None:
                 continue
-            rounds = self._shifts[scan_fit.frame] = before.get(scan_fit.frame, [])[-KEPT:]
-            rounds.append(_shift(seen, scan_fit))
+            rounds = self._shifts[scan_fit.frame] = before.get(scan_fit.frame, [])[-MAX_SHIFTS:]
+            rounds.append(_shift(observation, scan_fit))
             shifts = [each for each in rounds if each]
             off = _of_laser(shifts)
             is_off_now = not scan_fit.fit.is_good and scan_fit.fit.shift is not None
@@ -88,11 +88,11 @@ class RobotMisplaced(Check):
             )
 
 
-def _shift(seen: Observation, found: MapFit) -> _Shift | None:
+def _shift(observation: Observation, map_fit: MapFit) -> _Shift | None:
     """Return the shift with which a scan would fit, None without one."""
-    shift = None if found.fit.is_good else found.fit.shift
+    shift = None if map_fit.fit.is_good else map_fit.fit.shift
     try:
-        pose = seen.buffer.lookup(found.map_frame, found.frame, 0)
+        pose = observation.buffer.lookup(map_fit.map_frame, map_fit.frame, 0)
     except TransformException:
         return None
     x, y, z, w = pose.rotation

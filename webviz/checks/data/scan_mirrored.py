@@ -24,9 +24,9 @@ class ScanMirrored(Check):
 
     id = "DATA002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, misfit in seen.misfits():
+        for display, misfit in observation.misfits():
             if not misfit.fit.is_mirrored:
                 continue
             yield self.found(

@@ -25,9 +25,9 @@ class ScanTurned(Check):
 
     id = "DATA001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such scan."""
-        for display, misfit in seen.misfits():
+        for display, misfit in observation.misfits():
             if misfit.fit.turn is None:
                 continue
             yield self.found(

@@ -31,12 +31,15 @@ class UndrawableData(Check):
 
     id = "DATA019"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each error of a display about its data."""
         explained = {
-            symptom for each in seen.findings if each.id != self.id for symptom in each.explains
+            symptom
+            for each in observation.findings
+            if each.id != self.id
+            for symptom in each.explains
         }
-        for display in seen.displays:
+        for display in observation.displays:
             topic = next((each.topic for each in display.inputs if each.received), "")
             for key, text in _errors(display):
                 if not topic or {*display.symptom(key)} & explained:

@@ -8,7 +8,7 @@ from webviz.api.check import Check
 from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
-KNOWN = "known cells"
+KNOWN_CELLS = "known cells"
 """Measurement of displays of maps."""
 
 
@@ -28,12 +28,12 @@ class UnknownMap(Check):
 
     id = "DATA018"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such map."""
-        for display in seen.displays:
+        for display in observation.displays:
             status = display.problem("Map")
             numbers = {each.name: each.value for each in status.values} if status else {}
-            if numbers.get(KNOWN) == 0.0:
+            if numbers.get(KNOWN_CELLS) == 0.0:
                 topic = next((each.topic for each in display.inputs), "")
                 yield self.found(
                     f"All cells of {topic} are unknown.",

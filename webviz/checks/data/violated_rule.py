@@ -25,9 +25,9 @@ class ViolatedRule(Check):
 
     id = "DATA012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each rule that has been violated for long enough."""
-        for verdict in seen.verdicts:
+        for verdict in observation.verdicts:
             rule = verdict.rule
             if verdict.is_violated and verdict.value is not None:
                 yield self.found(

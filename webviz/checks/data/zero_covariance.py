@@ -26,9 +26,9 @@ class ZeroCovariance(Check):
 
     id = "DATA010"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for _, each in seen.samples(*TYPES):
+        for _, each in observation.samples(*TYPES):
             pose = each.message.pose
             if not any(pose.covariance):
                 yield self.found(

@@ -19,10 +19,10 @@ class ConflictCheck(Check):
     topic: ClassVar[str]
     """Topic on which one of the publishers is found."""
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for the frames with this sign that have the same parents."""
         conflicts: dict[tuple[str, ...], list[tuple[str, Problem]]] = {}
-        for frame, conflict in seen.conflicts(self.kind):
+        for frame, conflict in observation.conflicts(self.kind):
             conflicts.setdefault(conflict.parents, []).append((frame, conflict.problem))
         for parents, several in conflicts.items():
             frame, problem = several[0]
@@ -35,8 +35,8 @@ class ConflictCheck(Check):
                 evidence={
                     "frames": tuple(name for name, _ in several),
                     "parents": parents,
-                    "nodes": seen.nodes_of(self.topic),
+                    "nodes": observation.nodes_of(self.topic),
                 },
                 command=f"ros2 topic info {self.topic} --verbose",
-                explains=(*seen.symptom("Transforms"), *seen.off_map()),
+                explains=(*observation.symptom("Transforms"), *observation.off_map()),
             )

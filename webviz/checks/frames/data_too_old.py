@@ -26,9 +26,9 @@ class DataTooOld(Check):
 
     id = "TF020"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.BEHIND):
+        for symptom, reason in observation.lost(Kind.BEHIND):
             yield self.found(
                 f'Data in "{reason.frame}" is older than the transforms of "{reason.link}".',
                 "Look for a slow node or network, and for wrong stamps.",

@@ -25,10 +25,10 @@ class EmptyFrameId(Check):
 
     id = "TF015"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.EMPTY_FRAME):
-            if not seen.fixed_frame:
+        for symptom, reason in observation.lost(Kind.EMPTY_FRAME):
+            if not observation.fixed_frame:
                 continue
             yield self.found(
                 "The messages of a display have no frame id.",

@@ -25,17 +25,17 @@ class FixedFrameMisspelt(Check):
 
     id = "TF002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if a known frame resembles the fixed frame."""
-        unknown = list(seen.lost(Kind.UNKNOWN_FIXED_FRAME))
+        unknown = list(observation.lost(Kind.UNKNOWN_FIXED_FRAME))
         near = next((reason.near for _, reason in unknown if reason.near), "")
         if near:
             yield self.found(
-                f'The fixed frame "{seen.fixed_frame}" does not exist, but "{near}" does.',
+                f'The fixed frame "{observation.fixed_frame}" does not exist, but "{near}" does.',
                 f'Use "{near}" as the fixed frame.',
-                subject=seen.fixed_frame,
+                subject=observation.fixed_frame,
                 severity=Severity.ERROR,
-                evidence={"fixed_frame": seen.fixed_frame, "nearest": near},
+                evidence={"fixed_frame": observation.fixed_frame, "nearest": near},
                 button=OtherFixedFrame(near),
                 explains=tuple(symptom for symptom, _ in unknown),
             )

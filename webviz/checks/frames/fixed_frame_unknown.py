@@ -25,17 +25,17 @@ class FixedFrameUnknown(Check):
 
     id = "TF004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if the fixed frame is unknown."""
-        unknown = [each for each in seen.lost(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near]
+        unknown = [each for each in observation.lost(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near]
         if unknown:
-            root, size = seen.buffer.largest_tree()
+            root, size = observation.buffer.largest_tree()
             yield self.found(
-                f'The fixed frame "{seen.fixed_frame}" does not exist.',
+                f'The fixed frame "{observation.fixed_frame}" does not exist.',
                 f'Use "{root}", the root of the largest tree.',
-                subject=seen.fixed_frame,
+                subject=observation.fixed_frame,
                 severity=Severity.ERROR,
-                evidence={"fixed_frame": seen.fixed_frame, "root": root, "frames": size},
+                evidence={"fixed_frame": observation.fixed_frame, "root": root, "frames": size},
                 button=OtherFixedFrame(root),
                 explains=tuple(symptom for symptom, _ in unknown),
             )

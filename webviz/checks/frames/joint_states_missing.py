@@ -30,19 +30,21 @@ class JointStatesMissing(Check):
 
     id = "TF013"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if links are missing and no joint state is published."""
-        models = {each.id for each in seen.displays if each.type == "RobotModel"}
-        unknown = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if each[0].display in models]
-        types = {p.type for offer in seen.offers.values() for p in offer.publishers}
+        models = {each.id for each in observation.displays if each.type == "RobotModel"}
+        unknown = [
+            each for each in observation.lost(Kind.UNKNOWN_FRAME) if each[0].display in models
+        ]
+        types = {p.type for offer in observation.offers.values() for p in offer.publishers}
         if not unknown or JOINT_STATES in types:
             return
         yield self.found(
             "The bag has no joint states, so the poses of movable links are unknown."
-            if seen.is_recorded
+            if observation.is_recorded
             else "No node publishes joint states, so the poses of movable links are unknown.",
             "Record /joint_states as well."
-            if seen.is_recorded
+            if observation.is_recorded
             else "Start the driver of the joints, or joint_state_publisher.",
             severity=Severity.ERROR,
             evidence={"links": tuple(reason.frame for _, reason in unknown)[:10]},

@@ -42,10 +42,10 @@ class JumpingTransform(Check):
 
     id = "TF026"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each link between a world and a robot that jumps."""
-        conflicting = {frame for frame, _ in seen.buffer.conflicts.all()}
-        for frame, cache in seen.buffer.tree.caches.items():
+        conflicting = {frame for frame, _ in observation.buffer.conflicts.all()}
+        for frame, cache in observation.buffer.tree.caches.items():
             parent = cache.parent
             if not isinstance(cache, TimeCache) or not parent or not is_named(parent, *WORLDS):
                 continue
@@ -64,7 +64,7 @@ class JumpingTransform(Check):
                 subject=frame,
                 evidence={"parent": parent, "jumps": len(jumps), "longest_m": round(max(jumps), 2)},
                 command=f"ros2 run tf2_ros tf2_echo {parent} {frame}",
-                explains=seen.off_map(),
+                explains=observation.off_map(),
             )
 
 

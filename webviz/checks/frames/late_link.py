@@ -32,14 +32,15 @@ class LateLink(Check):
 
     id = "TF019"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each link that is slower than a topic."""
-        tree = seen.buffer.tree
-        fixed = {*ancestors(tree, seen.fixed_frame)}
-        for display, each in seen.inputs():
+        tree = observation.buffer.tree
+        fixed = {*ancestors(tree, observation.fixed_frame)}
+        for display, each in observation.inputs():
             links = {*ancestors(tree, each.frame)} ^ fixed if each.frame else set[str]()
             reports = [
-                report(seen.buffer, link, seen.now_ns) for link in links & tree.caches.keys()
+                report(observation.buffer, link, observation.now_ns)
+                for link in links & tree.caches.keys()
             ]
             slow = [link for link in reports if _is_slow(link) and each.rate_hz > 2 * link.rate_hz]
             for link in slow:
@@ -54,7 +55,7 @@ class LateLink(Check):
                         "topic": each.topic,
                         "topic_hz": round(each.rate_hz, 3),
                     },
-                    command=f"ros2 run tf2_ros tf2_monitor {seen.fixed_frame} {link.frame}",
+                    command=f"ros2 run tf2_ros tf2_monitor {observation.fixed_frame} {link.frame}",
                     explains=display.symptom("Transform"),
                 )
 

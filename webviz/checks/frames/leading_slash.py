@@ -24,12 +24,14 @@ class LeadingSlash(Check):
 
     id = "TF014"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame id."""
-        names = [(each.frame, each.topic) for _, each in seen.inputs() if each.frame[:1] == "/"]
-        explains = tuple(symptom for symptom, _ in seen.lost(Kind.LEADING_SLASH))
-        if seen.fixed_frame[:1] == "/":
-            names.append((seen.fixed_frame, "the fixed frame"))
+        names = [
+            (each.frame, each.topic) for _, each in observation.inputs() if each.frame[:1] == "/"
+        ]
+        explains = tuple(symptom for symptom, _ in observation.lost(Kind.LEADING_SLASH))
+        if observation.fixed_frame[:1] == "/":
+            names.append((observation.fixed_frame, "the fixed frame"))
         for frame, where in names:
             yield self.found(
                 f'The frame id "{frame}" ({where}) begins with a slash.',

@@ -32,23 +32,23 @@ class LocalisationMissing(Check):
 
     id = "TF003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each robot that is not connected to the map."""
-        frames = sorted(seen.buffer.frames())
+        frames = sorted(observation.buffer.frames())
         robot = next((frame for name in ROBOT for frame in frames if is_named(frame, name)), "")
-        is_wanted = is_named(seen.fixed_frame, "map")
+        is_wanted = is_named(observation.fixed_frame, "map")
         missing: dict[str, list[Symptom]] = {}
-        for symptom, reason in seen.lost(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
+        for symptom, reason in observation.lost(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
             root, fixed_root = reason.roots or ("", "")
-            if is_named(root, "odom") and fixed_root == seen.fixed_frame:
+            if is_named(root, "odom") and fixed_root == observation.fixed_frame:
                 missing.setdefault(root, []).append(symptom)
             elif reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near:
                 missing.setdefault(robot, []).append(symptom)
-        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
             if is_named(reason.frame, "map"):
                 missing.setdefault(robot, []).append(symptom)
                 is_wanted = True
-        amcl = next((node for node in seen.nodes if node.rpartition("/")[2] == "amcl"), "")
+        amcl = next((node for node in observation.nodes if node.rpartition("/")[2] == "amcl"), "")
         start = "Give AMCL the initial pose (2D Pose Estimate)." if amcl else "Start AMCL or SLAM."
         for root, explains in missing.items() if is_wanted else ():
             if not root:
@@ -59,7 +59,7 @@ class LocalisationMissing(Check):
                 subject=root,
                 severity=Severity.ERROR,
                 evidence={"root": root, "amcl": amcl},
-                command="" if seen.is_recorded or amcl else LAUNCH,
+                command="" if observation.is_recorded or amcl else LAUNCH,
                 button=OtherFixedFrame(root),
                 explains=tuple(explains),
             )

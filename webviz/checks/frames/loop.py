@@ -27,16 +27,16 @@ class LoopOfFrames(Check):
 
     id = "TF007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each loop."""
-        symptoms: list[Symptom] = [symptom for symptom, _ in seen.lost(Kind.LOOP)]
-        for loop in loops(seen.buffer):
+        symptoms: list[Symptom] = [symptom for symptom, _ in observation.lost(Kind.LOOP)]
+        for loop in loops(observation.buffer):
             yield self.found(
                 f"The frames {listed(loop, ' → ')} form a loop.",
                 "Stop one of the two publishers that disagree about the parents.",
                 subject=" ".join(sorted(set(loop))[:8]),
                 severity=Severity.ERROR,
-                evidence={"loop": loop[:10], "publishers": seen.nodes_of("/tf")},
+                evidence={"loop": loop[:10], "publishers": observation.nodes_of("/tf")},
                 command="ros2 topic info /tf --verbose",
                 explains=tuple(symptoms),
             )

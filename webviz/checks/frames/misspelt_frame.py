@@ -25,9 +25,9 @@ class MisspeltFrame(Check):
 
     id = "TF016"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
             if not reason.near:
                 continue
             yield self.found(

@@ -27,36 +27,48 @@ class NoTransforms(Check):
 
     id = "TF001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if nothing is known of any frame: a note if all data can be drawn."""
-        explains = tuple(symptom for symptom, _ in seen.lost(Kind.NO_TRANSFORMS))
-        if not explains or (seen.is_recorded and "none" not in (seen.buffer.recorded or "none")):
+        explains = tuple(symptom for symptom, _ in observation.lost(Kind.NO_TRANSFORMS))
+        if not explains or (
+            observation.is_recorded and "none" not in (observation.buffer.recorded or "none")
+        ):
             return
-        offers = [seen.offers.get(topic, NO_OFFER) for topic in ("/tf", "/tf_static")]
+        offers = [observation.offers.get(topic, NO_OFFER) for topic in ("/tf", "/tf_static")]
         offers = [offer for offer in offers if offer.publishers]
-        if offers and not seen.is_recorded and all(offer.requested is None for offer in offers):
+        if (
+            offers
+            and not observation.is_recorded
+            and all(offer.requested is None for offer in offers)
+        ):
             return  # they have just been found
         elsewhere = next(
-            (t for t in seen.offers if t.endswith("/tf") and t != "/tf" and seen.nodes_of(t)), ""
+            (
+                t
+                for t in observation.offers
+                if t.endswith("/tf") and t != "/tf" and observation.nodes_of(t)
+            ),
+            "",
         )
-        nodes = seen.nodes_of("/tf") or seen.nodes_of("/tf_static")
-        has_data = seen.is_recorded or any(seen.inputs())
+        nodes = observation.nodes_of("/tf") or observation.nodes_of("/tf_static")
+        others = observation.nodes_of(elsewhere) if elsewhere else ""
+        has_data = observation.is_recorded or any(observation.inputs())
         is_harmless = has_data and not any(each.display for each in explains)
         yield self.found(
             f"{nodes} publishes transforms, but none has arrived."
             if nodes
             else "The bag has no transforms."
-            if seen.is_recorded
-            else f"No node publishes /tf, but {seen.nodes_of(elsewhere)} publishes {elsewhere}."
+            if observation.is_recorded
+            else f"No node publishes /tf, but {others} publishes {elsewhere}."
             if elsewhere
             else "No node publishes transforms.",
             "Record /tf and /tf_static as well, or use the frame of the data as the fixed frame."
-            if seen.is_recorded
+            if observation.is_recorded
             else "Let webviz listen there, or let the robot publish /tf without its namespace."
             if elsewhere
             else "Start robot_state_publisher, the odometry and localisation.",
             severity=Severity.NOTE if is_harmless else Severity.ERROR,
-            evidence={"publishers": nodes, "fixed_frame": seen.fixed_frame},
+            evidence={"publishers": nodes, "fixed_frame": observation.fixed_frame},
             command=f"webviz --ros-args -r /tf:={elsewhere} -r /tf_static:={elsewhere}_static"
             if elsewhere
             else "ros2 topic info /tf --verbose",

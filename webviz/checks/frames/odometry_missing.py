@@ -31,9 +31,9 @@ class OdometryMissing(Check):
 
     id = "TF005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if the base is the root of a tree besides that of odom."""
-        gaps = list(unconnected(seen))
+        gaps = list(unconnected(observation))
         if gaps:
             _, base, odom = gaps[-1]
             yield self.found(
@@ -41,27 +41,27 @@ class OdometryMissing(Check):
                 "Start the odometry of the robot, or let it publish its transform.",
                 subject=base,
                 severity=Severity.ERROR,
-                evidence={"base": base, "publishers": seen.nodes_of("/odom")},
+                evidence={"base": base, "publishers": observation.nodes_of("/odom")},
                 command="ros2 topic info /odom --verbose",
-                explains=odometry_lost(seen),
+                explains=odometry_lost(observation),
             )
 
 
-def odometry_lost(seen: Observation) -> tuple[Symptom, ...]:
+def odometry_lost(observation: Observation) -> tuple[Symptom, ...]:
     """Return the statuses of frames that lack the transform of the odometry."""
-    return tuple(symptom for symptom, _, _ in unconnected(seen))
+    return tuple(symptom for symptom, _, _ in unconnected(observation))
 
 
-def unconnected(seen: Observation) -> Iterator[tuple[Symptom, str, str]]:
+def unconnected(observation: Observation) -> Iterator[tuple[Symptom, str, str]]:
     """Yield these statuses, each with the frames of the base and of the odometry."""
-    tree = seen.buffer.tree
-    for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
+    tree = observation.buffer.tree
+    for symptom, reason in observation.lost(Kind.NOT_CONNECTED):
         root, fixed_root = reason.roots or ("", "")
         if (base := BASE.fullmatch(root)) is None:
             continue
         own = f"{base[1] or ''}odom"
         if own in tree.names and tree.root(own) == fixed_root:
             yield symptom, root, own
-    for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+    for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
         if is_named(reason.frame, "odom"):
-            yield symptom, seen.fixed_frame, reason.frame
+            yield symptom, observation.fixed_frame, reason.frame

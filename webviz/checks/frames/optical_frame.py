@@ -30,10 +30,10 @@ class OpticalFrame(Check):
 
     id = "TF025"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for frame in seen.buffer.publishers:
-            link = seen.buffer.link(frame) if frame.endswith(ENDINGS) else None
+        for frame in observation.buffer.publishers:
+            link = observation.buffer.link(frame) if frame.endswith(ENDINGS) else None
             if link is None or link.parent.endswith(ENDINGS):
                 continue
             w = abs(link.transform.rotation[3])

@@ -33,24 +33,25 @@ class OutOfReach(Check):
 
     id = "TF022"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.OUT_OF_REACH):
+        for symptom, reason in observation.lost(Kind.OUT_OF_REACH):
             yield self.found(
-                f'The frame "{reason.frame}" is too far from "{seen.fixed_frame}" to be drawn.',
+                f'The frame "{reason.frame}" is too far from "{observation.fixed_frame}" '
+                "to be drawn.",
                 "Correct the publisher of the transform.",
                 subject=reason.link or reason.frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame},
                 explains=(symptom,),
             )
-        if is_named(seen.fixed_frame, "earth", "utm"):
+        if is_named(observation.fixed_frame, "earth", "utm"):
             return  # whose coordinates are that large
-        frames = {each.frame for _, each in seen.inputs() if each.frame}
-        chains = (ancestors(seen.buffer.tree, frame) for frame in sorted(frames))
-        fixed = {*ancestors(seen.buffer.tree, seen.fixed_frame)}
+        frames = {each.frame for _, each in observation.inputs() if each.frame}
+        chains = (ancestors(observation.buffer.tree, frame) for frame in sorted(frames))
+        fixed = {*ancestors(observation.buffer.tree, observation.fixed_frame)}
         for frame in dict.fromkeys(frame for chain in chains for frame in chain):
-            link = None if frame in fixed else seen.buffer.link(frame)
+            link = None if frame in fixed else observation.buffer.link(frame)
             distance_m = math.hypot(*link.transform.translation) if link else 0.0
             if link and FAR_M < distance_m < REACH_M:
                 yield self.found(

@@ -25,9 +25,9 @@ class QueueFull(Check):
 
     id = "TF021"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.QUEUE_FULL):
+        for symptom, reason in observation.lost(Kind.QUEUE_FULL):
             yield self.found(
                 f'Messages in "{reason.frame}" are dropped before their transform arrives.',
                 f"Set the filter size of the topic to {reason.filter_size}.",

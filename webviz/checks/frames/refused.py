@@ -31,16 +31,16 @@ class RefusedTransforms(Check):
 
     id = "TF023"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each frame whose transform is refused, or that lacks it since."""
         refusals = [
             (reason.link, symptom)
-            for symptom, reason in seen.lost(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
-            if reason.kind is Kind.REFUSED or is_refused(seen, reason.link)
+            for symptom, reason in observation.lost(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
+            if reason.kind is Kind.REFUSED or is_refused(observation, reason.link)
         ]
         causes = {link for link, _ in refusals}
-        for frame, refused in seen.buffer.refusals.rejections.items():
-            is_current = refused.is_current(seen.now_ns) or frame in causes
+        for frame, refused in observation.buffer.refusals.rejections.items():
+            is_current = refused.is_current(observation.now_ns) or frame in causes
             if not is_current or refused.reason == OLD:
                 continue
             topic = "/tf_static" if refused.is_static else "/tf"
@@ -52,12 +52,12 @@ class RefusedTransforms(Check):
                 command=f"ros2 topic echo {topic}",
                 explains=(
                     *(symptom for link, symptom in refusals if link == frame),
-                    *seen.symptom("Transforms"),
+                    *observation.symptom("Transforms"),
                 ),
             )
 
 
-def is_refused(seen: Observation, frame: str) -> bool:
+def is_refused(observation: Observation, frame: str) -> bool:
     """Return whether a frame lacks transforms because its publisher sends invalid ones."""
-    refused = seen.buffer.refusals.rejections.get(frame)
-    return refused is not None and refused.reason != OLD and refused.is_current(seen.now_ns)
+    refused = observation.buffer.refusals.rejections.get(frame)
+    return refused is not None and refused.reason != OLD and refused.is_current(observation.now_ns)

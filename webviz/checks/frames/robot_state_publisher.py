@@ -32,13 +32,18 @@ class RobotStatePublisherMissing(Check):
 
     id = "TF012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if frames are missing and nothing describes the robot."""
-        unknown = [each for each in seen.lost(Kind.UNKNOWN_FRAME) if not each[1].near]
-        described = any(topic.endswith(DESCRIPTION) for topic in published(seen))
-        if not unknown or described or seen.is_recorded or "/tf_static" in published(seen):
+        unknown = [each for each in observation.lost(Kind.UNKNOWN_FRAME) if not each[1].near]
+        described = any(topic.endswith(DESCRIPTION) for topic in published(observation))
+        if (
+            not unknown
+            or described
+            or observation.is_recorded
+            or "/tf_static" in published(observation)
+        ):
             return
-        if any(NODE in node for node in seen.nodes):
+        if any(NODE in node for node in observation.nodes):
             return
         yield self.found(
             "No node publishes the links of the robot.",
@@ -50,6 +55,6 @@ class RobotStatePublisherMissing(Check):
         )
 
 
-def published(seen: Observation) -> set[str]:
+def published(observation: Observation) -> set[str]:
     """Return the topics that have a publisher."""
-    return {topic for topic, offer in seen.offers.items() if offer.publishers}
+    return {topic for topic, offer in observation.offers.items() if offer.publishers}

@@ -26,13 +26,13 @@ class StoppedLink(Check):
 
     id = "TF018"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.AHEAD, Kind.NO_DATA):
-            if reason.is_catching_up or is_refused(seen, reason.link):
+        for symptom, reason in observation.lost(Kind.AHEAD, Kind.NO_DATA):
+            if reason.is_catching_up or is_refused(observation, reason.link):
                 continue
             frame = reason.link or reason.frame
-            cache = seen.buffer.tree.caches.get(frame)
+            cache = observation.buffer.tree.caches.get(frame)
             is_single = cache is not None and not cache.is_static and len(cache) == 1
             yield self.found(
                 f'Only one transform of "{frame}" has arrived.'
@@ -44,6 +44,6 @@ class StoppedLink(Check):
                 subject=frame,
                 severity=Severity.ERROR,
                 evidence={"frame": reason.frame, "link": reason.link},
-                command=f"ros2 run tf2_ros tf2_echo {seen.fixed_frame} {reason.link}",
+                command=f"ros2 run tf2_ros tf2_echo {observation.fixed_frame} {reason.link}",
                 explains=(symptom,),
             )

@@ -31,13 +31,13 @@ class TwoTrees(Check):
 
     id = "TF006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each pair of trees that displays need together."""
-        contested = {frame for frame, _ in seen.conflicts(ConflictKind.TWO_PARENTS)}
-        for symptom, reason in seen.lost(Kind.NOT_CONNECTED):
+        contested = {frame for frame, _ in observation.conflicts(ConflictKind.TWO_PARENTS)}
+        for symptom, reason in observation.lost(Kind.NOT_CONNECTED):
             if not reason.roots:
                 continue  # it was not connected at that time, and now it is
-            if contested & {*ancestors(seen.buffer.tree, reason.frame)}:
+            if contested & {*ancestors(observation.buffer.tree, reason.frame)}:
                 continue  # its parent decides, on which two publishers disagree
             root, fixed_root = reason.roots
             yield self.found(

@@ -32,13 +32,13 @@ class UnknownFrame(Check):
 
     id = "TF017"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in seen.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
             if reason.near:
                 continue
             is_world = is_named(reason.frame, *WORLDS)
-            frames = sorted(seen.buffer.frames())
+            frames = sorted(observation.buffer.frames())
             base = next((each for name in BASES for each in frames if is_named(each, name)), "")
             yield self.found(
                 f'No transform leads to the frame "{reason.frame}".',

@@ -25,14 +25,14 @@ class VolatileStatic(Check):
 
     id = "TF024"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each node that publishes static transforms as volatile."""
-        offer = seen.offers.get("/tf_static")
+        offer = observation.offers.get("/tf_static")
         if offer is None or offer.is_recorded:
             return
         kinds = Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME, Kind.UNKNOWN_FRAME, Kind.NOT_CONNECTED
-        symptoms = tuple(symptom for symptom, reason in seen.lost(*kinds) if not reason.near)
-        links = map(seen.buffer.link, seen.buffer.frames())
+        symptoms = tuple(symptom for symptom, reason in observation.lost(*kinds) if not reason.near)
+        links = map(observation.buffer.link, observation.buffer.frames())
         explains = () if any(link and link.is_static for link in links) else symptoms
         for publisher in offer.publishers:
             if publisher.durability == "volatile" and publisher.is_qos_known:

@@ -29,9 +29,9 @@ class CannotSubscribe(Check):
 
     id = "GRAPH007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with a problem."""
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             if not offer.problem:
                 continue
             package = offer.type.partition("/")[0]

@@ -32,9 +32,9 @@ class DeadlineMismatch(Check):
 
     id = "GRAPH014"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with such a subscription."""
-        for topic, offer in seen.offers.items():
+        for topic, offer in observation.offers.items():
             waiting: list[tuple[Endpoint, float]] = []
             for reader in offer.readers:
                 offered = [p.deadline_s for p in offer.publishers if p.type == reader.type]
@@ -50,7 +50,7 @@ class DeadlineMismatch(Check):
             yield self.found(
                 f"{readers} {'receives' if is_one else 'receive'} nothing on {topic}: "
                 f"{'it asks' if is_one else 'they ask'} for a deadline of {asked_s:g} s, and "
-                f"{seen.nodes_of(topic)} offers {promise}.",
+                f"{observation.nodes_of(topic)} offers {promise}.",
                 "Remove the deadline of the subscription, or offer it in the publisher.",
                 subject=topic,
                 evidence={"topic": topic, "nodes": readers, "asked_s": asked_s},

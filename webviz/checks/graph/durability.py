@@ -26,16 +26,16 @@ class DurabilityMismatch(Check):
 
     id = "GRAPH006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is requested as latched and offered as volatile."""
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             offered = {
                 p.durability for p in offer.publishers if p.type in each.types and p.is_qos_known
             }
             is_asked = each.latched or each.qos.durability == "transient_local"
             if offer.is_recorded or offered != {"volatile"} or not is_asked:
                 continue
-            who = seen.nodes_of(each.topic)
+            who = observation.nodes_of(each.topic)
             change = Remedy(f"{each.path}.durability", "auto", "Set durability to automatic")
             yield self.found(
                 f"{display.display.name} asks for transient local messages on {each.topic}, but "

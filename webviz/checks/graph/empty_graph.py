@@ -34,15 +34,15 @@ class EmptyGraph(Check):
 
     id = "GRAPH001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if the graph has one node, and topics or transforms are lacking."""
-        explains = seen.undiscovered()
-        if not seen.is_alone() or not explains:
+        explains = observation.undiscovered()
+        if not observation.is_alone() or not explains:
             return
-        domain = seen.environment.domain if seen.environment else "0"
-        router = next((each.name for each in seen.zenoh_links), "")
+        domain = observation.environment.domain if observation.environment else "0"
+        router = next((each.name for each in observation.zenoh_links), "")
         place = f"the Zenoh router {router}" if router else f"domain {domain}"
-        has_left = any(each.received for _, each in seen.inputs())
+        has_left = any(each.received for _, each in observation.inputs())
         start = OVER_ZENOH if router else "Start the robot, or set the ROS_DOMAIN_ID of its nodes."
         yield self.found(
             f"All other ROS nodes have left {place}."
@@ -50,7 +50,10 @@ class EmptyGraph(Check):
             else f"No other ROS node is visible {'on' if router else 'in'} {place}.",
             "Start the robot again, or restore the link to its machine." if has_left else start,
             severity=Severity.ERROR,
-            evidence={"router" if router else "domain": router or domain, "nodes": (*seen.nodes,)},
+            evidence={
+                "router" if router else "domain": router or domain,
+                "nodes": (*observation.nodes,),
+            },
             command="" if router else "ros2 multicast receive",
             explains=explains,
         )

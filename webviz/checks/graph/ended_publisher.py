@@ -32,20 +32,20 @@ class EndedPublisher(Check):
         self._nodes: dict[str, str] = {}
         """The last known publishers, by topic."""
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each node that has ended; several that left together are one."""
         by_node: dict[str, list[tuple[DisplaySeen, InputSeen]]] = {}
-        for display, each in seen.inputs():
-            offer = seen.offers.get(each.topic, NO_OFFER)
+        for display, each in observation.inputs():
+            offer = observation.offers.get(each.topic, NO_OFFER)
             if offer.publishers:
-                self._nodes[each.topic] = seen.nodes_of(each.topic)
+                self._nodes[each.topic] = observation.nodes_of(each.topic)
             elif each.received and display.problem(each.status):
                 node = self._nodes.get(each.topic, "")
                 by_node.setdefault(node or each.topic, []).append((display, each))
         for inputs in by_node.values():
             topics = [*dict.fromkeys(each.topic for _, each in inputs)]
             node = self._nodes.get(topics[0], "")
-            has_ended = node and not {*node.split(", ")} & {*seen.nodes}
+            has_ended = node and not {*node.split(", ")} & {*observation.nodes}
             named = listed(topics, NAMED)
             no_longer = "no longer has" if len(topics) == 1 else "no longer have"
             yield self.found(
@@ -63,6 +63,6 @@ class EndedPublisher(Check):
                 explains=tuple(
                     s
                     for display, each in inputs
-                    for s in (*display.symptom(each.status), *seen.outlived(display))
+                    for s in (*display.symptom(each.status), *observation.outlived(display))
                 ),
             )

@@ -32,11 +32,11 @@ class InactiveNode(Check):
 
     id = "GRAPH012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each silent topic of lifecycle nodes."""
-        for display, each, offer in seen.starved():
-            nodes = lifecycle_nodes(seen, offer.publishers)
-            if nodes and is_silent(seen, display, each, offer):
+        for display, each, offer in observation.starved():
+            nodes = lifecycle_nodes(observation, offer.publishers)
+            if nodes and is_silent(observation, display, each, offer):
                 yield self.found(
                     f"Nothing has arrived on {each.topic} from {nodes[0]}, a lifecycle node that "
                     "is probably not active.",
@@ -48,7 +48,7 @@ class InactiveNode(Check):
                 )
 
 
-def lifecycle_nodes(seen: Observation, publishers: Sequence[Publisher]) -> Sequence[str]:
+def lifecycle_nodes(observation: Observation, publishers: Sequence[Publisher]) -> Sequence[str]:
     """Return the lifecycle nodes among the nodes of publishers, by their transition topics."""
     return [
         publisher.node
@@ -56,6 +56,8 @@ def lifecycle_nodes(seen: Observation, publishers: Sequence[Publisher]) -> Seque
         if publisher.node
         and any(
             other.type == EVENT
-            for other in seen.offers.get(f"{publisher.node}/transition_event", NO_OFFER).publishers
+            for other in observation.offers.get(
+                f"{publisher.node}/transition_event", NO_OFFER
+            ).publishers
         )
     ]

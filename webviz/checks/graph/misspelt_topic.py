@@ -25,9 +25,9 @@ class MisspeltTopic(Check):
 
     id = "GRAPH002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic without a publisher that resembles a published one."""
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             remedy = suggested(display, each)
             if offer.publishers or each.received or not remedy:
                 continue

@@ -33,26 +33,26 @@ class NoPublisher(Check):
 
     id = "GRAPH010"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic without a publisher, one for all of a bag."""
         unpublished = [
             (display, each)
-            for display, each, offer in seen.starved()
+            for display, each, offer in observation.starved()
             if not (offer.publishers or offer.problem or each.received or suggested(display, each))
         ]
-        if seen.is_recorded and len({display.id for display, _ in unpublished}) > 1:
+        if observation.is_recorded and len({display.id for display, _ in unpublished}) > 1:
             yield self._missing(unpublished)
             return
-        hiding = seen.environment.local_only if seen.environment else ""
+        hiding = observation.environment.local_only if observation.environment else ""
         for display, each in unpublished:
             status = display.problem(each.status)
             remedy = status and status.remedy
             change = ChangeDisplay(display.id, remedy) if isinstance(remedy, Remedy) else None
-            place = "The bag has no messages on" if seen.is_recorded else "No node publishes"
+            place = "The bag has no messages on" if observation.is_recorded else "No node publishes"
             yield self.found(
                 f"{place} {each.topic}.",
                 "Choose another topic, or hide the display."
-                if seen.is_recorded
+                if observation.is_recorded
                 else joined(
                     "Start the node that publishes it, or choose another topic.",
                     hiding and f"With {hiding}, those of other machines are not found.",
@@ -60,14 +60,14 @@ class NoPublisher(Check):
                 subject=each.topic,
                 evidence={"topic": each.topic, "types": each.types},
                 command=f"ros2 topic find {each.types[0]}",
-                button=change or (HideDisplays((display.id,)) if seen.is_recorded else None),
+                button=change or (HideDisplays((display.id,)) if observation.is_recorded else None),
                 explains=display.symptom(each.status),
             )
 
-    def _missing(self, found: Sequence[tuple[DisplaySeen, InputSeen]]) -> Finding:
+    def _missing(self, pairs: Sequence[tuple[DisplaySeen, InputSeen]]) -> Finding:
         """Return the one finding for all topics that a bag lacks."""
-        ids = tuple(dict.fromkeys(display.id for display, _ in found))
-        topics = tuple(dict.fromkeys(each.topic for _, each in found))
+        ids = tuple(dict.fromkeys(display.id for display, _ in pairs))
+        topics = tuple(dict.fromkeys(each.topic for _, each in pairs))
         more = f" and {len(topics) - LISTED} more" if len(topics) > LISTED else ""
         return self.found(
             f"{len(ids)} displays read topics that this bag lacks.",
@@ -75,5 +75,5 @@ class NoPublisher(Check):
             proof=f"It has no messages on {', '.join(topics[:LISTED])}{more}.",
             evidence={"topics": topics},
             button=HideDisplays(ids),
-            explains=tuple(s for display, each in found for s in display.symptom(each.status)),
+            explains=tuple(s for display, each in pairs for s in display.symptom(each.status)),
         )

@@ -32,10 +32,10 @@ class OtherNamespace(Check):
 
     id = "GRAPH003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each namespace in which topics are missing, and another has them."""
         by_namespaces: dict[tuple[str, str], list[tuple[DisplaySeen, InputSeen, Remedy]]] = {}
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             remedy = suggested(display, each)
             if offer.publishers or each.received or not remedy:
                 continue

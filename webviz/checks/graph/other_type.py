@@ -27,9 +27,9 @@ class OtherType(Check):
 
     id = "GRAPH004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is published, but not with a type of its display."""
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             published = sorted({publisher.type for publisher in offer.publishers})
             if not published or {*published} & {*each.types}:
                 continue

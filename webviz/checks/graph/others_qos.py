@@ -41,9 +41,9 @@ class OthersQos(Check):
 
     id = "GRAPH016"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic with such subscriptions."""
-        for topic, offer in seen.offers.items():
+        for topic, offer in observation.offers.items():
             if offer.is_recorded:
                 continue
             pairs = _mismatches(offer)

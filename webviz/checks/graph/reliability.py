@@ -25,9 +25,9 @@ class ReliabilityMismatch(Check):
 
     id = "GRAPH005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is requested as reliable and offered best effort."""
-        for display, each, offer in seen.starved():
+        for display, each, offer in observation.starved():
             offered = {
                 p.reliability for p in offer.publishers if p.type in each.types and p.is_qos_known
             }
@@ -39,7 +39,7 @@ class ReliabilityMismatch(Check):
                 continue
             yield self.found(
                 f"{display.display.name} asks for reliable messages on {each.topic}, but "
-                f"{seen.nodes_of(each.topic)} offers best effort.",
+                f"{observation.nodes_of(each.topic)} offers best effort.",
                 "Set the reliability of the display to auto.",
                 subject=each.topic,
                 severity=Severity.ERROR,

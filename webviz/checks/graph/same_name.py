@@ -34,16 +34,16 @@ class SameName(Check):
 
     id = "GRAPH015"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such name."""
-        for node, number in Counter(seen.nodes).items():
+        for node, number in Counter(observation.nodes).items():
             both = sorted(
                 topic
-                for topic, offer in seen.offers.items()
+                for topic, offer in observation.offers.items()
                 if topic not in SHARED and sum(p.node == node for p in offer.publishers) > 1
             )
             if is_own(node):
-                yield from self._viewers(seen, node, both)
+                yield from self._viewers(observation, node, both)
             if number < 2 or is_own(node):
                 continue
             too = f", and publish {both[0]}" if both else ""
@@ -54,12 +54,16 @@ class SameName(Check):
                 severity=Severity.WARNING if both else Severity.NOTE,
                 evidence={"node": node, "number": number, "topics": tuple(both[:10])},
                 command="ros2 node list",
-                explains=seen.symptom("Transforms") if both else (),
+                explains=observation.symptom("Transforms") if both else (),
             )
 
-    def _viewers(self, seen: Observation, node: str, topics: Sequence[str]) -> Iterator[Finding]:
+    def _viewers(
+        self, observation: Observation, node: str, topics: Sequence[str]
+    ) -> Iterator[Finding]:
         """Yield a note if several viewers run; `webviz doctor` has the name, but no publisher."""
-        counts = (sum(p.node == node for p in seen.offers[each].publishers) for each in topics)
+        counts = (
+            sum(p.node == node for p in observation.offers[each].publishers) for each in topics
+        )
         if number := max(counts, default=0):
             yield self.found(
                 f"{number} viewers have the name {node}.",

@@ -11,10 +11,12 @@ def is_nameless(offer: Offer) -> bool:
     return all(not each.node and each.is_qos_known for each in offer.publishers)
 
 
-def is_silent(seen: Observation, display: DisplaySeen, each: InputSeen, offer: Offer) -> bool:
+def is_silent(
+    observation: Observation, display: DisplaySeen, each: InputSeen, offer: Offer
+) -> bool:
     """Return whether a topic is published and matches, but nothing has arrived."""
     publishers = [p for p in offer.publishers if p.type in each.types]
-    if each.received or offer.problem or not publishers or seen.is_recorded:
+    if each.received or offer.problem or not publishers or observation.is_recorded:
         return False
     if offer.begins:  # the past, in which it says nothing of a publisher that memory has no message
         return False

@@ -65,13 +65,13 @@ class SilentPublisher(Check):
 
     id = "GRAPH008"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that is published, matches, and is silent."""
-        senders = {p.node for p in seen.offers.get("/tf", NO_OFFER).publishers if p.node}
-        for display, each, offer in seen.starved():
-            if not is_silent(seen, display, each, offer) or is_nameless(offer):
+        senders = {p.node for p in observation.offers.get("/tf", NO_OFFER).publishers if p.node}
+        for display, each, offer in observation.starved():
+            if not is_silent(observation, display, each, offer) or is_nameless(offer):
                 continue
-            if lifecycle_nodes(seen, offer.publishers):
+            if lifecycle_nodes(observation, offer.publishers):
                 continue
             publishers = [p for p in offer.publishers if p.type in each.types]
             if all(is_own(p.node) for p in publishers):
@@ -86,7 +86,7 @@ class SilentPublisher(Check):
                 f"{each.silence} ago.",
                 joined(
                     "Check what the node waits for, such as its sensor or its inputs.",
-                    OVER_ZENOH if seen.zenoh_links else "",
+                    OVER_ZENOH if observation.zenoh_links else "",
                     earlier if is_single and not is_repeated else "",
                 ),
                 subject=each.topic,
@@ -99,6 +99,6 @@ class SilentPublisher(Check):
                 command=f"ros2 node info {node}" if publishers[0].node else "",
                 explains=(
                     *display.symptom(each.status),
-                    *(odometry_lost(seen) if is_sender and ODOMETRY in each.types else ()),
+                    *(odometry_lost(observation) if is_sender and ODOMETRY in each.types else ()),
                 ),
             )

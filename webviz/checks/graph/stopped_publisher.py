@@ -33,25 +33,27 @@ class StoppedPublisher(Check):
 
     id = "GRAPH009"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each topic that fell silent; those that did so together are one."""
         stopped = [
             (display, each)
-            for display, each, offer in seen.starved()
+            for display, each, offer in observation.starved()
             if each.received and offer.publishers and not offer.problem
         ]
-        for together in [[one] for one in stopped] if seen.is_recorded else _together(stopped):
+        for together in (
+            [[one] for one in stopped] if observation.is_recorded else _together(stopped)
+        ):
             _, each = together[0]
             topics = list(dict.fromkeys(each.topic for _, each in together))
             named = listed(topics, NAMED)
-            who = listed([*dict.fromkeys(map(seen.nodes_of, topics))], NAMED)
+            who = listed([*dict.fromkeys(map(observation.nodes_of, topics))], NAMED)
             rate = f", previously at {each.rate_hz:.1f} Hz" if len(topics) == 1 else ""
             yield self.found(
                 f"{each.topic} stops in the bag; its rate was {each.rate_hz:.1f} Hz."
-                if seen.is_recorded
+                if observation.is_recorded
                 else f"Nothing has arrived on {named} from {who} for {each.silence}{rate}.",
                 "Look at the log of the node and at its sensor."
-                if seen.is_recorded
+                if observation.is_recorded
                 else "Check the log of the node, its sensor, and the link to its machine.",
                 subject=each.topic,
                 severity=Severity.WARNING
@@ -66,7 +68,7 @@ class StoppedPublisher(Check):
                 explains=tuple(
                     symptom
                     for display, one in together
-                    for symptom in (*display.symptom(one.status), *seen.outlived(display))
+                    for symptom in (*display.symptom(one.status), *observation.outlived(display))
                 ),
             )
 

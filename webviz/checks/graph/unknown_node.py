@@ -29,10 +29,10 @@ class UnknownNode(Check):
 
     id = "GRAPH013"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each, offer in seen.starved():
-            if is_silent(seen, display, each, offer) and is_nameless(offer):
+        for display, each, offer in observation.starved():
+            if is_silent(observation, display, each, offer) and is_nameless(offer):
                 yield self.found(
                     f"Nothing has arrived on {each.topic}, whose publisher belongs to no known "
                     "node.",

@@ -27,9 +27,9 @@ class DiscoveryOff(Check):
 
     id = "ENV003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        variables = seen.environment.variables if seen.environment else {}
+        variables = observation.environment.variables if observation.environment else {}
         if variables.get(RANGE, "").upper() != "OFF" or variables.get("ROS_STATIC_PEERS"):
             return
         yield self.found(
@@ -38,5 +38,5 @@ class DiscoveryOff(Check):
             severity=Severity.ERROR,
             evidence={RANGE: variables[RANGE]},
             command=f"export {RANGE}=SUBNET",
-            explains=seen.undiscovered(),
+            explains=observation.undiscovered(),
         )

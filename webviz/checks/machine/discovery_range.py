@@ -9,7 +9,7 @@ from webviz.api.finding import Finding
 from webviz.api.observation import Observation
 
 RANGE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
-KNOWN = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
+RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 
 class InvalidDiscoveryRange(Check):
@@ -26,15 +26,15 @@ class InvalidDiscoveryRange(Check):
 
     id = "ENV004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        variables = seen.environment.variables if seen.environment else {}
+        variables = observation.environment.variables if observation.environment else {}
         value = variables.get(RANGE, "")
-        if value and value.upper() not in KNOWN:
+        if value and value.upper() not in RANGES:
             yield self.found(
                 f"{RANGE} is {value}, which ROS does not know.",
-                f"Use {', '.join(KNOWN)}.",
+                f"Use {', '.join(RANGES)}.",
                 evidence={RANGE: value},
                 command=f"export {RANGE}=SUBNET",
-                explains=seen.undiscovered(),
+                explains=observation.undiscovered(),
             )

@@ -27,9 +27,9 @@ class DiscoveryServer(Check):
 
     id = "ENV012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each server that cannot be reached."""
-        servers = seen.environment.discovery_servers if seen.environment else {}
+        servers = observation.environment.discovery_servers if observation.environment else {}
         for server, problem in servers.items():
             if problem:
                 yield self.found(
@@ -39,5 +39,5 @@ class DiscoveryServer(Check):
                     severity=Severity.ERROR,
                     evidence={"server": server, "problem": problem},
                     command="fastdds discovery --server-id 0",
-                    explains=seen.undiscovered(),
+                    explains=observation.undiscovered(),
                 )

@@ -28,9 +28,13 @@ class DomainOutOfRange(Check):
 
     id = "ENV001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        value = seen.environment.variables.get("ROS_DOMAIN_ID", "") if seen.environment else ""
+        value = (
+            observation.environment.variables.get("ROS_DOMAIN_ID", "")
+            if observation.environment
+            else ""
+        )
         if value and not (value.isdecimal() and int(value) <= MAX_DOMAIN):
             yield self.found(
                 f"ROS_DOMAIN_ID is {value}, not a number from 0 to {MAX_DOMAIN}.",

@@ -27,9 +27,13 @@ class DomainPorts(Check):
 
     id = "ENV002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        value = seen.environment.variables.get("ROS_DOMAIN_ID", "") if seen.environment else ""
+        value = (
+            observation.environment.variables.get("ROS_DOMAIN_ID", "")
+            if observation.environment
+            else ""
+        )
         if value.isdecimal() and FIRST <= int(value) <= LAST:
             yield self.found(
                 f"The ports of domain {value} are among those that Linux gives to other programs.",

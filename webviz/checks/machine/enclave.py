@@ -26,9 +26,9 @@ class EnclaveMissing(Check):
 
     id = "ENV014"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        if (environment := seen.environment) is None or not environment.security_problem:
+        if (environment := observation.environment) is None or not environment.security_problem:
             return
         is_enforced = environment.variables.get("ROS_SECURITY_STRATEGY") == "Enforce"
         yield self.found(

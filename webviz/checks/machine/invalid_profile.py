@@ -30,9 +30,9 @@ class InvalidProfile(Check):
 
     id = "ENV007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such file."""
-        profiles = seen.environment.profiles if seen.environment else {}
+        profiles = observation.environment.profiles if observation.environment else {}
         for path, problem in profiles.items():
             if problem:
                 is_file = path != INLINE

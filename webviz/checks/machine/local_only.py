@@ -29,11 +29,11 @@ class LocalDiscovery(Check):
 
     id = "ENV016"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so, and topics or transforms are lacking."""
-        environment, explains = seen.environment, seen.undiscovered()
+        environment, explains = observation.environment, observation.undiscovered()
         name = environment.local_only if environment else ""
-        if environment is None or not name or not explains or not seen.is_alone():
+        if environment is None or not name or not explains or not observation.is_alone():
             return
         value = environment.variables[name]
         peers = " other than ROS_STATIC_PEERS" if environment.has_static_peers else ""
@@ -43,7 +43,7 @@ class LocalDiscovery(Check):
             f"If the robot is another machine, unset {name} and start webviz again; otherwise "
             "start its nodes.",
             severity=Severity.ERROR,
-            evidence={name: value, "domain": environment.domain, "nodes": tuple(seen.nodes)},
+            evidence={name: value, "domain": environment.domain, "nodes": tuple(observation.nodes)},
             command=f"unset {name}",
             explains=explains,
         )

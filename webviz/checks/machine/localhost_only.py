@@ -28,9 +28,9 @@ class LocalhostConflict(Check):
 
     id = "ENV005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        variables = seen.environment.variables if seen.environment else {}
+        variables = observation.environment.variables if observation.environment else {}
         others = [name for name in NEWER if variables.get(name)]
         if variables.get("ROS_LOCALHOST_ONLY") == "1" and others:
             yield self.found(
@@ -38,5 +38,5 @@ class LocalhostConflict(Check):
                 "Remove ROS_LOCALHOST_ONLY.",
                 evidence={name: variables[name] for name in ("ROS_LOCALHOST_ONLY", *others)},
                 command="unset ROS_LOCALHOST_ONLY",
-                explains=seen.undiscovered(),
+                explains=observation.undiscovered(),
             )

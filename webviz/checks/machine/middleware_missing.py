@@ -25,9 +25,9 @@ class MiddlewareMissing(Check):
 
     id = "ENV006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        environment = seen.environment
+        environment = observation.environment
         middleware = environment.variables.get("RMW_IMPLEMENTATION", "") if environment else ""
         if (
             not environment

@@ -33,9 +33,9 @@ class OtherPython(Check):
 
     id = "ENV015"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        if (environment := seen.environment) is None:
+        if (environment := observation.environment) is None:
             return
         versions = {}
         for entry in environment.variables.get("PYTHONPATH", "").split(":"):

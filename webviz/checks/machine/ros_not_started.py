@@ -27,9 +27,9 @@ class RosNotStarted(Check):
 
     id = "ENV010"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        environment = seen.environment
+        environment = observation.environment
         if environment and environment.ros_error:
             cause, _, remedy = environment.ros_error.partition(". ")
             yield self.found(

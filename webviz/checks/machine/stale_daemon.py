@@ -26,10 +26,16 @@ class StaleDaemon(Check):
 
     id = "ENV013"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such daemon."""
-        for setting, value in (seen.environment.daemon if seen.environment else {}).items():
-            own = seen.environment.variables.get(setting, "") if seen.environment else ""
+        for setting, value in (
+            observation.environment.daemon if observation.environment else {}
+        ).items():
+            own = (
+                observation.environment.variables.get(setting, "")
+                if observation.environment
+                else ""
+            )
             yield self.found(
                 f"The daemon of ros2 runs with {setting}={value or 'unset'}, this program with "
                 f"{own or 'unset'}.",

@@ -26,11 +26,11 @@ class NoSuperClient(Check):
 
     id = "ENV008"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        variables = seen.environment.variables if seen.environment else {}
+        variables = observation.environment.variables if observation.environment else {}
         is_super = variables.get("ROS_SUPER_CLIENT", "").upper() in ("TRUE", "1")
-        if seen.environment and any(seen.environment.discovery_servers.values()):
+        if observation.environment and any(observation.environment.discovery_servers.values()):
             return  # without its server, its role does not matter
         if variables.get("ROS_DISCOVERY_SERVER") and not is_super:
             yield self.found(
@@ -38,5 +38,5 @@ class NoSuperClient(Check):
                 "Set ROS_SUPER_CLIENT to TRUE, and start webviz again.",
                 evidence={"ROS_DISCOVERY_SERVER": variables["ROS_DISCOVERY_SERVER"]},
                 command="export ROS_SUPER_CLIENT=TRUE",
-                explains=seen.undiscovered(),
+                explains=observation.undiscovered(),
             )

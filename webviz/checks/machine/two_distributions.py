@@ -27,9 +27,9 @@ class TwoDistributions(Check):
 
     id = "ENV009"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        variables = seen.environment.variables if seen.environment else {}
+        variables = observation.environment.variables if observation.environment else {}
         paths = variables.get("AMENT_PREFIX_PATH", "").split(":")
         names = sorted({path.split("/")[3] for path in paths if path.startswith(ROOT)})
         if len(names) > 1:

@@ -26,9 +26,9 @@ class ZenohRouter(Check):
 
     id = "ENV011"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each router that does not answer."""
-        routers = seen.environment.zenoh_routers if seen.environment else {}
+        routers = observation.environment.zenoh_routers if observation.environment else {}
         for router, problem in routers.items():
             if problem:
                 yield self.found(
@@ -38,5 +38,5 @@ class ZenohRouter(Check):
                     severity=Severity.ERROR,
                     evidence={"router": router, "problem": problem},
                     command="ros2 run rmw_zenoh_cpp rmw_zenohd",
-                    explains=seen.undiscovered(),
+                    explains=observation.undiscovered(),
                 )

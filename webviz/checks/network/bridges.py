@@ -27,9 +27,9 @@ class OtherInterfaces(Check):
 
     id = "NET004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        interfaces = seen.environment.interfaces if seen.environment else ()
+        interfaces = observation.environment.interfaces if observation.environment else ()
         names = tuple(each.name for each in interfaces if each.name.startswith(NAMES))
         if names:
             yield self.found(

@@ -36,19 +36,19 @@ class BrokenLink(Check):
 
     id = "NET007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each link that is down."""
-        for bridge in seen.bridges:
+        for bridge in observation.bridges:
             if bridge.is_up:
                 continue
             explains = [
                 symptom
-                for display, each, _ in seen.starved()
+                for display, each, _ in observation.starved()
                 for symptom in display.symptom(each.status)
             ]
             keys = ("Connection", f"Connection to {bridge.title}")
-            of_viewer = [symptom for key in keys for symptom in seen.symptom(key)]
-            is_alone = len(seen.bridges) == 1
+            of_viewer = [symptom for key in keys for symptom in observation.symptom(key)]
+            is_alone = len(observation.bridges) == 1
             yield self.found(
                 joined(f"{bridge.name} is not connected. {bridge.problem}"),
                 bridge.remedy or "Check the network.",

@@ -30,14 +30,14 @@ class LargeBestEffort(Check):
 
     id = "NET013"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        environment = seen.environment
+        environment = observation.environment
         if environment is None:
             return
         losses = environment.lost_datagrams + environment.lost_fragments
-        for _, each in seen.inputs():
-            publishers = seen.offers.get(each.topic, NO_OFFER).publishers
+        for _, each in observation.inputs():
+            publishers = observation.offers.get(each.topic, NO_OFFER).publishers
             is_repeated = any(p.reliability == "reliable" for p in publishers)
             if each.size <= LARGE or not publishers or is_repeated:
                 continue

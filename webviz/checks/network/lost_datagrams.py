@@ -30,9 +30,9 @@ class LostDatagrams(Check):
 
     id = "NET006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        environment = seen.environment
+        environment = observation.environment
         if environment and environment.lost_datagrams and environment.receive_buffer < ENOUGH:
             yield self.found(
                 f"{counted(environment.lost_datagrams, 'datagram')} were lost because a receive "

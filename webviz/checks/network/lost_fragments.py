@@ -29,11 +29,11 @@ class LostFragments(Check):
 
     id = "NET009"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        fragments = seen.environment.lost_fragments if seen.environment else 0
+        fragments = observation.environment.lost_fragments if observation.environment else 0
         if fragments:
-            explains = seen.unreceived()
+            explains = observation.unreceived()
             yield self.found(
                 f"{counted(fragments, 'datagram')} arrived in part only: fragments were lost.",
                 "Give fragments more memory and less time.",

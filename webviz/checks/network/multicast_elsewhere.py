@@ -28,9 +28,9 @@ class MulticastElsewhere(Check):
 
     id = "NET010"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        environment = seen.environment
+        environment = observation.environment
         name = environment.multicast_interface if environment else ""
         if environment is None or not name.startswith(NAMES):
             return
@@ -41,7 +41,7 @@ class MulticastElsewhere(Check):
         ]
         if not others:
             return
-        explains = seen.undiscovered()
+        explains = observation.undiscovered()
         yield self.found(
             f"Multicast leaves through {name}, not through {' or '.join(others)}.",
             f"Route multicast through the interface of the robot, such as {others[0]}.",

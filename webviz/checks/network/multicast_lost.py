@@ -26,15 +26,15 @@ class MulticastLost(Check):
 
     id = "NET002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        environment = seen.environment
+        environment = observation.environment
         if environment is None or environment.multicast_returns is not False:
             return
         outer = [each for each in environment.interfaces if not each.is_loopback]
         if not outer:
             return  # NET003 reports that no network is up
-        explains = seen.undiscovered()
+        explains = observation.undiscovered()
         names = tuple(each.name for each in environment.interfaces)
         best = next((each.name for each in outer if each.has_multicast), outer[0].name)
         yield self.found(

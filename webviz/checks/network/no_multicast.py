@@ -25,13 +25,13 @@ class NoMulticast(Check):
 
     id = "NET001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        interfaces = seen.environment.interfaces if seen.environment else ()
+        interfaces = observation.environment.interfaces if observation.environment else ()
         outer = [each for each in interfaces if not each.is_loopback]
         if not outer or any(each.has_multicast for each in outer):
             return
-        explains = seen.undiscovered()
+        explains = observation.undiscovered()
         yield self.found(
             f"No interface of the network has multicast: {', '.join(each.name for each in outer)}.",
             "Switch multicast on, or list the other machines in ROS_STATIC_PEERS.",

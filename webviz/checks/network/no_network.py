@@ -24,12 +24,12 @@ class NoNetwork(Check):
 
     id = "NET003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        interfaces = seen.environment.interfaces if seen.environment else ()
+        interfaces = observation.environment.interfaces if observation.environment else ()
         if not interfaces or any(not each.is_loopback for each in interfaces):
             return
-        explains = seen.undiscovered()
+        explains = observation.undiscovered()
         yield self.found(
             "This machine has no network besides loopback, so it sees its own nodes only.",
             "Connect the network, or start the container with --network host.",

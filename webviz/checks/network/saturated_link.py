@@ -36,9 +36,9 @@ class SaturatedLink(Check):
 
     id = "NET012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such interface."""
-        interfaces = seen.environment.interfaces if seen.environment else ()
+        interfaces = observation.environment.interfaces if observation.environment else ()
         for each in interfaces:
             if each.is_loopback or each.name.startswith(NAMES):
                 continue
@@ -56,5 +56,5 @@ class SaturatedLink(Check):
                 subject=each.name,
                 evidence={"load": round(each.load, 3), "dropped": round(each.dropped, 3)},
                 command=f"ip -s link show {each.name}",
-                explains=seen.unreceived(),
+                explains=observation.unreceived(),
             )

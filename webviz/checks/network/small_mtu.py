@@ -30,9 +30,9 @@ class SmallMtu(Check):
 
     id = "NET005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such interface."""
-        interfaces = seen.environment.interfaces if seen.environment else ()
+        interfaces = observation.environment.interfaces if observation.environment else ()
         for each in interfaces:
             if not each.is_loopback and 0 < each.mtu < USUAL:
                 yield self.found(

@@ -25,9 +25,9 @@ class StrainedLink(Check):
 
     id = "NET008"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each link with a remark."""
-        for bridge in seen.bridges:
+        for bridge in observation.bridges:
             if bridge.is_up and bridge.remarks and bridge.protocol != "Zenoh":
                 keys = ("Connection", f"Connection to {bridge.title}")
                 yield self.found(
@@ -35,5 +35,5 @@ class StrainedLink(Check):
                     "Hide displays of large messages, or use a faster network.",
                     subject=bridge.name,
                     evidence={"bridge": bridge.name, "remarks": bridge.remarks},
-                    explains=tuple(symptom for key in keys for symptom in seen.symptom(key)),
+                    explains=tuple(symptom for key in keys for symptom in observation.symptom(key)),
                 )

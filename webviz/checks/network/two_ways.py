@@ -29,9 +29,9 @@ class TwoWays(Check):
 
     id = "NET016"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such robot."""
-        for bridge in seen.bridges:
+        for bridge in observation.bridges:
             if bridge.doubled:
                 topics = listed(bridge.doubled, NAMED)
                 yield self.found(

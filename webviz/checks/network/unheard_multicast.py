@@ -29,9 +29,9 @@ class UnheardMulticast(Check):
 
     id = "NET011"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        if (environment := seen.environment) is None:
+        if (environment := observation.environment) is None:
             return
         variables = environment.variables
         is_local = variables.get(RANGE, "").upper() in ("LOCALHOST", "OFF")
@@ -44,7 +44,7 @@ class UnheardMulticast(Check):
         leaving = environment.multicast_interface
         if not heard or not leaving or leaving in heard:
             return
-        explains = seen.undiscovered()
+        explains = observation.undiscovered()
         yield self.found(
             f"DDS is heard on {' and '.join(heard)}, but multicast leaves by {leaving}.",
             f"Start the nodes of this machine again while {leaving} is up.",

@@ -32,13 +32,13 @@ class ZenohNetwork(Check):
 
     id = "NET014"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each remark on a link over Zenoh."""
-        for bridge in seen.zenoh_links:
+        for bridge in observation.zenoh_links:
             keys = ("Connection", f"Connection to {bridge.title}")
-            explains = [symptom for key in keys for symptom in seen.symptom(key)]
-            if not any(offer.publishers for offer in seen.offers.values()):
-                explains += seen.undiscovered()
+            explains = [symptom for key in keys for symptom in observation.symptom(key)]
+            if not any(offer.publishers for offer in observation.offers.values()):
+                explains += observation.undiscovered()
             for number, remark in enumerate(bridge.remarks):
                 cause, _, remedy = remark.partition(". ")
                 yield self.found(

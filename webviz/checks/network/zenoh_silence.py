@@ -35,22 +35,24 @@ class ZenohSilence(Check):
 
     id = "NET015"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each link over Zenoh from which nothing comes."""
-        for bridge in seen.zenoh_links:
-            yield from self._silent(bridge, seen)
+        for bridge in observation.zenoh_links:
+            yield from self._silent(bridge, observation)
 
-    def _silent(self, bridge: Bridge, seen: Observation) -> Iterator[Finding]:
+    def _silent(self, bridge: Bridge, observation: Observation) -> Iterator[Finding]:
         root = f"/{bridge.robot}/" if bridge.robot else "/"
-        others = [f"/{b.robot}/" for b in seen.bridges if b.robot and b.robot != bridge.robot]
+        others = [
+            f"/{b.robot}/" for b in observation.bridges if b.robot and b.robot != bridge.robot
+        ]
         silent = dict[str, tuple[Symptom, ...]]()
-        for display, each in seen.inputs():
+        for display, each in observation.inputs():
             if not each.topic.startswith(root) or each.topic.startswith(tuple(others)):
                 continue
             if each.received:
                 return
-            offer = seen.offers.get(each.topic)
-            if offer and {*each.types} & STREAMS and is_silent(seen, display, each, offer):
+            offer = observation.offers.get(each.topic)
+            if offer and {*each.types} & STREAMS and is_silent(observation, display, each, offer):
                 silent[each.topic] = silent.get(each.topic, ()) + display.symptom(each.status)
         if len(silent) < LEAST:
             return

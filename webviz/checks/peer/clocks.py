@@ -30,9 +30,9 @@ class PeerClock(Check):
 
     id = "TIME020"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so, beyond the uncertainty of the measurement."""
-        ends = seen.ends
+        ends = observation.ends
         if ends is None or abs(ends.offset_s) - ends.uncertainty_s <= MAX_OFFSET_S:
             return
         direction = "ahead of" if ends.offset_s > 0 else "behind"

@@ -30,11 +30,14 @@ class DiscoveryStaysLocal(Check):
 
     id = "ENV022"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        if seen.ends is None:
+        if observation.ends is None:
             return
-        for end, who in ((seen.ends.here, "This machine"), (seen.ends.there, seen.ends.there.host)):
+        for end, who in (
+            (observation.ends.here, "This machine"),
+            (observation.ends.there, observation.ends.there.host),
+        ):
             ranges = end.settings("ROS_AUTOMATIC_DISCOVERY_RANGE")
             only = end.settings("ROS_LOCALHOST_ONLY")
             name, value = "ROS_AUTOMATIC_DISCOVERY_RANGE", next(iter(ranges))

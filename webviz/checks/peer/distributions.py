@@ -35,9 +35,9 @@ class DistributionsDiffer(Check):
 
     id = "ENV023"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        ends = seen.ends
+        ends = observation.ends
         if ends is None:
             return
         ours = {*ends.here.settings("ROS_DISTRO")} - {""} or {*ends.here.distributions}

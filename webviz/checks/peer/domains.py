@@ -25,9 +25,9 @@ class DomainsDiffer(Check):
 
     id = "ENV020"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        ends = seen.ends
+        ends = observation.ends
         if ends is None:
             return
         ours = ends.here.settings("ROS_DOMAIN_ID", "0")

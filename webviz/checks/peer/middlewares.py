@@ -29,9 +29,9 @@ class MiddlewaresDiffer(Check):
 
     id = "ENV021"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        ends = seen.ends
+        ends = observation.ends
         if ends is None:
             return
         ours = ends.here.settings("RMW_IMPLEMENTATION", DEFAULT)

@@ -27,9 +27,9 @@ class MulticastBlocked(Check):
 
     id = "NET021"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so, for both directions."""
-        ends = seen.ends
+        ends = observation.ends
         if ends is None or not (ends.out.addresses and ends.back.addresses):
             return
         broken = [f"{a.host} to {b.host}" for link, a, b in ends.links() if not link.has_multicast]

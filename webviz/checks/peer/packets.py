@@ -27,11 +27,11 @@ class PacketsBlocked(Check):
 
     id = "NET020"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each direction."""
-        if seen.ends is None:
+        if observation.ends is None:
             return
-        for link, sender, receiver in seen.ends.links():
+        for link, sender, receiver in observation.ends.links():
             if link.addresses:
                 continue
             from_ = next(

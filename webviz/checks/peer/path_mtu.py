@@ -26,11 +26,11 @@ class PathMtu(Check):
 
     id = "NET022"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each direction."""
-        if seen.ends is None:
+        if observation.ends is None:
             return
-        for link, sender, receiver in seen.ends.links():
+        for link, sender, receiver in observation.ends.links():
             if not link.addresses or link.packet >= link.mtu:
                 continue
             name = link.interface or "eth0"

@@ -28,9 +28,9 @@ class PeerReceiveBuffer(Check):
 
     id = "NET023"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        there = seen.ends.there if seen.ends else None
+        there = observation.ends.there if observation.ends else None
         if there is not None and 0 < there.receive_buffer < ENOUGH:
             yield self.found(
                 f"{there.host} limits receive buffers to {there.receive_buffer // 1024} kB.",

@@ -27,12 +27,12 @@ class SharedMemoryApart(Check):
 
     id = "SHM005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is None or not memory.apart:
             return
-        explains = seen.unreceived()
+        explains = observation.unreceived()
         yield self.found(
             f"Programs of ROS have shared memory of their own: {memory.apart[0]}.",
             "Start their container with --ipc=host, or let all nodes use UDP only.",

@@ -27,12 +27,12 @@ class ForeignSegments(Check):
 
     id = "SHM001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is None or not memory.foreign:
             return
-        explains = seen.unreceived()
+        explains = observation.unreceived()
         yield self.found(
             f"{len(memory.foreign)} segments of shared memory belong to another user.",
             "Run all nodes as one user, or let them use UDP only.",

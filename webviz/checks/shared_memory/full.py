@@ -28,9 +28,9 @@ class FullSharedMemory(Check):
 
     id = "SHM003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is not None and memory.free < LEAST:
             yield self.found(
                 f"Only {memory.free >> 10} kB of shared memory are free.",

@@ -27,9 +27,9 @@ class SharedMemoryReadOnly(Check):
 
     id = "SHM006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is None or memory.is_writable:
             return
         yield self.found(
@@ -37,5 +37,5 @@ class SharedMemoryReadOnly(Check):
             "Mount /dev/shm writable with mode 1777, or start the container with --ipc=host.",
             evidence={"free": memory.free},
             command="ls -ld /dev/shm",
-            explains=seen.unreceived(),
+            explains=observation.unreceived(),
         )

@@ -28,9 +28,9 @@ class SmallSharedMemory(Check):
 
     id = "SHM002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is not None and memory.size <= SMALL:
             yield self.found(
                 f"Shared memory has only {memory.size >> 20} MB.",

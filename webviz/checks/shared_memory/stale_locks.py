@@ -27,9 +27,9 @@ class StaleLocks(Check):
 
     id = "SHM004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such machine."""
-        memory = seen.environment.shared_memory if seen.environment else None
+        memory = observation.environment.shared_memory if observation.environment else None
         if memory is None or not memory.stale_locks:
             return
         yield self.found(

@@ -24,16 +24,20 @@ class ClockEnded(Check):
 
     id = "TIME002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        is_over = bool(seen.now_ns) and seen.is_simulated and not seen.nodes_of("/clock")
-        if is_over and seen.symptom("Time") and not seen.is_recorded:
+        is_over = (
+            bool(observation.now_ns)
+            and observation.is_simulated
+            and not observation.nodes_of("/clock")
+        )
+        if is_over and observation.symptom("Time") and not observation.is_recorded:
             yield self.found(
-                f"Simulated time has stopped at {seen.now_ns / 1e9:.1f} s: no node publishes "
-                "/clock.",
+                f"Simulated time has stopped at {observation.now_ns / 1e9:.1f} s: no node "
+                "publishes /clock.",
                 "Start the simulator or the playback of the bag again.",
-                evidence={"time_s": seen.now_ns / 1e9},
+                evidence={"time_s": observation.now_ns / 1e9},
                 command="ros2 topic info /clock --verbose",
-                explains=seen.stalled(),
+                explains=observation.stalled(),
                 causes=CauseLevel.GRAPH,
             )

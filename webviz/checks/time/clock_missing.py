@@ -26,11 +26,11 @@ class ClockMissing(Check):
 
     id = "TIME001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        if seen.now_ns or seen.is_recorded:
+        if observation.now_ns or observation.is_recorded:
             return
-        nodes = seen.nodes_of("/clock")
+        nodes = observation.nodes_of("/clock")
         yield self.found(
             f"webviz follows simulated time, and nothing has arrived on /clock from {nodes}."
             if nodes
@@ -39,6 +39,6 @@ class ClockMissing(Check):
             severity=Severity.ERROR,
             evidence={"publishers": nodes},
             command="ros2 topic hz /clock",
-            explains=seen.stalled(),
+            explains=observation.stalled(),
             causes=CauseLevel.GRAPH,
         )

@@ -31,14 +31,24 @@ class ClockStands(Check):
 
     id = "TIME013"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        clock, offer, explains = seen.clock, seen.offers.get("/clock"), seen.stalled()
-        if clock is None or offer is None or not seen.now_ns or seen.is_paused or not explains:
+        clock, offer, explains = (
+            observation.clock,
+            observation.offers.get("/clock"),
+            observation.stalled(),
+        )
+        if (
+            clock is None
+            or offer is None
+            or not observation.now_ns
+            or observation.is_paused
+            or not explains
+        ):
             return
         if clock.still_s < STILL_S or len(offer.publishers) != 1:
             return
-        node, since = seen.nodes_of("/clock"), in_words(round(clock.still_s * 1e9))
+        node, since = observation.nodes_of("/clock"), in_words(round(clock.still_s * 1e9))
         what = f"Nothing has arrived on /clock from {node} since webviz subscribed {since} ago"
         if clock.time_ns is not None:
             what = f"Simulated time stands still at {clock.time_ns / 1e9:.1f} s ({node})"

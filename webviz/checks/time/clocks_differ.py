@@ -38,42 +38,45 @@ class ClocksDiffer(Check):
     def __init__(self) -> None:
         self._late = LateLinks()
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        late, together_ns = self._late.update(seen), off_together(seen)
-        clock = "the time of the bag" if seen.is_recorded else "the clock of this computer"
-        explains = seen.symptom("Clocks")
-        problem = clock_problem(seen.buffer, seen.now_ns, seen.is_recorded)
+        late, together_ns = self._late.update(observation), off_together(observation)
+        clock = "the time of the bag" if observation.is_recorded else "the clock of this computer"
+        explains = observation.symptom("Clocks")
+        problem = clock_problem(observation.buffer, observation.now_ns, observation.is_recorded)
         # Where data has the time of this computer, webviz need not follow another: TIME011.
-        links = [seen.buffer.tree.caches.get(reason.link) for _, reason in seen.lost(Kind.CLOCKS)]
+        links = [
+            observation.buffer.tree.caches.get(reason.link)
+            for _, reason in observation.lost(Kind.CLOCKS)
+        ]
         is_mixed = any(link is not None and link.newest_stamp < YEAR_NS for link in links)
         if problem and explains and not is_mixed:
             unconverted = [
                 symptom
-                for symptom, reason in seen.lost(*OF_LINKS)
-                if is_off(seen.buffer, reason.frame, seen.now_ns)
+                for symptom, reason in observation.lost(*OF_LINKS)
+                if is_off(observation.buffer, reason.frame, observation.now_ns)
             ]
             yield self.found(
                 problem.cause,
                 problem.remedy,
                 evidence={"status": str(problem)},
                 command="chronyc tracking",
-                explains=(*explains, *unconverted, *seen.off_map()),
+                explains=(*explains, *unconverted, *observation.off_map()),
             )
         elif together_ns is not None:
             side = "behind" if together_ns > 0 else "ahead of"
             yield self._steady(
                 f"All data and transforms are stamped {in_words(together_ns)} {side} {clock}.",
                 together_ns,
-                seen.off_map(),
+                observation.off_map(),
             )
         elif late and not explains:
             names = listed([f'"{child}"' for child in late], NAMED)
             worst_ns = max(late.values())
-            tree = seen.buffer.tree
+            tree = observation.buffer.tree
             delayed = (
                 symptom
-                for display, each in seen.inputs()
+                for display, each in observation.inputs()
                 if late.keys() & {*ancestors(tree, each.frame)}
                 for symptom in display.symptom("Transform")
             )
@@ -81,7 +84,7 @@ class ClocksDiffer(Check):
                 f"The transforms of {names} are stamped {in_words(worst_ns)} behind {clock}, the "
                 "data is not.",
                 worst_ns,
-                (*delayed, *seen.off_map()),
+                (*delayed, *observation.off_map()),
             )
 
     def _steady(self, cause: str, delay_ns: int, explains: Sequence[Symptom] = ()) -> Finding:

@@ -26,9 +26,9 @@ class FrozenStamps(Check):
 
     id = "TIME007"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.inputs():
+        for display, each in observation.inputs():
             stamps = {stamp_ns for stamp_ns, _ in each.stamps}
             span_ns = each.stamps[-1][1] - each.stamps[0][1] if each.stamps else 0
             if (
@@ -39,7 +39,7 @@ class FrozenStamps(Check):
             ):
                 yield self.found(
                     f"All messages on {each.topic} have the same stamp.",
-                    f"Restart {seen.nodes_of(each.topic) or 'its publisher'}.",
+                    f"Restart {observation.nodes_of(each.topic) or 'its publisher'}.",
                     subject=each.topic,
                     evidence={"topic": each.topic, "stamp_s": each.stamps[-1][0] / 1e9},
                     command=f"ros2 topic echo --field header.stamp {each.topic}",

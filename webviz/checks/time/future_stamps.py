@@ -28,12 +28,12 @@ class FutureStamps(Check):
 
     id = "TIME008"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        if seen.symptom("Clocks"):
+        if observation.symptom("Clocks"):
             return  # the clock of the transforms is off, too: TIME010
-        steady = off_alone(seen)
-        for display, each in seen.inputs():
+        steady = off_alone(observation)
+        for display, each in observation.inputs():
             delays = delays_of(each)
             is_far = len(delays) >= FEWEST and all(LARGE_NS < -d < HOUR_NS for d in delays)
             if not is_far and steady.get(each.topic, 0) >= 0:

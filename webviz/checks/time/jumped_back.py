@@ -25,9 +25,9 @@ class JumpedBack(Check):
 
     id = "TIME012"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such link."""
-        for symptom, reason in seen.lost(Kind.JUMPED_BACK):
+        for symptom, reason in observation.lost(Kind.JUMPED_BACK):
             yield self.found(
                 f'Time has jumped back: transforms of "{reason.link}" are refused as too old.',
                 "Press Reset.",

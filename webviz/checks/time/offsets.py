@@ -37,10 +37,10 @@ def delays_of(each: InputSeen) -> list[int]:
     return [received_ns - stamp_ns for stamp_ns, received_ns in each.stamps if stamp_ns]
 
 
-def measured(seen: Observation) -> Mapping[str, int]:
+def measured(observation: Observation) -> Mapping[str, int]:
     """Return the steady delays of what is sent as it is measured in ns, by topic."""
     delays_ns: dict[str, int] = {}
-    for _, each in seen.inputs():
+    for _, each in observation.inputs():
         delays = delays_of(each)
         is_known = each.type in MEASURED and len(delays) >= FEWEST and each.rate_hz > 1.0
         if is_known and (delay_ns := steady(delays)) is not None:
@@ -58,19 +58,19 @@ def steady(delays: Sequence[int]) -> int | None:
     return least if median_low(delays) - least < STEADY_NS else None
 
 
-def linked(seen: Observation) -> Mapping[str, int]:
+def linked(observation: Observation) -> Mapping[str, int]:
     """Return the delays of moving frames in ns, those of their newest transforms."""
-    caches = seen.buffer.tree.caches.items()
+    caches = observation.buffer.tree.caches.items()
     moving = ((child, cache) for child, cache in caches if isinstance(cache, TimeCache) and cache)
     return {child: ns for child, cache in moving if (ns := cache.delay_ns) is not None}
 
 
-def off_alone(seen: Observation) -> Mapping[str, int]:
+def off_alone(observation: Observation) -> Mapping[str, int]:
     """Return the steady delays in ns of topics that are off, while others are on time.
 
     These show that this computer keeps up, and that its clock is that of the others.
     """
-    delays, links = measured(seen), linked(seen)
+    delays, links = measured(observation), linked(observation)
     usual_ns = median_low(links.values()) if links else None  # localisation may post-date its own
     return {
         topic: ns
@@ -83,13 +83,13 @@ def off_alone(seen: Observation) -> Mapping[str, int]:
     }
 
 
-def off_together(seen: Observation) -> int | None:
+def off_together(observation: Observation) -> int | None:
     """Return the delay in ns that all data and most transforms share, None without such a fault.
 
     A slow link holds up everything, too, as do recorders, so neither bridges nor bags are judged.
     """
-    delays, links = measured(seen), linked(seen)
-    if not delays or not links or seen.bridges or seen.is_recorded:
+    delays, links = measured(observation), linked(observation)
+    if not delays or not links or observation.bridges or observation.is_recorded:
         return None
     all_ns = (*delays.values(), median_low(links.values()))
     is_off = all(OFF_NS < abs(ns) < LARGE_NS for ns in all_ns)
@@ -103,12 +103,12 @@ class LateLinks:
         self._delays: dict[str, list[int]] = {}
         """Delays in the last rounds in ns, by child frame."""
 
-    def update(self, seen: Observation) -> Mapping[str, int]:
+    def update(self, observation: Observation) -> Mapping[str, int]:
         """Return the delay of such frames in ns, if data of sensors is on time."""
         earlier, self._delays = self._delays, {}
-        for child, ns in linked(seen).items():
+        for child, ns in linked(observation).items():
             self._delays[child] = [*earlier.get(child, ()), ns][-ROUNDS:]
-        if not any(abs(ns) < STEADY_NS for ns in measured(seen).values()):
+        if not any(abs(ns) < STEADY_NS for ns in measured(observation).values()):
             return {}
         earlier = {child: ns for child, ns in self._delays.items() if len(ns) == ROUNDS}
         return {

@@ -32,14 +32,14 @@ class OldStamps(Check):
 
     id = "TIME009"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        if seen.symptom("Clocks"):
+        if observation.symptom("Clocks"):
             return  # the clock of the transforms is off, too: TIME010
-        if any(each.id == TRANSFORMS for each in seen.findings):
+        if any(each.id == TRANSFORMS for each in observation.findings):
             return  # the transforms are late, too
-        steady = off_alone(seen)
-        for display, each in seen.inputs():
+        steady = off_alone(observation)
+        for display, each in observation.inputs():
             delays = delays_of(each)
             is_far = len(delays) >= FEWEST and all(LARGE_NS < d < HOUR_NS for d in delays)
             if not (is_far and each.rate_hz > 1.0) and steady.get(each.topic, 0) <= 0:

@@ -27,15 +27,15 @@ class SimulatedData(Check):
 
     id = "TIME004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        if seen.is_simulated or seen.is_recorded or seen.now_ns < WALL_NS:
+        if observation.is_simulated or observation.is_recorded or observation.now_ns < WALL_NS:
             return
-        if len(seen.offers.get("/clock", NO_OFFER).publishers) > 1:
+        if len(observation.offers.get("/clock", NO_OFFER).publishers) > 1:
             return  # following one of two clocks would not help: TIME003
-        if seen.clock is not None and seen.clock.still_s >= STILL_S:
+        if observation.clock is not None and observation.clock.still_s >= STILL_S:
             return  # nor one that stands: TIME013
-        for display, each in seen.inputs():
+        for display, each in observation.inputs():
             stamp_ns = each.stamps[-1][0] if each.stamps else 0
             if 0 < stamp_ns < YEAR_NS:
                 yield self.found(
@@ -45,5 +45,5 @@ class SimulatedData(Check):
                     subject=each.topic,
                     evidence={"topic": each.topic, "stamp_s": stamp_ns / 1e9},
                     command="webviz --ros-args -p use_sim_time:=true",
-                    explains=(*display.symptom("Transform"), *seen.symptom("Clocks")),
+                    explains=(*display.symptom("Transform"), *observation.symptom("Clocks")),
                 )

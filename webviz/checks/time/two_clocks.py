@@ -24,9 +24,9 @@ class TwoClocks(Check):
 
     id = "TIME003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        offer = seen.offers.get("/clock")
+        offer = observation.offers.get("/clock")
         nodes = tuple(p.label for p in offer.publishers) if offer and not offer.is_recorded else ()
         if len(nodes) > 1:
             yield self.found(
@@ -34,6 +34,6 @@ class TwoClocks(Check):
                 "Stop all but one of them.",
                 evidence={"nodes": nodes},
                 command="ros2 topic info /clock --verbose",
-                explains=(*seen.stalled(), *seen.symptom("Clocks")),
+                explains=(*observation.stalled(), *observation.symptom("Clocks")),
                 causes=CauseLevel.GRAPH,
             )

@@ -25,9 +25,9 @@ class TwoTimes(Check):
 
     id = "TIME011"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield one finding for all such links."""
-        unplaced = list(seen.lost(Kind.CLOCKS))
+        unplaced = list(observation.lost(Kind.CLOCKS))
         for _, reason in unplaced[:1]:
             yield self.found(
                 f'Data in "{reason.frame}" and the transform of "{reason.link}" are stamped by '
@@ -39,7 +39,7 @@ class TwoTimes(Check):
                 command="for n in $(ros2 node list); do ros2 param get $n use_sim_time; done",
                 explains=(
                     *(symptom for symptom, _ in unplaced),
-                    *seen.symptom("Clocks"),
-                    *(other for other, _ in seen.lost(Kind.AHEAD, Kind.NO_DATA)),
+                    *observation.symptom("Clocks"),
+                    *(other for other, _ in observation.lost(Kind.AHEAD, Kind.NO_DATA)),
                 ),
             )

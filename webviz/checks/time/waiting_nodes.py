@@ -30,11 +30,11 @@ class WaitingNodes(Check):
 
     id = "TIME014"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if so."""
-        nodes = [node for node, follows in seen.sim_time.items() if follows]
-        explains = seen.stalled()
-        if not nodes or not explains or seen.offers.get("/clock", NO_OFFER).publishers:
+        nodes = [node for node, follows in observation.sim_time.items() if follows]
+        explains = observation.stalled()
+        if not nodes or not explains or observation.offers.get("/clock", NO_OFFER).publishers:
             return
         named = listed(nodes, NAMED)
         yield self.found(

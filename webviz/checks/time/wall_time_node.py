@@ -26,13 +26,13 @@ class WallTimeNode(Check):
 
     id = "TIME005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        if not seen.is_simulated or not 0 < seen.now_ns < YEAR_NS:
+        if not observation.is_simulated or not 0 < observation.now_ns < YEAR_NS:
             return
-        for display, each in seen.inputs():
+        for display, each in observation.inputs():
             if each.stamps and each.stamps[-1][0] > WALL_NS:
-                nodes = seen.nodes_of(each.topic)
+                nodes = observation.nodes_of(each.topic)
                 yield self.found(
                     f"{nodes} stamps {each.topic} with wall time, while time is simulated.",
                     f"Set use_sim_time for {nodes}.",

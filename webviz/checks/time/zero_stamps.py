@@ -27,11 +27,11 @@ class ZeroStamps(Check):
 
     id = "TIME006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic."""
-        for display, each in seen.inputs():
+        for display, each in observation.inputs():
             if len(each.stamps) >= FEWEST and not any(stamp_ns for stamp_ns, _ in each.stamps):
-                nodes = seen.nodes_of(each.topic)
+                nodes = observation.nodes_of(each.topic)
                 yield self.found(
                     f"The messages on {each.topic} have no stamp.",
                     f"Set header.stamp in {nodes or 'its publisher'}.",

@@ -46,9 +46,13 @@ class Covered(Check):
 
     id = "VIEW006"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        maps = [each for each in seen.displays if each.box and hasattr(each.display, "draw_behind")]
+        maps = [
+            each
+            for each in observation.displays
+            if each.box and hasattr(each.display, "draw_behind")
+        ]
         for below in maps:
             above = next((each for each in maps if _covers(each, below)), None)
             if above is None:

@@ -24,9 +24,9 @@ class Invisible(Check):
 
     id = "VIEW001"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        for display in seen.displays:
+        for display in observation.displays:
             if getattr(display.display, "alpha", None) == 0.0:
                 yield self.found(
                     f"The alpha of {display.display.name} is 0, so it cannot be seen.",

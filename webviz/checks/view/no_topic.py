@@ -23,9 +23,9 @@ class NoTopic(Check):
 
     id = "VIEW002"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        for display in seen.displays:
+        for display in observation.displays:
             for each in display.inputs:
                 if not each.topic and display.problem(each.status):
                     yield self.found(

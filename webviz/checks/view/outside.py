@@ -27,12 +27,12 @@ class OutsideView(Check):
 
     id = "VIEW004"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such viewer."""
-        boxes = [(each, each.box) for each in seen.displays if each.box is not None]
+        boxes = [(each, each.box) for each in observation.displays if each.box is not None]
         outside = []
         for display, box in boxes:
-            positions = list(places(seen, box))
+            positions = list(places(observation, box))
             if positions and not any(each.is_inside for each in positions):
                 outside.append(display.display.name)
         if not outside:

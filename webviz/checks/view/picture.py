@@ -31,10 +31,10 @@ class InPicture(NamedTuple):
     pixels: float
 
 
-def places(seen: Observation, box: Box) -> Iterator[InPicture]:
+def places(observation: Observation, box: Box) -> Iterator[InPicture]:
     """Return the position of a box in the picture of each browser whose camera is known."""
-    for browser in seen.browsers:
-        camera = seen.cameras.get(browser.id)
+    for browser in observation.browsers:
+        camera = observation.cameras.get(browser.id)
         if camera is not None:
             is_flat = isinstance(browser.view, TopDownOrtho)
             view_rad = FLAT_FIELD_OF_VIEW if is_flat else FIELD_OF_VIEW

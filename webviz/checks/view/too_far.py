@@ -26,12 +26,12 @@ class TooFar(Check):
 
     id = "VIEW005"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        for display in seen.displays:
+        for display in observation.displays:
             if display.box is None:
                 continue
-            positions = list(places(seen, display.box))
+            positions = list(places(observation, display.box))
             if positions and all(
                 each.is_inside and each.depth_m > MAX_DEPTH_M for each in positions
             ):

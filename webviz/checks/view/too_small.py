@@ -28,12 +28,12 @@ class TooSmall(Check):
 
     id = "VIEW003"
 
-    def find(self, seen: Observation) -> Iterator[Finding]:
+    def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such display."""
-        for display in seen.displays:
+        for display in observation.displays:
             if display.box is None:
                 continue
-            inside = [each for each in places(seen, display.box) if each.is_inside]
+            inside = [each for each in places(observation, display.box) if each.is_inside]
             if inside and all(each.pixels < 1.0 for each in inside):
                 size_m = float(np.linalg.norm(display.box.high - display.box.low))
                 yield self.found(

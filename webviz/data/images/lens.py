@@ -24,7 +24,7 @@ _MAX_COEFFICIENTS = {"plumb_bob": 5, "rational_polynomial": 12, "equidistant": 4
 """Coefficients; those behind, which tilt the sensor, have to be zero."""
 _LENGTHS = (4, 5, 8, 12, 14)
 """Lengths of D, as OpenCV takes it."""
-_SEEN = 0.01
+_LEAST_SHARE = 0.01
 """Share of the rectified image that a lens sees at least."""
 _TURNED = 0.01
 """Largest difference of the columns of a rotation from perpendicular unit vectors."""
@@ -124,7 +124,7 @@ class Lens(msgspec.Struct, frozen=True):
             if (np.abs(pixels - places) < NEGLIGIBLE_PX).all():
                 return None
             shares = ((pixels - (left, top)) / (width, height)).astype(np.float32)
-            if (np.abs(shares - 0.5) < 1.0).all(axis=-1).mean() < _SEEN:
+            if (np.abs(shares - 0.5) < 1.0).all(axis=-1).mean() < _LEAST_SHARE:
                 raise ImageError(
                     "According to K, D and R, the camera sees nothing of what P shows. "
                     "Calibrate the camera."

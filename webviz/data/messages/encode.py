@@ -217,18 +217,18 @@ def _array(value: Any, base: str) -> np.ndarray:
     return array
 
 
-def _check(given: np.ndarray, exact: np.ndarray, base: str) -> None:
+def _check(values: np.ndarray, exact: np.ndarray, base: str) -> None:
     """Refuse numbers out of the range of the field's type; floats may be rounded."""
     with np.errstate(invalid="ignore"):
         if exact.dtype.kind == "f":
-            is_lost = np.isinf(exact) & ~np.isinf(given.astype(np.float64))
+            is_lost = np.isinf(exact) & ~np.isinf(values.astype(np.float64))
         else:
-            is_lost = (exact != given) | (
-                (exact < 0) != (given < 0)
+            is_lost = (exact != values) | (
+                (exact < 0) != (values < 0)
             )  # int64 as uint64 compares equal
     if is_lost.any():
         index = int(np.flatnonzero(is_lost)[0])
-        misfit = _expected(_range(base), given.ravel()[index].item())
+        misfit = _expected(_range(base), values.ravel()[index].item())
         misfit.path.append(index)
         raise misfit
 

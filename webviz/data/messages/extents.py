@@ -57,22 +57,22 @@ Fields = Callable[[str], Sequence[tuple[str, Description]] | None]
 
 
 def extent(
-    type_name: str, fields: Fields, known: dict[str, Extent], inside: tuple[str, ...] = ()
+    type_name: str, fields: Fields, extents: dict[str, Extent], inside: tuple[str, ...] = ()
 ) -> Extent:
     """Return the extent of a type.
 
     Args:
         type_name: its full name.
         fields: of all types.
-        known: extents of other types; completed.
+        extents: extents of other types; completed.
         inside: types that contain it.
 
     Raises:
         DefinitionError: it has a name twice, contains itself or an unknown type, or is above one of
             the limits of this module.
     """
-    if type_name in known:
-        return known[type_name]
+    if type_name in extents:
+        return extents[type_name]
     if type_name in inside:
         raise DefinitionError(f"{type_name} cannot contain itself.")
     if len(inside) >= MAX_DEPTH:
@@ -91,7 +91,7 @@ def extent(
         count += 1
         one, length = _split(described)
         if one[0] == Nodetype.NAME:
-            inner = extent(one[1], fields, known, (*inside, type_name))
+            inner = extent(one[1], fields, extents, (*inside, type_name))
             count, depth = count + inner.fields, max(depth, inner.depth + 1)
             if length is None:
                 messages, size = messages + inner.messages, size + inner.size
@@ -121,7 +121,7 @@ def extent(
             raise DefinitionError(
                 f"{type_name} has fixed arrays of more than {MAX_FIXED_BYTES >> 20} MB."
             )
-    own_extent = known[type_name] = Extent(count, depth, messages, size, fixed, fixed_bytes)
+    own_extent = extents[type_name] = Extent(count, depth, messages, size, fixed, fixed_bytes)
     return own_extent
 
 

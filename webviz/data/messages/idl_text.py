@@ -127,7 +127,7 @@ class _Reader:
         self._tokens = tokens
         self._at = 0
         self._scope: list[str] = []
-        self._found: Types = {}
+        self._types: Types = {}
         self._aliases: dict[str, _Kind] = {}
         self._constants: dict[str, Value] = {}
         self._by_scope: dict[str, list[tuple[str, str, Value]]] = {}
@@ -138,7 +138,7 @@ class _Reader:
             self._definition()
         if self._scope:
             raise TextError("a module does not end")
-        return self._found
+        return self._types
 
     def _definition(self) -> None:
         self._skip_annotations()
@@ -166,7 +166,7 @@ class _Reader:
                 self._skip("{", "}")
                 self._expect(";")
             case other:
-                raise TextError(f"{_shown(other)} is not a definition")
+                raise TextError(f"{_excerpt(other)} is not a definition")
 
     def _constant(self) -> None:
         kind = self._kind()
@@ -175,7 +175,7 @@ class _Reader:
         self._expect("=")
         value = self._expression(0, 0)
         if kind.size is not None or base != Nodetype.BASE:
-            raise TextError(f"the constant {_shown(name)} is not of a basic type")
+            raise TextError(f"the constant {_excerpt(name)} is not of a basic type")
         self._constants[self._full(name)] = value
         own = self._by_scope.setdefault("/".join(self._scope), [])
         own.append((name, str(detail[0]), value))
@@ -191,7 +191,7 @@ class _Reader:
             fields += [(field, kind.described()) for field, kind in self._declared()]
             self._expect(";")
         self._expect("}")
-        self._found[name] = self._by_scope.get(f"{name}_Constants", []), fields
+        self._types[name] = self._by_scope.get(f"{name}_Constants", []), fields
 
     def _declared(self) -> list[tuple[str, _Kind]]:
         """Read a type, and the names that have it."""
@@ -235,14 +235,14 @@ class _Reader:
     def _referred(self, token: str) -> _Kind:
         """Return the type of a name."""
         if not token[:1].isalpha() and not token.startswith("::"):
-            raise TextError(f"{_shown(token)} is not a type")
+            raise TextError(f"{_excerpt(token)} is not a type")
         name = token.replace("::", "/")
         if len(name) > MAX_NAME:
             raise TextError(f"a name has more than {MAX_NAME} characters")
         for candidate in self._candidates(name):
             if candidate in self._aliases:
                 return self._aliases[candidate]
-            if candidate in self._found:
+            if candidate in self._types:
                 return _Kind((Nodetype.NAME, candidate))
         return _Kind((Nodetype.NAME, name.lstrip("/") if "/" in name else self._full(name)))
 
@@ -298,7 +298,7 @@ class _Reader:
         if token in ("+", "-", "~"):
             value = self._expression(_UNARY, depth + 1)
             if isinstance(value, str) or (token == "~" and isinstance(value, float)):
-                raise TextError(f"{token} of what is not a number")
+                raise TextError(f"{token} applied to a value that is not a number")
             return -value if token == "-" else ~int(value) if token == "~" else value
         if token == "(":
             value = self._expression(0, depth + 1)
@@ -318,7 +318,7 @@ class _Reader:
         for candidate in self._candidates(token.replace("::", "/")):
             if candidate in self._constants:
                 return self._constants[candidate]
-        raise TextError(f"{_shown(token)} is not a constant")
+        raise TextError(f"{_excerpt(token)} is not a constant")
 
     def _skip_annotations(self) -> None:
         while self._peek() == "@":
@@ -343,13 +343,13 @@ class _Reader:
         if len(name) > MAX_NAME:
             raise TextError(f"a name has more than {MAX_NAME} characters")
         if not name.replace("_", "a").isalnum() or not name[0].isalpha():
-            raise TextError(f"{_shown(name)} is not a name")
+            raise TextError(f"{_excerpt(name)} is not a name")
         return name
 
     def _expect(self, token: str) -> None:
         actual = self._take()
         if actual != token:
-            raise TextError(f"expected {token}, got {_shown(actual)}")
+            raise TextError(f"expected {token}, got {_excerpt(actual)}")
 
     def _peek(self) -> str:
         return self._tokens[self._at]
@@ -362,7 +362,7 @@ class _Reader:
         return token
 
 
-def _shown(token: str) -> str:
+def _excerpt(token: str) -> str:
     return token[:40]
 
 
@@ -387,7 +387,7 @@ def _computed(name: str, apply: Callable[[int, int], int], left: Value, right: V
         results = {"+": left + right, "-": left - right, "*": left * right}
         return results[name]
     if not isinstance(left, int) or not isinstance(right, int):
-        raise TextError(f"{name} of what are not two integers")
+        raise TextError(f"{name} applied to values that are not two integers")
     if (name in ("<<", ">>") and not 0 <= right < 64) or (name in ("/", "%") and not right):
         raise TextError(f"{name} by {right}")
     value = apply(left, right)

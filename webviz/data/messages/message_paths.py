@@ -276,25 +276,25 @@ class Mean:
 
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
-        self._kept: deque[tuple[float, float]] = deque()
+        self._window: deque[tuple[float, float]] = deque()
         self._sum = 0.0
         self._changes = 0
 
     def __call__(self, time_s: float, value: float) -> float:
         """Take a value."""
         if math.isfinite(value):
-            self._kept.append((time_s, value))
+            self._window.append((time_s, value))
             self._sum += value
-        while self._kept and (
-            self._kept[0][0] < time_s - self._seconds or len(self._kept) > MAX_KEPT
+        while self._window and (
+            self._window[0][0] < time_s - self._seconds or len(self._window) > MAX_KEPT
         ):
-            self._sum -= self._kept.popleft()[1]
+            self._sum -= self._window.popleft()[1]
             self._changes += 1
-        count = len(self._kept)
+        count = len(self._window)
         if self._changes > count or not math.isfinite(self._sum):
             # A sum that values are taken from drifts, and one of large values overflows.
             self._changes = 0
-            mean = math.fsum(each / count for _, each in self._kept) if count else math.nan
+            mean = math.fsum(each / count for _, each in self._window) if count else math.nan
             self._sum = mean * count if count else 0.0
             return mean
         return self._sum / count if count else math.nan

@@ -115,7 +115,7 @@ def _described(
 ) -> Description:
     """Return the description of a field."""
     if longest is not None and type_ not in ("string", "wstring"):
-        raise TextError(f"line {line} bounds what is not a string")
+        raise TextError(f"line {line} bounds a type that is not a string")
     one: One
     if type_ in PRIMITIVES:
         one = Nodetype.BASE, (type_, _sized(longest or "0", 0, line))

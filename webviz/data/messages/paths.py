@@ -86,7 +86,7 @@ class _Filter(msgspec.Struct, frozen=True):
 
 
 _Step = str | int | tuple[str] | _Slice | _Filter
-_Found = tuple[Any, Any]
+_Pair = tuple[Any, Any]
 """A value, behind the value that has it."""
 
 
@@ -132,9 +132,9 @@ class FieldPath:
         Raises:
             PathError: it has no such field or element.
         """
-        pairs: list[_Found] = [(None, message)]
+        pairs: list[_Pair] = [(None, message)]
         for step in self._steps:
-            pairs = list(islice(self._taken(pairs, step), MAX_FOUND))
+            pairs = list(islice(self._step_pairs(pairs, step), MAX_FOUND))
         return [value for _, value in pairs]
 
     def one(self, message: Any) -> Any:
@@ -160,9 +160,9 @@ class FieldPath:
         """
         return required_number(self.one(message), self.text)
 
-    def _taken(self, found: Iterable[_Found], step: _Step) -> Iterator[_Found]:
+    def _step_pairs(self, pairs: Iterable[_Pair], step: _Step) -> Iterator[_Pair]:
         """Yield the values a step leads to from those found so far."""
-        for parent, value in found:
+        for parent, value in pairs:
             if isinstance(step, str):
                 yield value, self._field(value, step)
             elif isinstance(step, _Slice):
@@ -192,16 +192,16 @@ class FieldPath:
             raise PathError(f"No element {what} for `{self.text}`; there are {len(value)}.")
         return value[index]
 
-    def _elements(self, value: Any, wanted: _Slice) -> Iterator[Any]:
+    def _elements(self, value: Any, bounds: _Slice) -> Iterator[Any]:
         self._check_array(value)
         first, last = (
-            each + len(value) if each < 0 else each for each in (wanted.first, wanted.last)
+            each + len(value) if each < 0 else each for each in (bounds.first, bounds.last)
         )
         return (value[index] for index in range(max(0, first), min(last + 1, len(value))))
 
     def _check_array(self, value: Any) -> None:
         if not _is_sequence(value):
-            raise PathError(f"`{self.text}` asks for an element of what is not an array.")
+            raise PathError(f"`{self.text}` indexes a value that is not an array.")
 
 
 def _steps(text: str) -> Iterator[_Step]:

@@ -131,7 +131,7 @@ class Ros1Type:
         extent(name, self._fields, {})
         self.name = RENAMED.get(name, name)
         """Name of the type in ROS 2."""
-        self._made: dict[str, _Read] = {}
+        self._readers: dict[str, _Read] = {}
         self._read = self._message(name)
         text = self.definition()
         self.types: MessageTypes = defined(self.name, text) if text else KNOWN
@@ -181,8 +181,8 @@ class Ros1Type:
 
     def _message(self, name: str) -> _Read:
         """Return the reader of a message."""
-        if name in self._made:
-            return self._made[name]
+        if name in self._readers:
+            return self._readers[name]
         if name in _TIMES:
             return _time
         names = None
@@ -202,7 +202,7 @@ class Ros1Type:
                     items[called] = value
             return items, at
 
-        self._made[name] = read
+        self._readers[name] = read
         return read
 
     def _field(self, kind: Nodetype, value: Any) -> _Read:

@@ -74,7 +74,7 @@ class RecordingFolder:
         self._written: list[_Written] = []
         self._latched = LatchedMessages[tuple[RecordedChannel, bytes]]()
         self._file: McapFile | None = None
-        self._told = (0, 0, 0)
+        self._last_state = (0, 0, 0)
         try:
             path.mkdir(parents=True, exist_ok=True)
             if any(path.iterdir()):
@@ -180,9 +180,9 @@ class RecordingFolder:
         Its counts are those of that moment until the end; nobody needs them to read the messages.
         """
         state = len(self._written), self.deleted, len(self._file.counts) if self._file else -1
-        if state == self._told:
+        if state == self._last_state:
             return
-        self._told = state
+        self._last_state = state
         path = self.path / METADATA
         text = plain_yaml.write({INFORMATION: self._information()})
         new = path.with_suffix(".new")

@@ -242,18 +242,18 @@ class McapRecording:
                 heapq.heappop(opened)
                 size -= own_size
 
-    def _stamps(self, chunk: McapChunk, wanted: Set[int]) -> Iterator[int]:
+    def _stamps(self, chunk: McapChunk, numbers: Set[int]) -> Iterator[int]:
         """Yield the times of the messages of some channels in a chunk."""
         offset, size = chunk.index
         if not 0 < size <= MAX_INDEX:
             is_wanted = np.zeros(1 << 16, bool)
-            is_wanted[list(wanted)] = True
+            is_wanted[list(numbers)] = True
             content = self._content(chunk, is_wanted)
             yield from content.stamps[is_wanted[content.numbers]].tolist()
             return
         self._file.seek(offset)
         for number, stamps in _indexed(self._file.read(size)):
-            if number in wanted:
+            if number in numbers:
                 yield from stamps.tolist()
 
     def _set_back(self, in_order: Sequence[McapChunk]) -> SetBack | None:

@@ -70,7 +70,9 @@ class Ros1Recording:
         self, channels: Collection[RecordedChannel], start_ns: int, end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.messages`."""
-        streams = [self._within(channel, start_ns, end_ns) for channel in self._wanted(channels)]
+        streams = [
+            self._within(channel, start_ns, end_ns) for channel in self._own_channels(channels)
+        ]
         for channel, place in heapq.merge(*streams, key=_stamp):
             if entry := self._entry(channel, place):
                 yield entry
@@ -79,14 +81,14 @@ class Ros1Recording:
         self, channels: Collection[RecordedChannel], end_ns: int
     ) -> Iterator[RecordedMessage]:
         """`Recording.newest`."""
-        streams = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        streams = [self._within(channel, 0, end_ns, -1) for channel in self._own_channels(channels)]
         for channel, place in heapq.merge(*streams, key=_stamp, reverse=True):
             if entry := self._entry(channel, place):
                 yield entry
 
     def newest_stamps(self, channels: Collection[RecordedChannel], end_ns: int) -> Iterator[int]:
         """`Recording.newest_stamps`."""
-        streams = [self._within(channel, 0, end_ns, -1) for channel in self._wanted(channels)]
+        streams = [self._within(channel, 0, end_ns, -1) for channel in self._own_channels(channels)]
         return map(_stamp, heapq.merge(*streams, key=_stamp, reverse=True))
 
     @property
@@ -124,7 +126,7 @@ class Ros1Recording:
             places = np.concatenate([self._places[channel], places])
         self._places[channel] = places[np.argsort(places["stamp_ns"], kind="stable")]
 
-    def _wanted(self, channels: Collection[RecordedChannel]) -> Sequence[RecordedChannel]:
+    def _own_channels(self, channels: Collection[RecordedChannel]) -> Sequence[RecordedChannel]:
         return [channel for channel in self._types if channel in channels]
 
     def _within(

@@ -92,10 +92,10 @@ class Query(msgspec.Struct, frozen=True):
     def sql(self, limit: int) -> tuple[str, Sequence[int]]:
         """Return the statement and its values; a limit of -1 is none."""
         marks = ", ".join("?" * len(self.topics))
-        order, known = ("DESC", ">=") if self.is_backwards else ("ASC", "<=")
+        order, comparison = ("DESC", ">=") if self.is_backwards else ("ASC", "<=")
         return (
             f"SELECT {self.columns} WHERE topic_id IN ({marks}) AND timestamp BETWEEN ? AND ? "
-            f"AND NOT (timestamp = ? AND id {known} ?) "
+            f"AND NOT (timestamp = ? AND id {comparison} ?) "
             f"ORDER BY timestamp {order}, id {order} LIMIT ?",
             (*self.topics, self.start_ns, self.end_ns, *self.last, limit),
         )
@@ -220,9 +220,7 @@ class SqliteRecording:
         if self._db.execute(_TABLES).fetchone() != (2,):
             if self._is_cut:
                 raise damaged(path, "its end is missing")
-            raise RecordingError(
-                f"{path} is a database of something else: give a bag of `ros2 bag record`."
-            )
+            raise RecordingError(f"{path} is not a bag: choose one written by `ros2 bag record`.")
         # Of messages, invalid text is damage; of topics, such as in their QoS, the rest is good.
         self._db.text_factory = lambda text: text.decode(errors="replace")
         allowance = TextAllowance()
@@ -282,7 +280,7 @@ class SqliteRecording:
 
     def _rows(
         self,
-        wanted: Collection[int],
+        topics: Collection[int],
         start_ns: int,
         end_ns: int,
         is_backwards: bool = False,
@@ -297,10 +295,10 @@ class SqliteRecording:
         Raises:
             sqlite3.Error: the table is damaged.
         """
-        if not wanted:
+        if not topics:
             return
-        query = Query(wanted, start_ns, end_ns, is_backwards, columns=columns)
-        if not self._times.knows(wanted):
+        query = Query(topics, start_ns, end_ns, is_backwards, columns=columns)
+        if not self._times.knows(topics):
             row = None
             try:
                 for row in self._queried(query, PATIENCE_S):
@@ -308,7 +306,7 @@ class SqliteRecording:
                 return
             except _TakesLong:
                 query = query.after(row) if row else query
-        for span in self._times.spans(wanted, query.start_ns, query.end_ns, is_backwards):
+        for span in self._times.spans(topics, query.start_ns, query.end_ns, is_backwards):
             yield from self._queried(query.within(*span))
 
     def _queried(self, query: Query, patience_s: float = math.inf) -> Iterator[_Row]:
@@ -383,18 +381,18 @@ class SqliteRecording:
         elif END_MISSING not in self.losses.others:
             self.losses.others.append(END_MISSING)
 
-    def _skip(self, lost: list[int]) -> None:
-        self.losses.skipped |= dict.fromkeys(lost, "the database is damaged")
-        lost.clear()
+    def _skip(self, rows: list[int]) -> None:
+        self.losses.skipped |= dict.fromkeys(rows, "the database is damaged")
+        rows.clear()
 
-    def _entry(self, wanted: dict[int, RecordedChannel], row: _Row) -> RecordedMessage | None:
+    def _entry(self, channels: dict[int, RecordedChannel], row: _Row) -> RecordedMessage | None:
         _, number, stamp_ns, data = row
-        if not (isinstance(stamp_ns, int) and isinstance(data, bytes) and number in wanted):
+        if not (isinstance(stamp_ns, int) and isinstance(data, bytes) and number in channels):
             return None
-        message, fault = unpack_message(data, wanted[number].encoding)
+        message, fault = unpack_message(data, channels[number].encoding)
         if self._is_cut and len(data) > IN_ONE_PAGE and data.endswith(bytes(8)):
             fault = "it may be cut off"
         if fault:
             self.losses.skipped[number, stamp_ns] = fault
             return None
-        return RecordedMessage(wanted[number], stamp_ns, message)
+        return RecordedMessage(channels[number], stamp_ns, message)

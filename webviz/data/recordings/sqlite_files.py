@@ -20,7 +20,7 @@ def unread(path: Path, journal: str) -> str:
     """Return a sentence on a database and its journal."""
     return (
         f"{path.name} has no end: it is still being recorded, or its recorder was interrupted. "
-        f"What only {journal} contains is not shown; open it again when recording has ended."
+        f"What only {journal} contains is not shown yet; open it again after the recording."
     )
 
 

@@ -53,7 +53,7 @@ class TopicTimes:
         self._progress = threading.Condition()
         """Held while the following are changed."""
         self._spans: dict[int, list[_Span]] = {}
-        self._found = Counter[int]()
+        self._row_counts = Counter[int]()
         self._is_read = self._is_damaged = self._is_closed = False
         self.set_back: SetBack | None = None
         """A jump of the clock, once the table is read: not one that is shorter than a slice."""
@@ -78,7 +78,7 @@ class TopicTimes:
     def knows(self, topics: Collection[int]) -> bool:
         """Return whether all messages of some topics are found, or cannot be."""
         return self._is_read or all(
-            self._found[topic] >= self._totals.get(topic, math.inf) for topic in topics
+            self._row_counts[topic] >= self._totals.get(topic, math.inf) for topic in topics
         )
 
     def spans(
@@ -155,7 +155,7 @@ class TopicTimes:
         """Add messages, unless the table was read before."""
         if self._is_read:
             return
-        self._found[topic] += count
+        self._row_counts[topic] += count
         spans = self._spans.setdefault(topic, [])
         reach_ns = self._parts.length_ns
         if spans and spans[-1][0] - reach_ns <= last_ns and first_ns <= spans[-1][1] + reach_ns:

@@ -75,7 +75,7 @@ class TransformBuffer:
         self._topology: tuple[tuple[int, str, list[str]], Topology] | None = None
         """The cached shape of the last query for many frames, by structure version and query."""
         self._largest: tuple[int, tuple[str, int]] | None = None
-        self._found: dict[tuple[str, str, int], Transform] = {}
+        self._lookups: dict[tuple[str, str, int], Transform] = {}
         """Results of `lookup` at `_found_at`: a message is placed when it comes and when drawn."""
         self._found_at = 0, 0
 
@@ -207,11 +207,11 @@ class TransformBuffer:
             ExtrapolationException: a link has no data around that time; one of its three kinds.
         """
         versions = self.version, self.structure_version
-        if self._found_at != versions or len(self._found) >= MAX_FOUND:
-            self._found_at, self._found = versions, {}
+        if self._found_at != versions or len(self._lookups) >= MAX_FOUND:
+            self._found_at, self._lookups = versions, {}
         key = target, source, stamp_ns
-        if (transform := self._found.get(key)) is None:
-            transform = self._found[key] = Transform.of(*self._pose(target, source, stamp_ns))
+        if (transform := self._lookups.get(key)) is None:
+            transform = self._lookups[key] = Transform.of(*self._pose(target, source, stamp_ns))
         return transform
 
     @_SILENT

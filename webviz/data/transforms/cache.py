@@ -103,13 +103,13 @@ class TimeCache:
 
     __slots__ = (
         "_cache_time_ns",
+        "_cursor",
         "_delay_ns",
         "_joined",
         "_parents",
         "_poses",
         "_seen_ns",
         "_stamps",
-        "_taken",
         "batches",
         "mixed_ns",
         "place",
@@ -124,7 +124,7 @@ class TimeCache:
         self._stamps: deque[int] = deque()
         self._poses: deque[bytes] = deque()
         self._parents: deque[str] = deque()
-        self._joined = self._taken = 0
+        self._joined = self._cursor = 0
         """Messages that had come when it joined them, and when it last took its samples."""
         self._cache_time_ns = cache_time_ns
         self._delay_ns: int | None = None
@@ -247,7 +247,7 @@ class TimeCache:
     def follow(self, batches: Batches, place: int) -> None:
         """Take samples from a place in messages, until one is inserted here."""
         self.batches, self.place = batches, place
-        self._joined = self._taken = batches.count
+        self._joined = self._cursor = batches.count
         batches.follow(place, self._stamps[-1])
 
     def leave(self) -> None:
@@ -260,10 +260,10 @@ class TimeCache:
 
     def _take(self) -> None:
         """Take the samples that came since the last time."""
-        if self.batches is None or self.batches.count == self._taken:
+        if self.batches is None or self.batches.count == self._cursor:
             return
-        *before, (stamp_ns, pose) = self.batches.since(self._taken, self.place)
-        self._taken = self.batches.count
+        *before, (stamp_ns, pose) = self.batches.since(self._cursor, self.place)
+        self._cursor = self.batches.count
         parent = self._parents[-1]
         if before:
             stamps, poses = zip(*before, strict=True)
@@ -351,7 +351,7 @@ class TimeCache:
     def clear(self) -> None:
         """Forget all samples; the frame itself stays known."""
         if self.batches is not None:
-            self._taken = self.batches.count  # not to take what is forgotten
+            self._cursor = self.batches.count  # not to take what is forgotten
         self.leave()
         self._stamps.clear()
         self._poses.clear()

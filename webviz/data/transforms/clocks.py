@@ -15,7 +15,7 @@ from webviz.data.words import Problem
 TOLERANCE_NS = 1_500_000_000
 """Tolerated offset: AMCL stamps its transform up to 1 s ahead (its transform_tolerance)."""
 RECENT_NS = 10 * NS_PER_S
-SHOWN = 3
+MAX_NAMES = 3
 
 
 def clock_problem(
@@ -58,7 +58,7 @@ def clock_problem(
             "use_sim_time:=true.",
         )
     names = [f'"{child}"' for child in wrong]
-    names_text = ", ".join(names[:SHOWN]) + (" …" if len(names) > SHOWN else "")
+    names_text = ", ".join(names[:MAX_NAMES]) + (" …" if len(names) > MAX_NAMES else "")
     who = "All transforms" if len(wrong) == len(offsets) else f"The transforms of {names_text}"
     rest = "" if len(wrong) == len(offsets) else ", the others are not"
     return Problem(

@@ -70,7 +70,7 @@ class Conflicts:
         self._caches = caches
         self._publishers = publishers
         self._cache_time_ns = cache_time_ns
-        self._known: dict[str, tuple[object, Sequence[Conflict]]] = {}
+        self._cache: dict[str, tuple[object, Sequence[Conflict]]] = {}
         """State in which frames were found, and the conflicts, by frame."""
 
     def of(self, frame: str) -> Sequence[Conflict]:
@@ -80,9 +80,9 @@ class Conflicts:
         if isinstance(cache, TimeCache) and not contest and self._is_calm(cache):
             return ()
         state = id(cache), cache.newest_stamp, len(cache), contest
-        entry = self._known.get(frame)
+        entry = self._cache.get(frame)
         if entry is None or entry[0] != state:
-            entry = self._known[frame] = state, tuple(_found(frame, cache, contest))
+            entry = self._cache[frame] = state, tuple(_conflicts(frame, cache, contest))
         return entry[1]
 
     @staticmethod
@@ -101,10 +101,10 @@ class Conflicts:
 
     def forget(self) -> None:
         """Forget what was found."""
-        self._known.clear()
+        self._cache.clear()
 
 
-def _found(frame: str, cache: Cache, contest: Contest | None) -> Iterator[Conflict]:
+def _conflicts(frame: str, cache: Cache, contest: Contest | None) -> Iterator[Conflict]:
     if contest:
         yield _contested(frame, contest)
     if not isinstance(cache, TimeCache) or not cache.stamps:

@@ -114,10 +114,10 @@ def _invalid(buffer: TransformBuffer, fixed_frame: str, frame: str) -> Explanati
 
 
 def _refused(
-    buffer: TransformBuffer, fixed_frame: str, frame: str, lost: str
+    buffer: TransformBuffer, fixed_frame: str, frame: str, missing: str
 ) -> Explanation | None:
     """Explain that the transform that places a frame was refused, if it was."""
-    if (refusal := buffer.refusals.naming(lost)) is None:
+    if (refusal := buffer.refusals.naming(missing)) is None:
         return None
     child, rejection = refusal
     return Explanation(

@@ -55,7 +55,7 @@ class MessageFilter(Generic[P]):
         self._queue: deque[_Waiting[P]] = deque()
         self._drops: Counter[Kind] = Counter()
         self._given_up: _Waiting[P] | None = None
-        self._lost = 0
+        self._drop_count = 0
         self._is_heavy = False
         """True if messages were given up for their bytes rather than their number."""
         self._tried: tuple[int, str] | None = None
@@ -131,7 +131,7 @@ class MessageFilter(Generic[P]):
             first = longest.payload
         self._stuck_since = first
         if payloads:
-            self._given_up, self._lost, self._is_heavy = None, 0, False
+            self._given_up, self._drop_count, self._is_heavy = None, 0, False
         size = sum(message.size for message in self._queue)
         while len(self._queue) > self._queue_size or (len(self._queue) > 1 and size > MAX_BYTES):
             self._is_heavy = len(self._queue) <= self._queue_size
@@ -153,11 +153,13 @@ class MessageFilter(Generic[P]):
             return None
         reason = _why(buffer, fixed_frame, message, now_ns)
         caught_up = reason.kind == Kind.AVAILABLE or reason.is_catching_up
-        if self._lost and caught_up:
+        if self._drop_count and caught_up:
             full = self._queue_full(buffer, fixed_frame, now_ns)
             reason = replace(full, frame=reason.frame, link=reason.link)
-        if self._lost:
-            given_up = "1 message was" if self._lost == 1 else f"{self._lost} messages were"
+        if self._drop_count:
+            given_up = (
+                "1 message was" if self._drop_count == 1 else f"{self._drop_count} messages were"
+            )
             if buffer.recorded:  # their number depends on where playing began
                 given_up = "Earlier ones were"
             reason = replace(reason, sentence=joined(reason.sentence, f"{given_up} given up."))
@@ -168,7 +170,7 @@ class MessageFilter(Generic[P]):
         self._new.clear()
         self._queue.clear()
         self._drops.clear()
-        self._given_up, self._lost, self._tried = None, 0, None
+        self._given_up, self._drop_count, self._tried = None, 0, None
         self._is_heavy = False
         self._stuck_since = None
 
@@ -184,7 +186,7 @@ class MessageFilter(Generic[P]):
 
     def _give_up(self, message: _Waiting[P], kind: Kind) -> None:
         self._drops[kind] += 1
-        self._lost += 1
+        self._drop_count += 1
         self._given_up = message
 
     def _queue_full(self, buffer: TransformBuffer, fixed_frame: str, now_ns: int) -> Explanation:

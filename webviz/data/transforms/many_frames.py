@@ -71,19 +71,19 @@ class _Links(msgspec.Struct):
     depths: list[int] = msgspec.field(default_factory=list)
     tops: list[int] = msgspec.field(default_factory=list)
 
-    def chain(self, tree: FrameTree, frame: str, stamp_ns: int, known: dict[str, int]) -> int:
+    def chain(self, tree: FrameTree, frame: str, stamp_ns: int, numbers: dict[str, int]) -> int:
         """Add the link that ends in a frame and all above it; its number, -1 for a loop.
 
-        `known` has the numbers of the links already added for this time; 0 is the newest of each.
+        `numbers` has the numbers of the links already added for this time; 0 is the newest of each.
         """
         climbed: list[tuple[str, PoseTuple, PoseTuple, float]] = []
-        while (number := known.get(frame)) is None:
+        while (number := numbers.get(frame)) is None:
             cache = tree.caches.get(frame)
             bracket = cache.bracket(stamp_ns) if cache is not None else None
             if bracket is None:
-                number = self.top(frame, known)
+                number = self.top(frame, numbers)
                 break
-            known[frame] = -1  # met again before it gets its number: a loop
+            numbers[frame] = -1  # met again before it gets its number: a loop
             start, end, ratio, parent = bracket
             climbed.append((frame, start, end, ratio))
             frame = parent
@@ -93,13 +93,13 @@ class _Links(msgspec.Struct):
         for frame, start, end, ratio in reversed(climbed):
             depth += 1
             parent_number, number = number, len(self.starts)
-            known[frame] = number
+            numbers[frame] = number
             self._append(start, end, ratio, parent_number, depth, top)
         return number
 
-    def top(self, frame: str, known: dict[str, int]) -> int:
+    def top(self, frame: str, numbers: dict[str, int]) -> int:
         """Add a frame as a top; its number."""
-        number = known[frame] = len(self.starts)
+        number = numbers[frame] = len(self.starts)
         self._append(IDENTITY, IDENTITY, 0.0, -1, 0, number)
         return number
 

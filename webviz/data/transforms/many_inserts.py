@@ -99,15 +99,15 @@ class ManyInserts:
             entry.looked_up = structure, self._tree.batches_version
         return entry
 
-    def _look_up(self, known: _List, authority: str) -> None:
+    def _look_up(self, links: _List, authority: str) -> None:
         """Let all frames of a list follow it that can, and the others leave."""
-        for place, (parent, child) in enumerate(known.names):
+        for place, (parent, child) in enumerate(links.names):
             cache = self._expected(parent, child, authority)
-            if known.batches.is_followed[place] and known.caches[place] is not cache:
-                known.caches[place].leave()
+            if links.batches.is_followed[place] and links.caches[place] is not cache:
+                links.caches[place].leave()
             if cache is not None and cache.batches is None:
-                cache.follow(known.batches, place)
-                known.caches[place] = cache
+                cache.follow(links.batches, place)
+                links.caches[place] = cache
 
     def _note(self) -> None:
         self._tree.batches_version += 1

@@ -77,14 +77,14 @@ class _History:
         low = max(bisect_left(stamps, first_ns) - 1, 0)
         high = bisect_right(stamps, last_ns) + 1
         self.oldest_ns, self.newest_ns = stamps[0], stamps[-1]
-        self._known = list(islice(stamps, low, high))
-        self.stamps = np.array(self._known, np.int64)
+        self._stamp_list = list(islice(stamps, low, high))
+        self.stamps = np.array(self._stamp_list, np.int64)
         # Each sample with its successor; the last, and one before a change of parent, with itself.
         start = packed_to_rows(b"".join(islice(cache.poses, low, high)))
         end = np.concatenate((start[:, 1:], start[:, -1:]), axis=1)
         self.parent: str | None = None
         self.parents: NDArray[np.object_] | None = None
-        if self._known[0] > cache.mixed_ns:
+        if self._stamp_list[0] > cache.mixed_ns:
             self.parent = cache.parents[-1]
         else:
             parents = list(islice(cache.parents, low, high))
@@ -105,8 +105,8 @@ class _History:
             Pairs (4, n), and the parent or parents.
         """
         # The number of times from the stamp of each sample up to the next one.
-        low = max(bisect_left(self._known, int(times[0])) - 1, 0)
-        part = slice(low, bisect_right(self._known, int(times[-1]), low))
+        low = max(bisect_left(self._stamp_list, int(times[0])) - 1, 0)
+        part = slice(low, bisect_right(self._stamp_list, int(times[-1]), low))
         stamps = self.stamps[part]
         first = np.searchsorted(times, stamps)
         if self.oldest_ns != self.newest_ns and times[0] == self.oldest_ns:
@@ -133,13 +133,13 @@ class _Histories:
         self._first, self._last = (
             (int(nonzero.min()), int(nonzero.max())) if len(nonzero) else (0, 0)
         )
-        self._made: dict[str, _History] = {}
+        self._histories: dict[str, _History] = {}
 
     def of(self, frame: str, cache: TimeCache) -> _History:
         """Return the history of a frame whose cache is not empty."""
-        if frame not in self._made:
-            self._made[frame] = _History(cache, self._first, self._last)
-        return self._made[frame]
+        if frame not in self._histories:
+            self._histories[frame] = _History(cache, self._first, self._last)
+        return self._histories[frame]
 
 
 class _Group(NamedTuple):

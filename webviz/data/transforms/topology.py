@@ -86,11 +86,11 @@ class Topology:
             if isinstance(cache, StaticCache) and cache.sample is not None:
                 self._links[:, node] = to_pairs(poses_to_rows([cache.sample[0]]))[:, 0]
 
-        self._asked = np.array([self._nodes[frame] for frame in frames], np.int64)
+        self._queries = np.array([self._nodes[frame] for frame in frames], np.int64)
         is_known = np.array([not tree.fault(frame) for frame in frames], np.bool_)
-        is_joined = np.isin(self._meets[self._asked], self._spine)
+        is_joined = np.isin(self._meets[self._queries], self._spine)
         self._is_found = is_known & is_joined if not tree.fault(target) else np.zeros_like(is_known)
-        self._is_target = self._asked == self._base
+        self._is_target = self._queries == self._base
 
     def _climb(self, tree: FrameTree, frame: str) -> bool:
         """Assign numbers to a frame and its ancestors, parents first; return if they form no loop.
@@ -128,7 +128,7 @@ class Topology:
         newest[self._moving_nodes[self._alone]] = [cache.newest_stamp for cache in alone]
         for batches, numbers, places in self._followers:
             newest[self._moving_nodes[numbers]] = batches.newest_ns[places]
-        stamps = np.where(self._is_found, self._common_times(newest)[self._asked], 0)
+        stamps = np.where(self._is_found, self._common_times(newest)[self._queries], 0)
         is_wanted = self._is_found & ~self._is_target
         out = np.full((7, len(stamps)), np.nan)
         times = np.unique(stamps[is_wanted]).tolist()
@@ -142,10 +142,10 @@ class Topology:
             self._links[:, self._moving_nodes] = to_pairs(rows)
         for time in times:
             chosen = np.flatnonzero(is_wanted & (stamps == time))
-            poses = self._in_roots(time, newest, self._asked[chosen])
+            poses = self._in_roots(time, newest, self._queries[chosen])
             if poses is None:
                 return None
-            chosen_poses = poses[:, self._asked[chosen]]
+            chosen_poses = poses[:, self._queries[chosen]]
             if self._ups[self._base] >= 0:
                 chosen_poses = compose_many(inverse_many(poses[:, [self._base]]), chosen_poses)
             rows = to_rows(chosen_poses)
@@ -183,13 +183,13 @@ class Topology:
         common = np.minimum(below, above[self._meets])
         return np.where(common == _ALWAYS, 0, common)
 
-    def _in_roots(self, time: int, newest: I64, asked: I64) -> C128 | None:
+    def _in_roots(self, time: int, newest: I64, queries: I64) -> C128 | None:
         """Pairs (4, nodes): the poses of requested nodes and the target in their roots."""
         poses = self._links.copy()
         is_ahead = newest[self._moving_nodes] != time
         if time and is_ahead.any():  # not if one message has all of them
             is_needed = np.zeros(len(newest), np.bool_)
-            is_needed[asked] = is_needed[self._base] = True
+            is_needed[queries] = is_needed[self._base] = True
             self._mark_ancestors(is_needed)
             needed = is_needed[self._moving_nodes] & is_ahead
             starts: list[PoseTuple] = []

@@ -47,36 +47,36 @@ class VelocityController:
         self.advertisement = advertisement
         self._holding = holding
         self._driver: int | None = None
-        self._wanted = STILL
+        self._target = STILL
         self._velocity = STILL
-        self._seen = self._heard = self._held = self._stepped = -math.inf
+        self._heartbeat = self._heard = self._last_set_point = self._stepped = -math.inf
         self._tail = 0
 
     @property
     def is_at_rest(self) -> bool:
         """Return whether there is nothing to publish."""
-        return self._wanted == self._velocity == STILL and self._tail == 0
+        return self._target == self._velocity == STILL and self._tail == 0
 
     @property
     def deadline(self) -> float:
         """Return when it stops unless its driver is heard again."""
-        return math.inf if self._wanted == STILL else self._heard + BEAT_S
+        return math.inf if self._target == STILL else self._heard + BEAT_S
 
     def driver(self, now: float) -> int | None:
         """Return the browser in control."""
-        is_held = self._velocity != STILL or now - self._held < RELEASE_S
+        is_held = self._velocity != STILL or now - self._last_set_point < RELEASE_S
         return self._driver if is_held else None
 
-    def steer(self, browser: int, share: Velocity, seen: float, now: float) -> bool:
+    def steer(self, browser: int, share: Velocity, heartbeat: float, now: float) -> bool:
         """Take a set-point, unless another browser is in control.
 
-        Set-points with the same `seen` count as one heartbeat: people whose page still sends, but
-        receives nothing, do not see the robot.
+        Set-points with the same `heartbeat` count once: people whose page still sends, but receives
+        nothing, do not see the robot.
 
         Args:
             browser: its id.
             share: of the limits, from -1 to 1; what is not finite counts as 0.
-            seen: when the newest of what the browser has received was sent.
+            heartbeat: when the newest of what the browser has received was sent.
             now: the time.
 
         Returns:
@@ -90,19 +90,19 @@ class VelocityController:
             return False
         if velocity == STILL and self._driver != browser:
             return False  # only looks at the controller
-        if self._driver != browser or seen > self._seen:
-            self._seen, self._heard = seen, now
+        if self._driver != browser or heartbeat > self._heartbeat:
+            self._heartbeat, self._heard = heartbeat, now
         elif now >= self._heard + BEAT_S:
             return False
         if velocity != STILL:
-            self._driver, self._held = browser, now
-        before, self._wanted = self._wanted, velocity
+            self._driver, self._last_set_point = browser, now
+        before, self._target = self._target, velocity
         return velocity != before
 
     def halt(self) -> None:
         """Stop at once."""
-        if not self._wanted == self._velocity == STILL:
-            self._wanted = self._velocity = STILL
+        if not self._target == self._velocity == STILL:
+            self._target = self._velocity = STILL
             self._tail = TAIL
 
     def begin_again(self) -> None:
@@ -123,14 +123,14 @@ class VelocityController:
                 _approach(value, target, up * seconds, down * seconds)
                 for value, target, up, down in zip(
                     self._velocity,
-                    self._wanted,
+                    self._target,
                     vehicle.acceleration,
                     vehicle.deceleration,
                     strict=True,
                 )
             )
         )
-        if self._wanted == self._velocity == STILL:
+        if self._target == self._velocity == STILL:
             self._tail -= 1
         else:
             self._tail = TAIL
@@ -143,9 +143,9 @@ def _part(share: float, limit: float) -> float:
     return min(max(share, -1.0), 1.0) * limit + 0.0 if math.isfinite(share) else 0.0
 
 
-def _approach(value: float, wanted: float, up: float, down: float) -> float:
+def _approach(value: float, target: float, up: float, down: float) -> float:
     """Return a step towards another speed: by `down` to zero first, by `up` from there."""
-    if value == 0.0 or (value * wanted > 0.0 and abs(wanted) > abs(value)):
-        return min(max(wanted, value - up), value + up)
-    nearest = wanted if value * wanted > 0.0 else 0.0
+    if value == 0.0 or (value * target > 0.0 and abs(target) > abs(value)):
+        return min(max(target, value - up), value + up)
+    nearest = target if value * target > 0.0 else 0.0
     return min(max(nearest, value - down), value + down)

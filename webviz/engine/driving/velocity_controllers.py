@@ -11,7 +11,7 @@ from concurrent.futures import Future, wait
 from webviz.api.vehicle import STILL, Vehicle, Velocity
 from webviz.data.messages import encode
 from webviz.engine.driving.velocity_controller import PERIOD_S, DrivingAnswer, VelocityController
-from webviz.sources import Advertisement, Gate
+from webviz.sources import Advertisement, RestrictedGraph
 
 log = logging.getLogger("webviz")
 
@@ -22,7 +22,7 @@ ATTENDED_S = 2.0
 """A controller is attended for so long after a browser looked at it."""
 ENDING_S = 0.5
 """Time `close` waits for the last commands to be published."""
-UNKNOWN = "This tool has no valid topic, or is gone. Choose a topic in the panel Tools."
+UNKNOWN = "This tool has no valid topic, or no longer exists. Choose a topic in the panel Tools."
 ENDED = "The viewer has ended."
 
 
@@ -33,12 +33,12 @@ class VelocityControllers:
     and a thread of this object, which begins with the first of them, publishes.
 
     Args:
-        gate: where commands go.
+        graph: that commands go to.
         now_ns: ROS time.
     """
 
-    def __init__(self, gate: Gate, now_ns: Callable[[], int]) -> None:
-        self._gate = gate
+    def __init__(self, graph: RestrictedGraph, now_ns: Callable[[], int]) -> None:
+        self._graph = graph
         self._now_ns = now_ns
         self._lock = threading.Lock()
         self._controllers: dict[str, VelocityController] = {}
@@ -46,7 +46,7 @@ class VelocityControllers:
         """Controllers of vehicles that are gone or have another advertisement, until they have
         stopped."""
         self._looked: dict[str, float] = {}
-        self._sent: dict[Advertisement, Future[int]] = {}
+        self._publications: dict[Advertisement, Future[int]] = {}
         self._problems: dict[Advertisement, str] = {}
         self._woken = threading.Event()
         self._has_ended = False
@@ -138,15 +138,17 @@ class VelocityControllers:
 
     # For the edges
 
-    def steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
+    def steer(
+        self, tool: str, browser: int, share: Velocity, heartbeat: float | None
+    ) -> DrivingAnswer:
         """Take a set-point; from any thread.
 
         Args:
             tool: id of the tool.
             browser: id of the browser.
             share: of the limits, each from -1 to 1.
-            seen: when the newest of what the browser has received was sent, in monotonic s; None
-                if that is too old to drive: the browser only looks at the controller.
+            heartbeat: time when the newest message that the browser has was sent, in monotonic s;
+                None if that is too old to drive: the browser only looks at the controller.
 
         Returns:
             What the browser should know.
@@ -158,9 +160,13 @@ class VelocityControllers:
                 return DrivingAnswer(problem=ENDED if self._has_ended else UNKNOWN)
             self._looked[tool] = now
             driver = self._driver(controller.advertisement.topic, now)
-            refusal = self._gate.refusal(controller.advertisement.topic)
+            refusal = self._graph.refusal(controller.advertisement.topic)
             may_drive = not refusal and driver in (None, browser)
-            if seen is not None and may_drive and controller.steer(browser, share, seen, now):
+            if (
+                heartbeat is not None
+                and may_drive
+                and controller.steer(browser, share, heartbeat, now)
+            ):
                 self._begin()
                 self._woken.set()
             problem = refusal or self._problems.get(controller.advertisement, "")
@@ -206,7 +212,7 @@ class VelocityControllers:
             time.sleep(max(0.0, published + GAP_S - time.monotonic()))
             published = time.monotonic()
             self._step(published)
-        wait(self._sent.values(), ENDING_S)
+        wait(self._publications.values(), ENDING_S)
 
     def is_moving(self) -> bool:
         """Return whether any vehicle moves, or has to stop yet."""
@@ -237,41 +243,41 @@ class VelocityControllers:
             self._leaving = [
                 controller for controller in self._leaving if not controller.is_at_rest
             ]
-        self._sent = {
+        self._publications = {
             advertisement: future
-            for advertisement, future in self._sent.items()
+            for advertisement, future in self._publications.items()
             if not future.done()
         }
         for controller, velocity in due:
             self._publish(controller.vehicle, controller.advertisement, velocity)
 
     def _publish(self, vehicle: Vehicle, advertisement: Advertisement, velocity: Velocity) -> None:
-        before = self._sent.get(advertisement)
+        before = self._publications.get(advertisement)
         if before is not None:
             before.cancel()  # what could not be published in time is not published late
         try:
             cdr = encode(advertisement.type, vehicle.message(velocity, self._now_ns()))
-            publish = self._gate.halt if velocity == STILL else self._gate.publish
-            sent = publish(advertisement, cdr)
+            publish = self._graph.halt if velocity == STILL else self._graph.publish
+            publication = publish(advertisement, cdr)
         except Exception as error:  # of a plug-in's vehicle, or of the source; keep driving
             if advertisement not in self._problems:
                 log.exception("No command for %s", advertisement.topic)
             self._problems[advertisement] = f"No command could be made: {error}"
             return
-        self._sent[advertisement] = sent
-        sent.add_done_callback(lambda sent: self._note(advertisement, sent))
+        self._publications[advertisement] = publication
+        publication.add_done_callback(lambda publication: self._note(advertisement, publication))
 
-    def _note(self, advertisement: Advertisement, sent: Future[int]) -> None:
+    def _note(self, advertisement: Advertisement, future: Future[int]) -> None:
         """Note what came of a command."""
-        if sent.cancelled():
+        if future.cancelled():
             return
-        if error := sent.exception():
+        if error := future.exception():
             self._problems[advertisement] = str(error)
             with self._lock:
                 for controller in self._controllers.values():
                     if controller.advertisement == advertisement:
                         controller.begin_again()
-        elif sent.result() == 0:
+        elif future.result() == 0:
             self._problems[advertisement] = (
                 f"No subscription to {advertisement.topic} as "
                 f"{advertisement.type.rpartition('/')[2]}. Start the robot's driver, or choose "

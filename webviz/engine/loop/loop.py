@@ -15,11 +15,11 @@ from webviz.api.status import Status
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.driving import VelocityControllers
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.examiner import Examiner
 from webviz.engine.feature import features, missing_features
-from webviz.engine.guard import Guard
 from webviz.engine.loop.turn import Arrivals, FramePacing, Showing
-from webviz.engine.parts import Core, Part, Parts
+from webviz.engine.parts import Part, PartContext, Parts
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
@@ -31,19 +31,17 @@ from webviz.engine.parts.time import REWOUND, TimePart
 from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
-from webviz.engine.pipeline import Runner, Services, Workers
+from webviz.engine.pipeline import DisplayServices, Runner, Workers
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import LoopCalls, Requests
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
-from webviz.sources import Advertisement, AllowList, Gate, Rights, Source
+from webviz.sources import Advertisement, AllowList, RestrictedGraph, Rights, Source
 from webviz.sources.player import Player
 from webviz.sources.recording.memory import MemoryHistory
 
-IDLE_S = 1.0
-"""Interval of turns while nothing arrives: ages in statuses, frames that fade."""
 PANEL_S = 0.2
 """Interval of housekeeping (subscriptions, statuses, the panel) while somebody attends to what
 changes all the time, and after commands."""
@@ -98,7 +96,7 @@ class FrameLoop:
         autosave: Path | None = None,
         session: Path | None = None,
         restore: bool = True,
-        parts: Sequence[Callable[[Core], Part]] = (),
+        parts: Sequence[Callable[[PartContext], Part]] = (),
         host: HostProgram = NO_PROGRAM,
         strict: bool = False,
         clock: Callable[[], float] | None = None,
@@ -110,8 +108,8 @@ class FrameLoop:
         self._show = show
         self._stop = threading.Event()
         self._calls = LoopCalls(self._wake)
-        self._guard = Guard("", strict, shown_s=FAILURE_S, clock=clock)
-        self._requests = Requests(self._guard, self._wake)
+        self._boundary = ErrorBoundary("", strict, shown_s=FAILURE_S, clock=clock)
+        self._requests = Requests(self._boundary, self._wake)
         self._workers = Workers(self._wake)
         self._next_panel = 0.0
         self._commanded_s = time.monotonic()
@@ -120,45 +118,47 @@ class FrameLoop:
         self._advertised: set[Advertisement] = set()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         self._owed: list[Callable[[], None]] = []
-        own = own_names(config, self._guard)
+        own = own_names(config, self._boundary)
         rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
-        gate = Gate(player, rights, self._allow_list, self._pause)
-        self.controllers = VelocityControllers(gate, live_ns)
+        graph = RestrictedGraph(player, rights, self._allow_list, self._pause)
+        self.controllers = VelocityControllers(graph, live_ns)
         """Controllers of the vehicles that tools drive; they do not wait for the loop."""
-        core = Core(player, gate, self.controllers, scene, self._guard, clock, waiting, host)
-        self.core = core
+        context = PartContext(
+            player, graph, self.controllers, scene, self._boundary, clock, waiting, host
+        )
+        self.context = context
         """All that parts share."""
         services = self._services(strict)
         self._tracer = services.tracer
-        transforms = TransformsPart(core, self._robots)
-        self._time = TimePart(core, autoplay)
-        self._displays = DisplaysPart(core, services)
-        self._settings = SettingsPart(core)
-        views = ViewsPart(core, self._settings, self._displays)
+        transforms = TransformsPart(context, self._robots)
+        self._time = TimePart(context, autoplay)
+        self._displays = DisplaysPart(context, services)
+        self._settings = SettingsPart(context)
+        views = ViewsPart(context, self._settings, self._displays)
         first = [transforms, self._time, self._displays, self._settings, views]
         others, session_part = self._other_parts(config, path, views, player, autosave, session)
-        core.parts = [*first, *others]
-        own = [self._guard.attempt(each.name, None, each, core) for each in features().values()]
-        core.parts += [*(make(core) for make in parts), *(each for each in own if each)]
-        self._parts = Parts(core.parts, self._guard)
-        self._arrivals = Arrivals(core, self._time, transforms)
-        self._showing = Showing(scene, views, self._guard)
+        context.parts = [*first, *others]
+        attempt, kinds = self._boundary.attempt, features().values()
+        own = [attempt(each.name, None, each, context) for each in kinds]
+        context.parts += [*(make(context) for make in parts), *(each for each in own if each)]
+        self._parts = Parts(context.parts, self._boundary)
+        self._arrivals = Arrivals(context, self._time, transforms)
+        self._showing = Showing(scene, views, self._boundary)
         self._move_on()
         self.restored: Future[str] | None = None
         """The answer to what restores the last session, None if there is none."""
         if session_part and (command := session_part.restored(restore)):
             self.restored = self._requests.put(command, PROGRAM)
 
-    def _services(self, strict: bool) -> Services:
+    def _services(self, strict: bool) -> DisplayServices:
         """Make what all displays share."""
-        core = self.core
-        return Services(
-            core.scene,
+        return DisplayServices(
+            self.context.scene,
             self._workers,
             self._source.resolve,
             strict,
-            core.clock,
-            gate=core.gate,
+            self.context.clock,
+            graph=self.context.graph,
             wake=self._wake,
             robots=self._robots,
             points=PointBudget(self._points_held),
@@ -174,17 +174,17 @@ class FrameLoop:
         session: Path | None,
     ) -> tuple[list[Part], SessionPart | None]:
         """Make the parts that the loop itself does not ask, in the order of their turns."""
-        core, displays, settings = self.core, self._displays, self._settings
-        panels = PanelsPart(core, settings)
+        context, displays, settings = self.context, self._displays, self._settings
+        panels = PanelsPart(context, settings)
         files = self._files = ConfigPart(
-            core, displays, settings, views, core.tools, panels.list, config, path
+            context, displays, settings, views, context.tools, panels.list, config, path
         )
-        session_part = SessionPart(core, files, session) if session else None
+        session_part = SessionPart(context, files, session) if session else None
         parts: list[Part] = [
             panels,
             files,
-            TopicsPart(core),
-            *([AutosavePart(core, files, autosave)] if autosave else ()),
+            TopicsPart(context),
+            *([AutosavePart(context, files, autosave)] if autosave else ()),
             *([session_part] if session_part else ()),
         ]
         return parts, session_part
@@ -192,7 +192,7 @@ class FrameLoop:
     @property
     def buffer(self) -> TransformBuffer:
         """All transforms."""
-        return self.core.buffer
+        return self.context.buffer
 
     @property
     def settings(self) -> Settings:
@@ -202,7 +202,7 @@ class FrameLoop:
     @property
     def parts(self) -> Sequence[Part]:
         """All parts and features."""
-        return self.core.parts
+        return self.context.parts
 
     @property
     def doctor(self) -> Examiner:
@@ -214,8 +214,8 @@ class FrameLoop:
         return self.get(Examiner)
 
     def get(self, kind: type[P]) -> P:
-        """Return the part or feature of a class; see `Core.get`."""
-        return self.core.get(kind)
+        """Return the part or feature of a class; see `PartContext.get`."""
+        return self.context.get(kind)
 
     def runners(self) -> Sequence[Runner]:
         """Return the displays that are shown."""
@@ -246,11 +246,11 @@ class FrameLoop:
             while not self._stop.is_set():
                 pace.begin(time.monotonic(), 1.0 / self.settings.frame_rate)
                 arrived.clear()
-                self._guard("Frame loop", self._advance)
+                self._boundary("Frame loop", self._advance)
                 late = time.monotonic() - self._next_panel
                 if late >= 0.0 and (late > PANEL_S or not arrived.wait(PAUSE_S)):
-                    self._guard("Frame loop", self._keep_up)
-                arrived.wait(IDLE_S)
+                    self._boundary("Frame loop", self._keep_up)
+                pace.wait(arrived)
                 if rest := pace.rest(time.monotonic()):
                     self._stop.wait(rest)
         finally:
@@ -274,19 +274,19 @@ class FrameLoop:
 
     def _advance(self) -> None:
         """Carry out commands, take what has arrived, and draw it."""
-        core = self.core
+        context = self.context
         self._calls.answer()
         self._owed += self._requests.obey(self._parts.do)
         self._receive()
-        is_seeking = core.player.is_seeking
+        is_seeking = context.player.is_seeking
         answers, self._owed = ([], self._owed) if is_seeking else (self._owed, [])
-        if core.is_watched() and not is_seeking:
+        if context.is_watched() and not is_seeking:
             runners = self._displays.list.active()
-            self._showing.draw(runners, core.frames, self.settings.background)
+            self._showing.draw(runners, context.frames, self.settings.background)
             self._tracer.sent()
         if answers:
             self._keep_up(commanded=True)
-        elif core.offers is not self._offers:
+        elif context.offers is not self._offers:
             self._subscribe()
         for answer in answers:
             answer()  # once the effect is visible
@@ -299,25 +299,25 @@ class FrameLoop:
         self._next_panel = now + (PANEL_S if is_attended else CALM_S)
         self._subscribe()
         self._parts.keep_up(commanded)
-        self._guard("Publishers", self._advertise)
-        self._guard("Panel", self.update)
-        self._guard("Panel", self._show)
+        self._boundary("Publishers", self._advertise)
+        self._boundary("Panel", self.update)
+        self._boundary("Panel", self._show)
 
     def _subscribe(self) -> None:
-        self._offers = self.core.offers
-        self._guard("Source", self._source.want, self._parts.subscriptions())
+        self._offers = self.context.offers
+        self._boundary("Source", self._source.want, self._parts.subscriptions())
 
     def _advertise(self) -> None:
         """Have publishers for all that may be sent, so that first messages arrive.
 
         Those of vehicles only while browsers attend to them: it is the robot's own topic.
         """
-        gate, stopping = self.core.gate, self.controllers.stopping()
+        graph, stopping = self.context.graph, self.controllers.stopping()
         every = self._parts.advertisements() | self.controllers.advertisements()
-        allowed = {each for each in every if not gate.lasting_refusal(each.topic)} | stopping
+        allowed = {each for each in every if not graph.lasting_refusal(each.topic)} | stopping
         if allowed != self._advertised:
             self._advertised = allowed
-            gate.advertise(allowed, stopping)
+            graph.advertise(allowed, stopping)
 
     def _receive(self) -> None:
         """Take what has arrived; of a recording, as much as brings the position to be shown."""
@@ -328,7 +328,7 @@ class FrameLoop:
                 # goes back on the way.
                 self._subscribe()
             is_late = any(runner.is_late() for runner in self._displays.list.active())
-            self._guard("Playback", self._time.advance, is_late)
+            self._boundary("Playback", self._time.advance, is_late)
             batches = self._arrivals.take()
             self._move_on()
             self._parts.take(batches)
@@ -340,28 +340,28 @@ class FrameLoop:
         self._parts.update()
         if not self._source.is_seeking:  # on the way, transforms and messages are missing
             self._part_statuses = self._parts.statuses()
-        own = self._guard.statuses() | self._showing.statuses
-        self.core.statuses = {**self._part_statuses, **own, **missing_features()}
+        own = self._boundary.statuses() | self._showing.statuses
+        self.context.statuses = {**self._part_statuses, **own, **missing_features()}
         if not self._source.is_seeking:
             self._parts.review()
 
     def state(self) -> State:
         """Return all that programs may read, as of the last turn."""
         self.update()
-        return self.core.state()
+        return self.context.state()
 
     def last_state(self) -> State:
         """Return the same, as of the last `update`."""
-        return self.core.state()
+        return self.context.state()
 
     def fact(self, name: str, otherwise: Any = None) -> Any:
-        """Return one field of the state, as of the last `update`; see `Core.fact`."""
-        return self.core.fact(name, otherwise)
+        """Return one field of the state, as of the last `update`; see `PartContext.fact`."""
+        return self.context.fact(name, otherwise)
 
     @property
     def statuses(self) -> Mapping[str, Status]:
         """Those of the viewer as a whole, as of the last `update`."""
-        return self.core.statuses
+        return self.context.statuses
 
     def call(self, read: Callable[[], T]) -> Future[T]:
         """Call something between two turns, from any thread."""
@@ -377,8 +377,8 @@ class FrameLoop:
 
     def _move_on(self) -> None:
         """Look up frames at the time that is shown now."""
-        core = self.core
-        core.frames = core.frames.next(self.settings.fixed_frame, self._time.shown_ns)
+        context = self.context
+        context.frames = context.frames.next(self.settings.fixed_frame, self._time.shown_ns)
 
     def _allow_list(self) -> AllowList | None:
         return self.settings.publish
@@ -387,7 +387,7 @@ class FrameLoop:
         return "" if self._source.is_live else REWOUND
 
     def _points_held(self) -> int:
-        return self._guard.attempt("Scene", POINTS_HELD, self.core.scene.points_held)
+        return self._boundary.attempt("Scene", POINTS_HELD, self.context.scene.points_held)
 
     def _robots(self) -> tuple[NamespacedRobot, ...]:
         entries = self.settings.robots

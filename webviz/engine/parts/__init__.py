@@ -10,12 +10,12 @@ import msgspec
 from webviz.api.errors import Error
 from webviz.api.status import Status
 from webviz.engine.commands import Command, FileCommand, Sender
-from webviz.engine.guard import Guard
-from webviz.engine.parts.part import Batches, Core, Handler, Part, overrides
+from webviz.engine.error_boundary import ErrorBoundary
+from webviz.engine.parts.part import Batches, Handler, Part, PartContext, overrides
 from webviz.engine.requests import Job
 from webviz.sources import Advertisement, Subscription, merged
 
-__all__ = ["Batches", "Core", "Handler", "Part", "Parts"]
+__all__ = ["Batches", "Handler", "Part", "PartContext", "Parts"]
 
 _HOOKS = (
     *("subscriptions", "advertisements", "after", "take", "keep_up", "update"),
@@ -28,13 +28,13 @@ class Parts:
 
     Args:
         parts: no two of them may handle the same command.
-        guard: for all calls.
+        boundary: around all calls.
     """
 
-    def __init__(self, parts: Sequence[Part], guard: Guard) -> None:
+    def __init__(self, parts: Sequence[Part], boundary: ErrorBoundary) -> None:
         self._parts = parts
         self._overriding = {hook: [p for p in parts if overrides(p, hook)] for hook in _HOOKS}
-        self._guard = guard
+        self._boundary = boundary
         self._handlers: dict[type[Command], Handler] = {}
         for part in parts:
             for kind, handler in part.handles.items():
@@ -70,14 +70,14 @@ class Parts:
 
     def _after(self, command: Command, sender: Sender) -> None:
         for part in self._overriding["after"]:
-            self._guard(part.name, part.after, command, sender)
+            self._boundary(part.name, part.after, command, sender)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic."""
         own: Mapping[str, Subscription] = {}
-        guard = self._guard
+        boundary = self._boundary
         return merged(
-            guard.attempt(part.name, own, part.subscriptions)
+            boundary.attempt(part.name, own, part.subscriptions)
             for part in self._overriding["subscriptions"]
         )
 
@@ -85,45 +85,45 @@ class Parts:
         """Return the publishers that all parts need."""
         advertisements: set[Advertisement] = set()
         for part in self._overriding["advertisements"]:
-            advertisements.update(self._guard.attempt(part.name, (), part.advertisements))
+            advertisements.update(self._boundary.attempt(part.name, (), part.advertisements))
         return advertisements
 
     def take(self, batches: Batches) -> None:
         """Pass on the messages since the last turn."""
         for part in self._overriding["take"]:
-            self._guard(part.name, part.take, batches)
+            self._boundary(part.name, part.take, batches)
 
     def keep_up(self, commanded: bool) -> None:
         """Do periodic work."""
         for part in self._overriding["keep_up"]:
-            self._guard(part.name, part.keep_up, commanded)
+            self._boundary(part.name, part.keep_up, commanded)
 
     def update(self) -> None:
         """Have all parts note what there is to show."""
         for part in self._overriding["update"]:
-            self._guard(part.name, part.update)
+            self._boundary(part.name, part.update)
 
     def review(self) -> None:
         """Have parts look at what all have noted."""
         for part in self._overriding["review"]:
-            self._guard(part.name, part.review)
+            self._boundary(part.name, part.review)
 
     def statuses(self) -> dict[str, Status]:
         """Return the statuses of the viewer as a whole, by key."""
         statuses: dict[str, Status] = {}
         for part in self._overriding["statuses"]:
             own: Mapping[str, Status] = {}
-            statuses |= self._guard.attempt(part.name, own, part.statuses)
+            statuses |= self._boundary.attempt(part.name, own, part.statuses)
         return statuses
 
     def is_attended(self) -> bool:
         """Return whether somebody looks at something that changes all the time."""
         return any(
-            self._guard.attempt(part.name, True, part.is_attended)
+            self._boundary.attempt(part.name, True, part.is_attended)
             for part in self._overriding["is_attended"]
         )
 
     def close(self) -> None:
         """Close all parts."""
         for part in self._overriding["close"]:
-            self._guard(part.name, part.close)
+            self._boundary(part.name, part.close)

@@ -8,7 +8,7 @@ from concurrent.futures import CancelledError, Future
 from webviz.api.declared import Topic
 from webviz.api.errors import Error
 from webviz.api.status import Level, Status
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.sources import Advertisement
 from webviz.sources.graph import UNKNOWN
 
@@ -18,11 +18,11 @@ Report = Callable[[Status], None]
 
 
 def advertisement_of(
-    core: Core, type: str, topic: Topic, depth: int = DEPTH
+    context: PartContext, type: str, topic: Topic, depth: int = DEPTH
 ) -> Advertisement | None:
     """Return where messages of a type are published; None if the topic has no valid name."""
     try:
-        name = core.player.resolve(topic.name) if topic.name else ""
+        name = context.player.resolve(topic.name) if topic.name else ""
     except ValueError:
         return None
     if not name:
@@ -36,27 +36,27 @@ def advertisement_of(
     )
 
 
-def publish(core: Core, type: str, topic: Topic, payload: bytes, report: Report) -> bool:
+def publish(context: PartContext, type: str, topic: Topic, payload: bytes, report: Report) -> bool:
     """Publish a message, and report the result; whether it may be published."""
-    advertisement = advertisement_of(core, type, topic)
+    advertisement = advertisement_of(context, type, topic)
     if advertisement is None:
         report(Status(Level.ERROR, f"`{topic.name}` is not a valid topic. Choose another one."))
         return False
-    sent = core.gate.publish(advertisement, payload)
-    sent.add_done_callback(lambda sent: report(_outcome(topic.name, sent)))
-    return not core.gate.refusal(advertisement.topic)
+    publication = context.graph.publish(advertisement, payload)
+    publication.add_done_callback(lambda publication: report(_outcome(topic.name, publication)))
+    return not context.graph.refusal(advertisement.topic)
 
 
-def _outcome(topic: str, sent: Future[int]) -> Status:
+def _outcome(topic: str, future: Future[int]) -> Status:
     """Return the result of publishing a message."""
     try:
-        count = sent.result()
+        count = future.result()
     except (Error, CancelledError) as error:
         return Status(Level.ERROR, str(error) or "The viewer has ended.")
     if count == 0:
         text = f"No subscription to {topic}. Start the node that uses it or choose another topic."
         return Status(Level.WARN, text)
     if count == UNKNOWN:
-        text = f"Sent to {topic} through the bridge, which does not tell who subscribes to it."
+        text = f"Sent to {topic} through the bridge, which does not report its subscribers."
         return Status(Level.OK, text)
     return Status(Level.OK, f"Published to {topic}, {count} subscription{'s' * (count > 1)}.")

@@ -14,7 +14,7 @@ import msgspec
 
 from webviz.data.disk import in_thread
 from webviz.engine.parts.config import ConfigPart
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Part, PartContext
 from webviz.files import config as config_file
 from webviz.files.config import Config, ConfigError
 
@@ -30,15 +30,15 @@ class AutosavePart(Part):
     """Saves the last state to a file of its own, so the config file is never overwritten.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         files: has the state.
         path: of the file.
     """
 
     name = "Autosave"
 
-    def __init__(self, core: Core, files: ConfigPart, path: Path) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext, files: ConfigPart, path: Path) -> None:
+        super().__init__(context)
         self._files = files
         self._path = path
         self._saving: Future[None] | None = None
@@ -83,7 +83,7 @@ class AutosavePart(Part):
         config = self._files.config()
         if config.settings.publish is None:
             # What pages have changed must not become the list of the next start.
-            names = self.core.gate.rights.names
+            names = self.context.graph.rights.names
             config.settings = msgspec.structs.replace(config.settings, publish=names)
         return config_file.document(config), functools.partial(_write, config, self._path)
 

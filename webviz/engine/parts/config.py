@@ -13,10 +13,10 @@ from webviz.data.words import counted, joined
 from webviz.engine.commands import Command
 from webviz.engine.parts.declaring import command, commands_of
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Part, PartContext
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
-from webviz.engine.parts.snapshots import Origin
+from webviz.engine.parts.snapshots import ConfigOrigin
 from webviz.engine.parts.views import ViewsPart
 from webviz.files import config as config_file
 from webviz.files.config import Config, Template
@@ -29,7 +29,7 @@ class ConfigPart(Part):
     """Shows configs, and tells the current one.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         displays: empty; filled with those of the config.
         settings: replaced by those of the config.
         views: reset when another config is opened.
@@ -42,7 +42,7 @@ class ConfigPart(Part):
 
     def __init__(
         self,
-        core: Core,
+        context: PartContext,
         displays: DisplaysPart,
         settings: SettingsPart,
         views: ViewsPart,
@@ -51,7 +51,7 @@ class ConfigPart(Part):
         config: Config,
         path: Path | None = None,
     ) -> None:
-        super().__init__(core)
+        super().__init__(context)
         self.displays = displays
         self.settings = settings
         self.views = views
@@ -87,11 +87,11 @@ class ConfigPart(Part):
             templates=self._templates,
         )
 
-    def origin(self) -> Origin:
+    def origin(self) -> ConfigOrigin:
         """Return the origin of the config."""
-        return Origin(self._path, self._report, self._templates)
+        return ConfigOrigin(self._path, self._report, self._templates)
 
-    def set_origin(self, origin: Origin) -> None:
+    def set_origin(self, origin: ConfigOrigin) -> None:
         """Say where the config comes from; of another file than the last it counts as changed."""
         self._path, self._report = origin.path, list(origin.report)
         self._templates = origin.templates

@@ -18,7 +18,7 @@ from webviz.data.transforms import TransformException
 from webviz.data.transforms.reasons import in_words
 from webviz.engine.parts.alignment import Correction, align, distances
 from webviz.engine.parts.display_list import DisplayList
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.scan_fit import C128, NEAR_M, OCCUPIED, POINTS, fit, in_the_way, thinned
 from webviz.engine.pipeline import Runner
 
@@ -58,12 +58,12 @@ class ConsistencyCheck:
     """Compares what displays know of where things are, while browsers are connected.
 
     Args:
-        core: has transforms and time.
+        context: has transforms and time.
         displays: what is compared, and gets the statuses.
     """
 
-    def __init__(self, core: Core, displays: DisplayList) -> None:
-        self._core = core
+    def __init__(self, context: PartContext, displays: DisplayList) -> None:
+        self._context = context
         self._displays = displays
         self._next = 0.0, 0.0
         self._compared_s = 0.0
@@ -74,7 +74,7 @@ class ConsistencyCheck:
 
     def update(self) -> None:
         """Compare again when it is time, of a recording or, while it is paused, of waiting."""
-        now = self._core.clock(), time.monotonic()
+        now = self._context.clock(), time.monotonic()
         if now[0] < self._next[0] and now[1] < self._next[1]:
             return
         self._next = now[0] + EVERY_S, now[1] + EVERY_S
@@ -83,7 +83,7 @@ class ConsistencyCheck:
             for key in (ON_MAP, ON_WAY):
                 runner.external_statuses.pop(key, None)
         self.fits, self.blocked = {}, {}
-        if self._core.is_watched():
+        if self._context.is_watched():
             self._compare()
 
     def hurry(self) -> None:
@@ -99,7 +99,7 @@ class ConsistencyCheck:
         scans: list[ScanPoints] = []
         maps: list[OccupiedCells] = []
         for runner in self._displays.active():
-            match runner.consistency_input(self._core.frames):
+            match runner.consistency_input(self._context.frames):
                 case ScanPoints() as scan if scan.frame in frames:
                     scans.append(scan)
                 case OccupiedCells() as cells:
@@ -126,7 +126,7 @@ class ConsistencyCheck:
         window = cells.window(row - reach, column - reach, 2 * reach, 2 * reach)
         field = distances(window >= OCCUPIED, resolution)
         best = align(field, resolution, laser - corner, points)
-        pose = to_pose(self._core.buffer.lookup(cells.frame, scan.frame, scan.stamp_ns))
+        pose = to_pose(self._context.buffer.lookup(cells.frame, scan.frame, scan.stamp_ns))
         return Aligned(pose, _corrected(pose, cells.origin, best), cells.frame, scan.stamp_ns)
 
     def _compare(self) -> None:
@@ -134,7 +134,7 @@ class ConsistencyCheck:
         paths: list[tuple[Runner, RobotPath]] = []
         maps: list[OccupiedCells] = []
         for runner in self._displays.active():
-            match runner.consistency_input(self._core.frames):
+            match runner.consistency_input(self._context.frames):
                 case ScanPoints() as scan:
                     scans.append((runner, scan))
                 case RobotPath() as path:
@@ -153,7 +153,7 @@ class ConsistencyCheck:
                 trusted.append(scan)
         for runner, path in paths:
             if (count := sum(self._in_the_way(scan, path) for scan in trusted)) >= FEWEST:
-                age_s = (self._core.now_ns - path.received_ns) / 1e9
+                age_s = (self._context.now_ns - path.received_ns) / 1e9
                 self.blocked[runner.id] = count
                 values = (Measurement("points", count), Measurement("age", round(age_s, 1), "s"))
                 runner.external_statuses[ON_WAY] = Status(
@@ -186,7 +186,7 @@ class ConsistencyCheck:
         Returns None without a transform, or if the sensor is tilted out of that plane.
         """
         try:
-            pose = to_pose(self._core.buffer.lookup(frame, scan.frame, scan.stamp_ns))
+            pose = to_pose(self._context.buffer.lookup(frame, scan.frame, scan.stamp_ns))
         except TransformException:
             return None
         back = tuple(conjugate(origin.wxyz).tolist())

@@ -20,7 +20,7 @@ from webviz.engine.store import PageStore
 
 SENDER = "sender"
 """The parameter of a command that receives its sender; it is not a field."""
-ASKED = "asked"
+PAGE_REQUEST = "page_request"
 """The parameter of a `PageCommand` that receives what a page asks for; it is not a field."""
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -86,7 +86,7 @@ def command(
     Args:
         role: of pages that may send it; None if only programs may.
         base: `FileCommand` if it may answer with a slow part; `PageCommand` if it is called on the
-            event loop, and answers the page through its parameter `asked`.
+            event loop, and answers the page through its parameter `page_request`.
         label: of the step that undoes it, from the command; None derives it from what has changed.
         name: of its class; "" is that of the method.
         is_noted: whether owners read in the journal who did it.
@@ -144,7 +144,7 @@ def _declared(part: type[object], name: str, mark: _Mark) -> DeclaredCommand:
     fields: list[Any] = []
     for each in parameters:
         default = () if each.default is each.empty else (each.default,)
-        if each.name not in (SENDER, ASKED):
+        if each.name not in (SENDER, PAGE_REQUEST):
             fields.append((each.name, types[each.name], *default))
     label = {"label": property(mark.label)} if mark.label else {}
     struct: Any = msgspec.defstruct(

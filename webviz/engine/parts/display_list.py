@@ -18,8 +18,8 @@ from webviz.api.group import DisplayGroup
 from webviz.api.properties import FIRST
 from webviz.engine.parts.entry import Entry
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.snapshots import Snapshot, kept, made_anew
-from webviz.engine.pipeline import Runner, Services
+from webviz.engine.parts.snapshots import Snapshot, made_anew, snapshot_of
+from webviz.engine.pipeline import DisplayServices, Runner
 from webviz.files import config as config_file
 from webviz.files import rviz
 from webviz.files.config import Branch, ConfigError, Item, Location, Settings, Unreadable
@@ -52,10 +52,10 @@ def _copied(display: D) -> D:
     return make(type(display), to_values(display))
 
 
-def _fresh(name: str, taken: set[str]) -> str:
+def _fresh(name: str, names: set[str]) -> str:
     """Return an unused name: `Scan 2` for `Scan`."""
     stem = re.sub(r" \d+$", "", name)
-    return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in taken)
+    return next(n for i in itertools.count(2) if (n := f"{stem} {i}") not in names)
 
 
 log = logging.getLogger("webviz")
@@ -68,10 +68,10 @@ class DisplayList:
         services: for the runners.
     """
 
-    def __init__(self, services: Services) -> None:
+    def __init__(self, services: DisplayServices) -> None:
         self._services = services
         self._entries: list[Entry] = []
-        self._made = 0
+        self._count = 0
         self.aids: list[Runner] = []
         """Displays that the viewer adds for a while; no list or config has them."""
 
@@ -232,23 +232,23 @@ class DisplayList:
         """Return the contents of a group or of the list to save: a snapshot, for any thread."""
         return [self._item(entry) for entry in self._entries if entry.parent is parent]
 
-    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
+    def snapshots(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
         """Return the undo snapshot of the entries, by id; unchanged ones come from `before`."""
         return {
-            entry.id: kept(entry.declared, _id(entry.parent), before.get(entry.id))
+            entry.id: snapshot_of(entry.declared, _id(entry.parent), before.get(entry.id))
             for entry in self._entries
         }
 
-    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
+    def restore(self, snapshots: Mapping[str, Snapshot]) -> None:
         """Have the entries that were kept, in their order; those still there go on."""
         active = set(self.active())
         now = {entry.id: entry for entry in self._entries}
-        for id in now.keys() - wanted.keys():
+        for id in now.keys() - snapshots.keys():
             if isinstance(runner := now[id].content, Runner):
                 active.discard(runner)
                 runner.close()
         entries: dict[str, Entry] = {}
-        for id, each in wanted.items():
+        for id, each in snapshots.items():
             if id in now:
                 self._set_back(now[id], each)
             entry = entries[id] = now.get(id) or Entry(id, self._made_again(id, each))
@@ -258,18 +258,18 @@ class DisplayList:
         for runner in active - set(self.active()):
             runner.hide()
 
-    def _made_again(self, id: str, wanted: Snapshot) -> Runner | DisplayGroup | Unreadable:
-        own = made_anew(wanted)
+    def _made_again(self, id: str, snapshot: Snapshot) -> Runner | DisplayGroup | Unreadable:
+        own = made_anew(snapshot)
         if isinstance(own, DisplayGroup | Unreadable):
             return own
         return Runner(id, cast(Display, own), self._services)
 
-    def _set_back(self, entry: Entry, wanted: Snapshot) -> None:
+    def _set_back(self, entry: Entry, snapshot: Snapshot) -> None:
         """Give an entry its old properties; one that could not be shown then stays as it is."""
         content = entry.content
         if isinstance(content, Unreadable):
             return
-        for name, value in wanted.values.items():
+        for name, value in snapshot.values.items():
             # A plug-in that changed meanwhile may lack the property, or want other values.
             with contextlib.suppress(ConfigError, AttributeError):
                 if msgspec.to_builtins(getattr(entry.declared, name)) != value:
@@ -279,8 +279,8 @@ class DisplayList:
         """Return the entry of a display, or those of a group and its contents."""
         if isinstance(item, Unreadable) and not item.is_from_rviz:  # else it is in the report
             log.warning("%s", item.reason)
-        self._made += 1
-        id = f"display{self._made}"
+        self._count += 1
+        id = f"display{self._count}"
         entry = Entry(id, self._content(id, item), parent)
         inner = item.displays if isinstance(item, Branch) else ()
         return [entry, *(below for each in inner for below in self._made_of(each, entry))]

@@ -132,23 +132,23 @@ class TreeRows:
     """Rows as the page shows them, by id; the same object for a row as long as it is unchanged."""
 
     def __init__(self) -> None:
-        self._known: dict[str, tuple[Row, DisplayRow]] = {}
+        self._cache: dict[str, tuple[Row, DisplayRow]] = {}
         self._causes: tuple[Status, ...] = ()
 
     def __call__(self, rows: Iterable[Row], causes: tuple[Status, ...]) -> Mapping[str, DisplayRow]:
         """Return those of these rows; see `webviz.engine.parts.status_lines.causes`."""
-        before = self._known if causes == self._causes else {}
+        before = self._cache if causes == self._causes else {}
         self._causes = causes
-        self._known = now = {
+        self._cache = now = {
             row.id: entry
             if (entry := before.get(row.id)) and entry[0] is row
-            else (row, _shown(row, causes))
+            else (row, _display_row(row, causes))
             for row in rows
         }
         return {id_: row_view for id_, (_, row_view) in now.items()}
 
 
-def _shown(row: Row, causes: Sequence[Status]) -> DisplayRow:
+def _display_row(row: Row, causes: Sequence[Status]) -> DisplayRow:
     level = row.level
     name, worst = next(((n, s) for n, s in row.statuses.items() if s.level == level), ("", None))
     is_said = any(follows(status, each) for each in causes for status in row.statuses.values())

@@ -38,10 +38,10 @@ from webviz.engine.parts.display_properties import (
     topic_offers,
 )
 from webviz.engine.parts.display_rows import DisplaysStore, TreeRows, rows
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Part, PartContext
 from webviz.engine.parts.status_lines import StatusesStore, causes, lines
 from webviz.engine.parts.topics import TopicsPart
-from webviz.engine.pipeline import Runner, Services
+from webviz.engine.pipeline import DisplayServices, Runner
 from webviz.engine.pipeline.runner import WORKING
 from webviz.engine.pipeline.trace import Trace
 from webviz.engine.state import Row, Traffic
@@ -111,19 +111,19 @@ class DisplaysPart(Part):
     """All displays.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         services: for the runners.
     """
 
     name = "Displays"
 
-    def __init__(self, core: Core, services: Services) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext, services: DisplayServices) -> None:
+        super().__init__(context)
         self.list = DisplayList(services)
         self.services = services
         self.tracer = services.tracer
         self.points = services.points
-        self.consistency = ConsistencyCheck(core, self.list)
+        self.consistency = ConsistencyCheck(context, self.list)
         self.rows: tuple[Row, ...] = ()
         """The list as of the last turn; the same objects for what has not changed."""
         self.tree = TreeRows()
@@ -131,7 +131,7 @@ class DisplaysPart(Part):
 
     def state(self) -> Mapping[str, Any]:
         """Return the displays, and the statuses of the viewer."""
-        return {"rows": self.rows, "statuses": self.core.statuses}
+        return {"rows": self.rows, "statuses": self.context.statuses}
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the displays' subscriptions. The first decides on type and QoS of a topic."""
@@ -149,20 +149,20 @@ class DisplaysPart(Part):
     def take(self, batches: Batches) -> None:
         """Pass messages to the displays."""
         for runner in self.list.active():
-            runner.take(batches, self.core.frames, self.core.offers)
+            runner.take(batches, self.context.frames, self.context.offers)
 
     def reset(self) -> None:
         """Forget all messages."""
         for runner in self.list.runners():
-            self.core.guard(self.name, runner.reset)
+            self.context.boundary(self.name, runner.reset)
 
     def update(self) -> None:
         """Make the rows of the list."""
         statuses = self._statuses_of
-        if self.core.player.is_seeking:
+        if self.context.player.is_seeking:
             statuses = self._statuses_before()
         else:
-            self.core.guard("Consistency check", self.consistency.update)
+            self.context.boundary("Consistency check", self.consistency.update)
         self.rows = rows(self.list.entries, statuses, self.rows)
 
     def _statuses_before(self) -> Callable[[Runner], Mapping[str, Status]]:
@@ -174,48 +174,48 @@ class DisplaysPart(Part):
         return lambda runner: before.get(runner.id, {LOADING: WORKING})
 
     def _statuses_of(self, runner: Runner) -> Mapping[str, Status]:
-        core = self.core
+        context = self.context
         if self._is_unseen(runner):
             return {"Display": UNSEEN}
-        dropped = core.player.inbox.dropped
-        return runner.statuses(core.offers, core.frames, dropped, core.is_watched())
+        dropped = context.player.inbox.dropped
+        return runner.statuses(context.offers, context.frames, dropped, context.is_watched())
 
     def _is_unseen(self, runner: Runner) -> bool:
         """Return whether all that a display shows is a pane that nobody sees."""
-        scene, display = self.core.scene, runner.display
+        scene, display = self.context.scene, runner.display
         if not (display.enabled and type(display).has_pane):
             return False
-        return self.core.guard.attempt("Scene", False, scene.is_unseen, runner.id)
+        return self.context.boundary.attempt("Scene", False, scene.is_unseen, runner.id)
 
     # Stores
 
-    @store(of=lambda part: (part.rows, part.core.statuses))
+    @store(of=lambda part: (part.rows, part.context.statuses))
     def displays(self, argument: str) -> DisplaysStore:
         """Return the tree of displays."""
-        tree = self.tree(self.rows, causes(self.core.statuses))
+        tree = self.tree(self.rows, causes(self.context.statuses))
         return DisplaysStore([row.id for row in self.rows], tree)
 
-    @store(name="properties", of=lambda part: (part.rows, part.core.offers, part.traffic))
+    @store(name="properties", of=lambda part: (part.rows, part.context.offers, part.traffic))
     def properties_of(self, display: str) -> PropertiesStore | None:
         """Return the properties of the display with this id; None if it is gone."""
         row = self._row(display)
-        return properties(row, self.rows, self.core.offers, self.traffic) if row else None
+        return properties(row, self.rows, self.context.offers, self.traffic) if row else None
 
-    @store(of=lambda part: (part.rows, part.core.statuses), name="statuses")
+    @store(of=lambda part: (part.rows, part.context.statuses), name="statuses")
     def statuses_of(self, display: str) -> StatusesStore | None:
         """Return the statuses of the display with this id; None if it is gone."""
         row = self._row(display)
-        return lines(row.statuses, row.id, causes(self.core.statuses)) if row else None
+        return lines(row.statuses, row.id, causes(self.context.statuses)) if row else None
 
-    @store(name="rate", of=lambda part: (part.rows, part.core.offers, part.traffic))
+    @store(name="rate", of=lambda part: (part.rows, part.context.offers, part.traffic))
     def rate_of(self, display: str) -> RateStore:
         """Return the rate of messages of the display with this id."""
-        return rate(self._row(display), self.core.offers, self.traffic)
+        return rate(self._row(display), self.context.offers, self.traffic)
 
-    @store(of=lambda part: (part.rows, part.core.offers, part.traffic))
+    @store(of=lambda part: (part.rows, part.context.offers, part.traffic))
     def topics_of(self, types: str) -> TopicOffersStore:
         """Return the live topics of message types; see `topic_offers`."""
-        return topic_offers(types, self.rows, self.core.offers, self.traffic)
+        return topic_offers(types, self.rows, self.context.offers, self.traffic)
 
     @store(of=lambda part: part.rows, name="legend")
     def legend_of_all(self, argument: str) -> LegendStore:
@@ -241,7 +241,7 @@ class DisplaysPart(Part):
     @property
     def traffic(self) -> Mapping[str, Traffic]:
         """Return the traffic by topic."""
-        return self.core.get(TopicsPart).traffic
+        return self.context.get(TopicsPart).traffic
 
     def _row(self, id: str) -> Row | None:
         return next((row for row in self.rows if row.id == id), None)

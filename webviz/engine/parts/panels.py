@@ -22,7 +22,7 @@ from webviz.data.messages import MessageError, decode, encode, interfaces
 from webviz.engine.commands import ignore
 from webviz.engine.parts.advertisements import advertisement_of, publish
 from webviz.engine.parts.declaring import command
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Part, PartContext
 from webviz.engine.parts.plugin_list import PluginList
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import PanelTab
@@ -81,14 +81,14 @@ class PanelsPart(Part):
     """All panels of plug-ins. What is drawn of them is known to the pages alone.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         settings: has the layouts, which name panels.
     """
 
     name = "Panels"
 
-    def __init__(self, core: Core, settings: SettingsPart) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext, settings: SettingsPart) -> None:
+        super().__init__(context)
         self._settings = settings
         self.list = PluginList(Panel)
         self._open: frozenset[str] = frozenset()
@@ -112,16 +112,18 @@ class PanelsPart(Part):
 
     def take(self, batches: Batches) -> None:
         """Pass messages on to the open panels that read them."""
-        if not self.core.player.is_seeking:
+        if not self.context.player.is_seeking:
             for panel in self._panels():
                 if _has(panel, "begun"):
-                    self.core.guard(f"The panel {panel.name}", self._fill, panel)
+                    self.context.boundary(f"The panel {panel.name}", self._fill, panel)
         for panel in self._panels():
             for topic, type_ in self._topics(panel, "subscriptions").items():
-                offer = self.core.offers.get(topic)
+                offer = self.context.offers.get(topic)
                 if topic in batches and (offer is None or offer.type in ("", type_)):
                     for raw in batches[topic]:
-                        self.core.guard(f"The panel {panel.name}", _pass, panel, topic, type_, raw)
+                        self.context.boundary(
+                            f"The panel {panel.name}", _pass, panel, topic, type_, raw
+                        )
 
     def _fill(self, panel: Panel) -> None:
         """Let a panel begin with what is remembered."""
@@ -131,13 +133,13 @@ class PanelsPart(Part):
         for topic in begun:
             if type_ := subscriptions.get(topic):
                 lookback = self._lookback(panel, topic)
-                for raw in past_messages(self.core.player, topic, type_, lookback):
+                for raw in past_messages(self.context.player, topic, type_, lookback):
                     _pass(panel, topic, type_, raw, is_past=True)
 
     def reset(self) -> None:
         """Let the open panels start over."""
         for panel in self._panels():
-            self.core.guard(f"The panel {panel.name}", panel.start_over)
+            self.context.boundary(f"The panel {panel.name}", panel.start_over)
         for subscriber in self._subscribers.values():
             subscriber.ask()
 
@@ -151,14 +153,14 @@ class PanelsPart(Part):
         return {
             advertisement
             for each in topics
-            if (advertisement := advertisement_of(self.core, *each))
+            if (advertisement := advertisement_of(self.context, *each))
         }
 
     def target_frames(self) -> set[str]:
         """Return the frames that the open panels follow."""
-        guard = self.core.guard
+        boundary = self.context.boundary
         frames = (
-            guard.attempt(f"The panel {panel.name}", frozenset[str](), panel.target_frames)
+            boundary.attempt(f"The panel {panel.name}", frozenset[str](), panel.target_frames)
             for panel in self._panels()
             if _has(panel, "target_frames")
         )
@@ -179,10 +181,10 @@ class PanelsPart(Part):
             TypeError: there is no such thing.
         """
         named = parameters_of(type(panel).show)
-        values = {name: self.core.fact(name, default) for name, default in named.items()}
+        values = {name: self.context.fact(name, default) for name, default in named.items()}
         unknown = [name for name, value in values.items() if value is inspect.Parameter.empty]
         if len(named) == len(unknown) == 1:  # as before webviz 0.3
-            values = dict.fromkeys(unknown, self.core.state())
+            values = dict.fromkeys(unknown, self.context.state())
         elif unknown:
             names = ", ".join(unknown)
             raise TypeError(f"`show` asks for {names}, which this viewer does not have")
@@ -197,7 +199,7 @@ class PanelsPart(Part):
         return self.list.statuses()
 
     def _lookback(self, panel: Panel, topic: str) -> Lookback:
-        lookback = self.core.guard(f"The panel {panel.name}", panel.lookback, topic)
+        lookback = self.context.boundary(f"The panel {panel.name}", panel.lookback, topic)
         return lookback if isinstance(lookback, Lookback) else Lookback(count=1)
 
     def _attended(self) -> list[PanelTab]:
@@ -218,7 +220,7 @@ class PanelsPart(Part):
 
     def _topics(self, panel: Panel, hook: str) -> Mapping[str, str]:
         """Return the topics a panel names; empty if its hook fails."""
-        return self.core.guard.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
+        return self.context.boundary.attempt(f"The panel {panel.name}", {}, getattr(panel, hook))
 
     @command(Role.OPERATOR)
     def add_panel(
@@ -310,7 +312,9 @@ class PanelsPart(Part):
         except MessageError as error:
             raise ConfigError(f"Not published: {error}") from error
         durability, depth = ("transient_local", 1) if latched else ("auto", 0)
-        publish(self.core, type, Topic(topic, durability=durability, depth=depth), payload, report)
+        publish(
+            self.context, type, Topic(topic, durability=durability, depth=depth), payload, report
+        )
 
     @command(None)
     def call_service(
@@ -335,13 +339,13 @@ class PanelsPart(Part):
             timeout_s: for service and response to appear.
         """
         try:
-            name = self.core.player.resolve(service)
+            name = self.context.player.resolve(service)
             parts = interfaces.service(type, definition)
             payload = encode(parts.request, request)
         except ValueError as error:  # the name, the type or a value
             raise ConfigError(f"Not called: {error}") from error
-        gate = self.core.gate
-        call = gate.query if type in READING else gate.call
+        graph = self.context.graph
+        call = graph.query if type in READING else graph.call
         response = call(name, type, payload, timeout_s)
         response.add_done_callback(interfaces.taker(name, parts.response, answered, failed))
 
@@ -368,6 +372,6 @@ def _pass(panel: Panel, topic: str, type_: str, raw: Any, *, is_past: bool = Fal
     if receive := getattr(panel, "receive", None):  # as before webviz 0.3
         receive(topic, message, raw.received_ns)
         return
-    told = {"received_ns": raw.received_ns, "is_past": is_past}
-    wanted = parameters_of(type(panel).take)
-    panel.take(topic, message, **{name: told[name] for name in told if name in wanted})
+    extras = {"received_ns": raw.received_ns, "is_past": is_past}
+    parameters = parameters_of(type(panel).take)
+    panel.take(topic, message, **{name: extras[name] for name in extras if name in parameters})

@@ -16,7 +16,7 @@ from webviz.api.tool import Tool
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import VelocityControllers
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.parts.declaring import DeclaredCommand, commands_of
 from webviz.engine.parts.outputs import Outputs
 from webviz.engine.parts.plugin_list import PluginList
@@ -24,7 +24,7 @@ from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import Job
 from webviz.engine.state import State, snapshot
 from webviz.files.config import Config
-from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
+from webviz.sources import Advertisement, Offer, Raw, RestrictedGraph, Subscription
 from webviz.sources.player import Player
 from webviz.sources.recording.moment import MomentHistory
 
@@ -68,15 +68,15 @@ NO_PROGRAM = HostProgram()
 """Program of a viewer without pages."""
 
 
-class Core:
-    """Shared by all parts of a viewer. Only the frame loop changes it.
+class PartContext:
+    """State and services that all parts of a viewer share. Only the frame loop changes it.
 
     Args:
         player: where messages come from.
-        gate: where messages, requests and goals go to.
+        graph: that messages, requests and goals go to, as far as the rights allow.
         controllers: of the vehicles that tools drive; they do not wait for the loop.
         scene: where to draw.
-        guard: for all calls.
+        boundary: around all calls.
         clock: monotonic time in seconds.
         waiting: the same, which goes on while a recording is paused.
         host: what the program around it gives.
@@ -85,19 +85,19 @@ class Core:
     def __init__(
         self,
         player: Player,
-        gate: Gate,
+        graph: RestrictedGraph,
         controllers: VelocityControllers,
         scene: Scene,
-        guard: Guard,
+        boundary: ErrorBoundary,
         clock: Callable[[], float],
         waiting: Callable[[], float],
         host: HostProgram,
     ) -> None:
         self.player = player
-        self.gate = gate
+        self.graph = graph
         self.controllers = controllers
         self.scene = scene
-        self.guard = guard
+        self.boundary = boundary
         self.clock = clock
         self.waiting = waiting
         self.host = host
@@ -131,9 +131,7 @@ class Core:
         """
         part = self.find(kind)
         if part is None:
-            raise MissingPart(
-                f"This viewer has no {kind.name or kind.__name__}. Install webviz anew."
-            )
+            raise MissingPart(f"This viewer has no {kind.name or kind.__name__}. Reinstall webviz.")
         return part
 
     def find(self, kind: type[P]) -> P | None:
@@ -169,16 +167,16 @@ class Core:
 
     def _state_of(self, part: Part) -> Mapping[str, Any]:
         own: Mapping[str, Any] = {}
-        return self.guard.attempt(part.name, own, part.state)
+        return self.boundary.attempt(part.name, own, part.state)
 
     def reset(self) -> None:
         """Have all parts discard received data."""
         for part in self.parts:
-            self.guard(part.name, part.reset)
+            self.boundary(part.name, part.reset)
 
     def is_watched(self) -> bool:
         """Return whether any browser is connected."""
-        return self.guard.attempt("Scene", True, self.scene.has_watchers)
+        return self.boundary.attempt("Scene", True, self.scene.has_watchers)
 
 
 class Part:
@@ -188,14 +186,14 @@ class Part:
     part. Stores are made only while a page watches them.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
     """
 
     name: ClassVar[str] = ""
     """Shown when the part fails."""
 
-    def __init__(self, core: Core) -> None:
-        self.core = core
+    def __init__(self, context: PartContext) -> None:
+        self.context = context
 
     @property
     def handles(self) -> Mapping[type[Command], Handler]:

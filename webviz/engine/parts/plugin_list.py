@@ -14,7 +14,7 @@ from webviz.api.registry import plugin_types
 from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.parts.refusals import not_changed
-from webviz.engine.parts.snapshots import Snapshot, kept, made_anew
+from webviz.engine.parts.snapshots import Snapshot, made_anew, snapshot_of
 from webviz.engine.pipeline.plugins import made_new
 from webviz.files.config import ConfigError, Unreadable, nearest
 
@@ -32,7 +32,7 @@ class PluginList(Generic[P]):
         self._base = base
         self._types = plugin_types(base)
         self._items: dict[str, P | Unreadable] = {}
-        self._made = 0
+        self._count = 0
 
     def show(self, items: Sequence[P | Unreadable]) -> None:
         """Replace all of them."""
@@ -44,18 +44,18 @@ class PluginList(Generic[P]):
 
     def add(self, item: P | Unreadable) -> str:
         """Append one; returns its id."""
-        self._made += 1
-        id = f"{self._base.kind}{self._made}"
+        self._count += 1
+        id = f"{self._base.kind}{self._count}"
         self._items[id] = item
         return id
 
-    def remove(self, wanted: str) -> str:
+    def remove(self, name: str) -> str:
         """Remove one by its id or name; returns its name.
 
         Raises:
             ConfigError: there is none.
         """
-        id, item = self.find(wanted)
+        id, item = self.find(name)
         del self._items[id]
         return item.name
 
@@ -83,7 +83,7 @@ class PluginList(Generic[P]):
             if getattr(self._types[name], "opens", "at start") == "at start":
                 self.add(make(self._types[name], {}))
 
-    def find(self, wanted: str) -> tuple[str, P]:
+    def find(self, name: str) -> tuple[str, P]:
         """Id and item by its id or name.
 
         Raises:
@@ -91,43 +91,43 @@ class PluginList(Generic[P]):
         """
         usable = self.usable()
         ids = {item.name: id for id, item in usable.items()} | {id: id for id in usable}
-        if wanted not in ids:
+        if name not in ids:
             names = [item.name for item in usable.values()]
             kind = self._base.kind
-            raise ConfigError(f"Unknown {kind} `{wanted[:80]}`: {nearest(wanted, names)}")
-        return ids[wanted], usable[ids[wanted]]
+            raise ConfigError(f"Unknown {kind} `{name[:80]}`: {nearest(name, names)}")
+        return ids[name], usable[ids[name]]
 
-    def set(self, wanted: str, path: str, value: Any) -> None:
+    def set(self, name: str, path: str, value: Any) -> None:
         """Change a property of one.
 
         Raises:
             ConfigError: there is no such item, or the value is invalid.
         """
-        _, item = self.find(wanted)
+        _, item = self.find(name)
         try:
             set_property(item, path, value)
         except msgspec.ValidationError as error:
             raise not_changed(error, type(item), path, value) from error
 
-    def kept(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
+    def snapshots(self, before: Mapping[str, Snapshot]) -> dict[str, Snapshot]:
         """Return the undo snapshot, by id; unchanged ones are those from `before`."""
-        return {id: kept(item, "", before.get(id)) for id, item in self._items.items()}
+        return {id: snapshot_of(item, "", before.get(id)) for id, item in self._items.items()}
 
-    def restore(self, wanted: Mapping[str, Snapshot]) -> None:
+    def restore(self, snapshots: Mapping[str, Snapshot]) -> None:
         """Have those that were kept; those still there go on, with what they know."""
-        now = self.kept({})
+        now = self.snapshots({})
         self._items = {
             id: self._set_back(self._items[id], now[id], each)
             if id in now and now[id].class_ is each.class_
             else cast(P | Unreadable, made_anew(each))
-            for id, each in wanted.items()
+            for id, each in snapshots.items()
         }
 
-    def _set_back(self, item: P | Unreadable, now: Snapshot, wanted: Snapshot) -> P | Unreadable:
+    def _set_back(self, item: P | Unreadable, now: Snapshot, target: Snapshot) -> P | Unreadable:
         """Return an item with its old properties."""
         if isinstance(item, Unreadable):
-            return cast(Unreadable, wanted.content)
-        for name, value in wanted.values.items():
+            return cast(Unreadable, target.content)
+        for name, value in target.values.items():
             if now.values[name] != value:
                 set_property(item, name, value)
         return item

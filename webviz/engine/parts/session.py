@@ -15,7 +15,7 @@ from webviz.data.words import joined
 from webviz.engine.commands import Command
 from webviz.engine.parts.autosave import AutosavePart
 from webviz.engine.parts.config import ConfigPart, Restore
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.files import config as config_file
 from webviz.files import sessions
 from webviz.files.config import ConfigError
@@ -28,15 +28,15 @@ class SessionPart(AutosavePart):
     """Keeps what differs from the config that the viewer was started with.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         files: has the state.
         path: of the session file, which is removed while there is nothing to keep.
     """
 
     name = "Session"
 
-    def __init__(self, core: Core, files: ConfigPart, path: Path) -> None:
-        super().__init__(core, files, path)
+    def __init__(self, context: PartContext, files: ConfigPart, path: Path) -> None:
+        super().__init__(context, files, path)
         self._start = files.path
         self._base = Base.of(files.saved(self._start) or {})
         self._problem = ""

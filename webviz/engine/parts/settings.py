@@ -12,7 +12,7 @@ from webviz.api.nodes import Rgb
 from webviz.api.roles import Role
 from webviz.engine.forms import Form, form, values_of
 from webviz.engine.parts.declaring import command, store
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Part, PartContext
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.status_lines import StatusLine, lines
 from webviz.engine.store import PageStore
@@ -52,8 +52,8 @@ class SettingsPart(Part):
 
     name = "Settings"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self.settings = Settings()
         """Everything in the config except displays and tools."""
 
@@ -73,11 +73,11 @@ class SettingsPart(Part):
         except msgspec.ValidationError as error:
             raise not_changed(error, Settings, key, value) from error
 
-    @store(name="settings", of=lambda part: (part.settings, part.core.statuses))
+    @store(name="settings", of=lambda part: (part.settings, part.context.statuses))
     def shown(self, argument: str) -> SettingsStore:
         """Return the settings, and the statuses of the viewer as a whole."""
         settings = self.settings
-        status_lines = lines(self.core.statuses)
+        status_lines = lines(self.context.statuses)
         return SettingsStore(
             declared=form(Settings, NO_CONTROL),
             values=values_of(settings, NO_CONTROL),

@@ -33,7 +33,7 @@ class Snapshot(msgspec.Struct, frozen=True):
         return self.content.name if self.content else str(self.values["name"])
 
 
-def kept(content: Declared | Unreadable, group: str, before: Snapshot | None) -> Snapshot:
+def snapshot_of(content: Declared | Unreadable, group: str, before: Snapshot | None) -> Snapshot:
     """Return a snapshot of an entry.
 
     The one from before if it is still the same, to save memory.
@@ -45,15 +45,15 @@ def kept(content: Declared | Unreadable, group: str, before: Snapshot | None) ->
     return before if now == before and before is not None else now
 
 
-def made_anew(kept: Snapshot) -> Declared | Unreadable:
+def made_anew(snapshot: Snapshot) -> Declared | Unreadable:
     """Return the declared object of a snapshot, made anew."""
-    if kept.class_ is None:
-        assert kept.content is not None
-        return kept.content
-    return make(kept.class_, dict(kept.values))
+    if snapshot.class_ is None:
+        assert snapshot.content is not None
+        return snapshot.content
+    return make(snapshot.class_, dict(snapshot.values))
 
 
-class Origin(msgspec.Struct, frozen=True):
+class ConfigOrigin(msgspec.Struct, frozen=True):
     """The source of a config.
 
     Args:

@@ -63,15 +63,15 @@ def causes(statuses: Mapping[str, Status]) -> tuple[Status, ...]:
     return tuple(status for status in statuses.values() if status.remedy)
 
 
-def remedy_of(status: Status, display: str, known: Sequence[Status] = ()) -> RemedyButton | None:
+def remedy_of(status: Status, display: str, statuses: Sequence[Status] = ()) -> RemedyButton | None:
     """Return the button of a command that would help; None if none would.
 
     Args:
         status: of a display, or of the viewer.
         display: id of the display.
-        known: see `causes`.
+        statuses: see `causes`.
     """
-    cause = next((each for each in known if follows(status, each)), None)
+    cause = next((each for each in statuses if follows(status, each)), None)
     remedy = status.remedy or (cause.remedy if cause else None)
     if remedy is None:
         return None
@@ -95,26 +95,26 @@ def follows(status: Status, cause: Status) -> bool:
 
 
 def lines(
-    statuses: Mapping[str, Status], display: str = "", known: Sequence[Status] = ()
+    statuses: Mapping[str, Status], display: str = "", causes: Sequence[Status] = ()
 ) -> StatusesStore:
     """Statuses as the page shows them.
 
     Args:
         statuses: by key.
         display: id of the display they belong to, "" for the viewer.
-        known: causes of which they may be a consequence; see `causes`.
+        causes: statuses of which they may be a consequence; see `causes`.
     """
     all_ = list(statuses.items())
     if len(all_) > MAX_STATUSES:
         all_ = sorted(all_, key=lambda line: -line[1].level)[:MAX_STATUSES]
     return StatusesStore(
-        statuses=[_line(*line, display, known) for line in all_],
+        statuses=[_line(*line, display, causes) for line in all_],
         more=len(statuses) - len(all_),
     )
 
 
-def _line(key: str, status: Status, display: str, known: Sequence[Status]) -> StatusLine:
-    remedy = remedy_of(status, display, known)
+def _line(key: str, status: Status, display: str, statuses: Sequence[Status]) -> StatusLine:
+    remedy = remedy_of(status, display, statuses)
     return StatusLine(brief(key), level_name(status.level), brief(status.text), remedy)
 
 

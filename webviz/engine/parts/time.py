@@ -12,7 +12,7 @@ from webviz.api.roles import Role
 from webviz.api.status import Level, Status
 from webviz.data.words import counted, joined
 from webviz.engine.parts.declaring import command, store
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Part, PartContext
 from webviz.engine.pipeline.clock_rate import ClockRateMeter, Rate
 from webviz.engine.pipeline.ros_time import RosTime
 from webviz.engine.state import PanelTimes
@@ -51,22 +51,22 @@ class TimePart(Part):
     """ROS time, which can be paused and can start over, and the moment of the past that is shown.
 
     Args:
-        core: shared by all parts; its player is paused instead of the inbox unless topics are live.
+        context: shared by all parts; its player is paused, or the inbox while topics are live.
         autoplay: play as soon as a browser is connected, so that nobody misses the beginning.
     """
 
     name = "Time"
 
-    def __init__(self, core: Core, autoplay: bool = False) -> None:
-        super().__init__(core)
-        core.player.is_ready = autoplay and not core.player.is_live
+    def __init__(self, context: PartContext, autoplay: bool = False) -> None:
+        super().__init__(context)
+        context.player.is_ready = autoplay and not context.player.is_live
         self._paused_ns: int | None = None
         self._time_rate = ClockRateMeter()
         self._clock_rate = Rate()
         self._start()
         self.missed = 0
         """Number of messages dropped while paused."""
-        self.ros = RosTime(core.clock)
+        self.ros = RosTime(context.clock)
         """Detects that time went back."""
         self.times = PanelTimes()
         """Both clocks, as of the last turn."""
@@ -85,7 +85,7 @@ class TimePart(Part):
     @property
     def shown_ns(self) -> int:
         """ROS time to show."""
-        return self.core.now_ns if self._paused_ns is None else self._paused_ns
+        return self.context.now_ns if self._paused_ns is None else self._paused_ns
 
     @property
     def is_recording(self) -> bool:
@@ -98,24 +98,24 @@ class TimePart(Part):
         Args:
             is_busy: whether displays have to catch up first.
         """
-        player = self.core.player
-        if player.is_ready and self.core.is_watched():
+        player = self.context.player
+        if player.is_ready and self.context.is_watched():
             player.play()
         if player.advance(is_busy):
             self.start_over()
 
     def take(self, batches: Batches) -> None:
         """Remember where frames are while a seek passes them, since nothing is drawn."""
-        if self.core.player.is_seeking:
-            self.core.frames.pass_by()
+        if self.context.player.is_seeking:
+            self.context.frames.pass_by()
 
     def update(self) -> None:
         """Read both clocks, and note the state of the player, and what is recorded when."""
-        ros_ns, wall_s = self.core.frames.now_ns, time.time()
+        ros_ns, wall_s = self.context.frames.now_ns, time.time()
         if not 0 < self._began_ns <= ros_ns:  # time may have gone back while paused
             self._began_ns = ros_ns
-        messages = self.core.player.clock_messages()
-        player, history = self.core.player, self.core.player.history
+        messages = self.context.player.clock_messages()
+        player, history = self.context.player, self.context.player.history
         is_paused = self.is_paused if player.is_live else not player.is_playing
         self.times = PanelTimes(
             ros_ns,
@@ -125,7 +125,7 @@ class TimePart(Part):
             is_paused,
             self._time_rate.step(ros_ns, wall_s, is_paused),
             messages is not None,
-            self._clock_rate.step(messages or 0, self.core.clock()),
+            self._clock_rate.step(messages or 0, self.context.clock()),
         )
         if player.absence:
             self.playback, self.recorded, self.logged = None, {}, ()
@@ -152,7 +152,7 @@ class TimePart(Part):
 
     def is_attended(self) -> bool:
         """Return whether a past is shown, whose position pages follow."""
-        return not self.core.player.is_live
+        return not self.context.player.is_live
 
     def state(self) -> Mapping[str, Any]:
         """Return the time, the recording, the counts of its messages, and what was logged."""
@@ -165,11 +165,11 @@ class TimePart(Part):
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether time runs, and what is missing, unusual or damaged in the recording."""
-        status = self.ros.status(self.core.offers)
+        status = self.ros.status(self.context.offers)
         if self.is_paused and self.missed and not status:
             text = f"{counted(self.missed, 'message')} dropped while paused; the newest are kept."
             status = Status(Level.OK, text)
-        warnings = self.core.player.warnings
+        warnings = self.context.player.warnings
         bag = {"Bag": Status(Level.WARN, joined(*warnings))} if warnings else {}
         return {"Time": status, **bag} if status else bag
 
@@ -180,9 +180,9 @@ class TimePart(Part):
     def start_over(self) -> None:
         """Discard all received data, since another position is played from now on."""
         self._paused_ns = None
-        self.core.buffer.forget()  # also static transforms that come later in the recording
-        self.core.reset()
-        self.ros.restart(self.core.player.now_ns())
+        self.context.buffer.forget()  # also static transforms that come later in the recording
+        self.context.reset()
+        self.ros.restart(self.context.player.now_ns())
 
     def known_player(self) -> Player:
         """Return the player.
@@ -190,9 +190,9 @@ class TimePart(Part):
         Raises:
             Error: there is no past to play; with the reason.
         """
-        if absence := self.core.player.absence:
+        if absence := self.context.player.absence:
             raise Error(absence)
-        return self.core.player
+        return self.context.player
 
     def at_ns(self, seconds: float) -> int:
         """Return a position of what people count as seconds, not before the first message.
@@ -211,20 +211,20 @@ class TimePart(Part):
 
     def show(self, history: History) -> str:
         """Play a recording in the place of live topics; a sentence if vehicles had to stop."""
-        self.core.player.show(history)
+        self.context.player.show(history)
         self.start_over()
-        self.core.player.play()
+        self.context.player.play()
         return self.stop_vehicles()
 
     def stop_vehicles(self) -> str:
         """Stop vehicles whose drivers see the past from now on; a sentence if any moved."""
-        is_past = not self.core.player.is_live
-        return STOPPED if is_past and self.core.controllers.halt() else ""
+        is_past = not self.context.player.is_live
+        return STOPPED if is_past and self.context.controllers.halt() else ""
 
     def close(self) -> None:
         """Close the recording that is shown in the place of live topics."""
-        if self.core.player.is_opened:
-            self.core.player.history.close()
+        if self.context.player.is_opened:
+            self.context.player.history.close()
 
     def _start(self) -> None:
         self._began_ns = 0  # set when ROS time is known
@@ -233,14 +233,14 @@ class TimePart(Part):
     @command(Role.OPERATOR, name="Reset")
     def reset_viewer(self) -> None:
         """Discard transforms and messages, as RViz's Reset does."""
-        self.core.reset()
+        self.context.reset()
 
     @command(Role.OPERATOR)
     def pause(self, paused: bool = True) -> None:
         """Pause or resume; messages wait while paused."""
-        player = self.core.player
+        player = self.context.player
         if player.is_live:
-            self._paused_ns = self.core.frames.now_ns if paused else None
+            self._paused_ns = self.context.frames.now_ns if paused else None
         elif paused:
             player.pause()
         else:

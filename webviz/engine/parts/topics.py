@@ -13,7 +13,7 @@ from webviz.api.registry import display_types
 from webviz.data.messages import MessageError, peek_header
 from webviz.engine.parts.by_topic import Pick, no_display, picks
 from webviz.engine.parts.declaring import store
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Part, PartContext
 from webviz.engine.state import Traffic
 from webviz.engine.store import PageStore
 from webviz.sources import Offer, Publisher, Raw
@@ -97,8 +97,8 @@ class TopicsPart(Part):
 
     name = "Topics"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._offers: Mapping[str, Offer] | None = None
         self._types: Mapping[str, tuple[str, ...]] = {}
         self._counts: deque[tuple[float, dict[str, tuple[int, int]]]] = deque()
@@ -120,14 +120,14 @@ class TopicsPart(Part):
         """Return topics, services, and the traffic of what is subscribed to."""
         return {
             "topics": self.types,
-            "offers": self.core.offers,
-            "services": self.core.gate.services(),
+            "offers": self.context.offers,
+            "services": self.context.graph.services(),
             "traffic": self.traffic,
         }
 
     def update(self) -> None:
         """Measure the rates anew now and then."""
-        now, counts = self.core.clock(), self.core.player.inbox.received()
+        now, counts = self.context.clock(), self.context.player.inbox.received()
         if self._counts and 0.0 <= now - self._counts[-1][0] < MEASURED_S:
             self.traffic = {topic: each for topic, each in self.traffic.items() if topic in counts}
         else:
@@ -136,20 +136,20 @@ class TopicsPart(Part):
     @property
     def types(self) -> Mapping[str, tuple[str, ...]]:
         """The message types by topic."""
-        if self.core.offers is not self._offers:
-            self._offers = self.core.offers
+        if self.context.offers is not self._offers:
+            self._offers = self.context.offers
             self._types = _types_of(self._offers)
         return self._types
 
-    @store(name="topics", of=lambda part: part.core.offers)
+    @store(name="topics", of=lambda part: part.context.offers)
     def topics_of_graph(self, argument: str) -> TopicsStore:
         """Return the topics of the graph."""
-        return TopicsStore(_topics(self.core.offers, display_types()))
+        return TopicsStore(_topics(self.context.offers, display_types()))
 
-    @store(of=lambda part: part.core.offers)
+    @store(of=lambda part: part.context.offers)
     def graph(self, argument: str) -> GraphStore:
         """Return the ROS graph."""
-        offers = self.core.offers.items()
+        offers = self.context.offers.items()
         published = (offer for topic, offer in offers if topic not in OF_EVERY_NODE)
         nodes = {publisher.node for offer in published for publisher in offer.publishers}
         return GraphStore(is_empty=not nodes - {OWN_NODE}, has_simulator=SIMULATOR in nodes)
@@ -170,10 +170,10 @@ class TopicsPart(Part):
 
     def _measure(self, topic: str, raw: Raw) -> None:
         """Note how old a message was when it came, now and then."""
-        now = self.core.clock()
+        now = self.context.clock()
         if now - self._delays.get(topic, (-EVERY_S, None))[0] < EVERY_S:
             return
-        offer = self.core.offers.get(topic)
+        offer = self.context.offers.get(topic)
         try:
             type_ = type_of(offer) if offer else ""
             header = peek_header(type_, raw.cdr, raw.types) if type_ else None

@@ -11,7 +11,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.explain import unknown_fixed_frame
 from webviz.data.transforms.reasons import Explanation, Kind
 from webviz.engine.parts.declaring import store
-from webviz.engine.parts.part import Batches, Core, Part
+from webviz.engine.parts.part import Batches, Part, PartContext
 from webviz.engine.pipeline.listener import TransformListener
 from webviz.engine.store import PageStore
 from webviz.sources import Subscription
@@ -28,11 +28,13 @@ class TransformsPart(Part):
 
     name = "Transforms"
 
-    def __init__(self, core: Core, robots: Callable[[], Sequence[NamespacedRobot]]) -> None:
-        super().__init__(core)
+    def __init__(
+        self, context: PartContext, robots: Callable[[], Sequence[NamespacedRobot]]
+    ) -> None:
+        super().__init__(context)
         self._robots = robots
         self._followed: Sequence[NamespacedRobot] = ()
-        self._listener = TransformListener(core.buffer, core.clock)
+        self._listener = TransformListener(context.buffer, context.clock)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics of tf2."""
@@ -47,17 +49,17 @@ class TransformsPart(Part):
         Returns:
             Whether the transforms started over in the past.
         """
-        return self._listener.take(batches, self.core.offers)
+        return self._listener.take(batches, self.context.offers)
 
     def reset(self) -> None:
         """Forget the moving transforms."""
         self._listener.reset()
-        self.core.frames.forget_passed()
+        self.context.frames.forget_passed()
 
     @store()
     def frames(self, argument: str = "") -> FramesStore:
         """Return all frame ids."""
-        return FramesStore(tuple(sorted(self.core.buffer.frames())))
+        return FramesStore(tuple(sorted(self.context.buffer.frames())))
 
     def state(self) -> Mapping[str, Any]:
         """Return all frame ids."""
@@ -65,9 +67,9 @@ class TransformsPart(Part):
 
     def statuses(self) -> Mapping[str, Status]:
         """Return whether anything can be drawn in the fixed frame, and the transforms' problem."""
-        core = self.core
-        fixed = fixed_frame_status(core.frames.fixed_frame, core.buffer)
-        statuses = self._listener.statuses(core.offers, core.frames.now_ns)
+        context = self.context
+        fixed = fixed_frame_status(context.frames.fixed_frame, context.buffer)
+        statuses = self._listener.statuses(context.offers, context.frames.now_ns)
         return {"Fixed Frame": fixed, **statuses}
 
 

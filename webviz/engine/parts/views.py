@@ -34,7 +34,7 @@ from webviz.engine.forms import Form, form, values_of
 from webviz.engine.parts.declaring import command, store
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.panels import PanelsPart
-from webviz.engine.parts.part import Core, Part
+from webviz.engine.parts.part import Part, PartContext
 from webviz.engine.parts.refusals import not_changed
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
@@ -79,19 +79,21 @@ class ViewsPart(Part):
     """The views of all browsers.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
         settings: has the saved views, and the one to start with.
         displays: can be focused on.
     """
 
     name = "Views"
 
-    def __init__(self, core: Core, settings: SettingsPart, displays: DisplaysPart) -> None:
-        super().__init__(core)
+    def __init__(
+        self, context: PartContext, settings: SettingsPart, displays: DisplaysPart
+    ) -> None:
+        super().__init__(context)
         self._settings = settings
         self._displays = displays
-        self._scene = core.scene
-        self._cameras = core.scene.cameras
+        self._scene = context.scene
+        self._cameras = context.scene.cameras
         self._start: View | None = None
         self._placed: set[str] = set()
 
@@ -108,7 +110,7 @@ class ViewsPart(Part):
 
     def followed(self) -> set[str]:
         """Return the frames whose poses `follow` needs: those of views and of panels."""
-        return self._cameras.target_frames() | self.core.get(PanelsPart).target_frames()
+        return self._cameras.target_frames() | self.context.get(PanelsPart).target_frames()
 
     def follow(self, targets: set[str], frames: Frames) -> None:
         """Move views with their target frames; call before the scene is flushed."""
@@ -125,7 +127,7 @@ class ViewsPart(Part):
 
     def statuses(self) -> Mapping[str, Status]:
         """Return views whose target frame has no pose."""
-        frames = self.core.frames
+        frames = self.context.frames
         problems = [
             f"The view cannot follow {frame}. {frames.why_not(frame)}"
             for frame in sorted(self.followed())
@@ -194,13 +196,13 @@ class ViewsPart(Part):
             value: its new value; a name of `VIEW_TYPES` for "type".
             browser: on which it acts; by default the one that sends this, or all for a program.
         """
-        for id, view in self._seen(_browser(browser, sender)).items():
+        for id, view in self._views_of(_browser(browser, sender)).items():
             self._cameras.show(self._changed(view, key, value, id), id)
 
     @command(Role.WATCHER)
     def reset_view(self, sender: Sender, browser: int | None = None) -> None:
         """Reset the view to the defaults of its type, as RViz's Zero does."""
-        for id, view in self._seen(_browser(browser, sender)).items():
+        for id, view in self._views_of(_browser(browser, sender)).items():
             self._cameras.show(zero(view), id)
 
     @command(Role.WATCHER)
@@ -229,7 +231,7 @@ class ViewsPart(Part):
             frame: its id.
             browser: on which it acts; by default the one that sends this, or all for a program.
         """
-        frames = self.core.frames
+        frames = self.context.frames
         pose = frames.latest(frame)
         if pose is None:
             raise ConfigError(frames.why_not(frame))
@@ -237,7 +239,7 @@ class ViewsPart(Part):
         self._look_at(Box(origin - FRAME_M, origin + FRAME_M), _browser(browser, sender))
 
     def _look_at(self, box: Box, browser: int | None) -> None:
-        for id, view in self._seen(browser).items():
+        for id, view in self._views_of(browser).items():
             rig = self._rig(view)
             size = self._cameras.size(id)
             self._cameras.show(focus(view, rig, box.low, box.high, *size), id)
@@ -269,7 +271,7 @@ class ViewsPart(Part):
             raise ConfigError(problem)
         self._cameras.save_image(name, _browser(browser, sender))
 
-    def _seen(self, browser: int | None) -> Mapping[int, View]:
+    def _views_of(self, browser: int | None) -> Mapping[int, View]:
         """Return the views of one browser, or of all.
 
         Raises:
@@ -295,7 +297,7 @@ class ViewsPart(Part):
         Raises:
             ConfigError: no browser is connected.
         """
-        views = self._seen(_browser(browser, sender))
+        views = self._views_of(_browser(browser, sender))
         return views[max(views)]
 
     def _changed(self, view: View, key: str, value: Any, browser: int) -> View:
@@ -320,7 +322,7 @@ class ViewsPart(Part):
 
     def _rig(self, view: View) -> Rig:
         frame = view.target_frame
-        return rig_of(view, None if frame == FIXED_FRAME else self.core.frames.latest(frame))
+        return rig_of(view, None if frame == FIXED_FRAME else self.context.frames.latest(frame))
 
     def _saved(self) -> Mapping[str, View]:
         return self._settings.settings.views

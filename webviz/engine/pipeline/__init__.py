@@ -2,6 +2,6 @@
 
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.runner import Runner
-from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.services import DisplayServices
 
-__all__ = ["Runner", "Services", "Workers"]
+__all__ = ["DisplayServices", "Runner", "Workers"]

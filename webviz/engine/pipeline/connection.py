@@ -12,8 +12,8 @@ import msgspec
 from webviz.api.connection import ReceivedMessages
 from webviz.api.declared import Topic
 from webviz.data.messages import encode, interfaces
-from webviz.engine.pipeline.services import Services
-from webviz.sources import Advertisement, Gate, Offer, Raw, Subscription
+from webviz.engine.pipeline.services import DisplayServices
+from webviz.sources import Advertisement, Offer, Raw, RestrictedGraph, Subscription
 
 T = TypeVar("T")
 
@@ -43,13 +43,13 @@ class DisplayConnection:
     """Implements `webviz.api.connection.GraphConnection` for one display.
 
     Args:
-        services: with a gate.
-        gate: of the services.
+        services: with a graph.
+        graph: of the services.
     """
 
-    def __init__(self, services: Services, gate: Gate) -> None:
+    def __init__(self, services: DisplayServices, graph: RestrictedGraph) -> None:
         self._services = services
-        self._gate = gate
+        self._graph = graph
         self._offers: Mapping[str, Offer] = {}
         self._lines: dict[str, _Line] = {}
         self._advertisements: dict[str, Advertisement] = {}
@@ -96,7 +96,7 @@ class DisplayConnection:
         """Call a service that changes nothing; see `GraphConnection.listen`."""
         name = self._services.resolve(service)
         data = encode(interfaces.service(type).request, request or {})
-        answer = self._gate.query(name, type, data, timeout_s)
+        answer = self._graph.query(name, type, data, timeout_s)
         answer.add_done_callback(lambda _: self.wake())
         return answer
 
@@ -105,12 +105,12 @@ class DisplayConnection:
         name = self._services.resolve(topic)
         self._named.add(name)
         self._advertisements[name] = Advertisement(name, type, "reliable", "volatile", depth)
-        return self._gate.refusal(name)
+        return self._graph.refusal(name)
 
     def publish(self, topic: str, values: Mapping[str, Any]) -> None:
         """Publish a message on a topic that is advertised."""
         advertisement = self._advertisements[self._services.resolve(topic)]
-        self._gate.publish(advertisement, encode(advertisement.type, values))
+        self._graph.publish(advertisement, encode(advertisement.type, values))
 
     def run(self, fn: Callable[..., T], *args: Any) -> Future[T]:
         """Run slow work in a thread; see `GraphConnection.listen`."""

@@ -9,9 +9,9 @@ from webviz.api.context import Context
 from webviz.api.display import Display
 from webviz.api.frames import Frames
 from webviz.api.handles import Drag, Handle
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.connection import DisplayConnection
-from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.services import DisplayServices
 from webviz.sources import Advertisement, Offer, Raw, Subscription
 
 UNSEEN_TURNS = 2
@@ -32,12 +32,12 @@ class Dragging:
         services: shared by all.
     """
 
-    def __init__(self, id: str, display: Display, services: Services) -> None:
+    def __init__(self, id: str, display: Display, services: DisplayServices) -> None:
         self.handles: Mapping[str, Handle] = {}
         """Handles browsers can drag, by key; another object only after a change."""
         self._id = id
         self._scene = services.scene
-        self._connection = DisplayConnection(services, services.gate) if services.gate else None
+        self._connection = DisplayConnection(services, services.graph) if services.graph else None
         self._framed: tuple[Mapping[str, Handle], set[str]] = self.handles, set()
         """Handles, and their frames."""
         self._placed: set[str] = set()
@@ -79,21 +79,21 @@ class Dragging:
         else:
             self._connection.take(batches, offers)
 
-    def communicate(self, guard: Guard, ctx: Context) -> None:
+    def communicate(self, boundary: ErrorBoundary, ctx: Context) -> None:
         """Let the display send and receive, and take up its handles."""
         if self._connection is not None and self._client is not None:
             self._unseen = 0
             self._connection.look()
-            guard("communicate", self._client.communicate, self._connection, ctx)
+            boundary("communicate", self._client.communicate, self._connection, ctx)
             self._connection.forget_unnamed()
         if self._draggable is not None:
-            self.handles = guard.attempt("handles", {}, self._draggable.handles, ctx)
+            self.handles = boundary.attempt("handles", {}, self._draggable.handles, ctx)
             self._place(ctx.frames)
 
-    def drag(self, drag: Drag, guard: Guard, ctx: Context) -> None:
+    def drag(self, drag: Drag, boundary: ErrorBoundary, ctx: Context) -> None:
         """Pass on what a browser does with a handle."""
         if self._connection is not None and self._draggable is not None:
-            guard("drag", self._draggable.drag, drag, self._connection, ctx)
+            boundary("drag", self._draggable.drag, drag, self._connection, ctx)
 
     def hide(self) -> None:
         """Have no handles, and receive nothing, until the next call of `communicate`."""

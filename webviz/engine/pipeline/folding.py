@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from webviz.api.display import Display
 from webviz.api.sample import Sample
 from webviz.data.messages import MessageError, decode
-from webviz.engine.guard import CRASHED, Guard
+from webviz.engine.error_boundary import CRASHED, ErrorBoundary
 from webviz.engine.pipeline.background import Workers, is_slow
 from webviz.sources import Raw
 
@@ -79,7 +79,7 @@ class Folding:
             size -= oldest.size
             self.dropped[oldest.sample.input] += 1
 
-    def results(self, display: Display, guard: Guard) -> Iterator[Received]:
+    def results(self, display: Display, boundary: ErrorBoundary) -> Iterator[Received]:
         """Return the samples merged since the last call, with the merged message."""
         while self._work or self._waiting:
             if self._work is None:
@@ -91,15 +91,15 @@ class Folding:
                 if received.sample.message is None and received.size >= display.slow_bytes:
                     self._work = received, self._workers.submit(_decoded, received)
                     return
-                folded = guard("fold", _merged, display, received, self._state)
+                folded = boundary("fold", _merged, display, received, self._state)
             else:
                 received, work = self._work
                 if not work.done():
                     return
                 self._work = None
-                folded = guard("fold", work.result)
+                folded = boundary("fold", work.result)
                 if isinstance(folded, Received):
-                    folded = guard("fold", _merged, display, folded, self._state)
+                    folded = boundary("fold", _merged, display, folded, self._state)
             refusal = str(folded) if isinstance(folded, MessageError) else ""
             self._judged(received.sample.input, refusal)
             if folded is not None and folded is not CRASHED and not refusal:

@@ -34,7 +34,7 @@ class HistoryBudget:
 
     def make_room(self) -> None:
         """Drop samples of the histories that hold most, the oldest first, until all fit."""
-        histories = [history for history in self._histories if len(history.held) > 1]
+        histories = [history for history in self._histories if len(history.entries) > 1]
         excess = sum(history.bytes for history in histories) - MAX_BYTES
         for largest in sorted(histories, key=lambda history: -history.bytes):
             if excess <= 0:
@@ -71,7 +71,7 @@ class SampleHistory:
         self._max_samples = MAX_SAMPLES // inputs
         self._budget = budget
         budget.add(self)
-        self.held: list[BufferedSample] = []
+        self.entries: list[BufferedSample] = []
         self.version = 0
         """Changes whenever the samples do."""
         self.bytes = 0
@@ -85,7 +85,7 @@ class SampleHistory:
     def samples(self) -> Sequence[Sample]:
         """Return the samples that can be drawn, oldest first."""
         if self._samples is None:
-            self._samples = [buffered.sample for buffered in self.held if buffered.has_pose]
+            self._samples = [buffered.sample for buffered in self.entries if buffered.has_pose]
         return self._samples
 
     def add(self, sample: Sample, size: int, keep: Keep) -> None:
@@ -93,13 +93,13 @@ class SampleHistory:
 
         Samples beyond `keep.count` or the limit of bytes are dropped first to free their slots.
         """
-        self._drop(len(self.held) - self._most(keep) + 1)
-        slot = heapq.heappop(self._free) if self._free else len(self.held)
-        self.held.append(BufferedSample(sample, size, slot))
+        self._drop(len(self.entries) - self._most(keep) + 1)
+        slot = heapq.heappop(self._free) if self._free else len(self.entries)
+        self.entries.append(BufferedSample(sample, size, slot))
         self.bytes += size
         self._samples = None if self._samples is None else [*self._samples, sample]
         self.version += 1
-        if len(self.held) > 1:
+        if len(self.entries) > 1:
             self._budget.make_room()
 
     def shrink(self, size: int) -> int:
@@ -109,42 +109,42 @@ class SampleHistory:
             The bytes that are free now.
         """
         count = freed = 0
-        while freed < size and count < len(self.held) - 1:
-            self._missed_ns = self.held[count].sample.received_ns
-            freed += self.held[count].size
+        while freed < size and count < len(self.entries) - 1:
+            self._missed_ns = self.entries[count].sample.received_ns
+            freed += self.entries[count].size
             count += 1
         self._drop(count)
         return freed
 
     def shortage(self, keep: Keep, now_ns: int) -> str:
         """Return a sentence if samples within `keep` were dropped for their size, else ""."""
-        if self._missed_ns is None or not self.held or len(self.held) >= self._most(keep):
+        if self._missed_ns is None or not self.entries or len(self.entries) >= self._most(keep):
             return ""
         limit = f"limit of {MAX_BYTES // 1_000_000} MB for all displays"
         if not keep.seconds:
-            return f"Keeps {len(self.held)} of {self._most(keep)} messages: {limit}."
+            return f"Keeps {len(self.entries)} of {self._most(keep)} messages: {limit}."
         if self._missed_ns < now_ns - keep.seconds * 1e9:
             return ""
-        span_s = (now_ns - self.held[0].sample.received_ns) / 1e9
+        span_s = (now_ns - self.entries[0].sample.received_ns) / 1e9
         return f"Keeps {span_s:.1f} of {keep.seconds:g} s: {limit}."
 
     def trim(self, keep: Keep, now_ns: int) -> None:
         """Drop samples beyond `keep`."""
-        self._drop(len(self.held) - self._most(keep))
+        self._drop(len(self.entries) - self._most(keep))
         if keep.seconds:
             oldest = now_ns - round(min(keep.seconds * 1e9, 2**63))  # which may be infinite
-            is_young = (buffered.sample.received_ns >= oldest for buffered in self.held)
-            self._drop(next((i for i, young in enumerate(is_young) if young), len(self.held)))
+            is_young = (buffered.sample.received_ns >= oldest for buffered in self.entries)
+            self._drop(next((i for i, young in enumerate(is_young) if young), len(self.entries)))
 
     def _drop(self, count: int) -> None:
         """Drop the oldest samples; their slots are reused, the lowest first."""
         if count > 0:
-            is_whole = self._samples is not None and len(self._samples) == len(self.held)
+            is_whole = self._samples is not None and len(self._samples) == len(self.entries)
             self._samples = self._samples[count:] if self._samples and is_whole else None
-            for buffered in self.held[:count]:
+            for buffered in self.entries[:count]:
                 heapq.heappush(self._free, buffered.slot)
                 self.bytes -= buffered.size
-            del self.held[:count]
+            del self.entries[:count]
             self.version += 1
 
     def move(self, frames: Frames, former_fixed_frame: str, timed: Callable[[str], bool]) -> None:
@@ -172,7 +172,7 @@ class SampleHistory:
                 return None
             return replace(sample, pose=pose, synced=complete)
 
-        for buffered in self.held:
+        for buffered in self.entries:
             sample = moved(buffered.sample)
             buffered.has_pose = sample is not None
             buffered.sample = sample or buffered.sample

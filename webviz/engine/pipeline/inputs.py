@@ -13,7 +13,7 @@ from webviz.api.lookback import Lookback
 from webviz.api.status import Level, Status
 from webviz.data.transforms.reasons import in_words
 from webviz.data.words import counted
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.input_subscription import (
     PATIENCE_S,
     Arrival,
@@ -32,23 +32,25 @@ class Inputs:
 
     Args:
         display: has the topics.
-        guard: for its hooks.
+        boundary: around its hooks.
         resolve: the full name of a topic; raises ValueError.
     """
 
-    def __init__(self, display: Display, guard: Guard, resolve: Callable[[str], str]) -> None:
+    def __init__(
+        self, display: Display, boundary: ErrorBoundary, resolve: Callable[[str], str]
+    ) -> None:
         self.input_subscriptions = input_subscriptions_of(display, resolve)
         self._subscriber = Subscriber()
         self._synchronizer: Synchronizer[Arrival] | None = None
         self._waiting_since: float | None = None
-        self.replace(display, guard)
+        self.replace(display, boundary)
 
-    def replace(self, display: Display, guard: Guard) -> None:
+    def replace(self, display: Display, boundary: ErrorBoundary) -> None:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._sweep = capability(display, Sweep)
         self._placing = capability(display, SelfPlacing)
-        self._guard = guard
+        self._boundary = boundary
 
     def subscriptions(self) -> dict[str, Subscription]:
         """Return the subscriptions by topic."""
@@ -58,7 +60,7 @@ class Inputs:
                 is_placed = self.waits(name)
                 lookback = self._lookback(name, input_subscription, is_placed)
                 own = input_subscription.subscription(lookback, is_placed)
-                if self._placing and self._guard("places", self._placing.places, name):
+                if self._placing and self._boundary("places", self._placing.places, name):
                     own = replace(own, is_placed=True)
                 subscriptions = dict(merged([subscriptions, {input_subscription.name: own}]))
         return self._subscriber.subscribe(subscriptions)
@@ -77,7 +79,7 @@ class Inputs:
 
     def waits(self, name: str) -> bool:
         """Return whether messages of an input wait for the transform at their stamp."""
-        return self._guard("waits", self._display.waits, name) is not False
+        return self._boundary("waits", self._display.waits, name) is not False
 
     def reset(self) -> None:
         """Discard waiting messages."""
@@ -145,7 +147,7 @@ class Inputs:
         self, name: str, input_subscription: InputSubscription, is_placed: bool
     ) -> Lookback:
         """Return the declared lookback of an input, and the messages that wait for others."""
-        lookback = self._guard("lookback", self._display.lookback, name)
+        lookback = self._boundary("lookback", self._display.lookback, name)
         if not isinstance(lookback, Lookback):
             return Lookback()
         since = (
@@ -161,7 +163,7 @@ class Inputs:
         return replace(lookback, count=count, since=since)
 
     def _duration_ns(self, message: Any) -> int:
-        duration_ns = self._sweep and self._guard("duration", self._sweep.duration_ns, message)
+        duration_ns = self._sweep and self._boundary("duration", self._sweep.duration_ns, message)
         return duration_ns if isinstance(duration_ns, int) else 0
 
     def _is_replaced(self, input_subscription: InputSubscription, offer: Offer | None) -> bool:
@@ -175,7 +177,9 @@ class Inputs:
         if not overrides(self._display, "listens"):
             return self.input_subscriptions
         listens = self._display.listens
-        active = {name: self._guard("listens", listens, name) for name in self.input_subscriptions}
+        active = {
+            name: self._boundary("listens", listens, name) for name in self.input_subscriptions
+        }
         return {
             name: i for name, i in self.input_subscriptions.items() if active[name] is not False
         }

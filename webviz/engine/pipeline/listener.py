@@ -74,7 +74,7 @@ class TransformListener:
         self._reviewed_at: float | None = None
         self._reviewed_ns = self._asked_ns = 0
         """ROS time of the last review, and of the last call of `statuses`."""
-        self._found: dict[str, Status] = {}
+        self._statuses: dict[str, Status] = {}
 
     def follow(self, robots: Sequence[NamespacedRobot]) -> None:
         """Read the topics of these robots as well."""
@@ -130,8 +130,8 @@ class TransformListener:
         is_due = self._reviewed_at is None or clock - self._reviewed_at > REVIEW_S
         if is_due or (stands_still and now_ns != self._reviewed_ns):
             self._reviewed_at, self._reviewed_ns = clock, now_ns
-            self._found = self._review(offers, now_ns)
-        return self._faults | self._found
+            self._statuses = self._review(offers, now_ns)
+        return self._faults | self._statuses
 
     def _insert(self, topic: str, raw: Raw, is_static: bool, robot: NamespacedRobot | None) -> None:
         named = robot.frame if robot else _as_sent

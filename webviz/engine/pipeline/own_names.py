@@ -10,7 +10,7 @@ from webviz.api.display import Display
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.files.config import Branch, Config, Item
 
 Plugin = Tool | Panel | Display
@@ -19,7 +19,7 @@ PATTERN = frozenset("*?[")
 """Characters that match others in a list of what may be published."""
 
 
-def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
+def own_names(config: Config, boundary: ErrorBoundary) -> tuple[str, ...]:
     """Return the names of a config's own topics, services and actions, sorted.
 
     They are those of its tools, displays and panels, and those of installed displays and panels
@@ -29,16 +29,16 @@ def own_names(config: Config, guard: Guard) -> tuple[str, ...]:
 
     Args:
         config: with which a viewer is started.
-        guard: for calls of plug-ins; one that fails adds no name.
+        boundary: around calls of plug-ins; one that fails adds no name.
     """
     names: set[str] = set()
     for item in [*config.tools, *config.panels, *_flat(config.displays)]:
         if isinstance(item, Plugin):
-            names |= guard.attempt(item.name, set[str](), _names_of, item)
+            names |= boundary.attempt(item.name, set[str](), _names_of, item)
     names = {name for name in names if PATTERN.isdisjoint(name)}
     for base in (Panel, Display):
         for name, cls in plugin_types(base).items():
-            names |= guard.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
+            names |= boundary.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
     return tuple(sorted(names - {""}))
 
 

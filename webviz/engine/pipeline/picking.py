@@ -32,7 +32,7 @@ Items = Points | Lines | Arrows | Axes | Labels | Instances | Models
 N = TypeVar("N", bound=Items)
 
 
-class Shot(msgspec.Struct, frozen=True, eq=False):
+class SceneSnapshot(msgspec.Struct, frozen=True, eq=False):
     """Picture drawn by one call of a hook.
 
     Args:
@@ -77,18 +77,20 @@ class PickedItem(msgspec.Struct, frozen=True, eq=False):
         return frame, (x, y, z)
 
 
-def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dict[int, PickedItem]:
+def found_in(
+    snapshot: SceneSnapshot, group_key: str, key: str, picks: Sequence[Pick]
+) -> dict[int, PickedItem]:
     """Return the picked items of a node, by id, if this was on the screen.
 
     Of things that the node does not have, or has elsewhere, there is nothing: the picture was
     another one, or a program made them up.
     """
-    group = shot.groups.get(group_key)
+    group = snapshot.groups.get(group_key)
     node = group.nodes.get(key) if group else None
     picks = [pick for pick in picks if all(abs(c) <= REACH_M for c in pick[2])]
     if group is None or node is None or not picks:
         return {}
-    finder = _finder(shot, group, key)
+    finder = _finder(snapshot, group, key)
     if isinstance(node, Mesh) and node.ids is not None and len(node.faces):
         if len(node.ids) != len(node.faces):
             raise ValueError(f"a mesh has {len(node.faces)} faces, but {len(node.ids)} ids")
@@ -115,14 +117,16 @@ def found_in(shot: Shot, group_key: str, key: str, picks: Sequence[Pick]) -> dic
     return {picks[i][0]: finder(ids[i], points[i]) for i in np.flatnonzero(same)}
 
 
-def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[PickedItem]:
+def every_item(
+    snapshot: SceneSnapshot, group_key: str, key: str, limit: int
+) -> Sequence[PickedItem]:
     """All that can be picked of a node, by the numbers that browsers give its items.
 
     There is nothing of a node with more items than the limit, and of what depends on the point that
     is clicked, such as the cells of an image.
     """
-    group = shot.groups[group_key]
-    node, finder = group.nodes[key], _finder(shot, group, key)
+    group = snapshot.groups[group_key]
+    node, finder = group.nodes[key], _finder(snapshot, group, key)
     if isinstance(node, Mesh) and node.ids is None:
         return [finder(None, (0.0, 0.0, 0.0))]
     if not isinstance(node, Items) or count_of(node) > limit:
@@ -133,13 +137,15 @@ def every_item(shot: Shot, group_key: str, key: str, limit: int) -> Sequence[Pic
     return [finder(*each) for each in zip(_ids(node, rows), points, strict=True)]
 
 
-def _finder(shot: Shot, group: Group, key: str) -> Callable[[Any, Position], PickedItem]:
+def _finder(
+    snapshot: SceneSnapshot, group: Group, key: str
+) -> Callable[[Any, Position], PickedItem]:
     """Return what finds an item of a node, by its id and a point on it."""
     node, placement = group.nodes[key], group.placement
     pose = compose(placement.offset, group.poses.get(key, Pose()))
-    frame = placement.frame or (shot.samples[-1].frame if shot.samples else "")
+    frame = placement.frame or (snapshot.samples[-1].frame if snapshot.samples else "")
     return lambda id, point: PickedItem(
-        Hit(key, node, id, point, frame, shot.samples), pose, placement, shot.fixed_frame
+        Hit(key, node, id, point, frame, snapshot.samples), pose, placement, snapshot.fixed_frame
     )
 
 

@@ -104,13 +104,13 @@ class Watcher:
     """
 
     def __init__(self, paths: Iterable[Path]) -> None:
-        self._known = {path: _stamp(path) for path in paths}
+        self._stamps = {path: _stamp(path) for path in paths}
         self._ended = threading.Event()
         self._thread: threading.Thread | None = None
 
     def start(self, reload: Callable[[Path], object]) -> None:
         """Check the files every `POLL_S`, in a thread, until `stop`."""
-        if self._known:
+        if self._stamps:
             self._thread = threading.Thread(target=self._watch, args=[reload], daemon=True)
             self._thread.start()
 
@@ -122,9 +122,9 @@ class Watcher:
 
     def changed(self) -> list[Path]:
         """Return the files that changed since the last call."""
-        now = {path: _stamp(path) for path in self._known}
-        changed = [path for path, stamp in now.items() if stamp != self._known[path]]
-        self._known = now
+        now = {path: _stamp(path) for path in self._stamps}
+        changed = [path for path, stamp in now.items() if stamp != self._stamps[path]]
+        self._stamps = now
         return changed
 
     def _watch(self, reload: Callable[[Path], object]) -> None:
@@ -172,7 +172,7 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
             make(cls, msgspec.to_builtins(cls()))  # defaults fit their own types and bounds
     except BaseException as error:  # plug-ins may raise anything
         place = f"{path}:{line}" if (line := _line(path, error.__traceback__)) else str(path)
-        text = f"{type(error).__name__}: {_said(error)}".rstrip(": ").rstrip(".")
+        text = f"{type(error).__name__}: {_message(error)}".rstrip(": ").rstrip(".")
         raise PluginError(f"{place} does not load: {text}.") from error
     if not types and not checks:
         bases = "Display, Tool, Panel or Check"
@@ -181,7 +181,7 @@ def _run(path: Path, code: Any, module: ModuleType) -> dict[str, type[Declared]]
     return types
 
 
-def _said(error: BaseException) -> str:
+def _message(error: BaseException) -> str:
     try:
         return plain(str(error), MAX_REASON)
     except Exception:  # of the plug-in's own class
@@ -249,16 +249,16 @@ def made_new(old: Declared, cls: type[P]) -> tuple[P, list[str]]:
     return successor, losses
 
 
-def _carry_over(made: Declared, path: str, value: Any) -> list[str]:
+def _carry_over(content: Declared, path: str, value: Any) -> list[str]:
     """Set a property if it still exists and the value fits; else the reason, per property."""
     try:
-        if isinstance(value, dict) and isinstance(value_at(made, path), msgspec.Struct):
+        if isinstance(value, dict) and isinstance(value_at(content, path), msgspec.Struct):
             return [
                 problem
                 for key, item in value.items()
-                for problem in _carry_over(made, f"{path}.{key}", item)
+                for problem in _carry_over(content, f"{path}.{key}", item)
             ]
-        set_property(made, path, value)
+        set_property(content, path, value)
     except AttributeError:
         return [f"{path} = {value!r} (no such property)"]
     except Exception as error:  # of validation, or of the class itself

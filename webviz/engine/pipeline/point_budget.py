@@ -12,39 +12,39 @@ class PointBudget:
     belong to the frame loop.
 
     Args:
-        held: how many points every connected browser draws fast enough.
+        capacity: how many points every connected browser draws fast enough.
     """
 
-    def __init__(self, held: Callable[[], int]) -> None:
-        self._held = held
-        self._wanted: dict[str, int] = {}
+    def __init__(self, capacity: Callable[[], int]) -> None:
+        self._capacity = capacity
+        self._demands: dict[str, int] = {}
 
-    def share(self, display: str, wanted: int) -> int:
+    def share(self, display: str, demand: int) -> int:
         """Return the number of points a display may show.
 
         Args:
             display: its id.
-            wanted: how many it has to show; it counts until the next call, or `leave`.
+            demand: how many it has to show; it counts until the next call, or `leave`.
 
         Returns:
             A limit of two significant digits, so that it does not change with every message.
         """
-        self._wanted[display] = wanted
-        left, waiting = self._held(), len(self._wanted)
-        for each in sorted(self._wanted.values()):
+        self._demands[display] = demand
+        left, waiting = self._capacity(), len(self._demands)
+        for each in sorted(self._demands.values()):
             if each * waiting > left:
                 break
             left, waiting = left - each, waiting - 1
         # If all have what they want, any of them may have the rest as well.
-        return _rounded(left // waiting if waiting else left + wanted)
+        return _rounded(left // waiting if waiting else left + demand)
 
-    def wanted(self, display: str) -> int:
+    def demand(self, display: str) -> int:
         """Return the number of points that a display has to show, 0 if unknown."""
-        return self._wanted.get(display, 0)
+        return self._demands.get(display, 0)
 
     def leave(self, display: str) -> None:
         """Give what a display had to the others."""
-        self._wanted.pop(display, None)
+        self._demands.pop(display, None)
 
 
 def _rounded(count: int) -> int:

@@ -16,7 +16,7 @@ from webviz.api.frames import Frames
 from webviz.api.picking import Details, Hit
 from webviz.api.sample import Sample
 from webviz.api.status import Status
-from webviz.engine.guard import CRASHED, Guard
+from webviz.engine.error_boundary import CRASHED, ErrorBoundary
 from webviz.engine.pipeline.background import Tasks, Workers, is_slow
 from webviz.engine.pipeline.baking import bake
 from webviz.engine.pipeline.history import BufferedSample, Histories, SampleHistory, held_samples
@@ -49,14 +49,14 @@ class _DrawJob(msgspec.Struct, frozen=True):
     """A sample that is drawn in a worker.
 
     Args:
-        held: the sample.
+        buffered: the sample.
         look: to compare with what is wanted when it is done.
         context: collects its nodes.
         done: when it has.
     """
 
     name: str
-    held: BufferedSample
+    buffered: BufferedSample
     look: Look
     context: Context
     done: Future[None]
@@ -67,54 +67,56 @@ class Renderer:
 
     Args:
         id: unique name in the scene.
-        drawn: of the display, where it draws.
+        diff: of the display, where it draws.
         workers: for slow work.
         points: how many points each display may show.
     """
 
-    def __init__(self, id: str, drawn: SceneDiff, workers: Workers, points: PointBudget) -> None:
+    def __init__(self, id: str, diff: SceneDiff, workers: Workers, points: PointBudget) -> None:
         self.order = 0
         self.is_stale = True
         """True if everything must be redrawn, such as after a property changed."""
         self._id = id
         self._workers = workers
         self._points = points
-        self._diff = drawn
+        self._diff = diff
         self._tasks = Tasks(workers)
         self._state: Any = _NO_STATE
         self._reports: dict[str, DrawReport] = {}
         """The last one of each source; calls with one source replace each other's."""
-        self._drawn: dict[str, dict[int, Look | None]] = {}
+        self._looks: dict[str, dict[int, Look | None]] = {}
         """Nodes by input and slot; None for what is outdated."""
         self._version = 0
         self._draw_job: _DrawJob | None = None
-        self._seen: list[tuple[SampleHistory, int]] | None = None
+        self._versions: list[tuple[SampleHistory, int]] | None = None
         self._depended: object = None
         self._is_unfinished = False
 
-    def draw(self, display: Display, guard: Guard, histories: Histories, frames: Frames) -> None:
+    def draw(
+        self, display: Display, boundary: ErrorBoundary, histories: Histories, frames: Frames
+    ) -> None:
         """Call the hooks that have something new to draw, and move groups with their frames."""
-        if not self._has_state(display, guard):
+        if not self._has_state(display, boundary):
             return
         self._is_unfinished = False
-        depends = self._depends_on_news(display, guard, frames)
+        depends = self._depends_on_news(display, boundary, frames)
         self.is_stale |= depends or self._tasks.has_news()
         self._version += self.is_stale
         versions = [(history, history.version) for history in histories.values()]
-        changed = self._finish_job(guard, histories, frames)
-        changed |= self.is_stale or self._seen != versions
+        changed = self._finish_job(boundary, histories, frames)
+        changed |= self.is_stale or self._versions != versions
         if changed and overrides(display, "draw"):
             for name, history in histories.items():
-                self._draw_samples(name, display, guard, history, frames)
+                self._draw_samples(name, display, boundary, history, frames)
         if changed and overrides(display, "draw_all"):
             every = held_samples(histories)
             context = self._context(frames)
-            self._call("all", guard, display.draw_all, context, every, samples=every)
+            self._call("all", boundary, display.draw_all, context, every, samples=every)
         if overrides(display, "tick"):
-            self._call("tick", guard, display.tick, self._context(frames))
+            self._call("tick", boundary, display.tick, self._context(frames))
         if changed:
             self._tasks.cancel_unrequested()
-        self._seen = versions
+        self._versions = versions
         self.is_stale = False
         self._diff.move(frames)
         if self._is_unfinished:
@@ -123,7 +125,7 @@ class Renderer:
     def hide(self) -> None:
         """Remove everything from the scene until the next call of `draw`."""
         self._diff.clear()
-        self._drawn.clear()
+        self._looks.clear()
         self._drop_job()
         self._points.leave(self._id)
         self._is_unfinished = False
@@ -133,7 +135,7 @@ class Renderer:
         """Discard the state of the display; what is drawn stays until something is drawn anew."""
         self._drop_job()
         self._diff.forget_poses()
-        self._drawn = {name: dict.fromkeys(looks) for name, looks in self._drawn.items()}
+        self._looks = {name: dict.fromkeys(looks) for name, looks in self._looks.items()}
         self._state = _NO_STATE
         self.is_stale = True
 
@@ -149,21 +151,23 @@ class Renderer:
         self._tasks = Tasks(self._workers)
         self._state = _NO_STATE
         self._reports.clear()
-        samples = [_scope(name, slot) for name, looks in self._drawn.items() for slot in looks]
+        samples = [_scope(name, slot) for name, looks in self._looks.items() for slot in looks]
         for hook, scopes in (("draw", samples), ("draw_all", ["all"]), ("tick", ["tick"])):
             for scope in () if overrides(display, hook) else scopes:
                 self._diff.remove(scope)
         self.is_stale = True
 
-    def inspect(self, display: Display, guard: Guard, hit: Hit, frames: Frames) -> Details | None:
+    def inspect(
+        self, display: Display, boundary: ErrorBoundary, hit: Hit, frames: Frames
+    ) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
         if self._state is _NO_STATE:
             return None
-        return guard.attempt("inspect", None, display.inspect, hit, self._context(frames))
+        return boundary.attempt("inspect", None, display.inspect, hit, self._context(frames))
 
     def has(self, sample: Sample) -> bool:
         """Return whether a sample is drawn, by itself or with others."""
-        looks = self._drawn.get(sample.input)
+        looks = self._looks.get(sample.input)
         return looks is None or any(look and sample is look[0] for look in looks.values())
 
     def is_busy(self) -> bool:
@@ -173,7 +177,7 @@ class Renderer:
     @property
     def busy_with(self) -> int:
         """Size of the message that is drawn in a worker, in bytes; 0 if none is."""
-        return self._draw_job.held.size if self._draw_job else 0
+        return self._draw_job.buffered.size if self._draw_job else 0
 
     def report(self) -> DrawReport:
         """Return the last reports of all hooks as one: of statuses, the worst of each key."""
@@ -188,30 +192,35 @@ class Renderer:
             scale, attribution = scale or each.color_scale, attribution or each.attribution
         return DrawReport(statuses, scale, attribution, offered)
 
-    def context(self, display: Display, guard: Guard, frames: Frames) -> Context | None:
+    def context(self, display: Display, boundary: ErrorBoundary, frames: Frames) -> Context | None:
         """Return a context for hooks that do not draw; None without a state."""
-        return self._context(frames) if self._has_state(display, guard) else None
+        return self._context(frames) if self._has_state(display, boundary) else None
 
-    def _has_state(self, display: Display, guard: Guard) -> bool:
+    def _has_state(self, display: Display, boundary: ErrorBoundary) -> bool:
         if self._state is _NO_STATE:
-            state = guard("new_state", display.new_state)
+            state = boundary("new_state", display.new_state)
             self._state = _NO_STATE if state is CRASHED else state
         return self._state is not _NO_STATE
 
-    def _depends_on_news(self, display: Display, guard: Guard, frames: Frames) -> bool:
+    def _depends_on_news(self, display: Display, boundary: ErrorBoundary, frames: Frames) -> bool:
         if not overrides(display, "depends"):
             return False
         context = self._context(frames)
-        before, self._depended = self._depended, guard("depends", display.depends, context)
+        before, self._depended = self._depended, boundary("depends", display.depends, context)
         self._is_unfinished |= context.is_unfinished
         return self._depended != before
 
     def _draw_samples(
-        self, name: str, display: Display, guard: Guard, history: SampleHistory, frames: Frames
+        self,
+        name: str,
+        display: Display,
+        boundary: ErrorBoundary,
+        history: SampleHistory,
+        frames: Frames,
     ) -> None:
         """Draw the new samples of one input, the large ones one after another in a worker."""
-        looks = self._drawn.setdefault(name, {})
-        samples = {buffered.slot: buffered for buffered in history.held if buffered.has_pose}
+        looks = self._looks.setdefault(name, {})
+        samples = {buffered.slot: buffered for buffered in history.entries if buffered.has_pose}
         for slot in looks.keys() - samples.keys():
             self._diff.remove(_scope(name, slot))
             del looks[slot]
@@ -226,7 +235,7 @@ class Renderer:
                 sample = buffered.sample
                 self._call(
                     scope,
-                    guard,
+                    boundary,
                     display.draw,
                     context,
                     sample,
@@ -239,21 +248,21 @@ class Renderer:
             self._reports.pop(_status_source(name), None)
 
     def _send(
-        self, name: str, display: Display, held: BufferedSample, look: Look, frames: Frames
+        self, name: str, display: Display, buffered: BufferedSample, look: Look, frames: Frames
     ) -> None:
         """Draw a sample in a worker."""
-        context = self._context(frames, Placement(offset=held.sample.pose))
-        origins = self._diff.origins(_scope(name, held.slot))
+        context = self._context(frames, Placement(offset=buffered.sample.pose))
+        origins = self._diff.origins(_scope(name, buffered.slot))
         display = copy.copy(display)  # its properties may be set meanwhile
 
         def draw() -> None:
-            display.draw(held.sample, context)
+            display.draw(buffered.sample, context)
             for key, group in groups_of(context).items():
                 bake(group, origins.get(key, (0.0, 0.0, 0.0)))
 
-        self._draw_job = _DrawJob(name, held, look, context, self._workers.submit(draw))
+        self._draw_job = _DrawJob(name, buffered, look, context, self._workers.submit(draw))
 
-    def _finish_job(self, guard: Guard, histories: Histories, frames: Frames) -> bool:
+    def _finish_job(self, boundary: ErrorBoundary, histories: Histories, frames: Frames) -> bool:
         """Show what was drawn in a worker; whether there was anything.
 
         It is shown even if a newer message waits: else nothing is, if they come faster than they
@@ -263,15 +272,15 @@ class Renderer:
         if job is None or not job.done.done():
             return False
         self._draw_job = None
-        name, slot = job.name, job.held.slot
+        name, slot = job.name, job.buffered.slot
         is_held = any(
-            buffered.slot == slot and buffered.has_pose for buffered in histories[name].held
+            buffered.slot == slot and buffered.has_pose for buffered in histories[name].entries
         )
         if is_held and job.context.frames.fixed_frame == frames.fixed_frame:
-            self._drawn[name][slot] = job.look
-            samples = (job.held.sample,)
+            self._looks[name][slot] = job.look
+            samples = (job.buffered.sample,)
             scope, context, source = _scope(name, slot), job.context, _status_source(name)
-            self._call(scope, guard, _result, context, job.done, samples=samples, source=source)
+            self._call(scope, boundary, _result, context, job.done, samples=samples, source=source)
         return True
 
     def _drop_job(self) -> None:
@@ -286,7 +295,7 @@ class Renderer:
     def _call(
         self,
         scope: str,
-        guard: Guard,
+        boundary: ErrorBoundary,
         hook: Callable[..., None],
         context: Context,
         *args: Any,
@@ -294,7 +303,7 @@ class Renderer:
         source: str = "",
     ) -> None:
         """Call a hook that draws and update the scene; after a crash the previous nodes stay."""
-        if guard(scope, hook, *args, context) is CRASHED:
+        if boundary(scope, hook, *args, context) is CRASHED:
             return
         self._is_unfinished |= context.is_unfinished
         self._diff.replace(scope, context, samples)
@@ -303,9 +312,9 @@ class Renderer:
         )
 
 
-def _result(done: Future[None], context: Context) -> None:
+def _result(future: Future[None], context: Context) -> None:
     """Raise what the hook of a sample raised in the worker that drew it."""
-    done.result()
+    future.result()
 
 
 def _status_source(name: str) -> str:

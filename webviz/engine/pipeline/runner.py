@@ -15,15 +15,15 @@ from webviz.api.observation import InputSeen
 from webviz.api.picking import Details
 from webviz.api.robots import NamespacedRobot, RobotFrames, robot_of
 from webviz.api.status import LOADING, Level, OtherFixedFrame, Status, worst
-from webviz.engine.commands import Picks
-from webviz.engine.guard import Guard
+from webviz.engine.commands import NodePicks
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.dragging import Dragging
 from webviz.engine.pipeline.history import held_samples
 from webviz.engine.pipeline.picking import PickedItem
 from webviz.engine.pipeline.renderer import DrawReport, Renderer
 from webviz.engine.pipeline.sample_buffer import SampleBuffer
 from webviz.engine.pipeline.scene_diff import SceneDiff
-from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.services import DisplayServices
 from webviz.engine.pipeline.tinting import Tint
 from webviz.sources import Advertisement, Offer, Raw, Subscription, merged
 
@@ -45,7 +45,7 @@ class Runner:
         services: shared by all.
     """
 
-    def __init__(self, id: str, display: Display, services: Services) -> None:
+    def __init__(self, id: str, display: Display, services: DisplayServices) -> None:
         self.id = id
         self.display = display
         self.external_statuses: dict[str, Status] = {}
@@ -56,7 +56,7 @@ class Runner:
         self._renderer = Renderer(id, self.drawn, services.workers, services.points)
         self._dragging = Dragging(id, display, services)
         self._comparable = capability(display, Comparable)
-        self._guard = self._new_guard()
+        self._boundary = self._new_boundary()
         self._sample_buffer = self._new_sample_buffer()
         self._robot: NamespacedRobot | None = None
         self._known_by: object = None
@@ -86,14 +86,14 @@ class Runner:
         Messages are discarded if the inputs of the new class differ or it folds them.
         """
         old, self.display = self.display, display
-        self._guard = self._new_guard()
+        self._boundary = self._new_boundary()
         self._dragging.replace(display)
         self._comparable = capability(display, Comparable)
         if _sample_source(old) != _sample_source(display):
             self.reset()
             self._sample_buffer = self._new_sample_buffer()
         else:
-            self._sample_buffer.replace(display, self._guard)
+            self._sample_buffer.replace(display, self._boundary)
         self._renderer.replace(display)
 
     @property
@@ -149,14 +149,14 @@ class Runner:
         """Take the messages of this turn; cheap, also called without browsers."""
         if self.display.enabled:
             with self._services.tracer.timed(self.id):
-                self._guard("take", self._sample_buffer.take, batches, self._own(frames), offers)
+                self._boundary("take", self._sample_buffer.take, batches, self._own(frames), offers)
             self._dragging.take(batches, offers)
 
     def draw(self, frames: Frames) -> None:
         """Update the scene."""
         if self.display.enabled:
             with self._services.tracer.timed(self.id):
-                self._guard("scene", self._draw, self._own(frames))
+                self._boundary("scene", self._draw, self._own(frames))
 
     def is_waiting(self) -> bool:
         """Return whether the newest message of an input waits for its transform."""
@@ -190,11 +190,11 @@ class Runner:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
         if self._comparable is None or self.drawn.is_empty():
             return None
-        context = self._renderer.context(self.display, self._guard, self._own(frames))
+        context = self._renderer.context(self.display, self._boundary, self._own(frames))
         if context is None:
             return None
         samples = held_samples(self._sample_buffer.histories)
-        return self._guard.attempt(
+        return self._boundary.attempt(
             "consistency_input", None, self._comparable.consistency_input, samples, context
         )
 
@@ -210,22 +210,22 @@ class Runner:
 
     def drag(self, drag: Drag, frames: Frames) -> None:
         """Let the display take up what a browser does with a handle."""
-        if context := self._renderer.context(self.display, self._guard, self._own(frames)):
-            self._dragging.drag(drag, self._guard, context)
+        if context := self._renderer.context(self.display, self._boundary, self._own(frames)):
+            self._dragging.drag(drag, self._boundary, context)
 
     # Selection
 
-    def find(self, picks: Picks) -> dict[int, PickedItem]:
+    def find(self, picks: NodePicks) -> dict[int, PickedItem]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
-        return self._guard.attempt("selection", {}, self.drawn.find, picks)
+        return self._boundary.attempt("selection", {}, self.drawn.find, picks)
 
-    def inspect(self, found: PickedItem, frames: Frames) -> Details | None:
+    def inspect(self, item: PickedItem, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
-        return self._renderer.inspect(self.display, self._guard, found.hit, self._own(frames))
+        return self._renderer.inspect(self.display, self._boundary, item.hit, self._own(frames))
 
-    def shows(self, found: PickedItem) -> bool:
+    def shows(self, item: PickedItem) -> bool:
         """Return whether the message that something was drawn from is still drawn."""
-        samples = found.hit.samples
+        samples = item.hit.samples
         return not samples or self._renderer.has(samples[-1])
 
     def statuses(
@@ -239,8 +239,8 @@ class Runner:
         if not self.display.enabled:
             return {}
         own = self._own(frames)
-        result = self._guard.attempt("statuses", {}, self._statuses, offers, own, dropped)
-        for text in self._guard.crashes.values():
+        result = self._boundary.attempt("statuses", {}, self._statuses, offers, own, dropped)
+        for text in self._boundary.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.external_statuses
         is_missing = self.drawn.is_empty() and not type(self.display).reports_only
@@ -276,18 +276,18 @@ class Runner:
             return None
         return Tint(robot.tint, robot.opacity)
 
-    def _new_guard(self) -> Guard:
+    def _new_boundary(self) -> ErrorBoundary:
         who = type(self.display).__name__
-        return Guard(who, self._services.strict, name=lambda: self.display.name)
+        return ErrorBoundary(who, self._services.strict, name=lambda: self.display.name)
 
     def _new_sample_buffer(self) -> SampleBuffer:
-        return SampleBuffer(self.id, self.display, self._guard, self._services)
+        return SampleBuffer(self.id, self.display, self._boundary, self._services)
 
     def _draw(self, frames: Frames) -> None:
         self._renderer.is_stale |= self._sample_buffer.prepare(frames)
-        if context := self._renderer.context(self.display, self._guard, frames):
-            self._dragging.communicate(self._guard, context)
-        self._renderer.draw(self.display, self._guard, self._sample_buffer.histories, frames)
+        if context := self._renderer.context(self.display, self._boundary, frames):
+            self._dragging.communicate(self._boundary, context)
+        self._renderer.draw(self.display, self._boundary, self._sample_buffer.histories, frames)
         if self._services.tracer.wants(self.id) and not self._renderer.busy_with:
             self._services.tracer.drawn(self.id)
 

@@ -13,12 +13,12 @@ from webviz.api.observation import InputSeen
 from webviz.api.sample import KeepsNewest, Sample
 from webviz.api.status import Level, Status
 from webviz.data.messages import MessageError, decode, is_message
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.folding import Folding, Received
 from webviz.engine.pipeline.history import Histories, SampleHistory, held_samples
 from webviz.engine.pipeline.input_subscription import Arrival
 from webviz.engine.pipeline.inputs import Inputs, Set
-from webviz.engine.pipeline.services import Services
+from webviz.engine.pipeline.services import DisplayServices
 from webviz.sources import Offer, Raw
 
 
@@ -28,19 +28,21 @@ class SampleBuffer:
     Args:
         id: of the display, for traces.
         display: has the topics, and decides what is held.
-        guard: for its hooks.
+        boundary: around its hooks.
         services: shared by all.
     """
 
-    def __init__(self, id: str, display: Display, guard: Guard, services: Services) -> None:
-        self.inputs = Inputs(display, guard, services.resolve)
+    def __init__(
+        self, id: str, display: Display, boundary: ErrorBoundary, services: DisplayServices
+    ) -> None:
+        self.inputs = Inputs(display, boundary, services.resolve)
         self._id = id
         self._display = display
         self._selective = capability(display, Selective)
         self._placing = capability(display, SelfPlacing)
         self._placed_at: tuple[int, str] = -1, ""
         """Version of the transforms and fixed frame, when what is folded was placed."""
-        self._guard = guard
+        self._boundary = boundary
         self._services = services
         self.histories = self._no_histories()
         self._newest: dict[str, Set] = {}
@@ -48,13 +50,13 @@ class SampleBuffer:
         self._folding = self._new_folding()
         self._fixed_frame = ""
 
-    def replace(self, display: Display, guard: Guard) -> None:
+    def replace(self, display: Display, boundary: ErrorBoundary) -> None:
         """Continue with another instance that has the same inputs."""
         self._display = display
         self._selective = capability(display, Selective)
         self._placing = capability(display, SelfPlacing)
-        self._guard = guard
-        self.inputs.replace(display, guard)
+        self._boundary = boundary
+        self.inputs.replace(display, boundary)
 
     def reset(self) -> None:
         """Discard all messages."""
@@ -84,7 +86,7 @@ class SampleBuffer:
                 self._admit(arrivals, keep, frames)
             else:
                 self._newest[name] = arrivals
-        for folded in self._folding.results(display, self._guard):
+        for folded in self._folding.results(display, self._boundary):
             self._add(next(iter(self.histories.values())), folded, keep)
         self._trim(keep, frames)  # also without browsers
 
@@ -98,7 +100,7 @@ class SampleBuffer:
         now = frames.buffer.version, frames.fixed_frame
         if is_new or now != self._placed_at:
             self._placed_at = now
-            self._guard("place", self._placing.place, folded, frames)
+            self._boundary("place", self._placing.place, folded, frames)
 
     @property
     def busy_with(self) -> int:
@@ -108,7 +110,7 @@ class SampleBuffer:
     @property
     def is_empty(self) -> bool:
         """Return whether no message is held."""
-        return not any(history.held for history in self.histories.values())
+        return not any(history.entries for history in self.histories.values())
 
     def prepare(self, frames: Frames) -> bool:
         """Hold what is to be drawn now; whether all of it must be drawn anew."""
@@ -171,22 +173,22 @@ class SampleBuffer:
         input_subscription.refuse(refusal) if refusal else input_subscription.accepted()
 
     def _keep(self) -> Keep:
-        keep = self._guard("history", self._display.history)
+        keep = self._boundary("history", self._display.history)
         return keep if isinstance(keep, Keep) else Keep()
 
     def _trim(self, keep: Keep, frames: Frames) -> None:
         for history in self.histories.values():
             history.trim(keep, frames.now_ns)
 
-    def _admit(self, found: Set, keep: Keep, frames: Frames) -> None:
+    def _admit(self, arrivals: Set, keep: Keep, frames: Frames) -> None:
         """Decode the messages of a set and hold it, if the display accepts it.
 
         One that is folded is decoded there, in a worker if it is large.
         """
         samples: dict[str, Sample] = {}
         is_folded = overrides(self._display, "fold")
-        for name, arrival in found.items():
-            is_decoded_later = is_folded and len(found) == 1
+        for name, arrival in arrivals.items():
+            is_decoded_later = is_folded and len(arrivals) == 1
             if (sample := self._sample(name, arrival, frames, is_decoded_later)) is None:
                 return
             samples[name] = sample
@@ -194,16 +196,16 @@ class SampleBuffer:
         sample = samples[name]
         if others:
             sample = replace(sample, synced={other: samples[other] for other in others})
-        size = sum(len(arrival.raw.cdr) for arrival in found.values())
+        size = sum(len(arrival.raw.cdr) for arrival in arrivals.values())
         decoded_s = self._services.tracer.clock()
-        received = Received(sample, size, found[name].raw, self._ready_s[name], decoded_s)
+        received = Received(sample, size, arrivals[name].raw, self._ready_s[name], decoded_s)
         if is_folded:
             self._folding.put(received)
             return
         history = self.histories[name]
         verdict: object = True
         if self._selective:
-            verdict = self._guard("accept", self._selective.accept, sample, history.samples())
+            verdict = self._boundary("accept", self._selective.accept, sample, history.samples())
         if isinstance(verdict, str):
             self.inputs.input_subscriptions[name].refuse(verdict)
         elif verdict is True:

@@ -16,18 +16,18 @@ from webviz.api.context import Context, Group, Placement
 from webviz.api.frames import Frames, compose
 from webviz.api.nodes import Node, Pose, has_content
 from webviz.api.sample import Sample
-from webviz.engine.commands import Picks
+from webviz.engine.commands import NodePicks
 from webviz.engine.pipeline.baking import Position, bake
-from webviz.engine.pipeline.picking import PickedItem, Shot, found_in
+from webviz.engine.pipeline.picking import PickedItem, SceneSnapshot, found_in
 
 KEPT_S = 3.0
 """Longer than a picture is under way to a browser."""
 MAX_BYTES = 64_000_000
 """Limit in bytes of arrays; the messages that they were made of take about as much again."""
-MAX_SHOTS = 200
+MAX_SNAPSHOTS = 200
 
 
-class Past:
+class RecentSnapshots:
     """Keeps what was replaced, for some seconds.
 
     Args:
@@ -36,31 +36,33 @@ class Past:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self._shots: deque[tuple[float, str, Shot, int]] = deque()
+        self._snapshots: deque[tuple[float, str, SceneSnapshot, int]] = deque()
         self._bytes = 0
 
-    def keep(self, scope: str, shot: Shot) -> None:
+    def keep(self, scope: str, snapshot: SceneSnapshot) -> None:
         """Keep what was drawn in a scope until now."""
-        size = _size(shot)
+        size = _size(snapshot)
         self._bytes += size
-        self._shots.append((self._clock(), scope, shot, size))
+        self._snapshots.append((self._clock(), scope, snapshot, size))
         self._trim()
 
-    def of(self, scope: str) -> Iterator[Shot]:
+    def of(self, scope: str) -> Iterator[SceneSnapshot]:
         """Yield the pictures of a scope, newest first."""
         self._trim()
-        return (shot for _, name, shot, _ in reversed(self._shots) if name == scope)
+        return (snapshot for _, name, snapshot, _ in reversed(self._snapshots) if name == scope)
 
     def _trim(self) -> None:
         oldest = self._clock() - KEPT_S
-        while self._shots and (
-            self._shots[0][0] < oldest or self._bytes > MAX_BYTES or len(self._shots) > MAX_SHOTS
+        while self._snapshots and (
+            self._snapshots[0][0] < oldest
+            or self._bytes > MAX_BYTES
+            or len(self._snapshots) > MAX_SNAPSHOTS
         ):
-            self._bytes -= self._shots.popleft()[3]
+            self._bytes -= self._snapshots.popleft()[3]
 
 
-def _size(shot: Shot) -> int:
-    nodes = (node for group in shot.groups.values() for node in group.nodes.values())
+def _size(snapshot: SceneSnapshot) -> int:
+    nodes = (node for group in snapshot.groups.values() for node in group.nodes.values())
     values = (getattr(node, f.name) for node in nodes for f in fields(node))
     return sum(value.nbytes for value in values if isinstance(value, np.ndarray))
 
@@ -147,7 +149,7 @@ class SceneDiff:
         self._scopes: dict[str, dict[str, _SceneGroup]] = {}
         self._drawn_from: dict[str, tuple[Sequence[Sample], str]] = {}
         """Samples and fixed frame of each scope, from which it was drawn."""
-        self._past: Past | None = None
+        self._recent: RecentSnapshots | None = None
         self.tint: Callable[[Node], Node] | None = None
         """Gives nodes another look; None for their own."""
         self._followers: list[_Followers] | None = None
@@ -155,27 +157,27 @@ class SceneDiff:
 
     def remember(self, is_wanted: bool) -> None:
         """Keep what is replaced for some seconds, for `find`."""
-        if is_wanted != (self._past is not None):
-            self._past = Past() if is_wanted else None
+        if is_wanted != (self._recent is not None):
+            self._recent = RecentSnapshots() if is_wanted else None
 
-    def find(self, picks: Picks) -> dict[int, PickedItem]:
+    def find(self, picks: NodePicks) -> dict[int, PickedItem]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
         scope, _, group = picks.group.removeprefix(f"{self._prefix}/").partition("/")
-        shots = [self._shot(scope)] if scope in self._scopes else []
+        snapshots = [self._snapshot(scope)] if scope in self._scopes else []
         items: dict[int, PickedItem] = {}
-        for shot in itertools.chain(shots, self._past.of(scope) if self._past else ()):
+        for snapshot in itertools.chain(snapshots, self._recent.of(scope) if self._recent else ()):
             missing = [item for item in picks.items if item[0] not in items]
             if not missing:
                 break
-            items |= found_in(shot, group, picks.key, missing)
+            items |= found_in(snapshot, group, picks.key, missing)
         return items
 
-    def shots(self) -> Iterator[tuple[str, str, Shot]]:
+    def snapshots(self) -> Iterator[tuple[str, str, SceneSnapshot]]:
         """Yield the name of each group, its key, and the picture that it is a part of."""
         for scope in self._scopes:
-            shot = self._shot(scope)
-            for key in shot.groups:
-                yield self._name(scope, key), key, shot
+            snapshot = self._snapshot(scope)
+            for key in snapshot.groups:
+                yield self._name(scope, key), key, snapshot
 
     def replace(self, scope: str, context: Context, samples: Sequence[Sample] = ()) -> None:
         """Make the content of a scope exactly what a context collected from samples."""
@@ -273,52 +275,52 @@ class SceneDiff:
         return self._followers
 
     def _keep(self, scope: str) -> None:
-        if self._past is not None and scope in self._scopes:
-            self._past.keep(scope, self._shot(scope))
+        if self._recent is not None and scope in self._scopes:
+            self._recent.keep(scope, self._snapshot(scope))
 
-    def _shot(self, scope: str) -> Shot:
+    def _snapshot(self, scope: str) -> SceneSnapshot:
         entries = self._scopes[scope].items()
         samples, fixed_frame = self._drawn_from[scope]
-        return Shot({key: each.group for key, each in entries}, samples, fixed_frame)
+        return SceneSnapshot({key: each.group for key, each in entries}, samples, fixed_frame)
 
-    def _put(self, name: str, drawn: _SceneGroup, frames: Frames) -> None:
+    def _put(self, name: str, entry: _SceneGroup, frames: Frames) -> None:
         """Send a group that is new or changed."""
-        group = drawn.group
+        group = entry.group
         if self.tint is not None and not group.is_tinted:
             group.nodes = {key: self.tint(node) for key, node in group.nodes.items()}
             group.is_tinted = True
         if group.placement.frame is not None:
-            self._follow(name, drawn, frames)
+            self._follow(name, entry, frames)
         else:
-            drawn.origin = bake(group, drawn.origin)
+            entry.origin = bake(group, entry.origin)
             self._scene.set_pose(name, group.placement.offset)
-            self._show(name, drawn, True)
+            self._show(name, entry, True)
         for key, node in group.nodes.items():
             self._scene.upsert(name, key, node, group.poses.get(key, Pose()))
 
-    def _follow(self, name: str, drawn: _SceneGroup, frames: Frames) -> None:
-        placement = drawn.group.placement
-        is_placed = drawn.pose is not None and drawn.fixed_frame == frames.fixed_frame
-        rest = drawn.moved_ns + placement.interval_s * 1e9 - frames.now_ns
+    def _follow(self, name: str, entry: _SceneGroup, frames: Frames) -> None:
+        placement = entry.group.placement
+        is_placed = entry.pose is not None and entry.fixed_frame == frames.fixed_frame
+        rest = entry.moved_ns + placement.interval_s * 1e9 - frames.now_ns
         if is_placed and placement.interval_s and rest > 0:
             return
         pose = _pose(placement, frames)
-        if pose is None and placement.keep_last and placement.frame and drawn.pose is None:
+        if pose is None and placement.keep_last and placement.frame and entry.pose is None:
             pose = frames.passed(placement.frame)
         if pose is None:
-            stays = placement.keep_last and drawn.fixed_frame == frames.fixed_frame
-            self._show(name, drawn, stays)
+            stays = placement.keep_last and entry.fixed_frame == frames.fixed_frame
+            self._show(name, entry, stays)
             return
-        if pose is not drawn.pose or not is_placed:
+        if pose is not entry.pose or not is_placed:
             offset = placement.offset
             self._scene.set_pose(name, pose if offset == _IDENTITY else compose(pose, offset))
-            drawn.pose, drawn.fixed_frame = pose, frames.fixed_frame
-        drawn.moved_ns = frames.now_ns
-        self._show(name, drawn, True)
+            entry.pose, entry.fixed_frame = pose, frames.fixed_frame
+        entry.moved_ns = frames.now_ns
+        self._show(name, entry, True)
 
-    def _show(self, name: str, drawn: _SceneGroup, visible: bool) -> None:
-        if drawn.visible != visible:
-            drawn.visible = visible
+    def _show(self, name: str, entry: _SceneGroup, visible: bool) -> None:
+        if entry.visible != visible:
+            entry.visible = visible
             self._scene.set_visible(name, visible)
 
     def _name(self, scope: str, key: str) -> str:

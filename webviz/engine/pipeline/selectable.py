@@ -60,7 +60,7 @@ class SelectableValues:
     """Keeps the details of all items, and makes anew those of what is drawn anew."""
 
     def __init__(self) -> None:
-        self._made: dict[str, dict[str, tuple[_SelectableNode, Values]]] = {}
+        self._cache: dict[str, dict[str, tuple[_SelectableNode, Values]]] = {}
 
     def of(self, runner: Runner, frames: Frames) -> Mapping[str, Any]:
         """Return the details of a display, by group and key of its nodes and what it is, in lines.
@@ -70,7 +70,8 @@ class SelectableValues:
             frames: at the time that is shown.
         """
         room = MAX_OF_DISPLAY
-        before, entries = self._made.get(runner.id, {}), dict[str, tuple[_SelectableNode, Values]]()
+        before = self._cache.get(runner.id, {})
+        entries: dict[str, tuple[_SelectableNode, Values]] = {}
         for node in _nodes(runner):
             entry = before.get(node.path)
             if entry and node.is_in(entry[0]) and not (node.is_moving and node.items):
@@ -80,7 +81,7 @@ class SelectableValues:
                 entries[node.path] = node, _values(runner, node, frames)
             elif node.samples:
                 entries[node.path] = node, {"#frame": node.frame, "#stamp": _stamp(node)}
-        self._made[runner.id] = entries
+        self._cache[runner.id] = entries
         return {
             f"{path}\n{what}": value
             for path, (_, values) in entries.items()
@@ -89,33 +90,33 @@ class SelectableValues:
 
 
 def _nodes(runner: Runner) -> Iterator[_SelectableNode]:
-    for name, group, shot in runner.drawn.shots():
-        frame = shot.groups[group].placement.frame
-        own = shot.samples[-1].frame if shot.samples else ""
-        for key, node in shot.groups[group].nodes.items():
-            items = every_item(shot, group, key, MAX_ITEMS)
-            is_moving = frame is not None or not shot.samples
+    for name, group, snapshot in runner.drawn.snapshots():
+        frame = snapshot.groups[group].placement.frame
+        own = snapshot.samples[-1].frame if snapshot.samples else ""
+        for key, node in snapshot.groups[group].nodes.items():
+            items = every_item(snapshot, group, key, MAX_ITEMS)
+            is_moving = frame is not None or not snapshot.samples
             yield _SelectableNode(
-                f"{name}\n{key}", key, node, shot.samples, frame or own, is_moving, items
+                f"{name}\n{key}", key, node, snapshot.samples, frame or own, is_moving, items
             )
 
 
-def _values(runner: Runner, drawn: _SelectableNode, frames: Frames) -> Values:
-    details = [runner.inspect(each, frames) for each in drawn.items]
+def _values(runner: Runner, node: _SelectableNode, frames: Frames) -> Values:
+    details = [runner.inspect(each, frames) for each in node.items]
     readable = [each for each in details if each is not None]
     if not readable:
         return {}
     names = dict.fromkeys(name for each in readable for name in each.values)
     return {
-        "#frame": drawn.frame,
-        "#stamp": _stamp(drawn),
+        "#frame": node.frame,
+        "#stamp": _stamp(node),
         "#titles": _column(_titles(details)),
         **{f".{name}": _values_column(name, details) for name in names},
     }
 
 
-def _stamp(drawn: _SelectableNode) -> str:
-    stamp_ns = drawn.samples[-1].stamp_ns if drawn.samples else 0
+def _stamp(node: _SelectableNode) -> str:
+    stamp_ns = node.samples[-1].stamp_ns if node.samples else 0
     return f"{format_stamp(stamp_ns)} s" if stamp_ns else ""
 
 

@@ -14,10 +14,10 @@ from webviz.engine.pipeline.history import HistoryBudget
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene_diff import SceneWriter
 from webviz.engine.pipeline.trace import Tracer
-from webviz.sources import Gate
+from webviz.sources import RestrictedGraph
 
 
-class Services(msgspec.Struct, frozen=True):
+class DisplayServices(msgspec.Struct, frozen=True):
     """Shared by all runners.
 
     Args:
@@ -27,7 +27,7 @@ class Services(msgspec.Struct, frozen=True):
         strict: let exceptions of displays through, for tests.
         clock: monotonic time in seconds, for rates and ages.
         tracer: traces samples on request.
-        gate: for displays that follow a protocol of their own; None if they cannot.
+        graph: for displays that follow a protocol of their own; None if they cannot.
         wake: makes the frame loop turn again soon.
         robots: whose topics and frames have a name of their own.
         points: how many points each display may show.
@@ -40,7 +40,7 @@ class Services(msgspec.Struct, frozen=True):
     strict: bool = False
     clock: Callable[[], float] = time.monotonic
     tracer: Tracer = msgspec.field(default_factory=lambda: Tracer(time.monotonic))
-    gate: Gate | None = None
+    graph: RestrictedGraph | None = None
     wake: Callable[[], None] = lambda: None
     robots: Callable[[], Sequence[NamespacedRobot]] = tuple
     points: PointBudget = msgspec.field(default_factory=lambda: PointBudget(lambda: POINTS_HELD))

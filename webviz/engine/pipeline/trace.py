@@ -87,7 +87,7 @@ class Tracer:
 
     def __init__(self, clock: Callable[[], float]) -> None:
         self.clock = clock
-        self._asked: dict[str, list[Future[Trace]]] = {}
+        self._requests: dict[str, list[Future[Trace]]] = {}
         self._begun: dict[str, _Begun] = {}
         self.on_sent: Callable[[Mapping[str, Trace], float], object] = lambda traces, at_s: None
         """Called with the samples that were sent, by display, and when that was."""
@@ -117,19 +117,19 @@ class Tracer:
         Raises:
             Error: too many traces are requested.
         """
-        for traced, answers in list(self._asked.items()):
-            self._asked[traced] = [each for each in answers if not each.cancelled()]
-            if not self._asked[traced]:
-                del self._asked[traced]
-        if sum(map(len, self._asked.values())) >= MAX_ASKED:
+        for traced, answers in list(self._requests.items()):
+            self._requests[traced] = [each for each in answers if not each.cancelled()]
+            if not self._requests[traced]:
+                del self._requests[traced]
+        if sum(map(len, self._requests.values())) >= MAX_ASKED:
             raise Error("Too many traces at once. Try again later.")
-        if display not in self._asked:
+        if display not in self._requests:
             self.forget(display)  # left from a cancelled request
-        self._asked.setdefault(display, []).append(answer)
+        self._requests.setdefault(display, []).append(answer)
 
     def wants(self, display: str) -> bool:
         """Return whether the next sample of a display is to be traced."""
-        return display in self._asked
+        return display in self._requests
 
     def decoded(self, display: str, sample: Sample, raw: Raw, ready_s: float, at_s: float) -> None:
         """Note that a display holds a sample, decoded at `at_s`."""
@@ -142,14 +142,14 @@ class Tracer:
 
     def sent(self) -> None:
         """Everything drawn was sent: answer."""
-        sent = [display for display, begun in self._begun.items() if begun.drawn_s]
-        if not sent:
+        displays = [display for display, begun in self._begun.items() if begun.drawn_s]
+        if not displays:
             return
         now = self.clock()
-        traces = {display: self._begun.pop(display).trace(now) for display in sent}
+        traces = {display: self._begun.pop(display).trace(now) for display in displays}
         self.on_sent(traces, now)
         for display, trace in traces.items():
-            for answer in self._asked.pop(display, ()):
+            for answer in self._requests.pop(display, ()):
                 if answer.set_running_or_notify_cancel():
                     answer.set_result(trace)
 

@@ -22,11 +22,11 @@ from webviz.data.disk import DiskThreads, in_thread
 from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.feature import command, store
 from webviz.engine.forms import sendable
+from webviz.engine.parts.comparison_config import NAME as COMPARISON_NAME
+from webviz.engine.parts.comparison_config import with_comparison, without_comparison
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.ghost_config import NAME as GHOST_NAME
-from webviz.engine.parts.ghost_config import with_ghost, without_ghost
 from webviz.engine.parts.panels import PanelsPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.requests import Job
@@ -36,7 +36,7 @@ from webviz.files.config import Config
 from webviz.files.report import read_report
 from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.page.page_request import PageRequest
-from webviz.sources.bag.ghost import Align, Ghost
+from webviz.sources.bag.comparison import Align, ComparisonRun
 from webviz.sources.bag.history import BagHistory
 
 BLACK_BOX = "webviz_black_box"
@@ -112,9 +112,9 @@ class BagsFeature(PageFeature):
     name = "Bags"
     module = "bags.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._folders = [Path(BLACK_BOX).absolute(), *map(Path.absolute, core.host.bag_folders)]
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._folders = [Path(BLACK_BOX).absolute(), *map(Path.absolute, context.host.bag_folders)]
         self._is_watched = False
         self._listing: Future[Sequence[Bag]] | None = None
         self._next_s = 0.0
@@ -135,22 +135,22 @@ class BagsFeature(PageFeature):
 
     def keep_up(self, commanded: bool) -> None:
         """List the folders again now and then; a second run goes with its recording."""
-        if self._compared is not None and self.core.player.history is not self._compared:
-            self._remove_ghost()
+        if self._compared is not None and self.context.player.history is not self._compared:
+            self._remove_comparison()
         if self._listing is not None and self._listing.done():
             self._bags = () if self._listing.exception() else self._listing.result()
             self._listing = None
         if self._is_watched and self._listing is None and time.monotonic() >= self._next_s:
             self._next_s = time.monotonic() + LISTING_S
-            written = [each.path for each in self.core.outputs.all]
+            written = [each.path for each in self.context.outputs.all]
             with contextlib.suppress(OSError):
                 self._listing = in_thread(lambda: _listed(self._folders, written))
-                self._listing.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
+                self._listing.add_done_callback(lambda _: self.context.player.inbox.arrived.set())
 
     @store(Role.OWNER)
     def bags(self, argument: str) -> BagsStore:
         """Return the bags that pages may open."""
-        player = self.core.player
+        player = self.context.player
         history = player.history if player.is_opened else None
         bag = history if isinstance(history, BagHistory) else None
         return BagsStore(
@@ -158,7 +158,7 @@ class BagsFeature(PageFeature):
             player.live is not None,
             len(self._folders) > 1,
             opened=str(sendable(bag.paths[0].name)) if bag else "",
-            second=str(sendable(bag.ghost.path.name)) if bag and bag.ghost else "",
+            second=str(sendable(bag.comparison.path.name)) if bag and bag.comparison else "",
         )
 
     @command(Role.OWNER, FileCommand)
@@ -176,7 +176,7 @@ class BagsFeature(PageFeature):
         if check and not self._is_offered(place):
             raise Error(NOT_LISTED)
 
-        if self.core.player.live is None:
+        if self.context.player.live is None:
             raise Error(NO_LIVE)
 
         def opened() -> BagHistory:
@@ -184,7 +184,7 @@ class BagsFeature(PageFeature):
                 _refuse_elsewhere(place)
             return BagHistory(self._bag_of(place))
 
-        return Job(opened, self.core.get(TimePart).show)
+        return Job(opened, self.context.get(TimePart).show)
 
     @command(Role.OWNER, FileCommand)
     def compare_recording(self, path: str, sender: Sender, align: Align = "start") -> Job[Compared]:
@@ -205,8 +205,8 @@ class BagsFeature(PageFeature):
         def opened() -> Compared:
             if check:
                 _refuse_elsewhere(place)
-            ghost = Ghost(self._bag_of(place), align)
-            both = BagHistory(history.paths, history.extras, history.remappings, ghost)
+            comparison = ComparisonRun(self._bag_of(place), align)
+            both = BagHistory(history.paths, history.extras, history.remappings, comparison)
             return history, both
 
         return Job(opened, self._show_compared)
@@ -215,7 +215,7 @@ class BagsFeature(PageFeature):
     def end_comparison(self) -> Job[Compared]:
         """Show the recording alone again, at the same position."""
         opened = self._opened()
-        if opened.ghost is None:
+        if opened.comparison is None:
             raise Error("No second run is shown.")
         return Job(
             lambda: (opened, BagHistory(opened.paths, opened.extras, opened.remappings)),
@@ -228,7 +228,7 @@ class BagsFeature(PageFeature):
         Raises:
             Error: there is none.
         """
-        player = self.core.player
+        player = self.context.player
         if not (player.is_opened and isinstance(player.history, BagHistory)):
             raise Error(NOTHING_BESIDE)
         return player.history
@@ -236,46 +236,46 @@ class BagsFeature(PageFeature):
     def _show_compared(self, compared: Compared) -> str:
         """Show the recording with or without a second run, and its displays, where it is now."""
         before, after = compared
-        player = self.core.player
+        player = self.context.player
         if player.history is not before:
             after.close()
             raise Error("Not compared: another recording was opened meanwhile.")
         at_ns, is_playing = player.position_ns, player.is_playing
-        answer = self.core.get(TimePart).show(after)
+        answer = self.context.get(TimePart).show(after)
         player.seek(at_ns)
         if not is_playing:
             player.pause()
-        self._remove_ghost()
-        if after.ghost is not None:
-            self._add_ghost(after)
+        self._remove_comparison()
+        if after.comparison is not None:
+            self._add_comparison(after)
             self._compared = after
         return answer
 
-    def _add_ghost(self, both: BagHistory) -> None:
-        displays, panels = self.core.get(DisplaysPart).list, self.core.get(PanelsPart).list
-        settings = self.core.get(SettingsPart)
+    def _add_comparison(self, both: BagHistory) -> None:
+        displays, panels = self.context.get(DisplaysPart).list, self.context.get(PanelsPart).list
+        settings = self.context.get(SettingsPart)
         config = Config(settings.settings, displays.items(), panels=panels.items())
         counts = len(config.displays), len(config.panels)
-        config = with_ghost(config, both)
+        config = with_comparison(config, both)
         settings.settings = config.settings
         displays.add(config.displays[counts[0] :])
         for panel in config.panels[counts[1] :]:
             panels.add(panel)
 
-    def _remove_ghost(self) -> None:
+    def _remove_comparison(self) -> None:
         self._compared = None
-        settings = self.core.get(SettingsPart)
-        alone = without_ghost(settings.settings)
+        settings = self.context.get(SettingsPart)
+        alone = without_comparison(settings.settings)
         if alone.robots == settings.settings.robots:
             return
         settings.settings = alone
-        displays, panels = self.core.get(DisplaysPart).list, self.core.get(PanelsPart).list
+        displays, panels = self.context.get(DisplaysPart).list, self.context.get(PanelsPart).list
         for entry in tuple(displays.entries):
             group = entry.content
-            if isinstance(group, DisplayGroup) and group.name == GHOST_NAME:
+            if isinstance(group, DisplayGroup) and group.name == COMPARISON_NAME:
                 displays.remove(entry.id)
         with contextlib.suppress(Error):  # somebody may have removed it
-            panels.remove(GHOST_NAME)
+            panels.remove(COMPARISON_NAME)
 
     @command(Role.OWNER, is_noted=True)
     def begin_upload(self, name: str, size: int) -> None:
@@ -300,26 +300,28 @@ class BagsFeature(PageFeature):
 
     # Called on the event loop
 
-    def _begin(self, asked: PageRequest, wanted: Any) -> None:
-        if self.core.player.live is None:
-            asked.refuse(NO_LIVE)
+    def _begin(self, page_request: PageRequest, command: Any) -> None:
+        if self.context.player.live is None:
+            page_request.refuse(NO_LIVE)
             return
-        begin = functools.partial(self._uploads.begin, asked.browser, wanted.name, wanted.size)
+        begin = functools.partial(
+            self._uploads.begin, page_request.browser, command.name, command.size
+        )
 
-        def answer(done: Future[str]) -> None:
-            if not asked.refused_by(done):
-                asked.answer(f"Uploading {wanted.name}.", token=done.result())
+        def answer(future: Future[str]) -> None:
+            if not page_request.refused_by(future):
+                page_request.answer(f"Uploading {command.name}.", token=future.result())
 
-        _start(asked, begin, answer)
+        _start(page_request, begin, answer)
 
-    def _add(self, asked: PageRequest, wanted: Any) -> None:
-        part = (asked.browser, wanted.token, wanted.offset, wanted.text)
+    def _add(self, page_request: PageRequest, command: Any) -> None:
+        part = (page_request.browser, command.token, command.offset, command.text)
 
-        def answer(done: Future[Path | None]) -> None:
-            if not asked.refused_by(done):
-                asked.answer(path=str(done.result() or ""))
+        def answer(future: Future[Path | None]) -> None:
+            if not page_request.refused_by(future):
+                page_request.answer(path=str(future.result() or ""))
 
-        _start(asked, functools.partial(self._uploads.add, *part), answer)
+        _start(page_request, functools.partial(self._uploads.add, *part), answer)
 
     def close(self) -> None:
         """Remove what was unpacked and uploaded."""
@@ -330,7 +332,7 @@ class BagsFeature(PageFeature):
     def _is_offered(self, place: Path) -> bool:
         if "\0" in str(place) or not place.is_absolute() or ".." in place.parts:
             return False
-        own = (each.path for each in self.core.outputs.all)
+        own = (each.path for each in self.context.outputs.all)
         return place.parent in self._folders or place in {*own, *self._uploads.complete}
 
     def _bag_of(self, place: Path) -> Path:
@@ -343,13 +345,13 @@ class BagsFeature(PageFeature):
 
 
 def _start(
-    asked: PageRequest, work: Callable[[], T], answer: Callable[[Future[T]], object]
+    page_request: PageRequest, work: Callable[[], T], answer: Callable[[Future[T]], object]
 ) -> None:
     """Wait for the disk in a thread."""
     try:
         _disk.start(work).add_done_callback(answer)
     except OSError as error:
-        asked.refuse(f"Not uploaded: {error.strerror}. Try again later.")
+        page_request.refuse(f"Not uploaded: {error.strerror}. Try again later.")
 
 
 def _refuse_elsewhere(place: Path) -> None:
@@ -377,7 +379,7 @@ def _listed(folders: Sequence[Path], written: Sequence[Path]) -> Sequence[Bag]:
     return bags[:MAX_LISTED]
 
 
-def _note(path: Path, found: dict[Path, Bag]) -> None:
+def _note(path: Path, bags: dict[Path, Bag]) -> None:
     """Note a file if it looks like a bag."""
     with contextlib.suppress(OSError, Error):
         if path.is_dir():
@@ -392,4 +394,4 @@ def _note(path: Path, found: dict[Path, Bag]) -> None:
         size = sum(file.stat().st_size for file in files)
         changed_s = int(path.stat().st_mtime)
         name, folder = str(sendable(path.name)), str(sendable(str(path.parent)))
-        found[path] = Bag(str(sendable(str(path))), name, folder, round(size / 1e6, 1), changed_s)
+        bags[path] = Bag(str(sendable(str(path))), name, folder, round(size / 1e6, 1), changed_s)

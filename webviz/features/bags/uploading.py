@@ -80,7 +80,7 @@ class Uploads:
                 self._discard()
             if self._total + size > MAX_TOTAL:
                 raise Error("Not uploaded: 8 GB were uploaded, which is the limit until a restart.")
-            folder = self._made()
+            folder = self._ensured_folder()
             if shutil.disk_usage(folder).free - size < RESERVE:
                 raise Error("Not uploaded: the disk of the viewer is too full. Make room first.")
             token = secrets.token_hex(8)
@@ -129,7 +129,7 @@ class Uploads:
             if self._folder is not None:
                 shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _made(self) -> Path:
+    def _ensured_folder(self) -> Path:
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="webviz-uploads-"))
         return self._folder

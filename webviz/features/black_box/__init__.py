@@ -26,7 +26,7 @@ from webviz.data.recordings.folder_writing import RecordingFolder
 from webviz.data.words import joined
 from webviz.engine.feature import Feature, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.state import Row
 from webviz.features.black_box.observation import LEVEL_TYPES, TopicObserver, WatchedMoment
@@ -83,9 +83,9 @@ class BlackBoxFeature(Feature):
     name = "Black box"
     module = "black_box.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._memory = core.player.memory
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._memory = context.player.memory
         self._heard: dict[str, float] = {}
         """Monotonic time in seconds when the first message was noticed, by display."""
         self._observer = TopicObserver()
@@ -100,14 +100,14 @@ class BlackBoxFeature(Feature):
         """Bytes of the disk."""
         self._problem = ""
         if self._memory is not None:
-            core.player.inbox.read_along(lambda: self._observer.put)
+            context.player.inbox.read_along(lambda: self._observer.put)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics of the rules, as the first type of each that can be read."""
         subscriptions: dict[str, Subscription] = {}
         for rule in self._watcher.rules:
             name = self._resolved(rule)
-            offer = self.core.offers.get(name)
+            offer = self.context.offers.get(name)
             types = [publisher.type for publisher in offer.publishers] if offer else []
             types = [each for each in types if not rule.level or each in LEVEL_TYPES]
             # A driver that crashes takes its topic along: that is what a rule is to notice.
@@ -118,7 +118,7 @@ class BlackBoxFeature(Feature):
 
     @property
     def _settings(self) -> Settings:
-        return self.core.get(SettingsPart).settings
+        return self.context.get(SettingsPart).settings
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the rules, and what is being saved."""
@@ -141,7 +141,7 @@ class BlackBoxFeature(Feature):
         }
         self._observer.observe([*types], leveled, paths)
         if self._listing is None:  # else it is not known yet how much may be saved
-            for rule in self._watcher.fired(self._observation(self.core.player.is_live)):
+            for rule in self._watcher.fired(self._observation(self.context.player.is_live)):
                 self._save(rule, memory)
         self._go_on(memory)
 
@@ -168,7 +168,7 @@ class BlackBoxFeature(Feature):
             return {"Black box": Status(Level.WARN, self._problem)}
         if self._memory is None:
             return {}
-        names = [row.name for row in self.core.get(DisplaysPart).rows]
+        names = [row.name for row in self.context.get(DisplaysPart).rows]
         for rule in self._watcher.rules:
             watched = rule.condition.subject if rule.condition else rule.display
             is_display = watched != DOCTOR and not watched.startswith("/")
@@ -203,7 +203,7 @@ class BlackBoxFeature(Feature):
     def _resolved(self, rule: WatchRule) -> str:
         try:
             topic = rule.watched_topic
-            return self.core.player.resolve(topic) if topic else ""
+            return self.context.player.resolve(topic) if topic else ""
         except ValueError:
             return ""
 
@@ -213,7 +213,7 @@ class BlackBoxFeature(Feature):
         settled = self._settled(now_s)
         for row in settled if is_live else ():  # else they are about the past
             displays[row.name] = max(displays.get(row.name, Level.OK), row.level)
-        rows = self.core.get(DisplaysPart).rows
+        rows = self.context.get(DisplaysPart).rows
         starting = {row.name for row in rows} - {row.name for row in settled}
         rates, levels = self._observer.rates(now_s), self._observer.levels(now_s)
         for rule in self._watcher.rules:
@@ -224,16 +224,16 @@ class BlackBoxFeature(Feature):
                 levels[rule.topic] = levels[name]
         hidden_skip = {
             each.rule.text: None if each.rule.subject in starting else each.holds
-            for each in (self.core.verdicts if is_live else ())
+            for each in (self.context.verdicts if is_live else ())
         }
         numbers = self._observer.numbers()
         return WatchedMoment(now_s, displays, rates, levels, numbers, hidden_skip)
 
     def _settled(self, now_s: float) -> Sequence[Row]:
         """Return the displays whose status counts, and the groups that contain some."""
-        has_frames = bool(self.core.buffer.frames())
+        has_frames = bool(self.context.buffer.frames())
         heard: dict[str, float] = {}
-        for runner in self.core.get(DisplaysPart).list.active():
+        for runner in self.context.get(DisplaysPart).list.active():
             received = has_frames if runner.has_received is None else runner.has_received
             if received or runner.id in self._heard:
                 heard[runner.id] = self._heard.get(runner.id, now_s)
@@ -241,7 +241,7 @@ class BlackBoxFeature(Feature):
         settled = {id_ for id_, at_s in heard.items() if now_s - at_s >= SETTLE_S}
         return [
             row
-            for row in self.core.get(DisplaysPart).rows
+            for row in self.context.get(DisplaysPart).rows
             if row.id in settled or (row.type == type_name(DisplayGroup) and settled)
         ]
 
@@ -257,7 +257,7 @@ class BlackBoxFeature(Feature):
         path = Path(FOLDER).absolute() / f"{now:{MOMENT}}_{cause}"
         past = _newest(memory, max_bytes)
         folder = in_thread(lambda: new_folder(path))
-        folder.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
+        folder.add_done_callback(lambda _: self.context.player.inbox.arrived.set())
         until_s = time.monotonic() + AFTER_S
         self._saving = _Saving(rule.title, until_s, past.whole, max_bytes, bound, folder)
 
@@ -294,7 +294,7 @@ class BlackBoxFeature(Feature):
         except (Error, OSError) as error:
             self._end(str(error))
             return
-        inbox = self.core.player.inbox
+        inbox = self.context.player.inbox
         if saving.recorder is None:
             inbox.read_along(lambda: self._recorder(saving, folder, memory).put)
         elif saving.closed is None and (
@@ -326,14 +326,14 @@ class BlackBoxFeature(Feature):
 
     def _list(self) -> None:
         self._listing = in_thread(listed)
-        self._listing.add_done_callback(lambda _: self.core.player.inbox.arrived.set())
+        self._listing.add_done_callback(lambda _: self.context.player.inbox.arrived.set())
 
 
-def _abandon(made: Future[RecordingFolder]) -> None:
+def _abandon(future: Future[RecordingFolder]) -> None:
     """Close a folder that was made too late."""
-    if made.exception() is None:
+    if future.exception() is None:
         with suppress(RecordingError):
-            made.result().close()
+            future.result().close()
 
 
 def _newest(memory: MemoryHistory, max_bytes: int) -> Remembered:

@@ -11,7 +11,7 @@ from webviz.api.status import Level, Status
 from webviz.data.words import joined
 from webviz.engine.feature import Feature, store
 from webviz.engine.forms import brief
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.store import PageStore
 from webviz.sources import Fleet
@@ -34,22 +34,22 @@ class BridgesFeature(Feature):
     name = "Connection"
     module = "bridges.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        live = core.player.live
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        live = context.player.live
         self._fleet = live if isinstance(live, Fleet) else None
         self._followed: object = None
 
     def keep_up(self, commanded: bool) -> None:
         """Connect to the robots of a config that was opened or edited."""
-        robots = self.core.get(SettingsPart).settings.robots
+        robots = self.context.get(SettingsPart).settings.robots
         if self._fleet is not None and robots is not self._followed:
             self._followed = robots
             self._fleet.follow(robots_of(robots))
 
     def links(self) -> tuple[Bridge, ...]:
         """Return the bridges as they are now."""
-        return tuple(self.core.player.bridges)
+        return tuple(self.context.player.bridges)
 
     def state(self) -> Mapping[str, Any]:
         """Return the bridges."""
@@ -70,7 +70,7 @@ class BridgesFeature(Feature):
 
     def statuses(self) -> Mapping[str, Status]:
         """Return one status for each bridge."""
-        bridges = self.core.player.bridges
+        bridges = self.context.player.bridges
         return {_key(bridge, bridges): status_of(bridge) for bridge in bridges}
 
 

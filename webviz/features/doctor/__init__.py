@@ -23,14 +23,14 @@ from webviz.engine.feature import Feature, store
 from webviz.engine.machine.environment import look_around, lost_so_far
 from webviz.engine.parts.display_rows import problems
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Batches, Core
+from webviz.engine.parts.part import Batches, PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.pipeline.trace import Tracer
 from webviz.features.doctor.clock import ClockWatch, SimTime
 from webviz.features.doctor.findings import FindingsStore, findings_store
 from webviz.features.doctor.observing import observe
-from webviz.features.doctor.rules import Judge, RuleNumbers
+from webviz.features.doctor.rules import RuleEvaluator, RuleNumbers
 from webviz.sources import Subscription, merged
 from webviz.sources.names import is_own
 from webviz.sources.past_state import Event
@@ -111,16 +111,16 @@ class DoctorFeature(Examiner, Feature):
     A finding counts once two rounds in a row have made it: what lasts shorter repairs itself.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
     """
 
     module = "doctor.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._displays = displays = core.get(DisplaysPart)
-        self._numbers = RuleNumbers(core)
-        self._clock = ClockWatch(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._displays = displays = context.get(DisplaysPart)
+        self._numbers = RuleNumbers(context)
+        self._clock = ClockWatch(context)
         self._checks: Sequence[Check] = ()
         self._began = -EVERY_S, -EVERY_S
         self._round: Iterator[None] | None = None
@@ -130,8 +130,8 @@ class DoctorFeature(Examiner, Feature):
         self._looking: Future[Environment] | None = None
         self._next_look_s = 0.0
         self._lost_before = lost_so_far()
-        self._judge = Judge()
-        self._sim_time = SimTime(core.gate)
+        self._evaluator = RuleEvaluator()
+        self._sim_time = SimTime(context.graph)
         self._load = LoadMeter(displays.tracer)
         self._is_confirmed = True
         """False if the last round found something above a note for the first time."""
@@ -177,14 +177,14 @@ class DoctorFeature(Examiner, Feature):
 
     @property
     def _start_ns(self) -> int | None:
-        playback = self.core.get(TimePart).playback
+        playback = self.context.get(TimePart).playback
         return playback.start_ns if playback else None
 
     @property
     def is_graph_found(self) -> bool:
         """Return whether other nodes were found, or had the time to be."""
         is_early = time.monotonic() - self.listening_since_s < DISCOVERED_S
-        return not is_early or len(self.core.gate.nodes()) > 1
+        return not is_early or len(self.context.graph.nodes()) > 1
 
     def is_settled(self) -> bool:
         """Return whether two rounds have examined all that is wrong, and agree on it."""
@@ -203,7 +203,7 @@ class DoctorFeature(Examiner, Feature):
     def review(self) -> None:
         """Continue the round, or begin another when it is time."""
         is_asked = time.monotonic() < self._asked_until_s or any(self._rules())
-        if not (self.core.is_watched() or is_asked):
+        if not (self.context.is_watched() or is_asked):
             self._round = None
             self._clock.is_wanted = False
         elif self._round is not None or self._is_due():
@@ -211,14 +211,14 @@ class DoctorFeature(Examiner, Feature):
             self._continue(self._round)
 
     def _problems(self) -> Set[Symptom]:
-        return problems(self.core.statuses, self._displays.rows).keys()
+        return problems(self.context.statuses, self._displays.rows).keys()
 
     def _environment(self) -> Environment | None:
         """Return this machine as it was some seconds ago; a thread looks at it.
 
         None with a bag or bridge, for which neither DDS nor ROS of this machine matters.
         """
-        if self.core.get(TimePart).is_recording or self.core.player.bridges:
+        if self.context.get(TimePart).is_recording or self.context.player.bridges:
             return None
         looking = self._looking
         if looking is not None and looking.done():
@@ -234,7 +234,7 @@ class DoctorFeature(Examiner, Feature):
 
     def _is_due(self) -> bool:
         """Return whether a second has passed, of a recording or, while it is paused, of waiting."""
-        now = self.core.clock(), self.core.waiting()
+        now = self.context.clock(), self.context.waiting()
         if all(0.0 <= at - before < EVERY_S for at, before in zip(now, self._began, strict=True)):
             return False
         self._began = now
@@ -249,10 +249,10 @@ class DoctorFeature(Examiner, Feature):
 
     def _examined(self) -> Iterator[None]:
         """Run all checks on what is seen now, with a pause after each."""
-        core = self.core
+        context = self.context
         wrong = self._problems()
         load, cores = self._load.measure()
-        observation = observe(core, self._displays, self._environment(), load, cores)
+        observation = observe(context, self._displays, self._environment(), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
         observation = replace(
             observation, findings=others, numbers=self._numbers.numbers(), clock=self._clock.seen()
@@ -265,12 +265,12 @@ class DoctorFeature(Examiner, Feature):
         if self._clock.is_wanted and not (observation.is_recorded or observation.bridges):
             nodes = (node for node in observation.stalled_nodes() if not is_own(node))
             observation = replace(observation, sim_time=self._sim_time.ask(nodes))
-        core.verdicts = self.verdicts = self._judge.judge(self._rules(), observation)
+        context.verdicts = self.verdicts = self._evaluator.evaluate(self._rules(), observation)
         observation = replace(observation, verdicts=self.verdicts)
         findings: list[Finding] = []
-        playback = core.get(TimePart).playback
+        playback = context.get(TimePart).playback
         for check in self._current():
-            findings += core.guard.attempt(
+            findings += context.boundary.attempt(
                 f"Check {check.id}", [], lambda c=check: list(c.find(observation))
             )
             yield
@@ -303,7 +303,7 @@ class DoctorFeature(Examiner, Feature):
         yield from self._rules_of_config()
 
     def _rules_of_config(self) -> Iterator[Rule]:
-        watched = self.core.get(SettingsPart).settings.watch
+        watched = self.context.get(SettingsPart).settings.watch
         yield from (rule.condition for rule in watched if rule.condition)
 
     def _current(self) -> Sequence[Check]:

@@ -11,8 +11,8 @@ from typing import Any
 from webviz.api.declared import Topic
 from webviz.api.observation import NO_OFFER, ClockSeen
 from webviz.data.messages import MessageError, decode, encode, interfaces
-from webviz.engine.parts.part import Batches, Core
-from webviz.sources import Gate, Subscriber, Subscription
+from webviz.engine.parts.part import Batches, PartContext
+from webviz.sources import RestrictedGraph, Subscriber, Subscription
 
 CLOCK, TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -26,11 +26,11 @@ class ClockWatch:
     It keeps the newest joint states, too, of which a robot by its transforms reads none.
 
     Args:
-        core: shared by all parts.
+        context: shared by all parts.
     """
 
-    def __init__(self, core: Core) -> None:
-        self._core = core
+    def __init__(self, context: PartContext) -> None:
+        self._context = context
         self.is_wanted = False
         """True to subscribe; a simulator may send a thousand messages per second."""
         self._subscriber = Subscriber()
@@ -54,20 +54,20 @@ class ClockWatch:
     def _joint_topics(self) -> dict[str, Subscription]:
         topics = [
             topic
-            for topic, offer in self._core.offers.items()
+            for topic, offer in self._context.offers.items()
             if any(each.type == JOINT_STATE for each in offer.publishers)
         ]
         return {topic: Subscription(JOINT_STATE, Topic(topic)) for topic in topics[:MAX_TOPICS]}
 
     def _has_clock(self) -> bool:
         """Return whether /clock is published, and note when webviz subscribed to it."""
-        offer = self._core.offers.get(CLOCK, NO_OFFER)
+        offer = self._context.offers.get(CLOCK, NO_OFFER)
         is_published = any(each.type == TYPE for each in offer.publishers)
         if not is_published or offer.is_recorded:
             self._began_s = self._time_ns = None
             return False
         if self._began_s is None and offer.requested is not None:
-            self._began_s = self._moved_s = self._core.clock()
+            self._began_s = self._moved_s = self._context.clock()
         return True
 
     def take(self, batches: Batches) -> None:
@@ -85,13 +85,13 @@ class ClockWatch:
                 continue
             time_ns = clock.sec * 1_000_000_000 + clock.nanosec
             if time_ns != self._time_ns:
-                self._time_ns, self._moved_s = time_ns, self._core.clock()
+                self._time_ns, self._moved_s = time_ns, self._context.clock()
 
     def seen(self) -> ClockSeen | None:
         """Return what is known of /clock, None while it is not looked at."""
         if self._began_s is None:
             return None
-        return ClockSeen(self._time_ns, self._core.clock() - self._moved_s)
+        return ClockSeen(self._time_ns, self._context.clock() - self._moved_s)
 
 
 SERVICE = "rcl_interfaces/srv/GetParameters"
@@ -109,27 +109,27 @@ class SimTime:
     """Asks nodes whether they follow simulated time.
 
     Args:
-        gate: to the nodes.
+        graph: with the nodes.
     """
 
-    def __init__(self, gate: Gate) -> None:
-        self._gate = gate
-        self._asked: dict[str, tuple[float, Future[bytes]]] = {}
+    def __init__(self, graph: RestrictedGraph) -> None:
+        self._graph = graph
+        self._requests: dict[str, tuple[float, Future[bytes]]] = {}
         """Answers by node, with the monotonic time in seconds."""
 
     def ask(self, nodes: Iterable[str]) -> Mapping[str, bool]:
         """Ask nodes by their full names; return what those that have answered follow."""
         names = [*dict.fromkeys(nodes)][:MOST]
         now = time.monotonic()
-        before, self._asked = self._asked, {}
+        before, self._requests = self._requests, {}
         for node in names:
             at_s, answer = before.get(node, (-AGAIN_S, Future[bytes]()))
             if now - at_s >= AGAIN_S:
                 request = encode(interfaces.service(SERVICE).request, {"names": [PARAMETER]})
                 at_s = now
-                answer = self._gate.query(f"{node}/get_parameters", SERVICE, request, PATIENCE_S)
-            self._asked[node] = at_s, answer
-        read = {node: _read(answer) for node, (_, answer) in self._asked.items()}
+                answer = self._graph.query(f"{node}/get_parameters", SERVICE, request, PATIENCE_S)
+            self._requests[node] = at_s, answer
+        read = {node: _read(answer) for node, (_, answer) in self._requests.items()}
         return {node: follows for node, follows in read.items() if follows is not None}
 
 

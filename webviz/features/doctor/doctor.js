@@ -27,7 +27,7 @@ import { causes } from "webviz/features/doctor/causes.js";
 /** @import {Panel} from "webviz/types.js" */
 
 const WELL = "All is well: no check found a problem.";
-const WELL_IN_TRIAL = "No check finds a problem in this trial.";
+const WELL_IN_TRIAL = "No check found a problem with the trial pose.";
 const EXAMINING = "The doctor examines the viewer.";
 const LISTED = 3; // displays that a finding names at once
 
@@ -35,7 +35,7 @@ const findings = store("findings");
 /** The findings of the last round; read in effects. */
 const all = () => findings.get("all") ?? [];
 /** The key of the finding that a link leads to, once; "" for none. */
-const wanted = signal("");
+const target = signal("");
 
 /** @type {Panel} */
 const doctor = {
@@ -79,12 +79,14 @@ const doctor = {
       ),
     );
     effect(() => {
-      const key = wanted.value;
+      const key = target.value;
       if (!all().length || !key) return;
-      wanted.value = "";
+      target.value = "";
       if (notes.value.some((one) => keyOf(one) === key)) isUnfolded.value = true;
-      const made = /** @type {NodeListOf<HTMLElement>} */ (element.querySelectorAll(".wv-finding"));
-      [...made].find((one) => one.dataset.finding === key)?.focus();
+      const items = /** @type {NodeListOf<HTMLElement>} */ (
+        element.querySelectorAll(".wv-finding")
+      );
+      [...items].find((one) => one.dataset.finding === key)?.focus();
     });
     return () => {
       for (const { close } of sections) close?.();
@@ -99,7 +101,7 @@ export function install() {
   explainStatuses({
     all,
     open(key) {
-      wanted.value = key;
+      target.value = key;
       open();
     },
   });
@@ -109,15 +111,15 @@ export function install() {
 
 /**
  * @param {string} label
- * @param {() => ShownFinding[]} shown
+ * @param {() => ShownFinding[]} items
  */
-const listOf = (label, shown) =>
+const listOf = (label, items) =>
   el(
     "ol",
     { class: "wv-findings", "aria-label": label },
-    each(shown, keyOf, (finding, key) =>
+    each(items, keyOf, (finding, key) =>
       card(finding, key, () => {
-        const [first, second] = shown();
+        const [first, second] = items();
         return isSevere(first) && second !== undefined && keyOf(first) === key;
       }),
     ),

@@ -15,7 +15,7 @@ from webviz.api.observation import DisplaySeen, Observation
 from webviz.api.views import FIXED_FRAME, Camera, camera_of, rig_of
 from webviz.engine.parts.display_rows import is_group
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.time import TimePart
 
 POINTS = 10_000
@@ -23,7 +23,7 @@ POINTS = 10_000
 
 
 def observe(
-    core: Core,
+    context: PartContext,
     displays: DisplaysPart,
     environment: Environment | None = None,
     load: float = 0.0,
@@ -32,7 +32,7 @@ def observe(
     """Observe the viewer at this turn.
 
     Args:
-        core: has transforms, topics and time.
+        context: has transforms, topics and time.
         displays: have the messages.
         environment: of this machine, None if unknown.
         load: share of a processor that the frame loop takes.
@@ -49,31 +49,31 @@ def observe(
             inputs=runners[row.id].observed(),
             fit=consistency.fits.get(row.id),
             blocked=consistency.blocked.get(row.id, 0),
-            find_box=partial(core.scene.bounds, f"{row.id}/", POINTS),
-            wanted_points=displays.points.wanted(row.id),
+            find_box=partial(context.scene.bounds, f"{row.id}/", POINTS),
+            wanted_points=displays.points.demand(row.id),
             core=cores.get(row.id, 0.0),
             order=order,
         )
         for order, row in enumerate(displays.rows)
         if row.id in runners and isinstance(row.display, Display) and not is_group(row)
     ]
-    times = core.get(TimePart).times
-    browsers = core.guard.attempt("Scene", (), core.scene.browsers.seen)
-    cameras = {each.id: camera for each in browsers if (camera := _camera(each, core.frames))}
+    times = context.get(TimePart).times
+    browsers = context.boundary.attempt("Scene", (), context.scene.browsers.seen)
+    cameras = {each.id: camera for each in browsers if (camera := _camera(each, context.frames))}
     return Observation(
-        now_ns=core.frames.now_ns,
-        fixed_frame=core.frames.fixed_frame,
-        buffer=core.buffer,
+        now_ns=context.frames.now_ns,
+        fixed_frame=context.frames.fixed_frame,
+        buffer=context.buffer,
         displays=displays_seen,
-        statuses=core.statuses,
-        offers=core.offers,
-        nodes=core.gate.nodes(),
+        statuses=context.statuses,
+        offers=context.offers,
+        nodes=context.graph.nodes(),
         is_simulated=times.is_simulated,
         clock_hz=times.clock_hz,
         is_paused=times.is_paused,
-        is_recorded=core.get(TimePart).is_recording,
+        is_recorded=context.get(TimePart).is_recording,
         environment=environment,
-        bridges=core.player.bridges,
+        bridges=context.player.bridges,
         browsers=browsers,
         cameras=cameras,
         load=load if browsers else 0.0,

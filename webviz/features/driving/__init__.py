@@ -16,7 +16,7 @@ from webviz.engine.driving import DrivingAnswer
 from webviz.engine.feature import store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.advertisements import advertisement_of
-from webviz.engine.parts.part import Batches, Core
+from webviz.engine.parts.part import Batches, PartContext
 from webviz.engine.store import PageStore
 from webviz.features.driving.messages import DrivingMessages
 from webviz.page.dispatcher import Dispatcher, PageFeature
@@ -64,8 +64,8 @@ class DrivingFeature(PageFeature):
     name = "Driving"
     module = "teleop.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._newest: dict[str, tuple[Raw, float]] = {}
         self._subscriber = Subscriber()
 
@@ -73,18 +73,20 @@ class DrivingFeature(PageFeature):
         """Take the heartbeats of pages that drive."""
         DrivingMessages(dispatcher.channel, self.steer, dispatcher.note)
 
-    def steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
+    def steer(
+        self, tool: str, browser: int, share: Velocity, heartbeat: float | None
+    ) -> DrivingAnswer:
         """Take a set-point of a page, from any thread; see `VelocityControllers.steer`."""
-        return self.core.controllers.steer(tool, browser, share, seen)
+        return self.context.controllers.steer(tool, browser, share, heartbeat)
 
     def keep_up(self, commanded: bool) -> None:
         """Have a controller for each vehicle."""
         vehicles: dict[str, tuple[Vehicle, Advertisement]] = {}
         for id, vehicle in self._vehicles().items():
-            advertisement = advertisement_of(self.core, vehicle.type, vehicle.topic, DEPTH)
+            advertisement = advertisement_of(self.context, vehicle.type, vehicle.topic, DEPTH)
             if advertisement:
                 vehicles[id] = vehicle, advertisement
-        self.core.controllers.equip(vehicles)
+        self.context.controllers.equip(vehicles)
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the odometry of attended vehicles; none while nobody drives."""
@@ -99,7 +101,7 @@ class DrivingFeature(PageFeature):
         self._newest = {name: each for name, each in self._newest.items() if name in names}
         for name in names & batches.keys():
             for raw in batches[name]:
-                self._newest[name] = raw, self.core.clock()
+                self._newest[name] = raw, self.context.clock()
 
     def reset(self) -> None:
         """Forget what was received."""
@@ -108,7 +110,7 @@ class DrivingFeature(PageFeature):
 
     def is_attended(self) -> bool:
         """Return whether a browser attends to a vehicle."""
-        return bool(self.core.controllers.attended())
+        return bool(self.context.controllers.attended())
 
     def state(self) -> Mapping[str, Any]:
         """Return the state of attended vehicles."""
@@ -124,7 +126,7 @@ class DrivingFeature(PageFeature):
 
     def vehicles(self) -> dict[str, Driving]:
         """Return the vehicles that browsers attend to, by id of their tools."""
-        controllers, topics = self.core.controllers, self._topics()
+        controllers, topics = self.context.controllers, self._topics()
         drivers = controllers.drivers()
         return {
             tool: self._driving(drivers.get(tool), *topics[tool])
@@ -133,26 +135,26 @@ class DrivingFeature(PageFeature):
 
     def _vehicles(self) -> dict[str, Vehicle]:
         """Return the vehicle of each tool that has one, by its id."""
-        vehicles = {id: tool.vehicle for id, tool in self.core.tools.usable().items()}
+        vehicles = {id: tool.vehicle for id, tool in self.context.tools.usable().items()}
         return {id: vehicle for id, vehicle in vehicles.items() if vehicle}
 
     def _topics(self) -> dict[str, tuple[str, Topic]]:
         """Full name and QoS of the odometry of attended vehicles, by tool."""
-        attended = self.core.controllers.attended()
+        attended = self.context.controllers.attended()
         topics = {}
         for tool, vehicle in self._vehicles().items() if attended else ():
             topic = vehicle.odometry
             if tool in attended and topic.name:
                 try:
-                    topics[tool] = self.core.player.resolve(topic.name), topic
+                    topics[tool] = self.context.player.resolve(topic.name), topic
                 except ValueError:
                     continue
         return topics
 
     def _driving(self, driver: int | None, name: str, topic: Topic) -> Driving:
         raw, at = self._newest.get(name, (None, -math.inf))
-        if raw is None or self.core.clock() - at > FRESH_S:
-            offer = self.core.offers.get(name)
+        if raw is None or self.context.clock() - at > FRESH_S:
+            offer = self.context.offers.get(name)
             if offer is None or not offer.publishers:
                 return Driving(driver, problem=f"No publisher on {name}. {REMEDY}")
             return Driving(driver, problem=f"No message on {name}. {REMEDY}")

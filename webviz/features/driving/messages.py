@@ -58,8 +58,8 @@ class DrivingMessages:
         now = self._clock()
         velocity = Velocity(drive.linear, drive.lateral, drive.angular)
         fresh = (at for at, beat in self._beats if beat == drive.beat and now - at < FRESH_S)
-        seen = next(fresh, None)
-        answer = self._steer(drive.tool, browser, velocity, seen)
+        heartbeat = next(fresh, None)
+        answer = self._steer(drive.tool, browser, velocity, heartbeat)
         if answer.driver is None:
             self._drivers.pop(drive.tool, None)
         elif answer.driver == browser and self._drivers.get(drive.tool) != browser:
@@ -68,5 +68,5 @@ class DrivingMessages:
         if not self._beats or now - self._beats[-1][0] >= BEAT_S:
             self._beats.append((now, 1 + secrets.randbits(52)))
         beat = self._beats[-1][1]
-        problem = answer.problem or (SLOW if drive.beat and seen is None else "")
+        problem = answer.problem or (SLOW if drive.beat and heartbeat is None else "")
         self._channel.send(DrivingReport(drive.tool, beat, answer.driver, problem), browser)

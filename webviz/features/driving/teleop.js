@@ -17,12 +17,12 @@ import * as keys from "webviz/features/driving/teleop_keys.js";
 
 /** @import {DrivingReport} from "webviz/messages.js" */
 /** @import {Shares} from "webviz/features/driving/teleop_keys.js" */
-/** @import {Made, ViewerTool} from "webviz/types.js" */
+/** @import {GestureParts, ViewerTool} from "webviz/types.js" */
 
 /**
  * @typedef {{
  *   id: string, card: ReturnType<typeof makeCard>, gamepad: ReturnType<typeof makeGamepad>,
- *   beat: number, beats: number, sent: number, heard: number, held: Shares, driver: number | null,
+ *   beat: number, beats: number, sentAt: number, heardAt: number, input: Shares, driver: number | null,
  *   end: () => void,
  * }} Driven
  */
@@ -44,7 +44,7 @@ const isHere = signal(true);
  * The gesture of a tool that drives.
  *
  * @param {ViewerTool} tool
- * @returns {Made & {icon: string}}
+ * @returns {GestureParts & {icon: string}}
  */
 const tool = ({ icon, gesture }) => ({
   icon: icon === gesture ? "wheel" : icon,
@@ -76,7 +76,7 @@ export function install() {
   document.addEventListener("focusin", (event) => {
     if (isTyping(event) || /** @type {Element} */ (event.target).closest("dialog")) release();
   });
-  channel.on("DrivingReport", hear);
+  channel.on("DrivingReport", readReport);
   channel.onOpen(() => {
     if (open.value) open.value.beat = 0;
     release();
@@ -109,9 +109,9 @@ function begin(id) {
       gamepad: makeGamepad(),
       beat: 0,
       beats: 0,
-      sent: 0,
-      heard: performance.now(),
-      held: STILL,
+      sentAt: 0,
+      heardAt: performance.now(),
+      input: STILL,
       driver: null,
     };
     card.focus();
@@ -143,9 +143,10 @@ function tick() {
   const driven = open.value;
   if (!driven) return;
   driven.beats += 1;
-  const isHeld = driven.held !== STILL;
-  if (isHeld ? performance.now() - driven.sent >= GAP_MS : driven.beats % IDLE_BEATS === 0) send();
-  const isLate = isHeld && performance.now() - driven.heard > SILENCE_MS;
+  const isHeld = driven.input !== STILL;
+  if (isHeld ? performance.now() - driven.sentAt >= GAP_MS : driven.beats % IDLE_BEATS === 0)
+    send();
+  const isLate = isHeld && performance.now() - driven.heardAt > SILENCE_MS;
   if (isLate) driven.card.showNote("The connection to webviz is too slow to drive.", true);
 }
 
@@ -156,30 +157,30 @@ function update() {
   const sticks = isHere.value ? driven.gamepad.share() : STILL;
   const shares = [keys.share(), driven.card.share(), sticks];
   const sums = shares.reduce(added);
-  const held = sums.map((part) => Math.max(-1, Math.min(1, part)));
-  const isStill = held.every((part) => part === 0);
-  const { held: before } = driven;
-  const isSame = held.every((part, axis) => part === before[axis]);
-  driven.held = isStill ? STILL : held;
-  driven.card.showHeld(held);
+  const input = sums.map((part) => Math.max(-1, Math.min(1, part)));
+  const isStill = input.every((part) => part === 0);
+  const { input: before } = driven;
+  const isSame = input.every((part, axis) => part === before[axis]);
+  driven.input = isStill ? STILL : input;
+  driven.card.showHeld(input);
   // Moves of a finger may wait for the next heartbeat; letting go may not.
-  if (!isSame && (isStill || performance.now() - driven.sent >= GAP_MS)) send();
+  if (!isSame && (isStill || performance.now() - driven.sentAt >= GAP_MS)) send();
 }
 
 function send() {
   const driven = open.value;
   if (!driven || !channel.isOpen() || document.hidden) return;
-  const { id, beat, held } = driven;
-  const [linear, lateral, angular] = held;
-  driven.sent = performance.now();
+  const { id, beat, input } = driven;
+  const [linear, lateral, angular] = input;
+  driven.sentAt = performance.now();
   channel.send({ type: "Drive", tool: id, beat, linear, lateral, angular });
 }
 
 /** @param {DrivingReport} report */
-function hear({ tool: id, beat, driver, problem }) {
+function readReport({ tool: id, beat, driver, problem }) {
   const driven = open.value;
   if (id !== driven?.id) return;
-  driven.heard = performance.now();
+  driven.heardAt = performance.now();
   Object.assign(driven, { beat, driver });
   const isOthers = driver !== null && driver !== window.webviz.browser;
   const others = `Browser ${driver} is driving. You can drive once it has let go for a second.`;

@@ -58,8 +58,8 @@ export function makeCard(id, change) {
     },
     /** The held direction, as `share` of teleop_keys.js. */
     share: () => parts.map((part) => /** @type {Shares} */ (part.share())).reduce(added),
-    /** @param {Shares} held */
-    showHeld: (held) => stick.show(held),
+    /** @param {Shares} shares */
+    showHeld: (shares) => stick.show(shares),
     /**
      * @param {string} text
      * @param {boolean} [isRefused]

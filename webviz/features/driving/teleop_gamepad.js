@@ -11,9 +11,9 @@ export function makeGamepad() {
     disarm: () => void (isArmed = false),
     /** The held sticks, as `share` of teleop_keys.js. */
     share() {
-      const held = sticks();
-      isArmed ||= held.every((part) => part === 0);
-      return isArmed ? held : [0, 0, 0];
+      const shares = sticks();
+      isArmed ||= shares.every((part) => part === 0);
+      return isArmed ? shares : [0, 0, 0];
     },
   };
 }

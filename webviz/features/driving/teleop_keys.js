@@ -22,7 +22,7 @@ const KEYS = {
 };
 
 /** @type {Set<string>} */
-const held = new Set();
+const codes = new Set();
 
 /**
  * Hold a key from now on, true if it is for driving. Q and E go sideways, if the robot can.
@@ -36,7 +36,7 @@ export function press(event, canGoSideways) {
     release(); // some hide that a key is let go
   else if (axis !== undefined) {
     // A key that cannot drive is taken as well, else viser's camera would walk.
-    if (!event.repeat && (axis !== LATERAL || canGoSideways)) held.add(event.code);
+    if (!event.repeat && (axis !== LATERAL || canGoSideways)) codes.add(event.code);
     return true;
   }
   return false;
@@ -47,15 +47,15 @@ export function press(event, canGoSideways) {
  *
  * @param {KeyboardEvent} event
  */
-export const lift = ({ code }) => held.delete(code);
+export const lift = ({ code }) => codes.delete(code);
 
 /** All keys are let go. */
-export const release = () => held.clear();
+export const release = () => codes.clear();
 
 /** The held keys as shares of the highest speeds ahead, to the left and counter-clockwise. */
 export function share() {
   const axes = [0, 0, 0];
-  for (const code of held) {
+  for (const code of codes) {
     const [axis, way] = KEYS[code];
     axes[axis] = Math.max(-1, Math.min(1, axes[axis] + way));
   }

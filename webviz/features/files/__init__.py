@@ -19,7 +19,7 @@ from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.requests import Job
 from webviz.engine.state import ConfigFile
 from webviz.files import config as config_file
@@ -38,9 +38,9 @@ class FilesFeature(Feature):
     name = "Files"
     module = "files.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._config = core.get(ConfigPart)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._config = context.get(ConfigPart)
         path = self._config.path
         self._folder = path.absolute().parent if path else Path.cwd()
         self._others: tuple[str, ...] = ()
@@ -176,7 +176,7 @@ class FilesFeature(Feature):
     @command(Role.WATCHER, FileCommand)
     def write_displays(self, displays: tuple[str, ...]) -> Job[str]:
         """Answer with the text that a config file has of displays, and of all that is in groups."""
-        items = self.core.get(DisplaysPart).list.written(displays)
+        items = self.context.get(DisplaysPart).list.written(displays)
         return Job(lambda: config_file.dump_displays(items), lambda text: text)
 
 

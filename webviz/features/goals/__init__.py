@@ -15,7 +15,7 @@ from webviz.api.status import Level, Status
 from webviz.engine.commands import ignore
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import brief
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.status_lines import LevelName, level_name
 from webviz.engine.store import PageStore
 from webviz.features.goals.running import GoalProgress, RunningGoal
@@ -84,10 +84,10 @@ class GoalsFeature(Feature):
     name = "Goals"
     module = "goals.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._goals: dict[str, RunningGoal] = {}
-        self._made = 0
+        self._count = 0
 
     def send(
         self,
@@ -110,7 +110,7 @@ class GoalsFeature(Feature):
             Error: too many goals are active, or the name of the action is invalid.
         """
         try:
-            action = self.core.player.resolve(request.action)
+            action = self.context.player.resolve(request.action)
         except ValueError as error:
             raise Error(f"{error}. Choose another action.") from error
         active = [goal for goal in self._goals.values() if goal.is_active]
@@ -120,12 +120,12 @@ class GoalsFeature(Feature):
         for goal in before:
             if goal.action != action:
                 goal.cancel()
-        self._made += 1
-        frame = self.core.frames.fixed_frame
-        progress = GoalProgress(f"goal{self._made}", title, request.label, frame, request.poses)
+        self._count += 1
+        frame = self.context.frames.fixed_frame
+        progress = GoalProgress(f"goal{self._count}", title, request.label, frame, request.poses)
 
         def send(hear: Callable[[bytes], object]) -> Goal:
-            return self.core.gate.send_goal(action, request.type, request.goal, hear)
+            return self.context.graph.send_goal(action, request.type, request.goal, hear)
 
         self._goals = {
             id: goal for id, goal in self._goals.items() if goal.is_active or goal.tool != tool
@@ -151,7 +151,7 @@ class GoalsFeature(Feature):
     @store()
     def goals(self, argument: str) -> GoalsStore:
         """Return the goals by id."""
-        return GoalsStore({goal.id: _shown(goal) for goal in self.progress()})
+        return GoalsStore({goal.id: _row(goal) for goal in self.progress()})
 
     @store()
     def routes(self, argument: str) -> RoutesStore:
@@ -166,21 +166,21 @@ class GoalsFeature(Feature):
 
     def progress(self) -> tuple[GoalProgress, ...]:
         """Return the goals that are to be shown, oldest first."""
-        goals, now = self._goals.values(), self.core.clock()
+        goals, now = self._goals.values(), self.context.clock()
         # Those that may have ended because of a new one, which is not accepted yet.
         old = {old for goal in goals for old in goal.before if goal.is_active and not old.is_active}
         visible = [goal for goal in goals if not goal.is_replaced and goal not in old]
         return tuple(goal.progress(now) for goal in visible)
 
     def _turn(self, goal: RunningGoal) -> None:
-        self.core.guard(goal.shown.title, goal.turn, self.core.clock())
+        self.context.boundary(goal.shown.title, goal.turn, self.context.clock())
 
     def _is_worth_keeping(self, goal: RunningGoal) -> bool:
         if goal.outcome is None:
             return True
         if goal.is_replaced or not goal.is_accepted:  # of which its sender knows why
             return False
-        age = self.core.clock() - goal.ended_s
+        age = self.context.clock() - goal.ended_s
         return goal.outcome.level is not Level.OK or age < SHOWN_S
 
     def _find(self, id: str) -> RunningGoal:
@@ -211,7 +211,7 @@ class GoalsFeature(Feature):
     @command(Role.OPERATOR)
     def dismiss_goal(self, goal: str) -> None:
         """Stop showing a goal that has ended."""
-        running, now = self._find(goal), self.core.clock()
+        running, now = self._find(goal), self.context.clock()
         if running.is_stuck(now):
             running.give_up(now)
         if running.is_active:
@@ -219,7 +219,7 @@ class GoalsFeature(Feature):
         del self._goals[goal]
 
 
-def _shown(goal: GoalProgress) -> ShownGoal:
+def _row(goal: GoalProgress) -> ShownGoal:
     status = goal.status
     values = itertools.islice(goal.values.items(), MAX_VALUES)
     return ShownGoal(

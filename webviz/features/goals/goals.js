@@ -4,7 +4,7 @@ import { needs } from "webviz/access.js";
 import { act } from "webviz/act.js";
 import { el } from "webviz/dom.js";
 import { icon, iconButton, textButton } from "webviz/icons.js";
-import { cards as places } from "webviz/shell/tools.js";
+import { cards as places } from "webviz/shell/tool_buttons.js";
 import { computed, each, effect } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 import { makePoses } from "webviz/tools/poses.js";
@@ -31,10 +31,10 @@ function showRoutes() {
   const show = makePoses("routes");
   const frame = computed(() => store("settings").get("fixed_frame"));
   effect(() => {
-    const shown = [...store("routes").all().values()].filter(
+    const routes = [...store("routes").all().values()].filter(
       (route) => route.frame === frame.value,
     );
-    show(shown.flatMap(posesOf));
+    show(routes.flatMap(posesOf));
   });
 }
 

@@ -60,7 +60,7 @@ class RunningGoal:
     Args:
         tool: id of the tool that sends it.
         action: full name.
-        shown: what pages show of it, before it is sent.
+        progress: what pages show of it, before it is sent.
         request: of the tool.
         send: sends it; gets what to call with feedback.
         before: goals of the same tool that it replaces.
@@ -72,7 +72,7 @@ class RunningGoal:
         self,
         tool: str,
         action: str,
-        shown: GoalProgress,
+        progress: GoalProgress,
         request: GoalRequest,
         send: Callable[[Callable[[bytes], object]], Goal],
         before: Sequence[RunningGoal],
@@ -81,7 +81,7 @@ class RunningGoal:
     ) -> None:
         self.tool = tool
         self.action = action
-        self.shown = shown
+        self.shown = progress
         self.before = tuple(before)
         self.is_accepted = False
         self.outcome: Status | None = None
@@ -90,7 +90,7 @@ class RunningGoal:
         self._send = send
         self._report = report
         self._ended = ended
-        self._sent: Goal | None = None
+        self._goal: Goal | None = None
         self._newest: bytes | None = None
         self._values: Mapping[str, str] = {}
         self._heard_s: float | None = None
@@ -134,22 +134,22 @@ class RunningGoal:
         """
         if not self.is_active:
             return
-        if self._sent is None:
+        if self._goal is None:
             self._begin(now)
             return
-        if not self.is_accepted and self._sent.accepted.done():
-            self._take_answer(self._sent.accepted, now)
+        if not self.is_accepted and self._goal.accepted.done():
+            self._take_answer(self._goal.accepted, now)
         if self._newest is not None:
             self._read(now)
-        if self.is_active and self.is_accepted and self._sent.result.done():
-            self._finish(self._sent.result, now)
+        if self.is_active and self.is_accepted and self._goal.result.done():
+            self._finish(self._goal.result, now)
         if self._replaced_s is not None and now > self._replaced_s + SILENCE_S:
             if self._asked_s is None:
                 self.cancel()  # the server does not preempt it
             elif self.is_stuck(now):
                 self.give_up(now)
         if self.is_active and self.is_accepted:
-            self._follow_cancel(self._sent, now)
+            self._follow_cancel(self._goal, now)
 
     def progress(self, now: float) -> GoalProgress:
         """Return the progress pages show."""
@@ -158,7 +158,7 @@ class RunningGoal:
             return replace(progress, phase="ended", status=self.outcome, values={})
         if not self.is_accepted:
             what = f"Waiting for {self.action}."
-            if any(goal.is_active for goal in self.before) and self._sent is None:
+            if any(goal.is_active for goal in self.before) and self._goal is None:
                 what = "Waiting for the previous goal to end."
             return replace(progress, phase="sending", status=Status(Level.OK, what))
         phase = "canceling" if self._is_canceling else "active"
@@ -181,7 +181,7 @@ class RunningGoal:
         if self._is_canceling:
             self._end(Status(Level.OK, "Cancelled."), now)
         elif not any(goal.is_active and goal.action != self.action for goal in self.before):
-            self._sent = self._send(self._hear)
+            self._goal = self._send(self._hear)
 
     def _hear(self, cdr: bytes) -> None:
         """Keep the newest feedback; called from another thread, up to 1000 times per second."""
@@ -211,12 +211,12 @@ class RunningGoal:
             self._report(outcome)
             self._end(outcome, now)
 
-    def _follow_cancel(self, sent: Goal, now: float) -> None:
+    def _follow_cancel(self, goal: Goal, now: float) -> None:
         if self._give_up_s is not None and now > self._give_up_s:
             text = f"{self.action} no longer knows this goal. Send it again."
             self._end(Status(Level.WARN, text), now)
         elif self._is_canceling and (self._canceled is None or self._is_late(now)):
-            self._canceled, self._canceled_s = sent.cancel(), None
+            self._canceled, self._canceled_s = goal.cancel(), None
             self._asked_s = now if self._asked_s is None else self._asked_s
         elif self._canceled is not None and self._canceled.done() and self._canceled_s is None:
             self._canceled_s = now
@@ -272,8 +272,8 @@ class RunningGoal:
         self.outcome, self.ended_s, self.before = outcome, now, ()
         if self.is_accepted and not self.is_replaced:
             self._ended(outcome)
-        if self._sent is not None:
-            self._sent.result.cancel()  # wait for it no longer
+        if self._goal is not None:
+            self._goal.result.cancel()  # wait for it no longer
 
 
 def _unreadable(what: str, error: Exception) -> str:

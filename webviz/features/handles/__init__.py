@@ -20,7 +20,7 @@ from webviz.engine.commands import Sender
 from webviz.engine.feature import command, store
 from webviz.engine.forms import brief
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.dragging import reference_group
 from webviz.engine.store import PageStore
@@ -37,12 +37,12 @@ class _Hand(msgspec.Struct):
     """Drag of one browser.
 
     Args:
-        sent: the last move, until the frame loop has taken it up.
+        answer: the last move, until the frame loop has taken it up.
         next: the newest move since.
         heard_s: when it did something.
     """
 
-    sent: Future[str] | None = None
+    answer: Future[str] | None = None
     next: tuple[PageRequest, Any] | None = None
     heard_s: float = 0.0
 
@@ -65,31 +65,31 @@ class DragMessages:
         self._clock = clock
         self._hands: dict[int, _Hand] = {}
 
-    def drag(self, asked: PageRequest, command: Any) -> None:
+    def drag(self, page_request: PageRequest, command: Any) -> None:
         """Pass a drag on, at once unless a move before it still waits for the frame loop."""
         now = self._clock()
         hands = self._hands.items()
         self._hands = {id: hand for id, hand in hands if now - hand.heard_s < FORGOTTEN_S}
-        hand = self._hands.setdefault(asked.browser, _Hand())
+        hand = self._hands.setdefault(page_request.browser, _Hand())
         hand.heard_s = now
         if command.drag.kind == "move":
-            hand.next = asked, command
-            if hand.sent is None or hand.sent.done():
+            hand.next = page_request, command
+            if hand.answer is None or hand.answer.done():
                 self._move(hand)
             return
         if hand.next is not None:
             self._move(hand)
-        self._send(asked, command)
+        self._send(page_request, command)
 
     def _move(self, hand: _Hand) -> None:
         """Pass on the newest move."""
         move, hand.next = hand.next, None
         if move is not None:
-            hand.sent = self._send(*move)
+            hand.answer = self._send(*move)
 
-    def _send(self, asked: PageRequest, command: Any) -> Future[str]:
-        result = self._enqueue(command, asked.sender)
-        result.add_done_callback(asked.refused_by)
+    def _send(self, page_request: PageRequest, command: Any) -> Future[str]:
+        result = self._enqueue(command, page_request.sender)
+        result.add_done_callback(page_request.refused_by)
         return result
 
 
@@ -173,13 +173,13 @@ class HandlesFeature(PageFeature):
     name = "Handles"
     module = "handles.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._holds: dict[tuple[str, str], _Hold] = {}
-        self._found: Mapping[tuple[str, str], tuple[Handle, int | None]] = {}
+        self._handles_by_node: Mapping[tuple[str, str], tuple[Handle, int | None]] = {}
         self._found_of: object = None
         """Inputs of these."""
-        self._shown: tuple[object, HandlesStore] | None = None
+        self._store: tuple[object, HandlesStore] | None = None
         """Source of the store, and the store."""
 
     def attach(self, dispatcher: Dispatcher) -> None:
@@ -192,10 +192,10 @@ class HandlesFeature(PageFeature):
             runner = self._runner(display)
             if runner is None or key not in runner.handles():
                 del self._holds[display, key]
-            elif self.core.clock() - hold.heard_s > SILENCE_S:
+            elif self.context.clock() - hold.heard_s > SILENCE_S:
                 del self._holds[display, key]
                 drag = replace(hold.drag, kind="release", pose=None, point=None)
-                runner.drag(drag, self.core.frames)
+                runner.drag(drag, self.context.frames)
 
     def is_attended(self) -> bool:
         """Return whether a browser holds a handle."""
@@ -209,10 +209,10 @@ class HandlesFeature(PageFeature):
     def shown(self, argument: str) -> HandlesStore:
         """Return the handles of all displays."""
         entries = self.found()
-        if self._shown is None or self._shown[0] is not entries:
+        if self._store is None or self._store[0] is not entries:
             handles = {f"{at[0]}/{at[1]}": _handle(at[0], *each) for at, each in entries.items()}
-            self._shown = entries, HandlesStore(handles)
-        return self._shown[1]
+            self._store = entries, HandlesStore(handles)
+        return self._store[1]
 
     def found(self) -> Mapping[tuple[str, str], tuple[Handle, int | None]]:
         """Return all handles with their holders, by the id of their display and their key."""
@@ -220,12 +220,12 @@ class HandlesFeature(PageFeature):
         of = [(runner.id, runner.handles()) for runner in self._runners()], holders
         if self._found_of != of:  # quick, as unchanged handles are the same mapping
             self._found_of = of
-            self._found = {
+            self._handles_by_node = {
                 (display, key): (handle, holders.get((display, key)))
                 for display, handles in of[0]
                 for key, handle in handles.items()
             }
-        return self._found
+        return self._handles_by_node
 
     @command(Role.OPERATOR)
     def drag_handle(self, display: str, drag: Drag, sender: Sender) -> None:
@@ -249,19 +249,19 @@ class HandlesFeature(PageFeature):
             )
         if drag.kind == "press":
             if hold is not None:  # whose release got lost
-                runner.drag(replace(hold.drag, kind="release", pose=None), self.core.frames)
-            self._holds[place] = _Hold(sender.browser, drag, self.core.clock())
+                runner.drag(replace(hold.drag, kind="release", pose=None), self.context.frames)
+            self._holds[place] = _Hold(sender.browser, drag, self.context.clock())
         elif drag.kind == "release":
             if self._holds.pop(place, None) is None:
                 return
         elif drag.kind != "choose":
             if hold is None or hold.drag.control != drag.control:
                 return  # it was taken from a browser that was silent for too long
-            hold.drag, hold.heard_s = drag, self.core.clock()
-        runner.drag(drag, self.core.frames)
+            hold.drag, hold.heard_s = drag, self.context.clock()
+        runner.drag(drag, self.context.frames)
 
     def _runners(self) -> Sequence[Runner]:
-        return list(self.core.get(DisplaysPart).list.active())
+        return list(self.context.get(DisplaysPart).list.active())
 
     def _runner(self, id: str) -> Runner | None:
         return next((each for each in self._runners() if each.id == id), None)

@@ -16,19 +16,19 @@ import { add, scaled } from "webviz/vectors.js";
 const REACH_PX = 4000; // to either side
 const STEPS = 40; // to find where it goes behind the camera
 
-const shown = signal(/** @type {Line | null} */ (null));
+const current = signal(/** @type {Line | null} */ (null));
 
 export function install() {
-  const isShown = computed(() => shown.value !== null);
+  const isShown = computed(() => current.value !== null);
   /** @type {ReturnType<typeof makeAxis> | null} */
   let axis = null;
   effect(() => {
-    const made = isShown.value ? makeAxis() : null;
-    axis = made;
-    owned(() => made?.layer.element.remove());
+    const next = isShown.value ? makeAxis() : null;
+    axis = next;
+    owned(() => next?.layer.element.remove());
   });
   beforeRender(() => {
-    if (axis && shown.value) draw(axis, shown.value);
+    if (axis && current.value) draw(axis, current.value);
   });
 }
 
@@ -50,17 +50,17 @@ export const isAbout = (mode) => ["move_axis", "move_rotate", "rotate_axis"].inc
  * @param {Line | null} line
  */
 export function show(line) {
-  shown.value = line;
+  current.value = line;
 }
 
 /**
  * @param {ReturnType<typeof makeAxis>} axis
- * @param {Line} shown
+ * @param {Line} target
  */
-function draw({ line, layer }, shown) {
+function draw({ line, layer }, target) {
   layer.place();
-  const projection = projectionOf(shown.object);
-  const [from, to] = [end(projection, shown, -1), end(projection, shown, 1)];
+  const projection = projectionOf(target.object);
+  const [from, to] = [end(projection, target, -1), end(projection, target, 1)];
   const { left, top } = layer.element.getBoundingClientRect();
   if (!from || !to) return set(line, { visibility: "hidden" });
   const [start, stop] = [from, to].map(([x, y]) => [x - left, y - top]);

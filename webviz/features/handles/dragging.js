@@ -6,12 +6,12 @@ import { frameNode, projectionOf } from "webviz/scene/projection.js";
 import { requestRender } from "webviz/viser_page.js";
 import * as aids from "webviz/features/handles/aids.js";
 import { axisOf, begin } from "webviz/features/handles/drags.js";
-import * as known from "webviz/features/handles/known.js";
+import * as registry from "webviz/features/handles/registry.js";
 import * as poses from "webviz/features/handles/poses.js";
 
 /** @import {Commands} from "webviz/messages.js" */
 /** @import {Moved} from "webviz/features/handles/drags.js" */
-/** @import {Part} from "webviz/features/handles/known.js" */
+/** @import {Part} from "webviz/features/handles/registry.js" */
 /** @import {Pose} from "webviz/vectors.js" */
 /** @import {Vector3} from "three" */
 /** @import {Vec2, Vec3} from "webviz/types.js" */
@@ -22,7 +22,7 @@ import * as poses from "webviz/features/handles/poses.js";
  * @typedef {Part & {
  *   pose: Pose, pointer: number, button: number, wasMine: boolean, at: Vec2, before: Vec2,
  *   wheel: number, shift: boolean, ctrl: boolean, isTouch: boolean, began: number, from: Vec2,
- *   isMoved: boolean, step: ReturnType<typeof begin>, now: Moved | null, sent: number, first: number,
+ *   isMoved: boolean, step: ReturnType<typeof begin>, now: Moved | null, sentAt: number, first: number,
  *   axis: Vec3 | null,
  * }} Drag
  */
@@ -38,8 +38,8 @@ export const CLICK_PX = 6;
  * @returns {Drag | null}
  */
 export function grab(part, event) {
-  const handle = known.all().get(part.id);
-  const control = known.controlOf(part);
+  const handle = registry.all().get(part.id);
+  const control = registry.controlOf(part);
   const pose = poses.poseOf(part.id);
   const node = frameNode(handle?.frame);
   if (!handle || !control || !pose || !node) return null;
@@ -72,7 +72,7 @@ export function grab(part, event) {
     isMoved: false,
     step: begin(start),
     now: null,
-    sent: performance.now(),
+    sentAt: performance.now(),
     first: 0,
     axis:
       handle.aids && control.facing !== "view_facing" && aids.isAbout(control.mode)
@@ -117,7 +117,7 @@ export const setKeys = (drag, { shiftKey, ctrlKey, metaKey }) =>
 /** Moves the handle by what the pointer did since the last step. @param {Drag} drag */
 export function step(drag) {
   const { at, before, wheel, shift, ctrl, from } = drag;
-  const handle = known.all().get(drag.id);
+  const handle = registry.all().get(drag.id);
   const node = frameNode(handle?.frame);
   drag.isMoved ||= Math.hypot(at[0] - from[0], at[1] - from[1]) > CLICK_PX;
   Object.assign(drag, { before: at, wheel: 0 });
@@ -162,15 +162,15 @@ export function release(drag) {
  * @param {string} id
  */
 export function pointAt(at, id) {
-  const node = frameNode(known.all().get(id)?.frame);
-  const found = node && pickAt(at);
-  return found ? projectionOf(node).toFrame(found.point) : null;
+  const node = frameNode(registry.all().get(id)?.frame);
+  const hit = node && pickAt(at);
+  return hit ? projectionOf(node).toFrame(hit.point) : null;
 }
 
 /** @param {Drag} drag */
 function showAid({ id, axis, now, pose }) {
   if (!axis) return;
-  const object = frameNode(known.all().get(id)?.frame);
+  const object = frameNode(registry.all().get(id)?.frame);
   aids.show(object ? { object, point: (now ?? pose).position, axis } : null);
 }
 
@@ -180,7 +180,7 @@ function showAid({ id, axis, now, pose }) {
  * @param {Partial<SentDrag>} [more]
  */
 export function send(drag, kind, more = {}) {
-  drag.sent = performance.now();
+  drag.sentAt = performance.now();
   return sendTo(drag, kind, more);
 }
 

@@ -54,7 +54,7 @@ const WHEEL_PX = 20; // that a notch of the wheel stands for
 export function begin(start) {
   const axis = axisOf(start);
   /** @type {Partial<Record<Control["mode"], (start: Axial) => Step>>} */
-  const makers = {
+  const factories = {
     move_axis: alongAxis,
     move_plane: inPlane,
     rotate_axis: aroundAxis,
@@ -63,7 +63,7 @@ export function begin(start) {
     rotate_3d: freely,
     move_rotate_3d: freely,
   };
-  const step = makers[start.control.mode]?.({ ...start, axis });
+  const step = factories[start.control.mode]?.({ ...start, axis });
   return (pointer, projection) => {
     const moved = step?.(pointer, projection);
     return moved ? { ...start.pose, turned: start.turned, ...moved } : null;
@@ -97,8 +97,8 @@ function alongAxis({ pose, grab, axis }) {
     const square = dx * dx + dy * dy;
     if (square < 1e-6) return null; // it points to the camera
     const along = ((at[0] - x) * dx + (at[1] - y) * dy) / square;
-    const found = onLine(projection.rayAt([x + along * dx, y + along * dy]), grab, axis);
-    return found && { position: add(pose.position, sub(found, grab)) };
+    const point = onLine(projection.rayAt([x + along * dx, y + along * dy]), grab, axis);
+    return point && { position: add(pose.position, sub(point, grab)) };
   };
 }
 

@@ -4,7 +4,7 @@ import { why } from "webviz/access.js";
 import * as act from "webviz/act.js";
 import * as channel from "webviz/channel.js";
 import { takeKeysFirst } from "webviz/keys.js";
-import { tell, tellLive } from "webviz/tools/hint.js";
+import { showHint, showLiveHint } from "webviz/tools/hint.js";
 import { canvas, eachFrame, requestRender } from "webviz/viser_page.js";
 import * as aids from "webviz/features/handles/aids.js";
 import {
@@ -19,15 +19,15 @@ import {
 import { setKeys, step, wheel } from "webviz/features/handles/dragging.js";
 import * as glow from "webviz/features/handles/glow.js";
 import { heldText, helpOf } from "webviz/features/handles/help.js";
-import * as known from "webviz/features/handles/known.js";
+import * as registry from "webviz/features/handles/registry.js";
 import * as menu from "webviz/features/handles/menu.js";
 import * as poses from "webviz/features/handles/poses.js";
 
 /** @import {Drag, Place} from "webviz/features/handles/dragging.js" */
-/** @import {Part} from "webviz/features/handles/known.js" */
+/** @import {Part} from "webviz/features/handles/registry.js" */
 /** @import {SceneEvent, Vec2, Vec3} from "webviz/types.js" */
 
-/** @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} Asked */
+/** @typedef {Part & {at: Vec2, pointer: number, isResting?: boolean}} PendingPress */
 
 const HOLD_MS = 500; // after which the server is told that the drag goes on
 const LONG_MS = 600; // that a finger rests for the menu
@@ -41,18 +41,18 @@ export class HandleGestures {
   #over = null; // what the pointer is on
   /** @type {Drag | null} */
   #drag = null;
-  /** @type {Asked | null} */
-  #asked = null; // a press of the right button, or of a finger that may rest
+  /** @type {PendingPress | null} */
+  #pendingPress = null; // a press of the right button, or of a finger that may rest
   /** @type {{hover: Vec2, target: EventTarget | null} | null} */
   #moved = null; // where the pointer went since the last frame
-  #said = "";
+  #lastText = "";
 
   constructor() {
     aids.install();
     eachFrame(BEFORE_PLACING, () => this.#follow());
-    known.onChange(() => this.#noteHolder());
+    registry.onChange(() => this.#noteHolder());
     act.onAnswer("DragHandle", ({ number, text }) => {
-      tell("warn", text);
+      showHint("warn", text);
       if (this.#drag && number >= this.#drag.first) this.#end(this.#drag);
     });
     channel.onOpen(() => this.#drag && this.#end(this.#drag));
@@ -79,7 +79,7 @@ export class HandleGestures {
    */
   pointer(event) {
     const drag = this.#drag;
-    if (!known.all().size) return false;
+    if (!registry.all().size) return false;
     if ("deltaY" in event) return drag !== null && wheel(drag, event);
     const { type, pointerId, button, clientX, clientY } = event;
     if (drag) {
@@ -89,17 +89,18 @@ export class HandleGestures {
         this.#release(drag);
       return true;
     }
-    if (this.#asked && type !== "pointerdown") return this.#followAsked(this.#asked, event);
+    if (this.#pendingPress && type !== "pointerdown")
+      return this.#followPendingPress(this.#pendingPress, event);
     if (type === "pointermove") {
       if (event.buttons === 0) this.#moved = { hover: [clientX, clientY], target: event.target };
       return false;
     }
     if (type !== "pointerdown") return false;
-    const part = known.controlAt([clientX, clientY]);
+    const part = registry.controlAt([clientX, clientY]);
     if (!part || ![0, 2].includes(button)) return false;
     event.preventDefault();
     if (button === 2) {
-      this.#asked = { ...part, pointer: pointerId, at: [clientX, clientY] };
+      this.#pendingPress = { ...part, pointer: pointerId, at: [clientX, clientY] };
       return true;
     }
     return this.#press(part, event);
@@ -110,11 +111,11 @@ export class HandleGestures {
    * @param {PointerEvent} event
    */
   #press(part, event) {
-    const handle = known.all().get(part.id);
-    if (!handle || !known.controlOf(part)) return false;
+    const handle = registry.all().get(part.id);
+    if (!handle || !registry.controlOf(part)) return false;
     const refusal = why("DragHandle") || handle.refusal || heldText(handle);
     if (refusal) {
-      tell("warn", refusal);
+      showHint("warn", refusal);
       return true;
     }
     this.#drag = grab(part, event);
@@ -128,7 +129,7 @@ export class HandleGestures {
   // The server says who holds a handle: it may be taken from this page.
   #noteHolder() {
     const drag = this.#drag;
-    const handle = drag && known.all().get(drag.id);
+    const handle = drag && registry.all().get(drag.id);
     if (!drag) return;
     const isMine = handle?.holder === window.webviz.browser;
     if (!handle || (drag.wasMine && !isMine)) this.#end(drag);
@@ -140,7 +141,7 @@ export class HandleGestures {
     const drag = this.#drag;
     if (this.#moved && !drag) {
       const { hover, target } = this.#moved;
-      this.#point(target === canvas() ? known.controlAt(hover) : null);
+      this.#point(target === canvas() ? registry.controlAt(hover) : null);
     }
     this.#moved = null;
     if (!drag) return;
@@ -149,8 +150,8 @@ export class HandleGestures {
     if (isNews) step(drag);
     const now = performance.now();
     const isResting = drag.isTouch && !drag.isMoved && now - drag.began > LONG_MS;
-    if (isResting && known.all().get(drag.id)?.menu.length) return this.#rest(drag);
-    if (now - drag.sent > HOLD_MS) send(drag, "hold");
+    if (isResting && registry.all().get(drag.id)?.menu.length) return this.#rest(drag);
+    if (now - drag.sentAt > HOLD_MS) send(drag, "hold");
     requestRender();
   }
 
@@ -159,7 +160,7 @@ export class HandleGestures {
     const { id, control, at } = drag;
     const point = release(drag);
     this.#end(drag);
-    if (known.controlOf({ id, control })?.mode === "menu") openMenu({ id, control, at, point });
+    if (registry.controlOf({ id, control })?.mode === "menu") openMenu({ id, control, at, point });
   }
 
   /**
@@ -172,7 +173,7 @@ export class HandleGestures {
     const { id, control, at, pointer } = drag;
     send(drag, "release");
     this.#end(drag);
-    this.#asked = { id, control, at, pointer, isResting: true };
+    this.#pendingPress = { id, control, at, pointer, isResting: true };
     navigator.vibrate?.(VIBRATE_MS);
   }
 
@@ -191,18 +192,18 @@ export class HandleGestures {
   }
 
   /**
-   * @param {Asked} part
+   * @param {PendingPress} part
    * @param {PointerEvent} event
    */
-  #followAsked(part, event) {
+  #followPendingPress(part, event) {
     if (event.pointerId !== part.pointer) return true;
     const { at } = part;
     const isFar = Math.hypot(event.clientX - at[0], event.clientY - at[1]) > CLICK_PX;
     if (event.type === "pointerup" && (event.button === 2 || part.isResting)) {
-      this.#asked = null;
+      this.#pendingPress = null;
       if (part.isResting) canvas().addEventListener("touchend", keepOpen, KEEP_OPEN);
       if (!isFar) openMenu({ ...part, point: pointAt(at, part.id) });
-    } else if (event.type === "pointercancel") this.#asked = null;
+    } else if (event.type === "pointercancel") this.#pendingPress = null;
     return true;
   }
 
@@ -212,7 +213,7 @@ export class HandleGestures {
     glow.light(part, "over");
     canvas().style.cursor = part ? "pointer" : "";
     const words = part ? wordsOf(part) : "";
-    if (words !== this.#said) tellLive((this.#said = words));
+    if (words !== this.#lastText) showLiveHint((this.#lastText = words));
   }
 }
 
@@ -225,7 +226,7 @@ const keepOpen = (event) => event.preventDefault();
 
 /** @param {Part & {at: Vec2, point: Vec3 | null}} asked */
 function openMenu({ id, control, at, point }) {
-  const handle = known.all().get(id);
+  const handle = registry.all().get(id);
   if (!handle?.menu.length) return;
   // Not before the event of the pointer has ended, which closes menus elsewhere.
   const choose = (/** @type {number} */ entry) =>
@@ -235,7 +236,7 @@ function openMenu({ id, control, at, point }) {
 
 /** @param {Part} part */
 function wordsOf(part) {
-  const handle = known.all().get(part.id);
-  const control = known.controlOf(part);
+  const handle = registry.all().get(part.id);
+  const control = registry.controlOf(part);
   return handle && control ? helpOf(handle, control, why("DragHandle")) : "";
 }

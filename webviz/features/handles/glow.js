@@ -3,9 +3,9 @@
 import { active, isDefault, onChange } from "webviz/tools/registry.js";
 import { effect, owned, signal, untracked } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
-import * as known from "webviz/features/handles/known.js";
+import * as registry from "webviz/features/handles/registry.js";
 
-/** @import {Part} from "webviz/features/handles/known.js" */
+/** @import {Part} from "webviz/features/handles/registry.js" */
 /** @import {Color, MeshStandardMaterial} from "three" */
 
 /** @type {Record<"over" | "pressed", number>} */
@@ -16,7 +16,7 @@ const AFTER_PLACING = -998;
 
 const lit = signal(/** @type {Lit | null} */ (null));
 /** The handle that is dragged. */
-const held = signal(/** @type {string | null} */ (null));
+const activeHandle = signal(/** @type {string | null} */ (null));
 
 export function install() {
   viser.eachFrame(AFTER_PLACING, hide);
@@ -48,7 +48,7 @@ const keyOf = (lit) => lit && `${lit.id} ${lit.control} ${lit.level}`;
  * @param {string | null} id
  */
 export function dim(id) {
-  held.value = id;
+  activeHandle.value = id;
   viser.requestRender();
 }
 
@@ -60,7 +60,7 @@ export function dim(id) {
 function shine({ id, control, level }) {
   /** @type {Map<MeshStandardMaterial, {emissive?: Color, color?: Color}>} */
   const before = new Map();
-  for (const path of known.nodesOf(id).parts.get(control) ?? []) {
+  for (const path of registry.nodesOf(id).parts.get(control) ?? []) {
     viser.node(path)?.traverse(({ material }) => {
       for (const each of [material].flat()) if (each) brighten(each);
     });
@@ -86,10 +86,10 @@ function shine({ id, control, level }) {
 }
 
 function hide() {
-  if (!active() || (isDefault() && held.value === null)) return;
-  for (const [id, { controls }] of known.all()) {
-    for (const [number, paths] of known.nodesOf(id).parts) {
-      const isShown = controls[number]?.always || (isDefault() && id === held.value);
+  if (!active() || (isDefault() && activeHandle.value === null)) return;
+  for (const [id, { controls }] of registry.all()) {
+    for (const [number, paths] of registry.nodesOf(id).parts) {
+      const isShown = controls[number]?.always || (isDefault() && id === activeHandle.value);
       for (const path of paths) {
         const object = viser.node(path);
         if (object && !isShown) object.visible = false;

@@ -2,14 +2,14 @@
 
 import { HandleGestures } from "webviz/features/handles/gesture.js";
 import * as glow from "webviz/features/handles/glow.js";
-import * as known from "webviz/features/handles/known.js";
+import * as registry from "webviz/features/handles/registry.js";
 import * as poses from "webviz/features/handles/poses.js";
 import { provide, setDefault } from "webviz/tools/registry.js";
 
 /** @import {Tool} from "webviz/types.js" */
 
 export function install() {
-  known.install();
+  registry.install();
   poses.install();
   glow.install();
   const tool = interact();

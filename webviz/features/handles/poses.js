@@ -4,7 +4,7 @@
 import { nodeNamed } from "webviz/scene/picking/things.js";
 import { computed, signal } from "webviz/signals.js";
 import * as viser from "webviz/viser_page.js";
-import * as known from "webviz/features/handles/known.js";
+import * as registry from "webviz/features/handles/registry.js";
 import { frameNode } from "webviz/scene/projection.js";
 import { about, compose, inverse, rotate, scaled, turnedBy } from "webviz/vectors.js";
 
@@ -52,9 +52,9 @@ export function install() {
  * @param {string} id
  */
 export function poseOf(id) {
-  const path = known.nodesOf(id).groups.get("");
+  const path = registry.nodesOf(id).groups.get("");
   const object = path && viser.node(path);
-  const frame = frameNode(known.all().get(id)?.frame);
+  const frame = frameNode(registry.all().get(id)?.frame);
   if (!object || !frame) return null;
   return compose(inverted(localOf(frame)), localOf(object));
 }
@@ -100,7 +100,7 @@ function uncover() {
 
 function place() {
   for (const [id, each] of dragged) {
-    const handle = known.all().get(id);
+    const handle = registry.all().get(id);
     const mine = handle?.holder === window.webviz.browser;
     if (each.frames !== null && !mine && each.frames-- <= 0) {
       dragged.delete(id);
@@ -120,7 +120,7 @@ function putOver(id, { frame, controls }, { control, pose, turned }) {
   const node = frameNode(frame);
   if (!node) return;
   const base = localOf(node);
-  for (const [suffix, path] of known.nodesOf(id).groups) {
+  for (const [suffix, path] of registry.nodesOf(id).groups) {
     const object = viser.node(path);
     if (!object) continue;
     const number = parseInt(suffix, 10);
@@ -160,12 +160,12 @@ function face(paths) {
  * @param {string} path
  */
 function turnedOf(path) {
-  const { id, suffix } = known.groupOf(nodeNamed(`${path}/-`)?.group ?? "") ?? {};
+  const { id, suffix } = registry.groupOf(nodeNamed(`${path}/-`)?.group ?? "") ?? {};
   if (!id) return 0;
   const number = parseInt(suffix ?? "", 10);
-  const held = dragged.get(id);
-  if (held && held.control === number) return held.turned;
-  return known.all().get(id)?.controls[number]?.turned ?? 0;
+  const drag = dragged.get(id);
+  if (drag && drag.control === number) return drag.turned;
+  return registry.all().get(id)?.controls[number]?.turned ?? 0;
 }
 
 /** @param {string} path */

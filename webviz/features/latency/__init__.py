@@ -16,7 +16,7 @@ from webviz.data.transforms import TransformBuffer
 from webviz.data.transforms.tree import ancestors
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.pipeline.runner import Runner
 from webviz.engine.pipeline.trace import Trace, Tracer
 from webviz.engine.store import PageStore
@@ -50,20 +50,20 @@ class LatencyFeature(Feature):
     name = "Latency"
     module = "latency.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._is_wanted = False
-        self._asked: dict[str, Future[Trace]] = {}
+        self._requests: dict[str, Future[Trace]] = {}
         self._traces: dict[str, deque[Times]] = {}
         self._cores: dict[str, float] = {}
         self._busy: Mapping[str, float] = {}
-        self._painting = Painting(core.scene.browsers)
-        self._shown: tuple[Latency, ...] = ()
+        self._painting = Painting(context.scene.browsers)
+        self._latencies: tuple[Latency, ...] = ()
         self._shown_at = 0.0
 
     @property
     def _tracer(self) -> Tracer:
-        return self.core.get(DisplaysPart).tracer
+        return self.context.get(DisplaysPart).tracer
 
     def watched(self, stores: Set[str]) -> None:
         """Measure while a page shows the latencies."""
@@ -72,32 +72,34 @@ class LatencyFeature(Feature):
     def update(self) -> None:
         """Measure the latencies, while a page shows them."""
         if not self._is_wanted:
-            self._shown = ()
+            self._latencies = ()
             return
-        runners = list(self.core.get(DisplaysPart).list.active())[:MAX_DISPLAYS]
+        runners = list(self.context.get(DisplaysPart).list.active())[:MAX_DISPLAYS]
         self._collect([runner.id for runner in runners])
-        self.core.guard("Scene", self._painting.take)
+        self.context.boundary("Scene", self._painting.take)
         now = time.monotonic()
         if now - self._shown_at >= EVERY_S:
             self._measure(runners, now - self._shown_at)
-            self.core.guard("Scene", self._painting.measure, now - self._shown_at)
+            self.context.boundary("Scene", self._painting.measure, now - self._shown_at)
             self._shown_at = now
-            self._shown = tuple(self._latency(each) for each in runners if each.id in self._traces)
+            self._latencies = tuple(
+                self._latency(each) for each in runners if each.id in self._traces
+            )
 
     def state(self) -> Mapping[str, Any]:
         """Return the latencies of displays."""
-        return {"latencies": self._shown}
+        return {"latencies": self._latencies}
 
     @store()
     def latency(self, argument: str) -> LatencyStore:
         """Return the latencies, those of the slowest display first."""
-        return LatencyStore(sorted(self._shown, key=lambda each: -each.p50))
+        return LatencyStore(sorted(self._latencies, key=lambda each: -each.p50))
 
     def reset(self) -> None:
         """Forget all traces: time has jumped."""
         self._traces.clear()
         self._painting.clear()
-        self._shown = ()
+        self._latencies = ()
 
     @command(None)
     def inspect_latency(self, is_wanted: bool = True) -> None:
@@ -106,40 +108,40 @@ class LatencyFeature(Feature):
             return
         self._is_wanted = is_wanted
         tracer = self._tracer
-        tracer.on_sent = self._sent
+        tracer.on_sent = self._note_traces
         tracer.time(self.name, is_wanted)
         self._shown_at = time.monotonic()
         self._busy = dict(tracer.busy_s)
-        self.core.guard("Scene", self._painting.begin, is_wanted)
+        self.context.boundary("Scene", self._painting.begin, is_wanted)
         if not is_wanted:
-            for answer in self._asked.values():
+            for answer in self._requests.values():
                 answer.cancel()
-            self._asked.clear()
+            self._requests.clear()
             self._cores.clear()
             self.reset()
 
-    def _sent(self, traces: Mapping[str, Trace], at_s: float) -> None:
+    def _note_traces(self, traces: Mapping[str, Trace], at_s: float) -> None:
         if self._is_wanted:
             ways_s = {display: _way_s(trace) for display, trace in traces.items()}
-            self.core.guard("Scene", self._painting.sent, ways_s, at_s)
+            self.context.boundary("Scene", self._painting.sent, ways_s, at_s)
 
     def _collect(self, displays: Sequence[str]) -> None:
         """Keep the traces that are complete, and ask for the next ones."""
-        for display in [display for display in self._asked if display not in displays]:
-            self._asked.pop(display).cancel()
+        for display in [display for display in self._requests if display not in displays]:
+            self._requests.pop(display).cancel()
             self._traces.pop(display, None)
         for display in displays:
-            trace = self._asked.get(display)
+            trace = self._requests.get(display)
             if trace is not None and trace.done():
                 times = self._traces.setdefault(display, deque(maxlen=SAMPLES))
                 times.append(_times(trace.result()))
                 trace = None
             if trace is None:
-                answer = self._asked[display] = Future[Trace]()
+                answer = self._requests[display] = Future[Trace]()
                 try:
                     self._tracer.ask(display, answer)
                 except Error:  # too many; perhaps next time
-                    del self._asked[display]
+                    del self._requests[display]
 
     def _measure(self, runners: Sequence[Runner], passed_s: float) -> None:
         """Measure the share of a processor that each display took since the last time."""
@@ -165,7 +167,7 @@ class LatencyFeature(Feature):
         frames = [each.frame for each in runner.observed() if each.frame]
         waits_for = ""
         if waited >= LONG_S and frames:
-            link = slowest_link(self.core.buffer, self.core.frames.fixed_frame, frames[0])
+            link = slowest_link(self.context.buffer, self.context.frames.fixed_frame, frames[0])
             waits_for = f"Waits {1000 * waited:.0f} ms for {link}." if link else ""
         return Latency(
             runner.id,

@@ -38,8 +38,8 @@ function stampToScreen() {
 
 /** @param {Latency} latency */
 function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers }) {
-  const sent = end(stages);
-  const whole = Math.max(sent, ...browsers.map((to) => sent + end(to.stages)), 1e-6);
+  const serverEnd = end(stages);
+  const whole = Math.max(serverEnd, ...browsers.map((to) => serverEnd + end(to.stages)), 1e-6);
   return el(
     "section",
     { class: "wv-waterfall", "aria-label": name },
@@ -50,7 +50,7 @@ function waterfall({ name, stages, p50, p99, waits_for: waitsFor, core, browsers
       el("span", { class: "wv-quiet wv-number" }, `${ms(p50)}, p99 ${ms(p99)}`),
     ),
     ...stages.map((stage) => row(stage, 0, whole)),
-    ...browsers.flatMap((to) => browser(to, sent, whole)),
+    ...browsers.flatMap((to) => browser(to, serverEnd, whole)),
     el(
       "p",
       { class: "wv-quiet" },
@@ -72,10 +72,10 @@ const end = (stages) => Math.max(0, ...stages.map(({ begin, p50 }) => begin + Ma
  * The rows of the way to a browser.
  *
  * @param {BrowserLatency} to
- * @param {number} sent when that begins, in seconds
+ * @param {number} start when that begins, in seconds
  * @param {number} whole
  */
-function browser({ name, stages, p50, p99 }, sent, whole) {
+function browser({ name, stages, p50, p99 }, start, whole) {
   if (!stages.length) return [];
   return [
     el(
@@ -84,7 +84,7 @@ function browser({ name, stages, p50, p99 }, sent, whole) {
       el("span", { class: "wv-ellipsis" }, `To ${name}`),
       el("span", { class: "wv-number" }, `${ms(p50)}, p99 ${ms(p99)}`),
     ),
-    ...stages.map((stage) => row(stage, sent, whole)),
+    ...stages.map((stage) => row(stage, start, whole)),
   ];
 }
 

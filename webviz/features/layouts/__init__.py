@@ -115,7 +115,7 @@ class LayoutsFeature(Feature):
         """
         if (layout := TEMPLATES.get(template)) is None:
             raise ConfigError(f"Unknown template `{template}`: {nearest(template, TEMPLATES)}")
-        panels = self.core.get(PanelsPart)
+        panels = self.context.get(PanelsPart)
         there = {tab.tab for tab in panels.tabs()}
         added = [name for name in layout.names if name in plugin_types(Panel) and name not in there]
         for name in added:
@@ -145,7 +145,7 @@ class LayoutsFeature(Feature):
 
     @property
     def _part(self) -> SettingsPart:
-        return self.core.get(SettingsPart)
+        return self.context.get(SettingsPart)
 
     def _named(self, name: str) -> Layout:
         saved = self._part.settings.layouts

@@ -88,7 +88,7 @@ async function save() {
   const name = await askName("layout", {
     title: "Save the layout of the panels",
     confirm: "Save",
-    taken: saved.map((each) => each.name),
+    usedNames: saved.map((each) => each.name),
     value: saved.find(({ is_shown }) => is_shown)?.name,
   });
   if (name !== null) act("SaveLayout", { name });

@@ -64,7 +64,9 @@ class OutputsFeature(PageFeature):
     @store(Role.OWNER)
     def outputs(self, argument: str) -> OutputsStore:
         """Return the files that were written."""
-        return OutputsStore({str(each.number): _shown(each) for each in self.core.outputs.all})
+        return OutputsStore(
+            {str(each.number): _written_file(each) for each in self.context.outputs.all}
+        )
 
     @command(Role.OWNER)
     def read_output(self, number: int, file: int = 0, offset: int = 0) -> None:
@@ -79,21 +81,21 @@ class OutputsFeature(PageFeature):
 
     # Called on the event loop
 
-    def _read(self, asked: PageRequest, wanted: Any) -> None:
-        output = self.core.outputs.find(wanted.number)
+    def _read(self, page_request: PageRequest, command: Any) -> None:
+        output = self.context.outputs.find(command.number)
         if output is None:
-            asked.refuse("This file is not listed any more. Copy it from the viewer's machine.")
+            page_request.refuse("This file is no longer listed. Copy it from the viewer's machine.")
             return
 
-        def answer(done: Future[dict[str, str]]) -> None:
-            if not asked.refused_by(done):
-                asked.answer(**done.result())
+        def answer(future: Future[dict[str, str]]) -> None:
+            if not page_request.refused_by(future):
+                page_request.answer(**future.result())
 
-        read = functools.partial(part_of, output.path, wanted.file, wanted.offset)
+        read = functools.partial(part_of, output.path, command.file, command.offset)
         try:
             _disk.start(read).add_done_callback(answer)
         except OSError as error:
-            asked.refuse(f"Not read: {error.strerror}. Try again later.")
+            page_request.refuse(f"Not read: {error.strerror}. Try again later.")
 
 
 def part_of(path: Path, number: int, offset: int) -> dict[str, str]:
@@ -131,6 +133,6 @@ def part_of(path: Path, number: int, offset: int) -> dict[str, str]:
     }
 
 
-def _shown(output: OutputFile) -> WrittenFile:
+def _written_file(output: OutputFile) -> WrittenFile:
     path, name, text = (str(sendable(t)) for t in (str(output.path), output.path.name, output.text))
     return WrittenFile(path, name, output.kind, text, output.browser)

@@ -8,7 +8,7 @@ import { save } from "webviz/download.js";
 import { el } from "webviz/dom.js";
 import { iconButton, textButton } from "webviz/icons.js";
 import { overlay } from "webviz/overlay/overlay.js";
-import { signal } from "webviz/signals.js";
+import { signal, untracked } from "webviz/signals.js";
 import { store, watch } from "webviz/stores.js";
 import { toast } from "webviz/toasts.js";
 
@@ -23,52 +23,48 @@ export function install() {
   onRole(() => {
     if (why("ReadOutput")) return;
     /** @type {Signal<Written | null>} */
-    const shown = signal(null);
-    overlay("cards", "output", card(shown));
-    const isNew = newest();
+    const latest = signal(null);
+    overlay("cards", "output", card(latest));
+    /** @type {Set<string>} */
+    let before = new Set();
     watch("outputs", (values) => {
-      const mine = [...values]
-        .map(([number, file]) => ({ ...file, number: Number(number) }))
-        .filter(isNew)
-        .filter(({ browser }) => browser === window.webviz.browser);
-      if (mine.length) shown.value = mine[mine.length - 1];
+      const files = [...values].map(([number, file]) => ({ ...file, number: Number(number) }));
+      const mine = files.filter(({ browser }) => browser === window.webviz.browser);
+      const added = mine.filter((file) => !before.has(key(file))).at(-1);
+      before = new Set(files.map(key));
+      const shown = untracked(() => latest.value);
+      // Another file may have its number in a viewer that was started again.
+      if (added || (shown && !before.has(key(shown)))) latest.value = added ?? null;
     });
-    provide(() => commands(shown));
+    provide(() => commands(latest));
   });
 }
 
-/** Tells the files that were written since this page was opened. */
-function newest() {
-  const known = { number: -1 };
-  return (/** @type {Written} */ { number }) => {
-    const isNew = number > known.number;
-    known.number = Math.max(number, known.number);
-    return isNew;
-  };
-}
+/** @param {Written} file */
+const key = ({ number, path }) => `${number} ${path}`;
 
-/** @param {Signal<Written | null>} shown */
-const commands = (shown) =>
+/** @param {Signal<Written | null>} latest */
+const commands = (latest) =>
   [...store("outputs").all()].map(([number, file]) => ({
     name: `Show ${file.name}`,
     group: "Files",
     run: () => {
-      shown.value = { ...file, number: Number(number) };
+      latest.value = { ...file, number: Number(number) };
     },
   }));
 
 /**
  * Return a card of a file: its place and what one does with it; hidden without one.
  *
- * @param {Signal<Written | null>} shown
+ * @param {Signal<Written | null>} latest
  */
-function card(shown) {
+function card(latest) {
   const progress = signal("");
-  const file = () => shown.value;
+  const file = () => latest.value;
   const close = () => {
-    shown.value = null;
+    latest.value = null;
   };
-  const current = () => /** @type {Written} */ (shown.value);
+  const current = () => /** @type {Written} */ (latest.value);
   const openHere = {
     type: "button",
     class: "wv-button",

@@ -10,7 +10,7 @@ from webviz.api.roles import Role
 from webviz.engine.commands import FileCommand, Sender, ignore
 from webviz.engine.feature import command, store
 from webviz.engine.parts.config import ConfigPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.time import TimePart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
@@ -23,7 +23,7 @@ ABSENT_S = 30.0
 """Time in seconds after which the viewer of a page ends that has gone, or never came."""
 NOT_HERE = "This viewer shows no page a past of its own. Look back for everybody."
 NO_PAGE = "Only a page can look back on its own."
-FROZEN_ALREADY = "Only live topics are looked back on like that. Return to live first."
+FROZEN_ALREADY = "Looking back for one page needs live topics. Return to live first."
 
 
 class OwnPastStore(PageStore, frozen=True):
@@ -44,8 +44,8 @@ class OwnPastFeature(PageFeature):
     name = "Own past"
     module = "own_past.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._seen_s = time.monotonic()
 
     def attach(self, dispatcher: Dispatcher) -> None:
@@ -54,10 +54,10 @@ class OwnPastFeature(PageFeature):
 
     def keep_up(self, commanded: bool) -> None:
         """End such a viewer when its page has been gone for a while."""
-        if (leave := self.core.host.leave) is None:
+        if (leave := self.context.host.leave) is None:
             return
         now_s = time.monotonic()
-        if self.core.is_watched():
+        if self.context.is_watched():
             self._seen_s = now_s
         elif now_s - self._seen_s > ABSENT_S:
             leave()
@@ -65,7 +65,7 @@ class OwnPastFeature(PageFeature):
     @store()
     def own_past(self, argument: str) -> OwnPastStore:
         """Return whether this is such a viewer, and whether there can be any."""
-        host = self.core.host
+        host = self.context.host
         return OwnPastStore(host.leave is not None, host.look_back is not None)
 
     @command(Role.OPERATOR, FileCommand, is_noted=True)
@@ -78,7 +78,7 @@ class OwnPastFeature(PageFeature):
             at_s: the moment, as that of `Seek`.
             opened: called by the frame loop with the address, relative to that of the viewer.
         """
-        look_back, player = self.core.host.look_back, self.core.player
+        look_back, player = self.context.host.look_back, self.context.player
         memory = player.memory
         if look_back is None:
             raise Error(NOT_HERE)
@@ -91,10 +91,10 @@ class OwnPastFeature(PageFeature):
         grant = self._channel.grant_of(sender.browser)
         if grant is None:
             raise Error(NO_PAGE)
-        views, files = self.core.get(ViewsPart), self.core.get(ConfigPart)
+        views, files = self.context.get(ViewsPart), self.context.get(ConfigPart)
         config = views.as_seen(files.config(), sender)
         history = MomentHistory(memory)
-        at_ns = self.core.get(TimePart).at_ns(at_s)
+        at_ns = self.context.get(TimePart).at_ns(at_s)
         cookie = grant.cookie
 
         def then(address: str) -> str:

@@ -88,7 +88,7 @@ function choose(name, fields, at) {
   const chosen = recallInTab(CHOICE);
   if (chosen === "everybody") return null;
   if (chosen === "me") return lookBackAlone(at);
-  return asked(others).then((choice) => {
+  return ask(others).then((choice) => {
     if (choice === "me") return lookBackAlone(at);
     if (choice === "everybody") return act(name, fields, { isDirect: true });
     return { level: "error", text: "" };
@@ -99,7 +99,7 @@ function choose(name, fields, at) {
  * @param {number} others pages
  * @returns {Promise<"me" | "everybody" | null>}
  */
-async function asked(others) {
+async function ask(others) {
   const again = el("input", { type: "checkbox" });
   const who = others === 1 ? "Another page shows" : `${others} other pages show`;
   const choice = await openDialog({

@@ -21,13 +21,13 @@ from webviz.api.registry import broken_types, plugin_types
 from webviz.api.roles import Role
 from webviz.api.tool import Tool
 from webviz.engine.commands import PageCommand, Sender
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.feature import command, store
 from webviz.engine.forms import Form, form, values_of
-from webviz.engine.guard import Guard
 from webviz.engine.parts import visibility
 from webviz.engine.parts.displays import DisplaysPart
 from webviz.engine.parts.panels import PanelsPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.state import PanelTab
 from webviz.engine.store import PageStore
 from webviz.page.dispatcher import Dispatcher, PageFeature
@@ -155,11 +155,11 @@ class PluginPanels(PageFeature):
     name = "Plug-in panels"
     module = "panels.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._dispatcher: Dispatcher | None = None
         self._tabs: dict[str, _Tab] = {}
-        self._shown: Sequence[PanelTab] = ()
+        self._tab_rows: Sequence[PanelTab] = ()
         self._broken = broken_types(Panel)
 
     def attach(self, dispatcher: Dispatcher) -> None:
@@ -170,8 +170,8 @@ class PluginPanels(PageFeature):
         """Build new panels, and end those that are gone."""
         if self._dispatcher is None:
             return
-        self._shown = self.core.get(PanelsPart).tabs()
-        panels = {tab.tab: tab.panel for tab in self._shown}
+        self._tab_rows = self.context.get(PanelsPart).tabs()
+        panels = {tab.tab: tab.panel for tab in self._tab_rows}
         for name in [n for n, tab in self._tabs.items() if panels.get(n) is not tab.panel]:
             self._tabs.pop(name).close()
         for name in panels.keys() - self._tabs.keys():
@@ -180,7 +180,7 @@ class PluginPanels(PageFeature):
     def watched(self, stores: Set[str]) -> None:
         """Let the panels read that pages have open, and no others."""
         opened = (store.partition(":")[2] for store in stores if store.startswith("panel:"))
-        self.core.get(PanelsPart).open_panels(frozenset(opened))
+        self.context.get(PanelsPart).open_panels(frozenset(opened))
 
     # Stores
 
@@ -189,7 +189,7 @@ class PluginPanels(PageFeature):
         """Return the panels of plug-ins."""
         titles = {name: tab.title for name, tab in self._tabs.items()}
         broken = {name: clean(name) for name in self._broken}
-        order = [*(tab.tab for tab in self._shown), *self._broken]
+        order = [*(tab.tab for tab in self._tab_rows), *self._broken]
         return PanelsStore(titles | broken, order, _types())
 
     @store()
@@ -198,8 +198,8 @@ class PluginPanels(PageFeature):
         tab = self._tabs.get(name)
         if tab is None:
             return PanelStore({}, [], self._broken.get(name, ""))
-        if not (self.core.player.is_seeking and tab.is_shown):  # on the way, it lacks messages
-            tab.show(self.core.get(PanelsPart))
+        if not (self.context.player.is_seeking and tab.is_shown):  # on the way, it lacks messages
+            tab.show(self.context.get(PanelsPart))
         widgets = dict(tab.ui.widgets)
         values = {id_: widget.values for id_, widget in widgets.items()}
         parts = {
@@ -212,12 +212,12 @@ class PluginPanels(PageFeature):
     @store(name="panel_properties")
     def properties(self, name: str) -> PanelPropertiesStore | None:
         """Return the properties of a panel; None if it is gone."""
-        chosen = next((tab for tab in self._shown if tab.tab == name), None)
+        chosen = next((tab for tab in self._tab_rows if tab.tab == name), None)
         if chosen is None:
             return None
         cls, own = type(chosen.panel), values_of(chosen.panel, _SHARED)
         switches = [each for each in properties_of(cls) if each.widget == "displays"]
-        names = visibility.names(self.core.get(DisplaysPart).rows) if switches else {}
+        names = visibility.names(self.context.get(DisplaysPart).rows) if switches else {}
         offered = {each.path: names for each in switches}
         return PanelPropertiesStore(chosen.id, cls.__name__, form(cls, _SHARED), own, offered)
 
@@ -246,7 +246,7 @@ class PluginPanels(PageFeature):
 
     @command(Role.OPERATOR, PageCommand)
     def use_widget(
-        self, panel: str, widget: str, asked: PageRequest, value: bool | str | None = None
+        self, panel: str, widget: str, page_request: PageRequest, value: bool | str | None = None
     ) -> None:
         """Use a widget in a plug-in's panel.
 
@@ -257,17 +257,17 @@ class PluginPanels(PageFeature):
         """
 
         def act(tab: _Tab, used: Widget) -> None:
-            if problem := tab.use(used, value, asked.browser):
-                asked.refuse(problem)
+            if problem := tab.use(used, value, page_request.browser):
+                page_request.refuse(problem)
             else:
-                asked.answer()
+                page_request.answer()
 
         tab = self._tabs.get(panel)
         used = tab.ui.find(widget) if tab else None
         if tab is None or used is None:
-            asked.refuse("Not done: this panel has changed.")
+            page_request.refuse("Failed: this panel has changed.")
         elif not tab.hands.do(lambda: act(tab, used)):
-            asked.refuse(f"Not done: the panel {tab.title} is busy.")
+            page_request.refuse(f"Failed: the panel {tab.title} is busy.")
 
     def close(self) -> None:
         """End all panels."""
@@ -314,17 +314,17 @@ class _Tab:
         self.ui = RecordedUi()
         self.hands = _Hands(f"webviz-panel-{name}")
         self.failure = ""
-        self._guard = Guard(f"The panel {self.title}", strict=False)
-        self._acts = Guard(f"The panel {self.title}", strict=False)
+        self._boundary = ErrorBoundary(f"The panel {self.title}", strict=False)
+        self._action_boundary = ErrorBoundary(f"The panel {self.title}", strict=False)
         self._is_built = self.is_shown = False
-        self._guard("build", self._build, send)
+        self._boundary("build", self._build, send)
 
     def show(self, panels: PanelsPart) -> None:
         """Let the panel show the viewer, and note what it raises."""
         if self._is_built:
-            self._guard("show", panels.show, self.panel)
+            self._boundary("show", panels.show, self.panel)
             self.is_shown = True
-        self.failure = next(iter(self._guard.crashes.values()), "")
+        self.failure = next(iter(self._boundary.crashes.values()), "")
 
     def use(self, widget: Widget, value: Any, browser: int) -> str:
         """Do what a browser did; returns what went wrong, a sentence or ""."""
@@ -333,7 +333,7 @@ class _Tab:
         except Error as error:  # what the user can put right
             return str(error)
         except (Exception, SystemExit) as error:  # a plug-in may raise anything
-            return self._acts.note("act", error)
+            return self._action_boundary.note("act", error)
         return ""
 
     def close(self) -> None:

@@ -30,16 +30,16 @@ export function install() {
 function fields(_, send) {
   /** @type {Fields} */
   const none = { what: "field", topic: "", topics: [], fields: [] };
-  const shown = signal(none);
+  const latest = signal(none);
   const head = popoverButton(
     "plus",
     "Add a field",
-    () => [el("h3", {}, () => `Add a ${shown.value.what}`), choosers(shown, send)],
+    () => [el("h3", {}, () => `Add a ${latest.value.what}`), choosers(latest, send)],
     { class: "wv-icon wv-add-field" },
   );
   return {
     head,
-    update: ({ values }) => (shown.value = /** @type {Fields} */ (values)),
+    update: ({ values }) => (latest.value = /** @type {Fields} */ (values)),
     drop(field) {
       if (field.path) return send(JSON.stringify({ add: messagePath(field) }));
       send(JSON.stringify({ topic: messagePath(field) }));
@@ -51,14 +51,14 @@ function fields(_, send) {
 /**
  * A topic, and its fields below it.
  *
- * @param {Signal<Fields>} shown
+ * @param {Signal<Fields>} latest
  * @param {Send} send
  */
-function choosers(shown, send) {
+function choosers(latest, send) {
   const topics = combobox({
     label: "Topic",
-    value: () => shown.value.topic,
-    options: () => shown.value.topics.map((value) => ({ value })),
+    value: () => latest.value.topic,
+    options: () => latest.value.topics.map((value) => ({ value })),
     change: (topic) => send(JSON.stringify({ topic })),
     free: false,
     placeholder: "Topic",
@@ -66,24 +66,24 @@ function choosers(shown, send) {
   const text = signal("");
   const input = textField("Field", { class: "wv-field", placeholder: "Search fields" });
   const list = new OptionList(input, "Fields", ({ id }) =>
-    send(JSON.stringify({ add: messagePath({ topic: shown.value.topic, path: String(id) }) })),
+    send(JSON.stringify({ add: messagePath({ topic: latest.value.topic, path: String(id) }) })),
   );
   input.addEventListener("input", () => (text.value = input.value));
-  const found = () => search(shown.value.fields, text.value, (field) => [field, ""]);
+  const matches = () => search(latest.value.fields, text.value, (field) => [field, ""]);
   effect(() =>
     list.show(
-      found()
+      matches()
         .slice(0, MAX_SHOWN)
         .map((field) => ({ id: field, title: field })),
     ),
   );
   const note = () => {
-    if (found().length) return "";
-    if (!shown.value.topic) return "Choose a topic. Fields can also be dragged here from Topics.";
-    return shown.value.fields.length ? "No match." : "Waiting for a message …";
+    if (matches().length) return "";
+    if (!latest.value.topic) return "Choose a topic. Fields can also be dragged here from Topics.";
+    return latest.value.fields.length ? "No match." : "Waiting for a message …";
   };
-  const hasNoTopic = () => !shown.value.topic;
-  const topic = computed(() => shown.value.topic);
+  const hasNoTopic = () => !latest.value.topic;
+  const topic = computed(() => latest.value.topic);
   effect(() => {
     if (topic.value) queueMicrotask(() => input.focus()); // its fields are what comes next
   });
@@ -101,18 +101,18 @@ function choosers(shown, send) {
 function path(_, send) {
   /** @type {Path} */
   const none = { path: "", topics: [] };
-  const shown = signal(none);
+  const latest = signal(none);
   const box = combobox({
     label: "Message path",
-    value: () => shown.value.path,
-    options: () => shown.value.topics.map((value) => ({ value })),
+    value: () => latest.value.path,
+    options: () => latest.value.topics.map((value) => ({ value })),
     change: (path) => send(JSON.stringify(path)),
     placeholder: "Topic, fields and filters",
     help: "Topic, fields and filters, such as /diagnostics.status[:]",
   });
   return {
     head: el("div", { class: "wv-panel-path" }, box.element),
-    update: ({ values }) => (shown.value = /** @type {Path} */ (values)),
+    update: ({ values }) => (latest.value = /** @type {Path} */ (values)),
     drop: (field) => send(JSON.stringify(messagePath(field))),
   };
 }

@@ -78,18 +78,18 @@ function open(element, head, name) {
   element.append(content);
   head.append(gear);
   /** @type {Map<string, Widget & {kind: string}>} */
-  const drawn = new Map();
-  takeFields(content, () => [...drawn.values()].find(({ drop }) => drop)?.drop);
+  const widgetsById = new Map();
+  takeFields(content, () => [...widgetsById.values()].find(({ drop }) => drop)?.drop);
 
   const end = watch(`panel:${name}`, (values, changed) => {
     const order = values.get("/order") ?? [];
-    for (const id of order) draw(name, id, values, changed, drawn);
-    widgets.value = order.flatMap((id) => drawn.get(id) ?? []);
+    for (const id of order) draw(name, id, values, changed, widgetsById);
+    widgets.value = order.flatMap((id) => widgetsById.get(id) ?? []);
     setChildren(head, [...widgets.value.flatMap((widget) => widget.head ?? []), gear]);
   });
   return () => {
     end();
-    for (const widget of drawn.values()) widget.close?.();
+    for (const widget of widgetsById.values()) widget.close?.();
   };
 }
 
@@ -98,11 +98,11 @@ function open(element, head, name) {
  * @param {string} id of the widget
  * @param {ValuesOf<"panel">} values
  * @param {Set<string>} changed
- * @param {Map<string, Widget & {kind: string}>} drawn
+ * @param {Map<string, Widget & {kind: string}>} widgetsById
  */
-function draw(name, id, values, changed, drawn) {
+function draw(name, id, values, changed, widgetsById) {
   const widget = /** @type {WidgetValues & {kind: string}} */ (values.get(id));
-  const before = drawn.get(id);
+  const before = widgetsById.get(id);
   if (before?.kind === widget.kind) {
     const isChanged = changed.has(id) || [...changed].some((key) => key.startsWith(`${id}/`));
     if (isChanged) before.update(widget, values, id);
@@ -110,11 +110,13 @@ function draw(name, id, values, changed, drawn) {
   }
   // A panel that was loaded again may have another widget under the same id.
   before?.close?.();
-  const made = makeWidget(widget, (value) => act("UseWidget", { panel: name, widget: id, value }));
-  drawn.set(id, made);
-  made.update(widget, values, id);
+  const instance = makeWidget(widget, (value) =>
+    act("UseWidget", { panel: name, widget: id, value }),
+  );
+  widgetsById.set(id, instance);
+  instance.update(widget, values, id);
   if (LOOKED_AT.has(widget.kind)) return;
-  for (const part of [made.element, made.head]) if (part) needs("UseWidget", part);
+  for (const part of [instance.element, instance.head]) if (part) needs("UseWidget", part);
 }
 
 /**

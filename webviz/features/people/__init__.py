@@ -15,7 +15,7 @@ from webviz.api.roles import Role
 from webviz.data.disk import DiskThreads
 from webviz.engine.commands import PageCommand
 from webviz.engine.feature import command, store
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.store import PageStore
 from webviz.page.dispatcher import Dispatcher, PageFeature
 from webviz.page.page_request import PageRequest
@@ -29,7 +29,7 @@ NOT_ASKED = (
     "Not made: this viewer requires no tokens. Start webviz with --token, or with --host for "
     "other machines."
 )
-OWN_LINK = "Not done: this is your own link. Make another with `webviz token rotate`."
+OWN_LINK = "Failed: this is your own link. Make another with `webviz token rotate`."
 
 MAX_THREADS = 4
 """Largest number of threads that change the file of tokens, or wait for it."""
@@ -99,9 +99,9 @@ class People(PageFeature):
     name = "People"
     module = "people.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._dismissing: set[asyncio.Task[None]] = set()
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._disconnecting: set[asyncio.Task[None]] = set()
         self._disk = DiskThreads(MAX_THREADS)
 
     def attach(self, dispatcher: Dispatcher) -> None:
@@ -112,7 +112,7 @@ class People(PageFeature):
     @store()
     def people(self, argument: str) -> PeopleStore:
         """Return the connected browsers."""
-        fact = self.core.fact
+        fact = self.context.fact
         names = {button.id: button.name for button in fact("tools", ())}
         driving = {tool: vehicle.driver for tool, vehicle in fact("driving", {}).items()}
         return PeopleStore(
@@ -153,7 +153,7 @@ class People(PageFeature):
         role: Literal["watcher", "operator", "owner"],
         days: float | None,
         url: Address,
-        asked: PageRequest,
+        page_request: PageRequest,
     ) -> None:
         """Make a link for somebody else; the answer has the `link` and its QR `code`.
 
@@ -165,21 +165,21 @@ class People(PageFeature):
         """
         granted = Role[role.upper()]
 
-        def answer(done: Future[Token]) -> None:
+        def answer(future: Future[Token]) -> None:
             try:
-                address = link(url, done.result())
+                address = link(url, future.result())
             except Error as error:
-                asked.refuse(str(error))
+                page_request.refuse(str(error))
                 return
             import segno  # here, as it would slow down the start
 
             code = segno.make(address, micro=False).svg_data_uri(scale=5, border=4, light="#fff")
-            asked.answer(f"Invited {name} as {granted.phrase}.", link=address, code=code)
+            page_request.answer(f"Invited {name} as {granted.phrase}.", link=address, code=code)
 
         self._begin(lambda: self._make(name, granted, days)).add_done_callback(answer)
 
     @command(Role.OWNER, PageCommand, is_noted=True)
-    def dismiss(self, visitor: int, revokes: bool, asked: PageRequest) -> None:
+    def dismiss(self, visitor: int, revokes: bool, page_request: PageRequest) -> None:
         """End the visit of somebody else.
 
         Args:
@@ -189,40 +189,41 @@ class People(PageFeature):
         visitor_entry = self._channel.visitors().get(visitor)
         grant = self._channel.grant_of(visitor)
         if visitor_entry is None or grant is None:
-            asked.refuse("This visitor has already left.")
-        elif visitor == asked.browser:
-            asked.refuse("Not done: this is your own page. Close it.")
+            page_request.refuse("This visitor has already left.")
+        elif visitor == page_request.browser:
+            page_request.refuse("Failed: this is your own page. Close it.")
         elif revokes:
-            self.revoke(grant.name, asked)
+            self.revoke(grant.name, page_request)
         else:
             text = (
-                "The owner has ended your visit. Open the address of the viewer again to come back."
+                "The owner has disconnected this page. Open the address of the viewer again to "
+                "come back."
             )
             self._channel.send(Dismissed(text), visitor)
-            task = asyncio.get_running_loop().create_task(self._channel.dismiss(visitor))
-            self._dismissing.add(task)
-            task.add_done_callback(self._dismissing.discard)
-            asked.answer(f"Ended a visit of {visitor_entry.name or visitor_entry.address}.")
+            task = asyncio.get_running_loop().create_task(self._channel.disconnect(visitor))
+            self._disconnecting.add(task)
+            task.add_done_callback(self._disconnecting.discard)
+            page_request.answer(f"Ended a visit of {visitor_entry.name or visitor_entry.address}.")
 
     @command(Role.OWNER, PageCommand, is_noted=True)
-    def revoke(self, name: Name, asked: PageRequest) -> None:
+    def revoke(self, name: Name, page_request: PageRequest) -> None:
         """End a link, and all visits by it.
 
         Args:
             name: of the link.
         """
-        own = self._channel.grant_of(asked.browser)
+        own = self._channel.grant_of(page_request.browser)
         if name and own is not None and own.name == name:
-            asked.refuse(OWN_LINK)
+            page_request.refuse(OWN_LINK)
             return
 
-        def answer(done: Future[None]) -> None:
+        def answer(future: Future[None]) -> None:
             try:
-                done.result()
+                future.result()
             except Error as error:
-                asked.refuse(str(error))
+                page_request.refuse(str(error))
             else:
-                asked.answer(f"Revoked the link of {name}.")
+                page_request.answer(f"Revoked the link of {name}.")
 
         self._begin(lambda: self._remove(name)).add_done_callback(answer)
 
@@ -232,7 +233,7 @@ class People(PageFeature):
             return self._disk.start(work)
         except OSError:
             refused: Future[T] = Future()
-            refused.set_exception(TokenError("Not done: too many at once. Try again later."))
+            refused.set_exception(TokenError("Failed: too many at once. Try again later."))
             return refused
 
     def _remove(self, name: str) -> None:

@@ -22,7 +22,7 @@ const openPeople = () =>
   root(async (end) => {
     const isOwner = self().role === "owner";
     const columns = ["Name", "Role", "Address", "Since", "Latency", "Drives", ""];
-    const shown = isOwner ? columns : columns.filter((name) => name && name !== "Address");
+    const headings = isOwner ? columns : columns.filter((name) => name && name !== "Address");
     const people = store("people");
     const persons = each(
       () => people.all(),
@@ -34,7 +34,7 @@ const openPeople = () =>
       className: "wv-people",
       isLight: true,
       content: [
-        table("Connected", shown, persons),
+        table("Connected", headings, persons),
         ...(isOwner ? ownersPart() : [el("p", { class: "wv-quiet" }, why("Invite"))]),
       ],
     });
@@ -132,7 +132,7 @@ function endings(id, { name }) {
    */
   const button = (label, tip, onclick) => textButton(label, onclick, { tip });
   const end = async () => {
-    const question = `End this visit of ${who}? They may come back${name ? " with their link" : ""}.`;
+    const question = `Disconnect ${who} for now? They may come back${name ? " with their link" : ""}.`;
     if (await ask(question, { title: "End visit", confirm: "End", danger: true })) {
       act("Dismiss", { visitor: id, revokes: false });
     }

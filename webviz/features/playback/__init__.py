@@ -17,7 +17,7 @@ from webviz.data.names import problem_of
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.parts.time import TimePart
 from webviz.engine.state import Row
@@ -90,25 +90,25 @@ class PlaybackFeature(Feature):
     name = "Playback"
     module = "playback.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._time = core.get(TimePart)
-        self._settings = core.get(SettingsPart)
-        self._first_history = self._history = core.player.history
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._time = context.get(TimePart)
+        self._settings = context.get(SettingsPart)
+        self._first_history = self._history = context.player.history
         self._first_events = self._display_events = DisplayEvents()
         self._leader: int | None = None
         """The browser that looked back last, None for a program."""
 
     def update(self) -> None:
         """Note which displays began to warn at the position."""
-        player = self.core.player
+        player = self.context.player
         if player.history is not self._history:
             is_first = player.history is self._first_history
             self._display_events = self._first_events if is_first else DisplayEvents()
             self._history = player.history
         # On the way to a position, and before the first message, displays lack their messages.
         if not player.is_seeking and player.reached_ns >= player.history.start_ns:
-            self._display_events.note(player.position_ns, self.core.get(DisplaysPart).rows)
+            self._display_events.note(player.position_ns, self.context.get(DisplaysPart).rows)
 
     def state(self) -> Mapping[str, Any]:
         """Return when displays began to warn, as far as it was shown, by time."""
@@ -131,7 +131,7 @@ class PlaybackFeature(Feature):
         """The start of the recording, and what was logged, of displays, and found by the doctor."""
         start_ns = self.playback.start_ns if self.playback else None
         warned = self._display_events.events
-        return start_ns, self._time.logged, warned, self.core.fact("found", ())
+        return start_ns, self._time.logged, warned, self.context.fact("found", ())
 
     @store(name="playback")
     def shown(self, argument: str) -> PlaybackStore | None:

@@ -11,9 +11,9 @@ import { duration } from "webviz/time_text.js";
 
 /** @typedef {ReturnType<typeof bookmarks>} Bookmarks */
 
-const known = store("bookmarks");
+const bookmarkStore = store("bookmarks");
 /** Names and times; the timeline reads them while it is there. */
-const pairs = () => known.get("all") ?? [];
+const pairs = () => bookmarkStore.get("all") ?? [];
 
 /**
  * Returns `{element, add()}`; `position()` is the time, and `hidden()` is read in effects.
@@ -57,7 +57,7 @@ export function bookmarks(seek, position, hidden) {
     const name = await askName("bookmark", {
       title: `Bookmark at ${duration(at)}`,
       confirm: "Add",
-      taken: pairs().map(([each]) => each),
+      usedNames: pairs().map(([each]) => each),
     });
     if (name !== null) act("SaveBookmark", { name, at_s: at });
   }

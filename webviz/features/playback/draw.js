@@ -36,7 +36,7 @@ export function draw(
   context.beginPath();
   context.rect(MARGIN, TOP, width - 2 * MARGIN, BAR);
   context.clip();
-  if (past) held(context, past, { x, color });
+  if (past) drawPast(context, past, { x, color });
   bars(context, counts, { x, counted, range, top: TOP, height: BAR, color: color("accent") });
   if (selected) {
     context.fillStyle = color("back");
@@ -97,7 +97,7 @@ export function bars(context, counts, { x, counted, range, top, height, color })
  * @param {{first: number, now: number, gap: Range | null}} past
  * @param {{x: (time: number) => number, color: (name: string) => string}} axis
  */
-function held(context, { first, now, gap }, { x, color }) {
+function drawPast(context, { first, now, gap }, { x, color }) {
   context.fillStyle = color("accent");
   context.globalAlpha = 0.3;
   context.fillRect(x(first), TOP, x(now) - x(first), BAR);

@@ -41,10 +41,10 @@ export function eventCommand(isNext, { all, seek, position }) {
     needs: "Seek",
     run() {
       const now = position();
-      const found = isNext
+      const target = isNext
         ? all().find(([time]) => time > now + CLOSE_S)
         : all().findLast(([time]) => time < now - CLOSE_S);
-      if (found) seek.to(found[0]);
+      if (target) seek.to(target[0]);
       else toast(`There is no ${which} warning or error.`);
     },
   };

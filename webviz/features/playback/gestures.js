@@ -126,8 +126,8 @@ function markUnder(event, track) {
   const { bookmarks, events } = track.marks();
   const bookmark = nearest(bookmarks, ([, time]) => place(time), x);
   if (bookmark) return { time: bookmark[1], text: bookmark[0] };
-  const found = nearest(events, ([time]) => place(time), x);
-  return found && { time: found[0], text: eventText(found) };
+  const mark = nearest(events, ([time]) => place(time), x);
+  return mark && { time: mark[0], text: eventText(mark) };
 }
 
 /**

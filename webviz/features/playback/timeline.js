@@ -47,7 +47,7 @@ const names = () => playback.get("names") ?? [];
 export function timeline(places) {
   const recording = recordingNow();
   const marks = computed(marksNow);
-  const position = () => seek.wanted() ?? recording.value.get("position");
+  const position = () => seek.target() ?? recording.value.get("position");
   /** @param {number} time */
   const isLiveAt = (time) =>
     recording.value.size > 0 && isNow(recording.value, time, track.length());

@@ -25,7 +25,7 @@ export function track(seek, recording, marks) {
   const bounds = signal(/** @type {Range} */ ([0, 1])); // of the whole track, in seconds
   const range = signal(bounds.value); // the window
   const isBag = () => recording.value.get("is_live") === null;
-  const position = () => seek.wanted() ?? recording.value.get("position") ?? 0;
+  const position = () => seek.target() ?? recording.value.get("position") ?? 0;
   /** @type {TrackState} */
   const state = {
     isThere: () => recording.value.size > 0,
@@ -45,8 +45,8 @@ export function track(seek, recording, marks) {
     if (!state.isThere()) return;
     const [now, followed] = [boundsOf(recording.value), isPlaying() ? position() : null];
     untracked(() => {
-      const kept = rebounded(range.value, bounds.value, now, isBag());
-      const next = followed === null ? kept : following(kept, followed, now);
+      const current = rebounded(range.value, bounds.value, now, isBag());
+      const next = followed === null ? current : following(current, followed, now);
       bounds.value = now;
       if (!isSame(next, range.value)) range.value = next;
     });

@@ -25,8 +25,8 @@ export function parseTime(text, start) {
     return Number.isNaN(ms) ? null : ms / 1000 - start;
   }
   if (/^\d+(\.\d*)?$/.test(trimmed)) return Number(trimmed);
-  const found = CLOCK.exec(trimmed);
-  if (!found) return null;
-  const [, hours = "0", minutes = "0", seconds] = found;
+  const match = CLOCK.exec(trimmed);
+  if (!match) return null;
+  const [, hours = "0", minutes = "0", seconds] = match;
   return Number(hours) * 3600 + Number(minutes) * 60 + Number(seconds);
 }

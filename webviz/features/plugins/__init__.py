@@ -19,8 +19,8 @@ class PluginsFeature(Feature):
     @command(None)
     def reload_plugin(self, path: Path) -> None:
         """Reload a plug-in file after it was saved."""
-        displays, settings = self.core.get(DisplaysPart).list, self.core.get(SettingsPart)
+        displays, settings = self.context.get(DisplaysPart).list, self.context.get(SettingsPart)
         plugins.reload(path, displays.runners())
-        self.core.tools.renew()
-        self.core.get(PanelsPart).list.renew()
+        self.context.tools.renew()
+        self.context.get(PanelsPart).list.renew()
         settings.settings = displays.read_again(settings.settings)

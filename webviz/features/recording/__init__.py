@@ -20,7 +20,7 @@ from webviz.data.words import counted, joined
 from webviz.engine.commands import FileCommand, Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.requests import Job
 from webviz.engine.store import PageStore
@@ -112,17 +112,17 @@ class RecordingFeature(Feature):
     name = "Recording"
     module = "recording.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._memory = core.player.memory
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._memory = context.player.memory
         self._recorder: Recorder | None = None
         self._problem = ""
         if (memory := self._memory) is not None:
-            core.player.inbox.read_along(lambda: memory.recent.put)
+            context.player.inbox.read_along(lambda: memory.recent.put)
 
     @property
     def _bounds(self) -> MemorySettings:
-        return self.core.get(SettingsPart).settings.memory
+        return self.context.get(SettingsPart).settings.memory
 
     def keep_up(self, commanded: bool) -> None:
         """Follow the settings, and notice that a recording has ended by itself."""
@@ -174,14 +174,14 @@ class RecordingFeature(Feature):
 
     def close(self) -> None:
         """Complete the recording."""
-        self.core.player.inbox.readers = ()
+        self.context.player.inbox.readers = ()
         if self._recorder is not None:
             self._recorder.close()
 
     def _end(self, recorder: Recorder) -> None:
         """Let a recorder read no more."""
         self._recorder = None
-        self.core.player.inbox.forget(recorder.put)
+        self.context.player.inbox.forget(recorder.put)
 
     @command(Role.OWNER, FileCommand)
     def start_recording(self, sender: Sender, path: str = "") -> Job[RecordingFolder]:
@@ -191,7 +191,7 @@ class RecordingFeature(Feature):
             path: of a new folder; "" is one in the working folder, named by date and time.
                 Browsers cannot choose it.
         """
-        memory, place = self._known(), _new_path(path, sender)
+        memory, place = self._memory_history(), _new_path(path, sender)
         if self._recorder is not None:
             raise Error(f"{self._recorder.path.name} is being recorded already. Stop it first.")
 
@@ -201,7 +201,7 @@ class RecordingFeature(Feature):
             past = [(topic, replace(raw, received_ns=now_ns)) for topic, raw in latched]
             self._recorder = recorder = Recorder(folder, memory.recorded_channels, past)
             self._problem = ""
-            self.core.player.inbox.read_along(lambda: recorder.put)
+            self.context.player.inbox.read_along(lambda: recorder.put)
             return f"Recording to {place.name}."
 
         return Job(lambda: new_folder(place), then)
@@ -218,7 +218,7 @@ class RecordingFeature(Feature):
             if recorder.problem:
                 raise Error(recorder.problem)
             text = f"Recorded {counted(recorder.messages, 'message')} to {recorder.path.name}."
-            self.core.outputs.add(recorder.path, "recording", text, sender)
+            self.context.outputs.add(recorder.path, "recording", text, sender)
             return text
 
         return Job(recorder.close, then)
@@ -234,7 +234,7 @@ class RecordingFeature(Feature):
                 look back also what has been forgotten since.
             path: as that of `StartRecording`.
         """
-        memory, place = self._known(), _new_path(path, sender)
+        memory, place = self._memory_history(), _new_path(path, sender)
         span_s = math.inf if seconds is None else seconds
         if not span_s > 0:
             raise Error(f"{span_s:g} s is not a valid time span. Give a positive number.")
@@ -262,12 +262,12 @@ class RecordingFeature(Feature):
             span = f"{(last.received_ns - first.received_ns) / 1e9:.0f} s"
             what = f"all {span} of the timeline" if is_held else f"the last {span}"
             text = f"Saved {what} to {recorder.path.name}."
-            self.core.outputs.add(recorder.path, "recording", text, sender)
+            self.context.outputs.add(recorder.path, "recording", text, sender)
             return text
 
         return Job(work, then)
 
-    def _known(self) -> MemoryHistory:
+    def _memory_history(self) -> MemoryHistory:
         if self._memory is None:
             raise Error(FROM_BAG)
         return self._memory

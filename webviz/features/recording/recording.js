@@ -14,36 +14,36 @@ const QUIET = { quiet: true }; // the card of the file says it
 export const install = () => timeBarButton(buttons());
 
 /** Of the memory and the recording, read in effects. */
-function shown() {
+function facts() {
   const values = store("recording");
   const [seconds, megabytes] = values.get("remembered") ?? [0, 0];
-  const held = values.get("held") ?? null;
+  const pastSeconds = values.get("held") ?? null;
   return {
-    ...{ seconds, megabytes, held },
+    ...{ seconds, megabytes, pastSeconds },
     isLive: values.has("remembered"),
     isRemembering: values.get("is_remembering") === true,
     recording: values.get("recording") ?? null,
     about: values.get("about") ?? "",
-    saved: held === null ? `last ${seconds} s` : `all ${held} s`,
+    saved: pastSeconds === null ? `last ${seconds} s` : `all ${pastSeconds} s`,
   };
 }
 
-const toggle = () => (shown().recording ? act("StopRecording", {}, QUIET) : act("StartRecording"));
+const toggle = () => (facts().recording ? act("StopRecording", {}, QUIET) : act("StartRecording"));
 const saveLast = () => act("SaveMemory", {}, QUIET);
 
 /** The buttons; hidden for a bag. */
 function buttons() {
   const memoryText = () => {
-    const { isRemembering, seconds, megabytes } = shown();
+    const { isRemembering, seconds, megabytes } = facts();
     return isRemembering ? `memory ${seconds} s, ${megabytes} MB` : "no memory";
   };
   provide(commands);
   return el(
     "div",
-    { class: "wv-recorder", hidden: () => !shown().isLive },
+    { class: "wv-recorder", hidden: () => !facts().isLive },
     el(
       "span",
-      { class: "wv-quiet wv-memory wv-number", tabindex: 0, "data-tip": () => shown().about },
+      { class: "wv-quiet wv-memory wv-number", tabindex: 0, "data-tip": () => facts().about },
       memoryText,
     ),
     needs("StartRecording", recordButton()),
@@ -52,7 +52,7 @@ function buttons() {
 }
 
 function recordButton() {
-  const recording = () => shown().recording;
+  const recording = () => facts().recording;
   const text = () => {
     const running = recording();
     return running ? `${duration(running.seconds, 0)} · ${running.megabytes} MB` : "Record";
@@ -79,19 +79,19 @@ function recordButton() {
 }
 
 function saveButton() {
-  const label = () => `Save ${shown().saved}`;
+  const label = () => `Save ${facts().saved}`;
   const tip = () => {
-    const { held, seconds, megabytes } = shown();
-    return held === null
+    const { pastSeconds, seconds, megabytes } = facts();
+    return pastSeconds === null
       ? `Save what is remembered of the displayed topics: ${seconds} s, ${megabytes} MB`
-      : `Save the ${held} s of the timeline, with the moment that is shown`;
+      : `Save the ${pastSeconds} s of the timeline, with the moment that is shown`;
   };
   return el(
     "button",
     {
       type: "button",
       class: "wv-button wv-save-last",
-      hidden: () => !shown().isRemembering,
+      hidden: () => !facts().isRemembering,
       "aria-label": label,
       "data-tip": tip,
       onclick: saveLast,
@@ -102,7 +102,7 @@ function saveButton() {
 }
 
 function commands() {
-  const { isLive, isRemembering, recording, saved } = shown();
+  const { isLive, isRemembering, recording, saved } = facts();
   if (!isLive) return [];
   const group = "Time";
   const name = recording ? "Stop recording" : "Record";

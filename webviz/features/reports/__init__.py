@@ -13,12 +13,12 @@ from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.data.names import new_path
 from webviz.data.transforms import diagnose, tree_text
-from webviz.engine.commands import FileCommand, Picks, Sender
+from webviz.engine.commands import FileCommand, NodePicks, Sender
 from webviz.engine.examiner import Examiner
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.requests import Job
 from webviz.engine.state import Row
@@ -67,8 +67,8 @@ class ReportsFeature(Feature):
     name = "Report"
     module = "reports.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._reported: tuple[ReportedPick, ...] = ()
 
     def state(self) -> Mapping[str, Any]:
@@ -78,7 +78,7 @@ class ReportsFeature(Feature):
     @store()
     def reported(self, argument: str) -> ReportedStore | None:
         """Return the selection of the bug report that is shown, None without one."""
-        return reported_store(self._reported, self.core.get(DisplaysPart).rows)
+        return reported_store(self._reported, self.context.get(DisplaysPart).rows)
 
     @command(None)
     def restore_selection(self, picks: tuple[ReportedPick, ...]) -> None:
@@ -93,7 +93,7 @@ class ReportsFeature(Feature):
             with_names: whether names of hosts, users and home folders would be in it.
         """
         moment = self._moment(sender, (), with_names)
-        if doctor := self.core.find(Examiner):
+        if doctor := self.context.find(Examiner):
             doctor.ask()  # so that there are findings once it is written
         return Job(lambda: "\n".join(listing(moment)), lambda text: text)
 
@@ -102,7 +102,7 @@ class ReportsFeature(Feature):
         self,
         sender: Sender,
         picture: str = "",
-        selection: tuple[Picks, ...] = (),
+        selection: tuple[NodePicks, ...] = (),
         with_names: bool = False,
         path: str = "",
     ) -> Job[tuple[Path, str]]:
@@ -119,7 +119,7 @@ class ReportsFeature(Feature):
             raise Error("Pages cannot choose the file of a report.")
         image = read_picture(picture)
         moment = self._moment(sender, selection, with_names)
-        doctor = self.core.find(Examiner)
+        doctor = self.context.find(Examiner)
 
         def work() -> tuple[Path, str]:
             until_s = time.monotonic() + ROUNDS_S
@@ -133,29 +133,29 @@ class ReportsFeature(Feature):
             return file, f"Saved {file.name}, {max(1, round(size / 1e3)) / 1e3:.3g} MB."
 
         def then(written: tuple[Path, str]) -> str:
-            self.core.outputs.add(written[0], "report", written[1], sender)
+            self.context.outputs.add(written[0], "report", written[1], sender)
             return written[1]
 
         return Job(work, then)
 
-    def _moment(self, sender: Sender, picks: Sequence[Picks], with_names: bool) -> ReportMoment:
-        core, rows = self.core, self.core.get(DisplaysPart).rows
-        frames = core.buffer.frames()
-        config = core.get(ViewsPart).as_seen(core.get(ConfigPart).config(), sender)
-        part, source = slice_around(core.player)
-        tree = tree_text(core.buffer, core.now_ns)
-        problems = diagnose(core.buffer, core.now_ns).problems
-        public = {*core.offers, *frames, *namespaces(core.offers)}
+    def _moment(self, sender: Sender, picks: Sequence[NodePicks], with_names: bool) -> ReportMoment:
+        context, rows = self.context, self.context.get(DisplaysPart).rows
+        frames = context.buffer.frames()
+        config = context.get(ViewsPart).as_seen(context.get(ConfigPart).config(), sender)
+        part, source = slice_around(context.player)
+        tree = tree_text(context.buffer, context.now_ns)
+        problems = diagnose(context.buffer, context.now_ns).problems
+        public = {*context.offers, *frames, *namespaces(context.offers)}
         return ReportMoment(
             part,
             source,
             rows,
-            core.statuses,
-            core.offers,
-            core.fact("logged", ()),
-            core.fact("warned", ()),
+            context.statuses,
+            context.offers,
+            context.fact("logged", ()),
+            context.fact("warned", ()),
             config,
-            "\n".join([tree or "There are no transforms.", *problems, ""]),
+            "\n".join([tree or "No transforms.", *problems, ""]),
             len(frames),
             picked(picks, rows),
             PrivateNames(public),

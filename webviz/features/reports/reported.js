@@ -17,33 +17,33 @@ const NEAR = 1e-4; // in metres, as single precision has it
 export function restore() {
   let isDone = false;
   watch("reported", (values) => {
-    const wanted = values.get("things") ?? [];
-    if (isDone || !wanted.length) return;
+    const targets = values.get("things") ?? [];
+    if (isDone || !targets.length) return;
     isDone = true;
-    attempt(wanted, TRIES);
+    attempt(targets, TRIES);
   });
 }
 
 /**
- * @param {readonly ReportedThing[]} wanted
+ * @param {readonly ReportedThing[]} targets
  * @param {number} left
  */
-function attempt(wanted, left) {
+function attempt(targets, left) {
   if (selection.all().size) return; // somebody was faster
-  const found = things();
-  const picks = wanted.map((each) => pickOf(each, found)).filter((each) => each !== null);
-  if (picks.length === wanted.length || (left === 0 && picks.length))
+  const candidates = things();
+  const picks = targets.map((each) => pickOf(each, candidates)).filter((each) => each !== null);
+  if (picks.length === targets.length || (left === 0 && picks.length))
     selection.change("replace", picks);
-  else if (left > 0) setTimeout(() => attempt(wanted, left - 1), TRY_MS);
+  else if (left > 0) setTimeout(() => attempt(targets, left - 1), TRY_MS);
 }
 
 /**
  * @param {ReportedThing} wanted
- * @param {ReturnType<typeof things>} found
+ * @param {ReturnType<typeof things>} candidates
  * @returns {Picked | null}
  */
-function pickOf({ display, key, number, at }, found) {
-  for (const thing of found) {
+function pickOf({ display, key, number, at }, candidates) {
+  for (const thing of candidates) {
     const { group, key: own, path, first } = thing.node;
     if (group.split("/", 1)[0] !== display || own !== key) continue;
     if (number === null) {

@@ -21,7 +21,7 @@ from webviz.api.offer import Offer
 from webviz.api.status import Status
 from webviz.data.words import counted
 from webviz.data.working_folder import working_folder
-from webviz.engine.commands import Picks
+from webviz.engine.commands import NodePicks
 from webviz.engine.examiner import Examiner
 from webviz.engine.state import Row
 from webviz.files import config as config_file
@@ -94,7 +94,8 @@ def listing(moment: ReportMoment) -> list[str]:
     ]
     if moment.with_names:
         return [*lines, "Names of hosts, users and home folders are included."]
-    exceptions = f" except {', '.join(names.kept)}, of topics or frames" if names.kept else ""
+    remaining = ", ".join(names.remaining_names)
+    exceptions = f" except {remaining}, of topics or frames" if remaining else ""
     return [*lines, f"Names of hosts, users and home folders are left out{exceptions}."]
 
 
@@ -172,13 +173,13 @@ def _report(moment: ReportMoment, written: WrittenSlice, doctor: Examiner | None
             )
             for each in (doctor.findings if doctor else ())
         ),
-        moments=tuple(_told(each) for each in sorted(events, key=_time)[-MAX_MOMENTS:]),
+        moments=tuple(_moment(each) for each in sorted(events, key=_time)[-MAX_MOMENTS:]),
         selection=moment.selection,
         versions=_versions(),
     )
 
 
-def _told(event: Event) -> ReportedMoment:
+def _moment(event: Event) -> ReportedMoment:
     return ReportedMoment(event.at_ns / 1e9, event.level.name.lower(), event.name, event.text)
 
 
@@ -186,7 +187,7 @@ def _time(event: Event) -> int:
     return event.at_ns
 
 
-def picked(picks: Sequence[Picks], rows: Sequence[Row]) -> tuple[ReportedPick, ...]:
+def picked(picks: Sequence[NodePicks], rows: Sequence[Row]) -> tuple[ReportedPick, ...]:
     """Return a selection, with the numbers of displays instead of their ids, which differ later."""
     places = {row.id: number for number, row in enumerate(rows)}
     reported: list[ReportedPick] = []

@@ -1,4 +1,4 @@
-"""Rights for this session: an owner allows what the gate refuses, by name; others ask for it."""
+"""Rights for this session: an owner allows what the viewer refuses, by name; others ask for it."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.data.names import problem_of
 from webviz.engine.commands import Command
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.feature import command, commands, store
-from webviz.engine.guard import Guard
 from webviz.engine.parts.config import ConfigPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.parts.settings import SettingsPart
 from webviz.engine.pipeline.own_names import PATTERN, own_names
 from webviz.engine.store import PageStore
@@ -105,15 +105,15 @@ class PermissionRequestsStore(PageStore, frozen=True):
 class RightsFeature(PageFeature):
     """Lets owners allow names until the viewer ends, and others ask them to.
 
-    What pages ask for is done on the event loop, the only thread that changes it; the gate alone
+    What pages ask for is done on the event loop, the only thread that changes it; the graph alone
     decides by it.
     """
 
     name = "Rights"
     module = "rights.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._requests: tuple[_Request, ...] = ()
         self._dispatcher: Dispatcher | None = None
 
@@ -158,28 +158,28 @@ class RightsFeature(PageFeature):
     @command(None, label=lambda each: f"Allow {each.name}")
     def list_name(self, name: str) -> None:
         """Have the list of the config contain a name, unless a config without one uses it."""
-        settings = self.core.get(SettingsPart)
+        settings = self.context.get(SettingsPart)
         publish = settings.settings.publish
         if publish is None:
             if name in self._own_names():
                 return
-            publish = self.core.gate.rights.names
+            publish = self.context.graph.rights.names
         settings.set("publish", [*dict.fromkeys((*publish, name))])
 
     @store()
     def permission(self, name: str) -> PermissionStore | None:
         """Return the right to use a name; None for an invalid one."""
-        gate = self.core.gate
+        graph = self.context.graph
         try:
             full = self._full(name)
         except Error:
             return None
         waiting = [each for each in self._current() if each.name == full]
-        path = self.core.get(ConfigPart).path
+        path = self.context.get(ConfigPart).path
         return PermissionStore(
-            refusal=gate.lasting_refusal(full),
-            is_open=gate.is_open(full),
-            is_allowed=full in gate.session,
+            refusal=graph.lasting_refusal(full),
+            is_open=graph.is_open(full),
+            is_allowed=full in graph.session,
             file=path.name if path and path.suffix != ".rviz" else "",
             requests=[each.browser for each in waiting],
             declined=[each.browser for each in waiting if each.is_declined],
@@ -191,102 +191,104 @@ class RightsFeature(PageFeature):
         waiting = [each for each in self._current() if not each.is_declined]
         return PermissionRequestsStore(
             {each.name: PermissionRequest(each.link, self._use(each.name)) for each in waiting},
-            sorted(self.core.gate.session),
+            sorted(self.context.graph.session),
         )
 
     # Called on the event loop
 
-    def _allow(self, asked: PageRequest, wanted: Any) -> None:
-        gate = self.core.gate
+    def _allow(self, page_request: PageRequest, command: Any) -> None:
+        graph = self.context.graph
         try:
-            name = self._full(wanted.name)
+            name = self._full(command.name)
         except Error as error:
-            asked.refuse(str(error))
+            page_request.refuse(str(error))
             return
-        if not self._is_on_this_machine(asked.browser):
-            asked.refuse(ELSEWHERE.format(name))
-        elif name not in gate.session and not gate.is_open(name):
-            asked.refuse(gate.lasting_refusal(name) or f"{name} is allowed already.")
-        elif len(gate.session) >= MAX_ALLOWED:
-            asked.refuse(f"{MAX_ALLOWED} names are allowed for this session, which is the limit.")
+        if not self._is_on_this_machine(page_request.browser):
+            page_request.refuse(ELSEWHERE.format(name))
+        elif name not in graph.session and not graph.is_open(name):
+            page_request.refuse(graph.lasting_refusal(name) or f"{name} is allowed already.")
+        elif len(graph.session) >= MAX_ALLOWED:
+            page_request.refuse(
+                f"{MAX_ALLOWED} names are allowed for this session, which is the limit."
+            )
         else:
-            gate.allow(name)
+            graph.allow(name)
             self._requests = tuple(each for each in self._requests if each.name != name)
             text = f"Allowed for this session: {self._use(name)}."
-            if wanted.always:
-                self._keep(asked, name, text)
+            if command.always:
+                self._keep(page_request, name, text)
             else:
-                self._answer(asked, text)
+                self._answer(page_request, text)
 
-    def _keep(self, asked: PageRequest, name: str, done: str) -> None:
+    def _keep(self, page_request: PageRequest, name: str, text: str) -> None:
         """Have the config file allow a name, too, and answer once it is saved."""
         assert self._dispatcher
         enqueue = self._dispatcher.enqueue
-        listed = enqueue(_command("ListName", name=name), asked.sender)
+        listed = enqueue(_command("ListName", name=name), page_request.sender)
 
         def tell(saved: Future[str]) -> None:
             if saved.cancelled() or saved.exception() is not None:
-                asked.answer(f"{done} Not kept: {saved.exception()}", "warn")
+                page_request.answer(f"{text} Not kept: {saved.exception()}", "warn")
             else:
-                self._answer(asked, f"{done} {saved.result()}")
+                self._answer(page_request, f"{text} {saved.result()}")
 
         def save(_: Future[str]) -> None:
-            enqueue(_command("Save"), asked.sender).add_done_callback(tell)
+            enqueue(_command("Save"), page_request.sender).add_done_callback(tell)
 
         listed.add_done_callback(save)
 
-    def _forbid(self, asked: PageRequest, wanted: Any) -> None:
-        if wanted.name not in self.core.gate.session:
-            asked.refuse("Not done: this is not allowed for this session.")
+    def _forbid(self, page_request: PageRequest, command: Any) -> None:
+        if command.name not in self.context.graph.session:
+            page_request.refuse("Failed: this is not allowed for this session.")
             return
-        self.core.gate.forbid(wanted.name)
-        self._answer(asked, f"No longer allowed: {self._use(wanted.name)}.")
+        self.context.graph.forbid(command.name)
+        self._answer(page_request, f"No longer allowed: {self._use(command.name)}.")
 
-    def _ask(self, asked: PageRequest, wanted: Any) -> None:
+    def _ask(self, page_request: PageRequest, command: Any) -> None:
         try:
-            name = self._full(wanted.name)
+            name = self._full(command.name)
         except Error as error:
-            asked.refuse(str(error))
+            page_request.refuse(str(error))
             return
         assert self._dispatcher
-        grant = self._dispatcher.channel.grant_of(asked.browser)
+        grant = self._dispatcher.channel.grant_of(page_request.browser)
         if problem := self._excess(name, grant.name if grant else ""):
-            asked.refuse(problem)
+            page_request.refuse(problem)
             return
         link = grant.name if grant else ""
-        request = _Request(name, asked.browser, link, time.monotonic())
+        request = _Request(name, page_request.browser, link, time.monotonic())
         self._requests = (*self._current(), request)
         owners = [v for v in self._dispatcher.channel.visitors().values() if v.role is Role.OWNER]
-        remark = "" if owners else " No owner is connected now; one who comes sees it."
-        self._answer(asked, f"Asked the owner: {self._use(name)}.{remark}")
+        remark = "" if owners else " No owner is connected; the next one to connect will see it."
+        self._answer(page_request, f"Asked the owner: {self._use(name)}.{remark}")
 
-    def _decline(self, asked: PageRequest, wanted: Any) -> None:
-        if not any(each.name == wanted.name for each in self._current()):
-            asked.refuse("Not done: this request is gone.")
+    def _decline(self, page_request: PageRequest, command: Any) -> None:
+        if not any(each.name == command.name for each in self._current()):
+            page_request.refuse("Failed: this request no longer exists.")
             return
         self._requests = tuple(
             msgspec.structs.replace(each, is_declined=True, at_s=time.monotonic())
-            if each.name == wanted.name
+            if each.name == command.name
             else each
             for each in self._requests
         )
-        self._answer(asked, f"Not allowed for now: {self._use(wanted.name)}.")
+        self._answer(page_request, f"Not allowed for now: {self._use(command.name)}.")
 
-    def _answer(self, asked: PageRequest, text: str) -> None:
+    def _answer(self, page_request: PageRequest, text: str) -> None:
         """Answer once the pages show what has changed."""
         assert self._dispatcher
-        result = self._dispatcher.enqueue(_command("Refresh"), asked.sender)
-        result.add_done_callback(lambda _: asked.answer(text))
+        result = self._dispatcher.enqueue(_command("Refresh"), page_request.sender)
+        result.add_done_callback(lambda _: page_request.answer(text))
 
     def _excess(self, name: str, link: str) -> str:
         """Return why a request of a link is not passed on, "" if it is."""
-        if not self.core.gate.is_open(name):
-            return self.core.gate.lasting_refusal(name) or f"{name} is allowed already."
+        if not self.context.graph.is_open(name):
+            return self.context.graph.lasting_refusal(name) or f"{name} is allowed already."
         now, current = time.monotonic(), self._current()
         if any(each.name == name and not each.is_declined for each in current):
             return "The owner has been asked for this already."
         if any(each.name == name and each.link == link for each in current):
-            return "The owner has said not now. Ask again in a minute."
+            return "The owner declined for now. Ask again in a minute."
         if any(each.link == link and now - each.at_s < PAUSE_S for each in current):
             return "The owner was asked a moment ago. Wait a few seconds."
         if len(current) >= MAX_REQUESTS:
@@ -320,7 +322,7 @@ class RightsFeature(PageFeature):
         if not is_full or problem_of(name) or not PATTERN.isdisjoint(name):
             raise Error(NOT_ONE_NAME)
         try:
-            return self.core.player.resolve(name)
+            return self.context.player.resolve(name)
         except ValueError as error:
             raise Error(NOT_ONE_NAME) from error
 
@@ -328,18 +330,20 @@ class RightsFeature(PageFeature):
         """Say what a name is used for, as far as the graph knows it."""
         if name.endswith(PARAMETERS):
             return f"change the parameters of {name.removesuffix(PARAMETERS)}"
-        if name in self.core.gate.services():
+        if name in self.context.graph.services():
             return f"call {name}"
-        if f"{name}{ACTION}feedback" in self.core.offers:
+        if f"{name}{ACTION}feedback" in self.context.offers:
             return f"send goals to {name}"
         return f"publish on {name}"
 
     def _own_names(self) -> set[str]:
         """Return what the current config uses, which it may if it has no list."""
         names = set()
-        for each in own_names(self.core.get(ConfigPart).config(), Guard("Rights", strict=False)):
+        for each in own_names(
+            self.context.get(ConfigPart).config(), ErrorBoundary("Rights", strict=False)
+        ):
             try:
-                names.add(self.core.player.resolve(each))
+                names.add(self.context.player.resolve(each))
             except ValueError:
                 continue
         return names

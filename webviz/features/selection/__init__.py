@@ -11,10 +11,10 @@ from webviz.api.errors import Error
 from webviz.api.picking import Details
 from webviz.api.roles import Role
 from webviz.data.transforms.errors import format_stamp
-from webviz.engine.commands import Picks, Sender
+from webviz.engine.commands import NodePicks, Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.pipeline import Runner
 from webviz.engine.pipeline.details import details_tree, first_line
 from webviz.engine.pipeline.picking import PickedItem
@@ -31,7 +31,7 @@ EVERY_S = 0.5
 MAX_PAST = 20
 """Messages that are held for a selection alone, because newer ones have replaced them."""
 
-GONE = "It has been replaced since the click. Click again."
+CLICK_AGAIN = "It has been replaced since the click. Click again."
 REPLACED = "A newer message has replaced this one; the values are those of the selected message."
 
 
@@ -108,12 +108,12 @@ class _Selected(msgspec.Struct, frozen=True):
     """One thing, and the display that drew it."""
 
     runner: Runner
-    found: PickedItem
+    item: PickedItem
 
     @property
     def is_moving(self) -> bool:
         """Return whether it stays the same thing wherever it goes, such as a frame."""
-        return not self.found.hit.samples
+        return not self.item.hit.samples
 
 
 class _Selection(msgspec.Struct):
@@ -122,13 +122,13 @@ class _Selection(msgspec.Struct):
     Args:
         things: by the ids that the browser gave them.
         total: how many there were to select.
-        told, values: for the page, and the same for programs.
+        store, values: for the page, and the same for programs.
         told_at: when that was made, None if it is out of date.
     """
 
     things: dict[int, _Selected] = msgspec.field(default_factory=dict)
     total: int = 0
-    told: SelectionStore = NOTHING
+    store: SelectionStore = NOTHING
     values: Mapping[str, Any] = msgspec.field(default_factory=dict)
     told_at: float | None = None
 
@@ -144,8 +144,8 @@ class SelectionFeature(Feature):
     name = "Selection"
     module = "selection.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._holders: frozenset[int] = frozenset()
         self._viewers: frozenset[int] = frozenset()
         self._is_picking = False
@@ -156,7 +156,7 @@ class SelectionFeature(Feature):
         runners = self._displays.list.runners()
         for runner in runners:
             runner.drawn.remember(self._is_picking)
-        current, now = set(runners), self.core.clock()
+        current, now = set(runners), self.context.clock()
         for browser, selection in self._selections.items():
             if not current.issuperset(each.runner for each in selection.things.values()):
                 things = selection.things.items()
@@ -166,8 +166,8 @@ class SelectionFeature(Feature):
             is_old = selection.told_at is None or (is_few and now >= selection.told_at + EVERY_S)
             if browser in self._viewers and is_old:
                 selection.told_at = now
-                selection.told = self._told(selection)
-                selection.values = msgspec.to_builtins(selection.told.by_key())
+                selection.store = self._store(selection)
+                selection.values = msgspec.to_builtins(selection.store.by_key())
 
     def is_attended(self) -> bool:
         """Return whether a page shows its selection."""
@@ -187,7 +187,7 @@ class SelectionFeature(Feature):
     def selection(self, browser: str) -> SelectionStore:
         """Return the details of what a browser has selected."""
         selection = self._selection_of(browser)
-        return selection.told if selection and int(browser) in self._viewers else NOTHING
+        return selection.store if selection and int(browser) in self._viewers else NOTHING
 
     @store(is_private=True)
     def selected(self, browser: str) -> SelectedStore:
@@ -210,7 +210,7 @@ class SelectionFeature(Feature):
 
     @property
     def _displays(self) -> DisplaysPart:
-        return self.core.get(DisplaysPart)
+        return self.context.get(DisplaysPart)
 
     def _selection_of(self, browser: str) -> _Selection | None:
         return self._selections.get(int(browser)) if browser.isdecimal() else None
@@ -246,7 +246,7 @@ class SelectionFeature(Feature):
     def select(
         self,
         sender: Sender,
-        picks: tuple[Picks, ...] = (),
+        picks: tuple[NodePicks, ...] = (),
         keep: tuple[int, ...] = (),
         total: int = 0,
     ) -> str:
@@ -271,18 +271,18 @@ class SelectionFeature(Feature):
             self._selections.pop(sender.browser, None)
             return ""
         if count and not new:
-            raise Error(GONE)
+            raise Error(CLICK_AGAIN)
         selection = _Selection(things | new, total)
         self._selections[sender.browser] = selection
         return self._line(next(iter(new.values()))) if len(new) == 1 else ""
 
     @command(Role.WATCHER)
-    def identify(self, picks: Picks) -> str:
+    def identify(self, picks: NodePicks) -> str:
         """Answer with one line about a thing, "" if it does not exist any more."""
         things = self._find(picks)
         return self._line(next(iter(things.values()))) if things else ""
 
-    def _find(self, picks: Picks) -> dict[int, _Selected]:
+    def _find(self, picks: NodePicks) -> dict[int, _Selected]:
         id = picks.group.partition("/")[0]
         runner = next((each for each in self._displays.list.active() if each.id == id), None)
         hits = runner.find(picks) if runner else {}
@@ -296,15 +296,15 @@ class SelectionFeature(Feature):
         return " · ".join(part for part in parts if part)
 
     def _details(self, selected: _Selected) -> Details | None:
-        return selected.runner.inspect(selected.found, self.core.frames)
+        return selected.runner.inspect(selected.item, self.context.frames)
 
-    def _told(self, selection: _Selection) -> SelectionStore:
+    def _store(self, selection: _Selection) -> SelectionStore:
         """Return what a page shows of each thing, and of all."""
         things: dict[str, Thing] = {}
         by_title: dict[tuple[str, str], list[Any]] = {}
         counted: dict[str, Statistics] = {}
         for id, selected in selection.things.items():
-            runner, hit = selected.runner, selected.found
+            runner, hit = selected.runner, selected.item
             details = self._details(selected)
             title = details.title if details else str(hit.hit.id or hit.hit.key)
             tree = details_tree(details.values if details else {})
@@ -320,7 +320,7 @@ class SelectionFeature(Feature):
             name = runner.display.name
             things[str(id)] = Thing(runner.id, name, title, {"fields": fields}, note)
             statistics = counted.setdefault(runner.id, Statistics(runner.display.name))
-            where = hit.position(self.core.frames) if hit.hit.id is not None else None
+            where = hit.position(self.context.frames) if hit.hit.id is not None else None
             statistics.add(details.values if details else {}, where)
         count = len(selection.things)
         several = sum(each.count for each in counted.values()) > 1
@@ -332,11 +332,11 @@ class SelectionFeature(Feature):
         )
         return SelectionStore(things, info)
 
-    def _whereabouts(self, found: PickedItem) -> dict[str, str]:
+    def _whereabouts(self, item: PickedItem) -> dict[str, str]:
         """Return the details known of anything that is drawn."""
-        hit = found.hit
+        hit = item.hit
         details: dict[str, str] = {}
-        if (position := found.position(self.core.frames)) is not None:
+        if (position := item.position(self.context.frames)) is not None:
             frame, xyz = position
             name = "Position" if hit.id is not None else "Clicked point"
             details[f"{name} in {frame}"] = f"{', '.join(f'{c:.4f}' for c in xyz)} m"
@@ -351,11 +351,11 @@ def _affordable(things: Mapping[int, _Selected]) -> dict[int, _Selected]:
     """Without those of the oldest messages that only the selection holds, if these are many."""
     past: dict[int, None] = {}
     for each in reversed(list(things.values())):
-        if not each.runner.shows(each.found):
-            past.setdefault(id(each.found.hit.sample))
+        if not each.runner.shows(each.item):
+            past.setdefault(id(each.item.hit.sample))
     dropped = set(list(past)[MAX_PAST:])
     return {
         number: each
         for number, each in things.items()
-        if each.is_moving or id(each.found.hit.sample) not in dropped
+        if each.is_moving or id(each.item.hit.sample) not in dropped
     }

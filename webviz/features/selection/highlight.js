@@ -81,16 +81,16 @@ function makeSheet() {
 function outlinesOf(picks) {
   const find = finder();
   /** @type {{now: Outline[], old: Outline[]}} */
-  const found = { now: [], old: [] };
+  const outlines = { now: [], old: [] };
   for (const pick of picks) {
     const outline = outlineOf(pick, find, selection.moves(pick));
     if (!outline) continue;
     const oldSince = outline.isOld ? (pick.oldSince ?? performance.now()) : null;
     pick.oldSince = oldSince;
-    if (oldSince === null) found.now.push(outline);
-    else if (performance.now() - oldSince < OLD_MS) found.old.push(outline);
+    if (oldSince === null) outlines.now.push(outline);
+    else if (performance.now() - oldSince < OLD_MS) outlines.old.push(outline);
   }
-  return found;
+  return outlines;
 }
 
 /**

@@ -12,7 +12,7 @@ import { computed, effect, owned, signal } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 import { canvas } from "webviz/viser_page.js";
 import { install as installHighlight, middle } from "webviz/features/selection/highlight.js";
-import { tell } from "webviz/tools/hint.js";
+import { showHint } from "webviz/tools/hint.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { active, provide } from "webviz/tools/registry.js";
 import * as selection from "webviz/tools/selection.js";
@@ -135,30 +135,30 @@ function boxBetween([fromX, fromY], [x, y]) {
 function finish({ clientX, clientY, shiftKey, ctrlKey, metaKey }) {
   /** @type {Vec2} */
   const at = [clientX, clientY];
-  const found = drag.value?.to
+  const hits = drag.value?.to
     ? pickIn(boxBetween(drag.value.from, at), selection.MAX_SELECTED, isSelectable)
     : picked(at);
   // At once: a moment later there may be another message.
   const find = finder();
-  for (const pick of found.picks) outlineOf(pick, find, false);
+  for (const pick of hits.picks) outlineOf(pick, find, false);
   cancel();
   const way = shiftKey ? "add" : ctrlKey || metaKey ? "remove" : "replace";
-  if (found.total === 0 && way !== "replace") return;
-  if (found.total > 0 && !document.body.classList.contains("wv-folded")) openPanel("selection");
-  selection.change(way, found.picks, found.total).then(({ level, text }) => {
-    if (level === "error") return tell("warn", text);
+  if (hits.total === 0 && way !== "replace") return;
+  if (hits.total > 0 && !document.body.classList.contains("wv-folded")) openPanel("selection");
+  selection.change(way, hits.picks, hits.total).then(({ level, text }) => {
+    if (level === "error") return showHint("warn", text);
     const [count, total] = [selection.all().size, selection.totalCount()];
-    if (count < total) tell("ok", `Selected the first ${count} of ${total}.`);
-    else if (text) tell("ok", text);
-    else if (count) tell("ok", `${count} selected.`);
-    else tell("ok", found.total ? "Nothing is selected." : "Nothing is there.");
+    if (count < total) showHint("ok", `Selected the first ${count} of ${total}.`);
+    else if (text) showHint("ok", text);
+    else if (count) showHint("ok", `${count} selected.`);
+    else showHint("ok", hits.total ? "Nothing is selected." : "Nothing is there.");
   });
 }
 
 /** @param {Vec2} xy */
 function picked(xy) {
-  const found = pickAt(xy, isSelectable);
-  return { picks: found ? [found] : [], total: found ? 1 : 0 };
+  const hit = pickAt(xy, isSelectable);
+  return { picks: hit ? [hit] : [], total: hit ? 1 : 0 };
 }
 
 /**

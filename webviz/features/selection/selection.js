@@ -46,14 +46,14 @@ const selectionPanel = {
   order: 10,
   open(element) {
     const folds = signal(/** @type {Map<string, boolean>} */ (new Map()));
-    const held = () => values.get("/info")?.count ?? 0;
+    const count = () => values.get("/info")?.count ?? 0;
     /**
      * @param {string} name
      * @param {string} label
      * @param {() => unknown} run
      */
     const button = (name, label, run) =>
-      iconButton(name, label, run, { disabled: () => held() === 0 });
+      iconButton(name, label, run, { disabled: () => count() === 0 });
     /** @param {SelectionRow} row */
     const choose = ({ key, isOpen, value }) => {
       if (isOpen === null) copyAndTell(value);
@@ -79,14 +79,14 @@ const selectionPanel = {
           "header",
           {},
           el("span", { class: "wv-selection-count", role: "status" }, () =>
-            held() ? `${held()} selected` : "",
+            count() ? `${count()} selected` : "",
           ),
           button("focus", "Look at the selection", tool.lookAtSelection),
           button("copy", "Copy all values", () => copyAndTell(textOfAll())),
           button("close", "Clear the selection", () => selection.change("replace", [])),
         ),
         el("div", { class: "wv-selection-note wv-quiet", hidden: () => !note() }, note),
-        el("div", { class: "wv-empty", hidden: () => held() > 0 }, el("p", {}, NOTHING), start),
+        el("div", { class: "wv-empty", hidden: () => count() > 0 }, el("p", {}, NOTHING), start),
         list.element,
       ),
     );

@@ -23,7 +23,7 @@ from webviz.engine.feature import Feature, command, store
 from webviz.engine.forms import sendable
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core, HostProgram
+from webviz.engine.parts.part import HostProgram, PartContext
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.store import PageStore
 from webviz.features.sharing.exporting import SharedMoment, export
@@ -82,8 +82,8 @@ class SharingFeature(Feature):
     name = "Share"
     module = "sharing.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._running: _Running | None = None
         self._ended = SharingState()
 
@@ -99,10 +99,10 @@ class SharingFeature(Feature):
         level = Level.OK if error is None else Level.ERROR
         if error is None:
             text = running.done.result()
-            self.core.outputs.add(running.path, "shared", text, running.sender)
+            self.context.outputs.add(running.path, "shared", text, running.sender)
         else:
             is_expected = isinstance(error, Error)
-            text = str(error) if is_expected else self.core.guard.note("Share", error)
+            text = str(error) if is_expected else self.context.boundary.note("Share", error)
         self._ended = SharingState(number=self._ended.number + 1, level=level, text=text)
 
     def state(self) -> Mapping[str, Any]:
@@ -131,8 +131,8 @@ class SharingFeature(Feature):
         Args:
             before_s, after_s: as those of `ShareMoment`.
         """
-        part, source = slice_around(self.core.player, margins(before_s, after_s))
-        displays = sum(row.type != "Group" for row in self.core.get(DisplaysPart).rows)
+        part, source = slice_around(self.context.player, margins(before_s, after_s))
+        displays = sum(row.type != "Group" for row in self.context.get(DisplaysPart).rows)
         of = "memory" if source == "live" else "the bag"
         return "\n".join(
             (
@@ -159,21 +159,21 @@ class SharingFeature(Feature):
             before_s, after_s: seconds around the moment; without, the selected span or half a
                 minute of a bag, and all that is remembered of live topics.
         """
-        core, files = self.core, self.core.get(ConfigPart)
-        if core.host.offer is None:
+        context, files = self.context, self.context.get(ConfigPart)
+        if context.host.offer is None:
             raise Error("This viewer cannot make files to share. Use `webviz export`.")
         if path and sender.browser is not None:
             raise Error("A page cannot choose the file to share.")
         if self._running is not None:
             raise Error("Another file is being made. Wait for it, or stop it.")
-        part, _ = slice_around(core.player, margins(before_s, after_s))
-        config = core.get(ViewsPart).as_seen(files.config(), sender)
+        part, _ = slice_around(context.player, margins(before_s, after_s))
+        config = context.get(ViewsPart).as_seen(files.config(), sender)
         output = Path(path).absolute() if path else new_path("webviz_run", ".html")
         name = files.path.name if files.path else ""
         stopped = threading.Event()
 
         def work() -> str:
-            return _made(part, config, (output, name), core.host, progress, stopped)
+            return _export(part, config, (output, name), context.host, progress, stopped)
 
         def progress(share: float) -> None:
             running.share = share
@@ -193,7 +193,7 @@ class SharingFeature(Feature):
         return "Stopped; no file was written."
 
 
-def _made(
+def _export(
     part: Slice,
     config: Config,
     target: tuple[Path, str],

@@ -40,7 +40,7 @@ const sharing = store("sharing");
 const maySee = signal(false); // once the role of this page is known; others are refused to watch it
 
 /** The share of the work that is done while a file is made, else null; read in effects. */
-const done = () => (maySee.value ? (sharing.get("share") ?? null) : null);
+const workShare = () => (maySee.value ? (sharing.get("share") ?? null) : null);
 const isBag = () => playback.get("is_live") === null;
 
 export function install() {
@@ -63,11 +63,11 @@ export function install() {
  * @param {Signal<boolean>} mine
  */
 function tellEnds(mine) {
-  const known = { number: -1 };
+  const last = { number: -1 };
   watch("sharing", (values) => {
     const number = values.get("number");
     if (number === undefined) return;
-    if (known.number >= 0 && number > known.number) {
+    if (last.number >= 0 && number > last.number) {
       const level = values.get("level");
       const isMade = level === "ok";
       const action = isMade ? { label: "Download", run: fetchFile } : null;
@@ -76,7 +76,7 @@ function tellEnds(mine) {
       if (isMade && mine.value) fetchFile();
       mine.value = false;
     }
-    known.number = number;
+    last.number = number;
   });
 }
 
@@ -84,9 +84,9 @@ function tellEnds(mine) {
 const progress = () =>
   el(
     "section",
-    { class: "wv-card wv-sharing", role: "status", hidden: () => done() === null },
-    el("progress", { max: 1, value: () => done() ?? 0, "aria-label": "Share of the file" }),
-    el("span", {}, () => `Sharing… ${Math.round((done() ?? 0) * 100)} %`),
+    { class: "wv-card wv-sharing", role: "status", hidden: () => workShare() === null },
+    el("progress", { max: 1, value: () => workShare() ?? 0, "aria-label": "Share of the file" }),
+    el("span", {}, () => `Sharing… ${Math.round((workShare() ?? 0) * 100)} %`),
     textButton("Cancel", () => act("StopSharing")),
   );
 
@@ -104,7 +104,7 @@ const button = (mine) =>
         type: "button",
         class: "wv-button wv-share",
         hidden: () => !playback.has("start") || Boolean(window.webvizRun),
-        disabled: () => done() !== null,
+        disabled: () => workShare() !== null,
         "data-alone": () => isBag() && !playback.get("is_opened"),
         "data-tip": TIP,
         "aria-label": NAME,
@@ -190,9 +190,9 @@ function contents(span, problem) {
   /** @type {Signal<string[]>} */
   const lines = signal(/** @type {string[]} */ ([]));
   effect(() => {
-    const wanted = span.value;
-    act("ListMoment", fieldsOf(wanted), QUIET).then(({ level, text }) => {
-      if (span.value !== wanted) return; // another was chosen meanwhile
+    const request = span.value;
+    act("ListMoment", fieldsOf(request), QUIET).then(({ level, text }) => {
+      if (span.value !== request) return; // another was chosen meanwhile
       problem.value = level === "error" ? text : "";
       lines.value = level === "error" ? [] : text.split("\n");
     });

@@ -21,7 +21,7 @@ from webviz.engine.feature import command, store
 from webviz.engine.forms import Form, form, sendable, values_of
 from webviz.engine.parts.advertisements import advertisement_of
 from webviz.engine.parts.advertisements import publish as publish_on
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.store import PageStore
 from webviz.features.tools.toolbar import Toolbar, ToolButton
 from webviz.files.config import ConfigError
@@ -60,11 +60,11 @@ class ToolsFeature(PageFeature):
     name = "Tools"
     module = "tools.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self.list = core.tools
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self.list = context.tools
         self._toolbar: Toolbar | None = None
-        self._shown: Sequence[ToolButton] = ()
+        self._buttons: Sequence[ToolButton] = ()
 
     def attach(self, dispatcher: Dispatcher) -> None:
         """Show the tools on pages, and take their gestures."""
@@ -79,13 +79,13 @@ class ToolsFeature(PageFeature):
 
     def update(self) -> None:
         """Show the buttons of the toolbar."""
-        self._shown = self.buttons()
+        self._buttons = self.buttons()
         if self._toolbar is not None:
-            self._toolbar.show(self._shown)
+            self._toolbar.show(self._buttons)
 
     def state(self) -> Mapping[str, Any]:
         """Return the buttons of the toolbar."""
-        return {"tools": self._shown}
+        return {"tools": self._buttons}
 
     @store()
     def tool(self, id: str) -> ToolStore | None:
@@ -160,7 +160,7 @@ class ToolsFeature(PageFeature):
 
         def publish(name: str, payload: bytes, values: Mapping[str, Any]) -> None:
             output, topic = ports[name]
-            if publish_on(self.core, output.type, topic, payload, report):
+            if publish_on(self.context, output.type, topic, payload, report):
                 published(topic.name, output.type, values)
 
         def send_goal(request: GoalRequest) -> None:
@@ -168,24 +168,23 @@ class ToolsFeature(PageFeature):
                 # Here, as the other tools work without goals, too.
                 from webviz.features.goals import GoalsFeature
 
-                goals = self.core.get(GoalsFeature)
+                goals = self.context.get(GoalsFeature)
             except (ImportError, LookupError) as error:
                 raise Error(f"Not sent: {error}") from error
             goals.send(id, used.name, request, report)
 
-        core = self.core
-        context = ToolContext(
-            used, core.frames, core.player.now_ns(), publish, self._call, send_goal, report
+        frames, now_ns = self.context.frames, self.context.player.now_ns()
+        used.done(
+            gesture, ToolContext(used, frames, now_ns, publish, self._call, send_goal, report)
         )
-        used.done(gesture, context)
 
     def _call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
-        name = self.core.player.resolve(service)
-        return self.core.gate.call(name, type, request, timeout_s)
+        name = self.context.player.resolve(service)
+        return self.context.graph.call(name, type, request, timeout_s)
 
     def _refusal(self, tool: Tool) -> str:
         """Return why a tool can send nothing, "" if it can or is not known to send anything."""
-        refusals = [self.core.gate.refusal(name) for name in self._names(tool)]
+        refusals = [self.context.graph.refusal(name) for name in self._names(tool)]
         return refusals[0] if refusals and all(refusals) else ""
 
     def _names(self, tool: Tool) -> list[str]:
@@ -193,13 +192,13 @@ class ToolsFeature(PageFeature):
         names = [advertisement.topic for advertisement in self._advertisements(tool)]
         for name in tool.uses:
             with contextlib.suppress(ValueError):
-                names.append(self.core.player.resolve(name))
+                names.append(self.context.player.resolve(name))
         return names
 
     def _advertisements(self, tool: Tool) -> list[Advertisement]:
         """Return the advertisements of a tool whose topics have valid names."""
         advertisements = [
-            advertisement_of(self.core, output.type, topic) for _, output, topic in outputs(tool)
+            advertisement_of(self.context, output.type, topic) for _, output, topic in outputs(tool)
         ]
         return [advertisement for advertisement in advertisements if advertisement]
 

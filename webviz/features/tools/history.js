@@ -18,7 +18,7 @@ import { store } from "webviz/stores.js";
 
 const MAX_KEPT = 20;
 
-const sent = signal(/** @type {SentGesture[]} */ ([]));
+const entries = signal(/** @type {SentGesture[]} */ ([]));
 const settings = store("settings");
 
 export function install() {
@@ -26,7 +26,7 @@ export function install() {
 }
 
 /** All entries; read in effects. */
-export const all = () => sent.value;
+export const all = () => entries.value;
 
 /** The fixed frame of now. */
 export function fixedFrame() {
@@ -44,7 +44,7 @@ export function send(tool, { points, yaw, keys, yaws = [], several = "" }) {
   const result = { level: "", text: "", messages: [] };
   const number = act.send("UseTool", { tool: tool.id, ...gesture });
   const entry = { number, tool, ...gesture, frame: fixedFrame(), time: new Date(), ...result };
-  sent.value = [entry, ...sent.value].slice(0, MAX_KEPT);
+  entries.value = [entry, ...entries.value].slice(0, MAX_KEPT);
 }
 
 /**
@@ -61,7 +61,8 @@ export const again = (entry) => send(entry.tool, entry);
  * @param {string} level
  * @param {string} text
  */
-export const told = (number, level, text) => change(number, (entry) => ({ ...entry, level, text }));
+export const setOutcome = (number, level, text) =>
+  change(number, (entry) => ({ ...entry, level, text }));
 
 /**
  * A message that a gesture became: `{topic, type, values}`.
@@ -77,5 +78,5 @@ export const published = (number, message) =>
  * @param {(entry: SentGesture) => SentGesture} update
  */
 function change(number, update) {
-  sent.value = sent.value.map((entry) => (entry.number === number ? update(entry) : entry));
+  entries.value = entries.value.map((entry) => (entry.number === number ? update(entry) : entry));
 }

@@ -10,7 +10,7 @@ import { iconButton } from "webviz/icons.js";
 import { ask } from "webviz/controls/dialog.js";
 import { each, signal } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
-import { tell, tellLive } from "webviz/tools/hint.js";
+import { showHint, showLiveHint } from "webviz/tools/hint.js";
 import * as history from "webviz/features/tools/history.js";
 import { fixed } from "webviz/numbers.js";
 import * as registry from "webviz/tools/registry.js";
@@ -86,24 +86,24 @@ function sentRow(entry) {
 async function sendAgain(entry) {
   const tool = registry.all().find(({ id }) => id === entry.tool.id);
   if (!tool)
-    return tell(
+    return showHint(
       "warn",
       `Not sent: the tool ${entry.tool.name} no longer exists. Choose another one.`,
     );
   const frame = `this was in ${entry.frame}. Choose it as the fixed frame.`;
-  if (entry.frame !== history.fixedFrame()) return tell("warn", `Not sent: ${frame}`);
-  if (tool.refusal) return tell("warn", tool.refusal);
+  if (entry.frame !== history.fixedFrame()) return showHint("warn", `Not sent: ${frame}`);
+  if (tool.refusal) return showHint("warn", tool.refusal);
   if (!tool.asks) return history.again(entry);
   if (entry.several) {
     const question = `Send the ${entry.points.length} waypoints again?`;
     return (await ask(question, { confirm: "Send" })) && history.again(entry);
   }
   registry.select(tool);
-  const done = () => {
+  const onEnd = () => {
     if (!registry.active()?.stays) registry.select(null);
     history.again(entry);
   };
-  preview.propose(tool, entry, { done, live: tellLive });
+  preview.propose(tool, entry, { onEnd, live: showLiveHint });
 }
 
 /** @param {SentGesture} entry */

@@ -61,7 +61,7 @@ class Toolbar:
 
     def __init__(self, dispatcher: Dispatcher) -> None:
         self._dispatcher = dispatcher
-        self._shown: Tools | None = None
+        self._tools: Tools | None = None
         dispatcher.take("UseTool", self.use, lambda command: MAX_GESTURES)
 
     def show(self, buttons: Sequence[ToolButton]) -> None:
@@ -69,28 +69,30 @@ class Toolbar:
         tools = Tools(
             tuple(msgspec.convert(each, ShownTool, from_attributes=True) for each in buttons)
         )
-        if tools != self._shown:
-            self._shown = tools
+        if tools != self._tools:
+            self._tools = tools
             self._dispatcher.channel.send(tools)
 
-    def use(self, asked: PageRequest, gesture: Any) -> None:
+    def use(self, page_request: PageRequest, gesture: Any) -> None:
         """Pass a gesture on to the frame loop; the tool answers, maybe more than once.
 
         Args:
-            asked: by a page.
+            page_request: by a page.
             gesture: a `UseTool`.
         """
         dispatcher = self._dispatcher
 
         def tell(status: Status) -> None:
-            asked.answer(status.text, Level(status.level).name.lower())
+            page_request.answer(status.text, Level(status.level).name.lower())
 
         def published(topic: str, type: str, values: Mapping[str, Any]) -> None:
             encoded = msgspec.Raw(msgspec.json.encode(values, enc_hook=_plain))
-            dispatcher.channel.send(Published(asked.number, topic, type, encoded), asked.browser)
+            dispatcher.channel.send(
+                Published(page_request.number, topic, type, encoded), page_request.browser
+            )
 
         command = replace(gesture, report=tell, published=published)
-        dispatcher.enqueue(command, asked.sender).add_done_callback(asked.refused_by)
+        dispatcher.enqueue(command, page_request.sender).add_done_callback(page_request.refused_by)
 
 
 def _plain(value: Any) -> Any:

@@ -4,9 +4,9 @@ import { why } from "webviz/access.js";
 import { onAnswer } from "webviz/act.js";
 import * as channel from "webviz/channel.js";
 import { panel } from "webviz/panels/panels.js";
-import { cards } from "webviz/shell/tools.js";
+import { cards } from "webviz/shell/tool_buttons.js";
 import { canvas } from "webviz/viser_page.js";
-import { tell, tellLive } from "webviz/tools/hint.js";
+import { showHint, showLiveHint } from "webviz/tools/hint.js";
 import { gesture, gestureOf, onGesture } from "webviz/tools/gestures.js";
 import * as history from "webviz/features/tools/history.js";
 import { active, provide, select } from "webviz/tools/registry.js";
@@ -14,7 +14,7 @@ import * as preview from "webviz/tools/preview.js";
 import { toolsPanel } from "webviz/features/tools/panel.js";
 import * as waypoints from "webviz/features/tools/waypoints.js";
 
-/** @import {Made, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "webviz/types.js" */
+/** @import {GestureParts, MadeGesture, SceneEvent, Tool, ToolFacts, ViewerTool} from "webviz/types.js" */
 
 const FIRST = 10; // of the places in the toolbar; those before are of tools of the page
 const LIFTS = matchMedia("(pointer: coarse)").matches ? "A second finger" : "Ctrl";
@@ -33,16 +33,16 @@ export function install() {
   gesture("point", pointerTool);
   gesture("pose", pointerTool);
   /** @type {ViewerTool[]} */
-  let known = [];
-  const offer = () => provide("viewer", known.map(toolOf));
+  let viewerTools = [];
+  const offer = () => provide("viewer", viewerTools.map(toolOf));
   onGesture(offer);
   channel.on("Tools", ({ tools }) => {
-    known = tools;
+    viewerTools = tools;
     offer();
   });
   onAnswer("UseTool", ({ number, level, text }) => {
-    history.told(number, level, text);
-    tell(level, text);
+    history.setOutcome(number, level, text);
+    showHint(level, text);
   });
   channel.on("Published", ({ number, topic, message_type, values }) =>
     history.published(number, { topic, type: message_type, values }),
@@ -60,43 +60,46 @@ function toolOf(tool, index) {
     why(tool.gesture === "drive" ? "Drive" : "UseTool") ||
     tool.refusal ||
     (make ? "" : `The gesture "${tool.gesture}" is unknown. Add it in the module of the tool.`);
-  const known = { ...tool, refusal, order: FIRST + index, icon: tool.icon || tool.gesture };
-  return { ...known, ...make?.(known, (made) => take(known, { yaw: 0, keys: [], ...made })) };
+  const definition = { ...tool, refusal, order: FIRST + index, icon: tool.icon || tool.gesture };
+  return {
+    ...definition,
+    ...make?.(definition, (result) => take(definition, { yaw: 0, keys: [], ...result })),
+  };
 }
 
 /**
  * Waits to be sent if the tool asks, as a gesture of the page does.
  *
  * @param {ToolFacts} tool
- * @param {MadeGesture} made
+ * @param {MadeGesture} result
  */
-function take(tool, made) {
+function take(tool, result) {
   if (tool.asks)
-    preview.propose(tool, made, {
-      done: (/** @type {MadeGesture} */ sent) => finish(tool, sent),
-      live: tellLive,
+    preview.propose(tool, result, {
+      onEnd: (/** @type {MadeGesture} */ final) => finish(tool, final),
+      live: showLiveHint,
     });
-  else finish(tool, made);
+  else finish(tool, result);
 }
 
 /**
  * @param {ToolFacts} tool
- * @param {MadeGesture} made
+ * @param {MadeGesture} result
  */
-function finish(tool, made) {
+function finish(tool, result) {
   if (!active()?.stays) select(null); // as it is now: somebody may have changed it meanwhile
-  history.send(tool, made);
+  history.send(tool, result);
 }
 
 /**
- * @param {ViewerTool} known
- * @returns {Made}
+ * @param {ViewerTool} tool
+ * @returns {GestureParts}
  */
-const pointerTool = (known) => ({
-  hint: hintOf(known),
+const pointerTool = (tool) => ({
+  hint: hintOf(tool),
   cursor: "crosshair",
   leave: preview.cancel,
-  pointer: (event) => follow(event, known),
+  pointer: (event) => follow(event, tool),
 });
 
 /** @param {ViewerTool} tool */
@@ -139,13 +142,13 @@ function follow(event, tool) {
   }
   if (event.type !== "pointerdown" || event.target !== canvas() || event.button !== 0) return false;
   event.preventDefault();
-  /** @param {MadeGesture} made */
-  const done = (made) => {
-    if (!waypoints.collect(tool, made)) finish(tool, made);
+  /** @param {MadeGesture} result */
+  const onEnd = (result) => {
+    if (!waypoints.collect(tool, result)) finish(tool, result);
   };
-  if (!preview.begin(event, tool, { done, live: tellLive })) {
+  if (!preview.begin(event, tool, { onEnd, live: showLiveHint })) {
     const surface = "Nothing is there. Press on a surface.";
-    tell("warn", tool.surface ? surface : "There is no ground. Press below the horizon.");
+    showHint("warn", tool.surface ? surface : "No ground here. Press below the horizon.");
   }
   return true;
 }

@@ -4,7 +4,7 @@ import { el } from "webviz/dom.js";
 import { icon, iconButton, textButton } from "webviz/icons.js";
 import { batch, each, effect, signal } from "webviz/signals.js";
 import { onFrameChange } from "webviz/tools/frame_change.js";
-import { tell } from "webviz/tools/hint.js";
+import { showHint } from "webviz/tools/hint.js";
 import * as history from "webviz/features/tools/history.js";
 import { makePoses } from "webviz/tools/poses.js";
 import * as registry from "webviz/tools/registry.js";
@@ -36,7 +36,7 @@ export const collects = (of, isShifted) =>
 export function collect(of, { points, yaw, keys }) {
   if (!collects(of, keys.includes("shift"))) return false;
   if (poses.value.length >= MAX_POSES) {
-    tell("warn", `There are ${MAX_POSES} waypoints. Send them before you add others.`);
+    showHint("warn", `There are ${MAX_POSES} waypoints. Send them before you add others.`);
     return true;
   }
   const before = tool.value?.id === of.id ? poses.value : [];
@@ -55,7 +55,7 @@ export function install() {
   onFrameChange(() => {
     if (!poses.value.length) return;
     poses.value = [];
-    tell("warn", "Removed the waypoints: the fixed frame has changed.");
+    showHint("warn", "Removed the waypoints: the fixed frame has changed.");
   });
   return card();
 }
@@ -107,15 +107,15 @@ function toggle() {
 
 /** @param {string} several */
 function send(several) {
-  const [sent, of] = [poses.value, tool.value];
+  const [route, of] = [poses.value, tool.value];
   isCollecting.value = false;
   poses.value = [];
   if (!of) return;
   if (registry.active()?.id === of.id && !of.stays) registry.select(null);
   history.send(of, {
-    points: sent.map(({ point }) => point),
-    yaws: sent.map(({ yaw }) => yaw),
-    yaw: sent[0].yaw,
+    points: route.map(({ point }) => point),
+    yaws: route.map(({ yaw }) => yaw),
+    yaw: route[0].yaw,
     keys: [],
     several,
   });

@@ -10,7 +10,7 @@ from webviz.api.declared import Topic
 from webviz.data.messages import MessageError, decode, to_tree
 from webviz.data.messages.tree import Tree
 from webviz.engine.feature import Feature, command, store
-from webviz.engine.parts.part import Batches, Core
+from webviz.engine.parts.part import Batches, PartContext
 from webviz.engine.parts.topics import type_of
 from webviz.engine.state import Inspected
 from webviz.engine.store import PageStore
@@ -37,8 +37,8 @@ class TopicsFeature(Feature):
     name = "Inspected topics"
     module = "topics.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._subscriber = Subscriber()
         self._own = ""
         self._of_pages: frozenset[str] = frozenset()
@@ -51,8 +51,8 @@ class TopicsFeature(Feature):
 
     def subscriptions(self) -> Mapping[str, Subscription]:
         """Return the topics that are inspected while a browser is open, with their first types."""
-        inspected = self._inspected() if self.core.is_watched() else ()
-        offers = {topic: self.core.offers.get(topic) for topic in inspected}
+        inspected = self._inspected() if self.context.is_watched() else ()
+        offers = {topic: self.context.offers.get(topic) for topic in inspected}
         return self._subscriber.subscribe(
             {
                 topic: Subscription(offer.publishers[0].type, Topic(topic))
@@ -116,7 +116,7 @@ class TopicsFeature(Feature):
 
     def _look(self, topic: str) -> Inspected:
         """Return the report on an inspected topic."""
-        offer = self.core.offers.get(topic)
+        offer = self.context.offers.get(topic)
         type_ = type_of(offer) if offer else ""
         if not offer or not offer.publishers:
             return Inspected(problem="No publisher on this topic.")
@@ -125,7 +125,7 @@ class TopicsFeature(Feature):
         if topic not in self._last:
             return Inspected(type_, problem="No message has arrived yet.")
         raw, received_s = self._last[topic]
-        now = self.core.clock()
+        now = self.context.clock()
         read = self._read.get(topic)
         if read is None or (read[1] is not raw and not 0.0 <= now - read[0] < EVERY_S):
             read = now, raw, _read(type_, raw, received_s)

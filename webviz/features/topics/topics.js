@@ -51,7 +51,7 @@ const topics = {
       const topic = () => topics.all.value.find(({ key }) => key === name);
       return untracked(() => inspector(name, topic, dismiss));
     };
-    const isEmpty = () => facts.isThere() && !topics.found.value.length;
+    const isEmpty = () => facts.isThere() && !topics.matches.value.length;
     /** @type {HTMLInputElement} */
     const search = searchField("Filter topics", () => (topics.text.value = search.value));
     const panel = el(
@@ -85,13 +85,13 @@ function listed() {
   effect(() => remember("topics-hidden", isAll.value));
   const text = signal("");
   const all = computed(() => {
-    const known = traffic.all();
-    return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...known.get(key) }));
+    const rates = traffic.all();
+    return [...facts.all()].map(([key, topic]) => ({ key, ...topic, ...rates.get(key) }));
   });
   const hasHidden = computed(() => all.value.some(({ key }) => isHiddenTopic(key)));
   const offered = computed(() => all.value.filter(({ key }) => isAll.value || !isHiddenTopic(key)));
-  const found = computed(() => arranged(offered.value, text.value, sort.value));
-  return { sort, isAll, text, all, hasHidden, found };
+  const matches = computed(() => arranged(offered.value, text.value, sort.value));
+  return { sort, isAll, text, all, hasHidden, matches };
 }
 
 /**
@@ -100,10 +100,10 @@ function listed() {
  * @param {ReturnType<typeof listed>} topics
  * @param {(name: string) => unknown} choose
  */
-function grid({ sort, found }, choose) {
+function grid({ sort, matches }, choose) {
   const table = el(
     "div",
-    { class: "wv-topics-table", "aria-rowcount": () => found.value.length + 1 },
+    { class: "wv-topics-table", "aria-rowcount": () => matches.value.length + 1 },
     tableHead(sort),
   );
   const list = rowList({
@@ -115,7 +115,7 @@ function grid({ sort, found }, choose) {
     row: topicRow,
     choose: ({ key }) => choose(key),
   });
-  effect(() => list.show(found.value));
+  effect(() => list.show(matches.value));
   table.append(list.element);
   return { table, list };
 }

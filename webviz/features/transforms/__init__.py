@@ -15,7 +15,7 @@ from webviz.data.rotations import to_rpy, w_first
 from webviz.data.transforms import Diagnosis, FrameReport, TransformException, diagnose, explain
 from webviz.data.transforms.layout import lay_out
 from webviz.engine.feature import Feature, command, store
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.store import PageStore
 
 EVERY_S = 1.0
@@ -111,8 +111,8 @@ class TransformsFeature(Feature):
     name = "TF"
     module = "transforms.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._has_tree = False
         self._pairs: frozenset[tuple[str, str]] = frozenset()
         self._tree: tuple[float, int, Diagnosis] | None = None
@@ -134,7 +134,7 @@ class TransformsFeature(Feature):
 
     def tree(self) -> Diagnosis | None:
         """Return the tree, None while no page shows it."""
-        return self._diagnosis() if self.core.is_watched() and self._has_tree else None
+        return self._diagnosis() if self.context.is_watched() and self._has_tree else None
 
     def transform_between(self, pair: tuple[str, str]) -> Between | None:
         """Return the transform between two frames, None if it is not requested."""
@@ -197,19 +197,19 @@ class TransformsFeature(Feature):
         )
 
     def _requested(self) -> Sequence[tuple[str, str]]:
-        return sorted(self._pairs)[:MAX_BETWEEN] if self.core.is_watched() else ()
+        return sorted(self._pairs)[:MAX_BETWEEN] if self.context.is_watched() else ()
 
     def _diagnosis(self) -> Diagnosis:
         """Return the tree as it was less than a second ago; at once if frames came or moved."""
-        now, structure = self.core.clock(), self.core.buffer.structure_version
+        now, structure = self.context.clock(), self.context.buffer.structure_version
         tree = self._tree
         if tree is None or tree[1] != structure or not 0.0 <= now - tree[0] < EVERY_S:
-            tree = now, structure, diagnose(self.core.buffer, self.core.frames.now_ns)
+            tree = now, structure, diagnose(self.context.buffer, self.context.frames.now_ns)
             self._tree = tree
         return tree[2]
 
     def _between(self, target: str, source: str) -> Between:
-        buffer, now_ns = self.core.buffer, self.core.frames.now_ns
+        buffer, now_ns = self.context.buffer, self.context.frames.now_ns
         try:
             transform = buffer.lookup(target, source, 0)
         except TransformException:
@@ -218,19 +218,19 @@ class TransformsFeature(Feature):
         return Between(transform.translation, transform.rotation, age_s)
 
 
-def between_store(found: Between) -> BetweenStore:
+def between_store(between: Between) -> BetweenStore:
     """Return what pages show of a transform."""
-    if found.translation is None:
-        return BetweenStore(problem=found.problem)
-    x, y, z = (_rounded(value, 4) for value in found.translation)
-    qx, qy, qz, qw = (_rounded(value, 4) for value in found.rotation)
-    roll, pitch, yaw = np.degrees(to_rpy(tuple(w_first(found.rotation))))
+    if between.translation is None:
+        return BetweenStore(problem=between.problem)
+    x, y, z = (_rounded(value, 4) for value in between.translation)
+    qx, qy, qz, qw = (_rounded(value, 4) for value in between.rotation)
+    roll, pitch, yaw = np.degrees(to_rpy(tuple(w_first(between.rotation))))
     return BetweenStore(
         translation=(x, y, z),
         rotation=(qx, qy, qz, qw),
         rpy=(_rounded(roll, 2), _rounded(pitch, 2), _rounded(yaw, 2)),
-        distance=_rounded(np.linalg.norm(found.translation), 4),
-        age=None if found.age_s is None else _age(found.age_s),
+        distance=_rounded(np.linalg.norm(between.translation), 4),
+        age=None if between.age_s is None else _age(between.age_s),
     )
 
 

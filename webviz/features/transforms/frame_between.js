@@ -73,9 +73,9 @@ export function between(names) {
       chosen.source.value = target();
       chosen.target.value = before;
     });
-  const shown = computed(() => textsOf(values()));
+  const texts = computed(() => textsOf(values()));
   const copyAll = () => {
-    const lines = Object.entries(shown.value).map(([name, text]) => `${name}: ${text}`);
+    const lines = Object.entries(texts.value).map(([name, text]) => `${name}: ${text}`);
     copyAndTell(`${source()} in ${target()}\n${lines.join("\n")}\n`);
   };
   const rows = Object.entries(ROWS).map(([name, title]) =>
@@ -83,7 +83,7 @@ export function between(names) {
       "div",
       { title },
       el("dt", { class: "wv-quiet" }, name),
-      el("dd", { class: "wv-number" }, () => shown.value[name]),
+      el("dd", { class: "wv-number" }, () => texts.value[name]),
     ),
   );
   const note = { class: "wv-between-note wv-quiet", role: "status" };

@@ -49,9 +49,9 @@ export function layOut(context, places, edges, rows, values) {
     const frame = name.startsWith("/") ? undefined : values.get(name);
     const lines = frame ? factsOf(frame) : ["root"];
     context.font = BOLD + FONT;
-    const wanted =
+    const textWidth =
       Math.max(context.measureText(short(name)).width, lines[0].length * 6.5) + 2 * PADDING;
-    const width = Math.max(NARROWEST, Math.min(wanted, WIDEST));
+    const width = Math.max(NARROWEST, Math.min(textWidth, WIDEST));
     widths[column] = Math.max(widths[column] ?? 0, width);
     const isFaulty = frame ? frame.problems.length > 0 : isSplit;
     const y = EDGE + row * ROW;

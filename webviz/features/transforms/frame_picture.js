@@ -116,10 +116,10 @@ function searchIn(drawing, goTo) {
     if (event.key !== "Enter" || !drawing.value) return;
     event.preventDefault();
     const matches = isFound.value;
-    const found = [...drawing.value.boxes.values()].filter(({ name }) => matches?.(name));
-    if (!found.length) return;
-    hit = (hit + (event.shiftKey ? -1 : 1) + found.length) % found.length;
-    goTo(found[hit]);
+    const results = [...drawing.value.boxes.values()].filter(({ name }) => matches?.(name));
+    if (!results.length) return;
+    hit = (hit + (event.shiftKey ? -1 : 1) + results.length) % results.length;
+    goTo(results[hit]);
   }
 
   const oninput = () => {
@@ -237,9 +237,9 @@ function paintInto(canvas, { drawing, view, isFound, chosen }) {
     const label = `Tree of ${boxes?.size} frames, ${boxes && faultsIn(boxes)} of them with faults`;
     if (boxes) set(canvas, { "aria-label": label });
   });
-  const seen = computed(() => [drawing.value, view.moved(), isFound.value, chosen.value]);
+  const inputs = computed(() => [drawing.value, view.moved(), isFound.value, chosen.value]);
   effect(() => {
-    if (seen.value) redraw();
+    if (inputs.value) redraw();
   });
   const sizes = new ResizeObserver(redraw);
   sizes.observe(canvas);

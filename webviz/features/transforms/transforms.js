@@ -60,8 +60,8 @@ const transforms = {
     const list = frameList(folded);
     effect(() => {
       list.show(rows.value);
-      const wanted = isThere() ? wantedFrame() : null;
-      const row = rows.value.find(({ name }) => name === wanted);
+      const target = isThere() ? wantedFrame() : null;
+      const row = rows.value.find(({ name }) => name === target);
       if (row) list.mark(row.key);
     });
     /** @type {HTMLInputElement} */

@@ -13,10 +13,10 @@ from webviz.api.roles import Role
 from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.config import RESTORE, ConfigPart, Restore
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.store import PageStore
+from webviz.features.undo.diff import ConfigDiff, UndoSnapshot, difference
 from webviz.features.undo.rebasing import rebased
-from webviz.features.undo.steps import Difference, Moment, difference
 from webviz.files.config import ConfigError
 
 MAX_STEPS = 100
@@ -50,11 +50,11 @@ class UndoHistory(PageStore, frozen=True):
 
 
 class _UndoEntry(msgspec.Struct, frozen=True):
-    """A step, and the moments around it."""
+    """A step, and the snapshots around it."""
 
     step: HistoryStep
-    before: Moment
-    after: Moment
+    before: UndoSnapshot
+    after: UndoSnapshot
 
 
 class UndoFeature(Feature):
@@ -63,15 +63,15 @@ class UndoFeature(Feature):
     name = "History"
     module = "undo.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self._files = core.get(ConfigPart)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self._files = context.get(ConfigPart)
         self._undo: deque[_UndoEntry] = deque(maxlen=MAX_STEPS)
         self._redo: deque[_UndoEntry] = deque(maxlen=MAX_STEPS)
         self._count = 0
         self._last: tuple[float, Sender, tuple[str, str] | None] = (-SAME_S, Sender(), None)
-        self._now = Moment()
-        self._now = self._moment()
+        self._now = UndoSnapshot()
+        self._now = self._snapshot()
 
     @store()
     def history(self, argument: str = "") -> UndoHistory:
@@ -86,7 +86,7 @@ class UndoFeature(Feature):
 
     def after(self, command: Command, sender: Sender) -> None:
         """Note what a command has changed."""
-        before, self._now = self._now, self._moment()
+        before, self._now = self._now, self._snapshot()
         change = difference(before, self._now)
         if not change.label:
             return
@@ -102,17 +102,17 @@ class UndoFeature(Feature):
             step = HistoryStep(self._count, label, by, change.removed, restored)
             self._undo.append(_UndoEntry(step, before, self._now))
 
-    def _goes_on(self, done: Difference, sender: Sender) -> bool:
+    def _goes_on(self, difference: ConfigDiff, sender: Sender) -> bool:
         """Return whether a step belongs to the one before."""
-        now = self.core.clock()
+        now = self.context.clock()
         then, *same = self._last
-        self._last = now, sender, done.property
+        self._last = now, sender, difference.property
         if not self._undo:
             return False
         if sender.step:
             return same[0] == sender
         is_soon = now - then < SAME_S
-        return is_soon and done.property is not None and same == [sender, done.property]
+        return is_soon and difference.property is not None and same == [sender, difference.property]
 
     @command(Role.OPERATOR)
     def undo(self, sender: Sender, steps: int = 1, own: bool = False) -> str:
@@ -141,16 +141,16 @@ class UndoFeature(Feature):
         if not back:
             raise ConfigError(f"There is nothing to {verb}.")
         labels = []
-        moment = self._now
+        snapshot = self._now
         for _ in range(max(1, min(steps, len(back)))):
             entry = _newest(back, sender if own else None)
             self._count += 1
             step = replace(entry.step, number=self._count, browser=sender.browser)
             forth.append(_UndoEntry(step, entry.after, entry.before))
-            moment = rebased(moment, entry.after, entry.before)
+            snapshot = rebased(snapshot, entry.after, entry.before)
             labels.append(entry.step.label)
-        self._show(moment)
-        self._now = self._moment()
+        self._show(snapshot)
+        self._now = self._snapshot()
         self._last = (-SAME_S, Sender(), None)
         return (
             f"{participle}: {labels[0]}."
@@ -158,24 +158,24 @@ class UndoFeature(Feature):
             else f"{participle}: {len(labels)} steps."
         )
 
-    def _moment(self) -> Moment:
+    def _snapshot(self) -> UndoSnapshot:
         before, files = self._now, self._files
-        return Moment(
+        return UndoSnapshot(
             files.settings.settings,
-            files.displays.list.kept(before.displays),
-            files.tools.kept(before.tools),
-            files.panels.kept(before.panels),
+            files.displays.list.snapshots(before.displays),
+            files.tools.snapshots(before.tools),
+            files.panels.snapshots(before.panels),
             files.origin(),
         )
 
-    def _show(self, moment: Moment) -> None:
+    def _show(self, snapshot: UndoSnapshot) -> None:
         files = self._files
-        files.displays.list.restore(moment.displays)
-        files.tools.restore(moment.tools)
-        files.panels.restore(moment.panels)
-        files.settings.settings = moment.settings
-        files.views.start_with(moment.settings.view)
-        files.set_origin(moment.origin)
+        files.displays.list.restore(snapshot.displays)
+        files.tools.restore(snapshot.tools)
+        files.panels.restore(snapshot.panels)
+        files.settings.settings = snapshot.settings
+        files.views.start_with(snapshot.settings.view)
+        files.set_origin(snapshot.origin)
 
 
 def _newest(steps: deque[_UndoEntry], of: Sender | None) -> _UndoEntry:

@@ -9,13 +9,13 @@ import msgspec
 from msgspec.structs import replace
 
 from webviz.engine.parts.snapshots import Snapshot
-from webviz.features.undo.steps import Moment
+from webviz.features.undo.diff import UndoSnapshot
 from webviz.files.config import Settings
 
 
-def rebased(now: Moment, old: Moment, new: Moment) -> Moment:
-    """Apply to a moment what leads from one moment to another, and nothing else."""
-    return Moment(
+def rebased(now: UndoSnapshot, old: UndoSnapshot, new: UndoSnapshot) -> UndoSnapshot:
+    """Apply to a snapshot what leads from one snapshot to another, and nothing else."""
+    return UndoSnapshot(
         settings=_settings(now.settings, old.settings, new.settings),
         displays=_in_groups(_entries(now.displays, old.displays, new.displays)),
         tools=_entries(now.tools, old.tools, new.tools),

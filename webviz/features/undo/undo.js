@@ -22,7 +22,7 @@ const history = store("history");
 const steps = (way) => history.get(way) ?? [];
 
 export function install() {
-  tellOfSteps();
+  announceSteps();
   const undone = step("undo", UNDO);
   headButton(undone);
   headButton(step("redo", REDO));
@@ -77,10 +77,10 @@ function step(way, action) {
   /** @param {Event} event */
   const open = (event) => {
     event.preventDefault();
-    openSteps(made);
+    openSteps(button);
   };
   /** @type {HTMLButtonElement} */
-  const made = iconButton(action.icon, action.name, action.run, {
+  const button = iconButton(action.icon, action.name, action.run, {
     "data-key": action.key[0],
     disabled: () => !isLocked() && label() === undefined,
     tip: null,
@@ -88,7 +88,7 @@ function step(way, action) {
     oncontextmenu: open,
     onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "ArrowDown" && open(event),
   });
-  return needs(action.needs, made);
+  return needs(action.needs, button);
 }
 
 /** @param {HistoryStep} step */
@@ -119,7 +119,7 @@ function openSteps(button) {
 }
 
 /** Says what is new among the steps, whose numbers grow, also when they are taken back. */
-function tellOfSteps() {
+function announceSteps() {
   /** @type {number | null} */
   let newest = null;
   // Steps of a viewer that was started anew have other numbers.
@@ -128,13 +128,13 @@ function tellOfSteps() {
     const [last] = [...steps("undo"), ...steps("redo")].toSorted((a, b) => b.number - a.number);
     const before = newest;
     newest = Math.max(newest ?? -1, last?.number ?? -1);
-    if (before === null) tellRestored(steps("undo")[0]);
-    else if (newest !== before && last) tell(last);
+    if (before === null) announceRestored(steps("undo")[0]);
+    else if (newest !== before && last) announceStep(last);
   });
 }
 
 /** @param {HistoryStep} last the newest of all */
-function tell(last) {
+function announceStep(last) {
   const isUndone = steps("redo").includes(last);
   if (last.browser !== window.webviz.browser) {
     const text = `${isUndone ? "Undone" : "Changed"} ${whereOf(last)}: ${last.label}`;
@@ -150,7 +150,7 @@ function tell(last) {
  *
  * @param {HistoryStep} [last]
  */
-function tellRestored(last) {
+function announceRestored(last) {
   if (!last?.restored) return;
   const action = why("Undo") ? null : { label: "Undo", run: undo };
   const text = `Restored ${last.restored} of the last session.`;

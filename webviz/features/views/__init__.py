@@ -38,10 +38,10 @@ class ViewsFeature(Feature):
     name = "Saved views"
     module = "views.js"
 
-    @store(of=lambda part: part.core.get(SettingsPart).settings)
+    @store(of=lambda part: part.context.get(SettingsPart).settings)
     def views(self, argument: str) -> ViewsStore:
         """Return the saved views."""
-        settings = self.core.get(SettingsPart).settings
+        settings = self.context.get(SettingsPart).settings
         return ViewsStore(
             [
                 SavedView(str(sendable(name)), type_of(view), view == settings.view)
@@ -62,7 +62,7 @@ class ViewsFeature(Feature):
             view: instead of the current view.
         """
         _check_name(name)
-        view = view or self.core.get(ViewsPart).one(browser, sender)
+        view = view or self.context.get(ViewsPart).one(browser, sender)
         self._keep({**self._saved, name: view})
 
     @command(Role.OPERATOR)
@@ -85,10 +85,10 @@ class ViewsFeature(Feature):
 
     @property
     def _saved(self) -> Mapping[str, View]:
-        return self.core.get(SettingsPart).settings.views
+        return self.context.get(SettingsPart).settings.views
 
     def _keep(self, views: Mapping[str, View]) -> None:
-        self.core.get(SettingsPart).set("views", views)
+        self.context.get(SettingsPart).set("views", views)
 
 
 def _check_name(name: str) -> None:

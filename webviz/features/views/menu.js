@@ -51,7 +51,7 @@ async function save() {
   const name = await askName("view", {
     title: "Save this view",
     confirm: "Save",
-    taken: saved(),
+    usedNames: saved(),
     accept: (name) =>
       name !== "" &&
       (!saved().includes(name) || ask(`Replace the view ${name}?`, { confirm: "Replace" })),

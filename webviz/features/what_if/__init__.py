@@ -20,7 +20,7 @@ from webviz.data.transforms.tree import ancestors
 from webviz.engine.commands import Sender
 from webviz.engine.feature import Feature, command, store
 from webviz.engine.parts.displays import DisplaysPart
-from webviz.engine.parts.part import Core
+from webviz.engine.parts.part import PartContext
 from webviz.engine.pipeline import Runner
 from webviz.engine.store import PageStore
 from webviz.features.what_if.frame_handle import FrameHandle, FrameTrial
@@ -122,8 +122,8 @@ class WhatIfFeature(Feature):
     name = "What if"
     module = "what_if.js"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self._trial: FrameTrial | None = None
         self._browser: int | None = None
         self._shares: Mapping[str, float] = {}
@@ -131,12 +131,12 @@ class WhatIfFeature(Feature):
 
     @property
     def _displays(self) -> DisplaysPart:
-        return self.core.get(DisplaysPart)
+        return self.context.get(DisplaysPart)
 
     def keep_up(self, commanded: bool) -> None:
         """End when the frame is not a static one any more."""
         trial = self._trial
-        if trial and not is_pinned(self.core.buffer, trial.frame):
+        if trial and not is_pinned(self.context.buffer, trial.frame):
             self._leave()
 
     @store()
@@ -183,7 +183,7 @@ class WhatIfFeature(Feature):
         if not math.isfinite(yaw):
             raise Error("The yaw is not a number. Give it in radians.")
         self._leave()
-        buffer = self.core.buffer
+        buffer = self.context.buffer
         link = buffer.link(frame)
         if link is None or not link.is_static:
             raise Error(f"'{frame}' does not have a static transform. Choose one that has.")
@@ -220,7 +220,7 @@ class WhatIfFeature(Feature):
         if trial is None or not is_placeable(pose):
             return
         x, y, z, w = w_last(pose.wxyz)
-        pin(self.core.buffer, trial.frame, (*pose.position, x, y, z, w))
+        pin(self.context.buffer, trial.frame, (*pose.position, x, y, z, w))
         trial.pose = pose
         trial.version += 1
         self._displays.consistency.hurry()
@@ -231,7 +231,7 @@ class WhatIfFeature(Feature):
         trial = self._trial
         if trial is None:
             raise Error(NO_TRIAL)
-        buffer = self.core.buffer
+        buffer = self.context.buffer
         below = {frame for frame in buffer.frames() if self._carries(frame)}
         aligned = self._displays.consistency.aligned(below)
         if aligned is None:
@@ -254,7 +254,7 @@ class WhatIfFeature(Feature):
         trial, self._trial = self._trial, None
         if trial is None:
             return
-        unpin(self.core.buffer, trial.frame)
+        unpin(self.context.buffer, trial.frame)
         for runner in self._displays.list.aids:
             runner.close()
         self._displays.list.aids.clear()
@@ -263,7 +263,7 @@ class WhatIfFeature(Feature):
     def _carries(self, frame: str) -> bool:
         """Return whether a frame moves with the one that is tried."""
         trial = self._trial
-        return trial is not None and trial.frame in ancestors(self.core.buffer.tree, frame)
+        return trial is not None and trial.frame in ancestors(self.context.buffer.tree, frame)
 
 
 def _inverse(pose: Pose) -> Pose:

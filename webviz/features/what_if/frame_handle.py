@@ -52,7 +52,7 @@ class FrameTrial:
     moved: Callable[[Pose], None]
     version: int = 0
     """Changes with the pose."""
-    shown: Mapping[str, Handle] = field(init=False)
+    handles: Mapping[str, Handle] = field(init=False)
 
     def __post_init__(self) -> None:
         """Make its handle, which stays the same."""
@@ -64,7 +64,7 @@ class FrameTrial:
             Control(f"rotate {axis}", "rotate_axis", "inherit", TURNED[i], True)
             for i, axis in enumerate("xyz")
         ]
-        self.shown = {KEY: Handle(self.frame, self.parent, (*moves, *turns))}
+        self.handles = {KEY: Handle(self.frame, self.parent, (*moves, *turns))}
 
 
 class FrameHandle(Display, Draggable):
@@ -76,7 +76,7 @@ class FrameHandle(Display, Draggable):
 
     def handles(self, ctx: Context) -> Mapping[str, Handle]:
         """Return the one handle."""
-        return self.trial.shown
+        return self.trial.handles
 
     def drag(self, drag: Drag, connection: GraphConnection, ctx: Context) -> None:
         """Try the frame where a browser moves it."""

@@ -51,7 +51,7 @@ function trial() {
   const frame = store("what_if").get("frame");
   return frame === undefined
     ? ""
-    : `A trial is on: ${frame} is moved in "What if". These are the findings with it.`;
+    : `Trial pose active: "What if" has moved ${frame}. The findings include it.`;
 }
 
 /** The banner; hidden while no frame is tried. */
@@ -66,7 +66,7 @@ function banner() {
   const find = textButton("Find it", () => act("FindFrame", {}), {
     tip: "Move it to where its scan fits the map best: x, y and yaw",
   });
-  const done = textButton("Done", end, { tip: "Return it to its published pose (Esc)" });
+  const doneButton = textButton("Done", end, { tip: "Return it to its published pose (Esc)" });
   const element = el(
     "section",
     { class: "wv-card wv-what-if", hidden: () => !isTried(), "aria-label": "What if" },
@@ -75,7 +75,7 @@ function banner() {
       { class: "wv-what-if-head" },
       el("b", {}, title),
       needs("FindFrame", find),
-      needs("EndTrial", done),
+      needs("EndTrial", doneButton),
     ),
     el("p", { role: "status", "aria-live": "polite" }, fits),
     numbers(),

@@ -42,7 +42,7 @@ def choices(values: Iterable[object]) -> str:
     return f"{', '.join(most)} or {last}" if most else last
 
 
-def shown(value: Any) -> str:
+def excerpt(value: Any) -> str:
     """Return a value as written in a config file, shortened."""
     if value is None:
         return "nothing"

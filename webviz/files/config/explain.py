@@ -33,7 +33,7 @@ from msgspec.inspect import (
 from webviz.api.declared import Declared, Topic, completed, make
 from webviz.api.properties import properties_of
 from webviz.data.words import counted, joined
-from webviz.files.config.errors import choices, shown, unknown_key
+from webviz.files.config.errors import choices, excerpt, unknown_key
 from webviz.files.config.source import Location, Path
 
 MAX_MISTAKES = 10
@@ -212,7 +212,7 @@ def _size(
 
 
 def _expected(what: str, value: Any, path: Path) -> Fault:
-    return Fault(path, f"expected {what}, got {shown(value)}")
+    return Fault(path, f"expected {what}, got {excerpt(value)}")
 
 
 def _first(faults: Iterable[Fault | None]) -> Fault | None:
@@ -306,9 +306,9 @@ def mistakes(
     return faults or [explain(error, cls, values)]  # the values may contradict each other
 
 
-def sentences(found: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
+def sentences(mistakes: Sequence[tuple[Path, str]], place: Location = Location()) -> str:  # noqa: B008
     """Errors with their places, up to a limit."""
-    texts = [place.at(*path).says(clause) for path, clause in found[:MAX_MISTAKES]]
-    if len(found) > MAX_MISTAKES:
-        texts.append(f"{len(found) - MAX_MISTAKES} more errors.")
+    texts = [place.at(*path).says(clause) for path, clause in mistakes[:MAX_MISTAKES]]
+    if len(mistakes) > MAX_MISTAKES:
+        texts.append(f"{len(mistakes) - MAX_MISTAKES} more errors.")
     return joined(*texts)

@@ -94,14 +94,14 @@ class Settings(msgspec.Struct, forbid_unknown_fields=True):
         Prop(help="Saved layouts by name."),
     ] = {}
     memory: Annotated[
-        MemorySettings, Prop(help="What can be rewound and saved of the last minutes.")
+        MemorySettings, Prop(help="Memory of the last minutes, to rewind and save.")
     ] = MemorySettings()
     watch: Annotated[
         tuple[WatchRule, ...],
         msgspec.Meta(max_length=100),
         Prop(help="Rules that save the last minute, and the next 10 s, when they hold."),
     ] = ()
-    watch_limits: Annotated[WatchLimits, Prop(help="Bounds of what the rules save.")] = (
+    watch_limits: Annotated[WatchLimits, Prop(help="Limits of the recordings that rules save.")] = (
         WatchLimits()
     )
     bookmarks: Annotated[

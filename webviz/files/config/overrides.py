@@ -97,7 +97,7 @@ class _Assignment:
     def _in_list(self, items: Sequence[Entry], steps: Path) -> list[Any]:
         if not steps:
             self._refuse(FORM)
-        index = self._found(items, steps[0])
+        index = self._index_of(items, steps[0])
         return [*items[:index], self._in_item(items[index], steps[1:]), *items[index + 1 :]]
 
     def _in_item(self, item: Entry, steps: Path) -> Entry:
@@ -135,7 +135,7 @@ class _Assignment:
             self._refuse(read.reason)
         return read
 
-    def _found(self, items: Sequence[Entry], step: str | int) -> int:
+    def _index_of(self, items: Sequence[Entry], step: str | int) -> int:
         """Return the place in a list of what has a name, or this place."""
         named = [index for index, item in enumerate(items) if _name(item) == step]
         if len(named) == 1:

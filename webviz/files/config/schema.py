@@ -51,7 +51,7 @@ def schema(
     schemas = _Schemas()
     top = schemas.properties(Settings)
     top["version"] = {**top["version"], "minimum": VERSION, "maximum": VERSION}
-    top["displays"] = _list_of(Display, "What is shown, in the order of the list.")
+    top["displays"] = _list_of(Display, "Displays, in the order of the list.")
     top["tools"] = _list_of(Tool, "The toolbar; without this key, all tools that are installed.")
     top["panels"] = _list_of(
         Panel, "Additional tabs; without this key, those of all installed plug-ins."
@@ -124,7 +124,7 @@ class _Schemas:
         for name, cls in types.items():
             properties = {"type": {"const": name}, **self.properties(cls)}
             if cls is DisplayGroup:
-                inner = _list_of(Display, "What is in the group, in the order of the list.")
+                inner = _list_of(Display, "Contents of the group, in the order of the list.")
                 properties["displays"] = inner
             self.definitions[_definition(base, name)] = _object(properties, _words(cls))
         self.definitions[base.kind] = _any(base, types, self.properties(base)["name"])

@@ -72,7 +72,7 @@ class WatchRule(
         Prop(help="How long the condition has to hold, such as 2s."),
     ] = ""
     name: Annotated[
-        str, msgspec.Meta(max_length=60), Prop(help="Name of what it saves; automatic if empty.")
+        str, msgspec.Meta(max_length=60), Prop(help="Name of its recordings; automatic if empty.")
     ] = ""
 
     def __post_init__(self) -> None:

@@ -43,7 +43,7 @@ class PrivateNames:
         parts = {part for name in self._public for part in name.split("/")}
         hidden = [word for word in hidable if word not in parts]
         found_in = [part for part in parts if any(_has(part, word) for word in hidden)]
-        self.kept = (*(word for word in hidable if word in parts), *sorted(found_in))
+        self.remaining_names = (*(word for word in hidable if word in parts), *sorted(found_in))
         """Names, and names of frames and parts of topics with names in them, that stay."""
         self._whole = frozenset(part.encode() for part in found_in)
         home = str(Path.home()) if home is None else home

@@ -17,15 +17,15 @@ from webviz.files.rviz.classes import counterpart
 from webviz.files.rviz.properties import keys, properties
 from webviz.files.rviz.quiet import is_without_effect
 from webviz.files.rviz.report import Report
-from webviz.files.rviz.rest import KEPT
+from webviz.files.rviz.rest import FOR_EXPORT
 from webviz.files.rviz.ros1 import modern
 from webviz.files.rviz.structs import Reading, struct_tree
 from webviz.files.rviz.tree import Path, Tree, difference, leaves, restored
 from webviz.files.rviz.values import Unfit
 
 NO_PROPERTIES = ("Class", "Name", "Enabled", "Value", "Displays")
-NO_DISPLAY = f"unsupported display class; {KEPT}"
-NO_PROPERTY = f"unsupported; {KEPT}"
+NO_DISPLAY = f"unsupported display class; {FOR_EXPORT}"
+NO_PROPERTY = f"unsupported; {FOR_EXPORT}"
 
 
 class UnsupportedParts(msgspec.Struct):
@@ -47,13 +47,13 @@ class UnsupportedParts(msgspec.Struct):
 
 
 def read_items(
-    entries: list[Any], report: Report, kept: UnsupportedParts, place: Location
+    entries: list[Any], report: Report, unsupported: UnsupportedParts, place: Location
 ) -> list[Item]:
     """Return displays of the list at `place` in a .rviz file."""
-    return [_read_item(entry, report, kept, place.at(i)) for i, entry in enumerate(entries)]
+    return [_read_item(entry, report, unsupported, place.at(i)) for i, entry in enumerate(entries)]
 
 
-def _read_item(entry: Any, report: Report, kept: UnsupportedParts, place: Location) -> Item:
+def _read_item(entry: Any, report: Report, unsupported: UnsupportedParts, place: Location) -> Item:
     tree = dict(entry) if isinstance(entry, Mapping) else {}
     name, cls = values.text(tree.get("Name", "")), values.text(tree.get("Class", ""))
     own_class = counterpart(Display, cls)
@@ -68,11 +68,11 @@ def _read_item(entry: Any, report: Report, kept: UnsupportedParts, place: Locati
     inner = tree.pop("Displays", []) if isinstance(display, DisplayGroup) else []
     written = bare(display)
     rest = difference({k: v for k, v in tree.items() if k not in ("Class", "Name")}, written)
-    kept.entries.append({"Class": own_class.rviz, "Name": display.name, **rest})
+    unsupported.entries.append({"Class": own_class.rviz, "Name": display.name, **rest})
     if not isinstance(display, DisplayGroup):
         return display
     entries = inner if isinstance(inner, list) else []
-    return Branch(display, read_items(entries, report, kept, place.at("Displays")))
+    return Branch(display, read_items(entries, report, unsupported, place.at("Displays")))
 
 
 def _read(cls: type[Display], tree: Tree, name: str, report: Report, place: Location) -> Display:
@@ -113,10 +113,10 @@ def display_from(cls: type[Display], tree: Tree, reading: Reading) -> Display:
     if tree.get("Class") != cls.rviz:  # ROS 1's class; some topics have other names
         plain = {key: value for key, value in plain.items() if value != {"name": ""}}
     plain |= {"name": values.text(tree.get("Name", "")), "enabled": _is_enabled(tree, reading)}
-    return made(cls, plain, {"name": plain["name"], "enabled": plain["enabled"]}, reading)
+    return build(cls, plain, {"name": plain["name"], "enabled": plain["enabled"]}, reading)
 
 
-def made(cls: type[P], plain: Tree, least: Tree, reading: Reading) -> P:
+def build(cls: type[P], plain: Tree, least: Tree, reading: Reading) -> P:
     """Return a display or tool from plain values, or `least` if they break a plug-in's own rule."""
     try:
         return make(cls, plain)
@@ -157,26 +157,28 @@ def is_writable(item: P | Unreadable, report: Report) -> TypeGuard[P]:
     return True
 
 
-def write_items(items: list[Item], report: Report, kept: UnsupportedParts) -> list[Any] | None:
+def write_items(
+    items: list[Item], report: Report, unsupported: UnsupportedParts
+) -> list[Any] | None:
     """Return displays as RViz's list, None if it is empty."""
     written = []
     for item in items:
         if isinstance(item, Branch):
-            tree = _write(item.group, kept)
-            written.append(tree | {"Displays": write_items(item.displays, report, kept)})
+            tree = _write(item.group, unsupported)
+            written.append(tree | {"Displays": write_items(item.displays, report, unsupported)})
         elif isinstance(item, Unreadable) and item.is_from_rviz:
             written.append(item.values["rviz"])
         elif is_writable(item, report):
-            written.append(_write(item, kept))
+            written.append(_write(item, unsupported))
     return written or None
 
 
-def _write(display: Display, kept: UnsupportedParts) -> Tree:
+def _write(display: Display, unsupported: UnsupportedParts) -> Tree:
     cls = type(display)
 
     def meaning(tree: Tree) -> dict[str, Any]:
         return to_values(display_from(cls, tree, Reading()))
 
-    kept_tree = kept.take(cls.rviz, display.name)
+    kept_tree = unsupported.take(cls.rviz, display.name)
     tree = restored(bare(display), kept_tree, to_values(display), meaning)
     return topics.without_idle_marks(tree, properties(cls))

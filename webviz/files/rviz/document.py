@@ -28,7 +28,7 @@ from webviz.files.rviz.properties import keys
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.rest import note_rest
 from webviz.files.rviz.structs import Reading, struct_tree
-from webviz.files.rviz.tools import NEW_TOOLS, read_tools, write_tools
+from webviz.files.rviz.toolbar import NEW_TOOLS, read_tools, write_tools
 from webviz.files.rviz.tree import MANAGER, Tree, child, difference, parse, restored
 from webviz.files.rviz.tree import write as write_tree
 from webviz.files.rviz.values import Unfit
@@ -222,13 +222,13 @@ def _of_tools(tools: Any) -> list[type[Panel]]:
 
 
 def write_panels(
-    panels: list[PanelItem], kept: Any, tools: Any, report: Report
+    panels: list[PanelItem], originals: Any, tools: Any, report: Report
 ) -> list[Any] | None:
     """Panels as RViz's list, None if it is empty.
 
     Args:
         panels: of a config; those that every config has are not written.
-        kept: the list of the file that they come from.
+        originals: the list of the file that they come from.
         tools: of that file; panels that it has as tools are not written, unless they were changed.
         report: receives those that RViz does not have.
     """
@@ -238,7 +238,7 @@ def write_panels(
     ]
     by_class = {type(panel): panel for panel in waiting}
     written: list[Any] = []
-    for entry in kept if isinstance(kept, list) else []:
+    for entry in originals if isinstance(originals, list) else []:
         cls = _counterpart(entry)
         if cls is None or cls.opens == "at start":
             written.append(entry)

@@ -36,7 +36,7 @@ REASONS = {
 }
 """Reasons why panels are unsupported, and what to use instead, if there is more to say."""
 
-KEPT = "kept for export"
+FOR_EXPORT = "kept for export"
 
 _TF = "rviz_default_plugins/TF"
 
@@ -53,11 +53,15 @@ def note_rest(document: Tree, report: Report) -> None:
             report.count(kind.lower(), supported, 1)
             if not supported:
                 name = cls.removeprefix("rviz_common/").removeprefix("rviz_default_plugins/")
-                report.note("Panels and tools", name, f"{REASONS.get(cls, 'unsupported')}; {KEPT}")
+                report.note(
+                    "Panels and tools", name, f"{REASONS.get(cls, 'unsupported')}; {FOR_EXPORT}"
+                )
     transformer: Any = child(document, MANAGER, "Transformation", "Current").get("Class", _TF)
     if transformer != _TF:
         report.count("properties", 0, 1)
-        report.note("Transformation", values.text(transformer), f"unsupported, using tf2; {KEPT}")
+        report.note(
+            "Transformation", values.text(transformer), f"unsupported, using tf2; {FOR_EXPORT}"
+        )
 
 
 def is_supported(kind: str, cls: str) -> bool:

@@ -35,16 +35,16 @@ def revive(items: Sequence[Item], settings: Settings) -> tuple[list[Item], Setti
     return revived, settings, report
 
 
-def _revived(item: Item, report: Report, kept: UnsupportedParts) -> Item:
+def _revived(item: Item, report: Report, unsupported: UnsupportedParts) -> Item:
     if isinstance(item, Branch):
-        return Branch(item.group, [_revived(each, report, kept) for each in item.displays])
+        return Branch(item.group, [_revived(each, report, unsupported) for each in item.displays])
     if not isinstance(item, Unreadable) or not item.is_from_rviz:
         return item
     entry = item.values["rviz"]
     cls = values.text(entry.get("Class", "")) if isinstance(entry, Mapping) else ""
     if counterpart(Display, cls) is None:
         return item
-    (revived,) = read_items([_plain(entry)], report, kept, Location())
+    (revived,) = read_items([_plain(entry)], report, unsupported, Location())
     return revived
 
 

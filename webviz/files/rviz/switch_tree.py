@@ -44,7 +44,7 @@ def write(switches: Mapping[str, bool]) -> Tree:
     return {**tree, OWN: True}
 
 
-def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], found: dict[str, bool]) -> None:
+def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], switches: dict[str, bool]) -> None:
     if len(groups) > MAX_LEVELS:
         raise Unfit("nested too deeply")
     for name, entry in raw.items():
@@ -52,6 +52,6 @@ def _collect(raw: Mapping[str, Any], groups: tuple[str, ...], found: dict[str, b
             continue
         path = (*groups, name)
         is_group = isinstance(entry, Mapping) and OWN not in entry
-        found[PATH.join(path)] = is_group or values.read(values.own_value(entry), bool)
+        switches[PATH.join(path)] = is_group or values.read(values.own_value(entry), bool)
         if isinstance(entry, Mapping):
-            _collect(entry, path, found)
+            _collect(entry, path, switches)

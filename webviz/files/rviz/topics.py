@@ -205,8 +205,8 @@ def _policy(word: str, raw: Any, port: Input | Output) -> dict[str, Any]:
             return {}
 
 
-def _label(raw: Any, known: tuple[str, ...]) -> str:
+def _label(raw: Any, labels: tuple[str, ...]) -> str:
     label = values.text(values.own_value(raw))
-    if label not in known:
-        raise Unfit(f"expected {', '.join(known)}, got `{label[:80]}`")
+    if label not in labels:
+        raise Unfit(f"expected {', '.join(labels)}, got `{label[:80]}`")
     return label

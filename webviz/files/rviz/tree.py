@@ -151,7 +151,7 @@ def difference(tree: Tree, basis: Tree) -> Tree:
     return result
 
 
-def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], object]) -> Tree:
+def restored(tree: Tree, original: Any, meant: object, meaning: Callable[[Tree], object]) -> Tree:
     """Return a tree merged with the kept parts of its file.
 
     A kept value that differs from the tree's is another spelling of it, unless the value has
@@ -159,13 +159,13 @@ def restored(tree: Tree, kept: Any, meant: object, meaning: Callable[[Tree], obj
 
     Args:
         tree: as written without that file.
-        kept: the `difference` of the file from it.
+        original: the `difference` of the file from it.
         meant: what is to be written.
         meaning: reads a tree.
     """
     tree = _copied(tree)
     others: list[tuple[Path, Any]] = []
-    _add_missing(tree, kept, (), others)
+    _add_missing(tree, original, (), others)
     # Some are valid only together, such as the parts of a faulty vector.
     for group in [others, *([each] for each in others)] if others else []:
         candidate = _copied(tree)
@@ -188,8 +188,8 @@ def _is_either(value: object, a: object, b: object) -> bool:
     return all(_is_either(*(each.get(key) for each in parts)) for key in set().union(*trees))
 
 
-def _add_missing(tree: Tree, kept: Any, path: Path, others: list[tuple[Path, Any]]) -> None:
-    for key, value in kept.items() if isinstance(kept, Mapping) else ():
+def _add_missing(tree: Tree, original: Any, path: Path, others: list[tuple[Path, Any]]) -> None:
+    for key, value in original.items() if isinstance(original, Mapping) else ():
         key = str(key)
         if key not in tree:
             tree[key] = _copied(value)

@@ -86,10 +86,10 @@ def read_saved(trees: Any, report: Report) -> dict[str, View]:
     return views
 
 
-def free_name(name: str, taken: Mapping[str, Any]) -> str:
+def free_name(name: str, names: Mapping[str, Any]) -> str:
     """Return an unused name, with a number if necessary."""
     number, free = 1, name
-    while free in taken:
+    while free in names:
         number += 1
         free = f"{name} {number}"
     return free
@@ -113,12 +113,12 @@ def read_current(tree: Any, report: Report) -> View:
     return read(tree, report) or Orbit()
 
 
-def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
+def write_saved(saved: Mapping[str, View], originals: Any) -> list[Any] | None:
     """Return the list of saved views as RViz writes it.
 
     Args:
         saved: by name.
-        kept: the list of the file they come from; unchanged views stay as they were there,
+        originals: the list of the file they come from; unchanged views stay as they were there,
             and so do unsupported ones.
 
     Returns:
@@ -126,7 +126,7 @@ def write_saved(saved: Mapping[str, View], kept: Any) -> list[Any] | None:
     """
     trees: list[Any] = []
     names: dict[str, None] = {}
-    for tree in kept if isinstance(kept, list) else []:
+    for tree in originals if isinstance(originals, list) else []:
         view = read(tree, Report()) if isinstance(tree, Mapping) else None
         if view is None:
             trees.append(tree)
@@ -152,11 +152,11 @@ def _others(tree: Mapping[str, Any], view: View) -> Tree:
     return {key: value for key, value in tree.items() if key not in KEYS.values()}
 
 
-def _read_field(field: Property, given: Any, report: Report, place: str) -> Any:
+def _read_field(field: Property, raw: Any, report: Report, place: str) -> Any:
     """Return the value of a field in RViz's tree, clamped to its bounds."""
     key = KEYS[field.path]
     try:
-        value = values.read(given, _kind(field))
+        value = values.read(raw, _kind(field))
     except Unfit as error:
         report.note(place, key, f"{error}; using the default")
         return field.default

@@ -19,7 +19,7 @@ const you = signal(/** @type {{role: string, name: string} | null} */ (null));
 /** @type {Signal<(what: string, fields: object) => string>} */
 const rule = signal(byRole);
 
-channel.on("You", ({ role, name }) => {
+channel.on("Identity", ({ role, name }) => {
   // Another link was opened in another tab: what was built for the old role is wrong.
   if (you.value && you.value.role !== role) return location.reload();
   you.value = { role, name };

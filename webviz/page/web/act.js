@@ -5,23 +5,23 @@ import * as channel from "webviz/channel.js";
 import { counter } from "webviz/numbers.js";
 import { toast } from "webviz/toasts.js";
 
-/** @import {Commands, Do, Done} from "webviz/messages.js" */
+/** @import {CommandRequest, CommandResult, Commands} from "webviz/messages.js" */
 
 /** @typedef {{level: string, text: string, [made: string]: string}} Answer */
 
 /** @type {Map<number, (answer: {level: string, text: string}) => void>} */
 const waiting = new Map();
-/** @type {Map<string, (done: Done) => void>} */
+/** @type {Map<string, (result: CommandResult) => void>} */
 const listeners = new Map();
 /** @type {Map<string, (fields: any) => Promise<Answer> | null>} */
 const detours = new Map();
 const nextNumber = counter();
 
-channel.on("Done", (done) => {
-  const { number, level, text, result } = done;
+channel.on("CommandResult", (message) => {
+  const { number, level, text, result } = message;
   waiting.get(number)?.({ level, text, ...result });
   waiting.delete(number);
-  listeners.get(done.command)?.(done);
+  listeners.get(message.command)?.(message);
 });
 // Commands under way when the connection was lost are not answered any more.
 channel.onOpen(() => {
@@ -48,8 +48,8 @@ export function act(
 ) {
   const refusal = why(command, fields);
   if (!refusal && !isDirect) {
-    const taken = detours.get(command)?.(fields);
-    if (taken) return taken;
+    const answer = detours.get(command)?.(fields);
+    if (answer) return answer;
   }
   const answer = refusal
     ? Promise.resolve({ level: "error", text: refusal })
@@ -71,8 +71,8 @@ export function act(
  */
 export function send(command, fields, step = 0) {
   const number = nextNumber();
-  const request = { type: "Do", number, command, arguments: fields ?? {}, step };
-  channel.send(/** @type {Do} */ (request));
+  const request = { type: "CommandRequest", number, command, arguments: fields ?? {}, step };
+  channel.send(/** @type {CommandRequest} */ (request));
   return number;
 }
 
@@ -80,7 +80,7 @@ export function send(command, fields, step = 0) {
  * Calls `listener` with each answer to a command.
  *
  * @param {keyof Commands} command
- * @param {(done: Done) => void} listener
+ * @param {(result: CommandResult) => void} listener
  */
 export const onAnswer = (command, listener) => listeners.set(command, listener);
 

@@ -32,9 +32,9 @@ export async function copy(text) {
  * Copies a text, and tells that it is copied, or that this is not possible.
  *
  * @param {string} text
- * @param {string} [done] a sentence
+ * @param {string} [confirmation] a sentence
  */
-export async function copyAndTell(text, done = "Copied.") {
-  if (await copy(text)) toast(done);
+export async function copyAndTell(text, confirmation = "Copied.") {
+  if (await copy(text)) toast(confirmation);
   else toast(NOT_COPIED, { level: "error" });
 }

@@ -10,7 +10,7 @@ import { watch } from "webviz/stores.js";
 // Of the server's clock over that of this browser, in seconds.
 const ahead = signal(/** @type {number | null} */ (null));
 
-channel.on("Beat", ({ wall }) => {
+channel.on("Heartbeat", ({ wall }) => {
   ahead.value = offsetAfter(ahead.value, wall - Date.now() / 1000);
 });
 

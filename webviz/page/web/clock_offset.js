@@ -7,8 +7,8 @@ const SET_S = 1; // more than that, and a clock was set
  * The offset in seconds after one more message: a message that took longer makes the server's clock
  * seem slower, so the greatest is right.
  *
- * @param {number | null} known before, null at first
- * @param {number} seen the server's time in the message, over that of this browser when it arrived
+ * @param {number | null} previous the offset so far, null at first
+ * @param {number} sample the server's time in the message, over that of this browser when it arrived
  */
-export const offsetAfter = (known, seen) =>
-  known === null || known - seen > SET_S ? seen : Math.max(seen, known - DRIFT_S);
+export const offsetAfter = (previous, sample) =>
+  previous === null || previous - sample > SET_S ? sample : Math.max(sample, previous - DRIFT_S);

@@ -22,7 +22,7 @@ const TYPED =
 /** @type {Set<Command>} */
 const fixed = new Set();
 /** @type {Set<() => Command[]>} */
-const makers = new Set();
+const factories = new Set();
 /** @type {Set<Taker>} */
 const takers = new Set();
 
@@ -37,11 +37,11 @@ const takers = new Set();
  * `inFields`, and with `repeats` one that does it again while it is held, once what it did before is
  * answered.
  *
- * @param {Command} wanted
+ * @param {Command} entry
  */
-export function command(wanted) {
-  fixed.add(wanted);
-  return () => fixed.delete(wanted);
+export function command(entry) {
+  fixed.add(entry);
+  return () => fixed.delete(entry);
 }
 
 /**
@@ -50,8 +50,8 @@ export function command(wanted) {
  * @param {() => Command[]} make
  */
 export function provide(make) {
-  makers.add(make);
-  return () => makers.delete(make);
+  factories.add(make);
+  return () => factories.delete(make);
 }
 
 /**
@@ -69,7 +69,11 @@ export function keyTable() {
   /** @type {Map<string, Map<string, string[]>>} */
   const table = new Map();
   const rows = [
-    ...known().map((one) => ({ group: one.group ?? "Tools", does: one.name, keys: keysOf(one) })),
+    ...registry().map((one) => ({
+      group: one.group ?? "Tools",
+      does: one.name,
+      keys: keysOf(one),
+    })),
     ...[...shortcutGroups()].flatMap(([group, all]) => all.map((one) => ({ group, ...one }))),
   ];
   for (const { group, does, keys } of rows.filter((row) => row.keys.length)) {
@@ -80,10 +84,10 @@ export function keyTable() {
 }
 
 /** All commands, also those that cannot be done now. */
-export const known = () => [...fixed, ...[...makers].flatMap((make) => make())];
+export const registry = () => [...fixed, ...[...factories].flatMap((make) => make())];
 
 /** All commands that can be done now. */
-export const all = () => known().filter(({ isThere }) => !isThere || isThere());
+export const all = () => registry().filter(({ isThere }) => !isThere || isThere());
 
 /**
  * Does what a command is for, or says why that is not allowed.
@@ -141,14 +145,14 @@ export function install() {
     const matches = (one) =>
       keysOf(one).includes(key) && (!isInField || one.inFields) && (one.isKeyHere?.() ?? true);
     // As in RViz, the last one with a key has it.
-    const found = all().findLast(matches);
-    if (!found) return;
+    const match = all().findLast(matches);
+    if (!match) return;
     end(event);
-    if (event.repeat && (!found.repeats || isWaiting)) return;
+    if (event.repeat && (!match.repeats || isWaiting)) return;
     // What was typed counts before anything is saved.
     if (isInField) /** @type {HTMLElement} */ (document.activeElement).blur();
     isWaiting = true;
-    Promise.resolve(run(found)).then((answer) => {
+    Promise.resolve(run(match)).then((answer) => {
       isWaiting = /** @type {any} */ (answer)?.level === "error";
     });
   });

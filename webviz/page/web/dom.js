@@ -81,19 +81,19 @@ function follow(parent, read) {
   const end = new Text();
   parent.append(end);
   /** @type {ChildNode[]} */
-  let shown = [];
+  let current = [];
   effect(() => {
-    const made = [read()].flat().filter((child) => child !== null && child !== undefined);
-    const isText = made.length === 1 && typeof made[0] === "string";
-    const text = isText ? String(made[0]) : "";
+    const children = [read()].flat().filter((child) => child !== null && child !== undefined);
+    const isText = children.length === 1 && typeof children[0] === "string";
+    const text = isText ? String(children[0]) : "";
     if (end.data !== text) end.data = text;
     const next = isText
       ? []
-      : made.map(
+      : children.map(
           (child) => /** @type {ChildNode} */ (child instanceof Node ? child : new Text(child)),
         );
-    if (end.parentNode) arrange(end.parentNode, shown, next, end);
-    shown = next;
+    if (end.parentNode) arrange(end.parentNode, current, next, end);
+    current = next;
   });
 }
 
@@ -107,8 +107,8 @@ function follow(parent, read) {
  * @param {ChildNode} [end]
  */
 function arrange(parent, before, next, end) {
-  const kept = new Set(next);
-  for (const node of before) if (!kept.has(node)) node.remove();
+  const nextNodes = new Set(next);
+  for (const node of before) if (!nextNodes.has(node)) node.remove();
   const all = end ? [...next, end] : next;
   if (!all.length) return;
   const focused = document.activeElement;

@@ -9,7 +9,7 @@ import { copy, copyAndTell } from "webviz/clipboard.js";
 import { indent, keyOf, rowList, touchable } from "webviz/controls/rows.js";
 import { searchField } from "webviz/controls/fields.js";
 import { el, set, setChildren, setText, showText, svgElement } from "webviz/dom.js";
-import { guarded, textOf } from "webviz/guarded.js";
+import { withErrorBoundary, textOf } from "webviz/error_boundary.js";
 import { icon, iconButton, textButton } from "webviz/icons.js";
 import { overlay } from "webviz/overlay/overlay.js";
 import { foldByKey } from "webviz/panels/folds.js";
@@ -25,7 +25,7 @@ import { timeOfDay } from "webviz/time_text.js";
 import { toast } from "webviz/toasts.js";
 import { watch } from "webviz/stores.js";
 import { gesture } from "webviz/tools/gestures.js";
-import { tellLive } from "webviz/tools/hint.js";
+import { showLiveHint } from "webviz/tools/hint.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { beforeRender, camera, canvas, requestRender } from "webviz/viser_page.js";
 
@@ -86,7 +86,7 @@ const former = {
   style,
   surfaceAt,
   svgElement,
-  tellLive,
+  tellLive: showLiveHint,
   textButton,
   timeOfDay,
   touchable,
@@ -105,7 +105,7 @@ const all = { ...former, ...page };
  */
 function pageFor(report) {
   /** @param {typeof CALLING[number]} name */
-  const guard =
+  const wrap =
     (name) =>
     (/** @type {unknown[]} */ ...args) => {
       const isFunction = typeof args.at(-1) === "function";
@@ -114,11 +114,11 @@ function pageFor(report) {
       return Reflect.apply(
         all[name],
         all,
-        args.map((each) => guarded(each, report)),
+        args.map((each) => withErrorBoundary(each, report)),
       );
     };
-  const guards = Object.fromEntries(CALLING.map((name) => [name, guard(name)]));
-  return Object.freeze({ ...all, ...guards });
+  const wrappers = Object.fromEntries(CALLING.map((name) => [name, wrap(name)]));
+  return Object.freeze({ ...all, ...wrappers });
 }
 
 /**
@@ -148,14 +148,14 @@ function ownPanel({ name, title, isOnDemand = false, open }) {
  */
 const ownWidget = (make) => (values, send) =>
   root((end) => {
-    const made = make(values.values, (value) => send(JSON.stringify(value)));
-    if (!(made?.element instanceof Element && made.update)) return failed();
+    const instance = make(values.values, (value) => send(JSON.stringify(value)));
+    if (!(instance?.element instanceof Element && instance.update)) return failed();
     return {
-      ...made,
-      update: (now, store, id) => made.update(now.values, (key) => store.get(`${id}/${key}`)),
+      ...instance,
+      update: (now, store, id) => instance.update(now.values, (key) => store.get(`${id}/${key}`)),
       close() {
         end();
-        made.close?.();
+        instance.close?.();
       },
     };
   });

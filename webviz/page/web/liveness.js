@@ -42,7 +42,7 @@ export function install() {
     [ticks, heard] = [0, Date.now()];
     banner.hide();
   }
-  channel.on("Beat", hear);
+  channel.on("Heartbeat", hear);
   channel.on("Dismissed", ({ text }) => leave(text));
   viser.filterMessages((messages) => {
     hear();

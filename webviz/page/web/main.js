@@ -76,10 +76,10 @@ async function installFeature(module) {
 async function play(run) {
   decideBy(refusal);
   const feed = await viser.connectToNothing();
-  if (!run) return say(DAMAGED);
+  if (!run) return showMessage(DAMAGED);
   const { socket, open } = connection(run, feed, (error) => {
     console.info(error);
-    say(DAMAGED);
+    showMessage(DAMAGED);
   });
   await installed;
   window.webviz.browser = 0;
@@ -91,17 +91,17 @@ const NO_WEBGL =
   "webviz needs WebGL 2, which this browser does not support. Switch on hardware acceleration in " +
   "its settings, or use another browser.";
 const DAMAGED =
-  "This file is damaged, and shows only a part of its recording. Copy it again, or export it anew.";
+  "This file is damaged, and shows only a part of its recording. Copy or export it again.";
 
 /** @param {string} text */
-function say(text) {
+function showMessage(text) {
   if (!document.querySelector(".wv-contact")) document.body.append(notice(text));
   viser.reveal();
 }
 
 /** @param {string} token */
-const answer = (token) => channel.send({ type: "Answer", token });
-channel.on("Ask", ({ token }) => answer(token));
+const answer = (token) => channel.send({ type: "SyncReply", token });
+channel.on("SyncRequest", ({ token }) => answer(token));
 
 /** @type {About | null} */
 const run = window.webvizRun ? about() : null;
@@ -129,5 +129,5 @@ window.webviz = {
   pick: mouse.pick,
 };
 if (!isExported) liveness.untilJoined(() => window.webviz.browser !== null);
-if (!hasWebGL()) say(NO_WEBGL); // viser's page stays empty, and nothing else is installed
+if (!hasWebGL()) showMessage(NO_WEBGL); // viser's page stays empty, and nothing else is installed
 window.webvizStarted();

@@ -9,21 +9,21 @@ import { signal, untracked } from "webviz/signals.js";
  * @param {(value: number) => unknown} send
  */
 export function newest(send) {
-  const wanted = signal(/** @type {number | null} */ (null));
-  const current = () => untracked(() => wanted.value);
+  const target = signal(/** @type {number | null} */ (null));
+  const current = () => untracked(() => target.value);
 
   /** @param {number} value */
   async function to(value) {
     const isUnderway = current() !== null;
-    wanted.value = value;
+    target.value = value;
     if (isUnderway) return;
-    let sent = null;
-    for (let next = current(); next !== null && next !== sent; next = current()) {
-      sent = next;
+    let last = null;
+    for (let next = current(); next !== null && next !== last; next = current()) {
+      last = next;
       await send(next);
     }
-    wanted.value = null;
+    target.value = null;
   }
 
-  return { to, wanted: () => wanted.value };
+  return { to, target: () => target.value };
 }

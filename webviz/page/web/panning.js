@@ -13,7 +13,7 @@ import { takeKeysOf } from "webviz/keys.js";
  */
 export function listenToPanning(canvas, { wheel, move, keys, click = () => {}, slack = 0 }) {
   /** @type {{x: number, y: number, isDrag: boolean} | null} */
-  let held = null;
+  let press = null;
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     wheel(event);
@@ -21,20 +21,20 @@ export function listenToPanning(canvas, { wheel, move, keys, click = () => {}, s
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
-    held = { x: event.clientX, y: event.clientY, isDrag: false };
+    press = { x: event.clientX, y: event.clientY, isDrag: false };
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (!held) return;
-    const [dx, dy] = [event.clientX - held.x, event.clientY - held.y];
-    if (!held.isDrag && Math.hypot(dx, dy) < slack) return;
-    held = { x: event.clientX, y: event.clientY, isDrag: true };
+    if (!press) return;
+    const [dx, dy] = [event.clientX - press.x, event.clientY - press.y];
+    if (!press.isDrag && Math.hypot(dx, dy) < slack) return;
+    press = { x: event.clientX, y: event.clientY, isDrag: true };
     move(dx, dy);
   });
   canvas.addEventListener("pointerup", (event) => {
-    if (held && !held.isDrag) click(event);
-    held = null;
+    if (press && !press.isDrag) click(event);
+    press = null;
   });
-  canvas.addEventListener("pointercancel", () => (held = null));
+  canvas.addEventListener("pointercancel", () => (press = null));
   takeKeysOf(canvas, (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return false;
     keys[event.key]();

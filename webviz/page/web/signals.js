@@ -142,7 +142,7 @@ class Computed extends Reader {
   #make;
   #writes = -1;
   /** @type {{value?: T, error?: unknown}} */
-  #made = {};
+  #result = {};
 
   /** @param {() => T} make */
   constructor(make) {
@@ -153,22 +153,22 @@ class Computed extends Reader {
   get value() {
     this.refresh();
     this.track();
-    if ("error" in this.#made) throw this.#made.error;
-    return /** @type {T} */ (this.#made.value);
+    if ("error" in this.#result) throw this.#result.error;
+    return /** @type {T} */ (this.#result.value);
   }
 
   refresh() {
     if (this.#writes === now.writes) return;
     this.#writes = now.writes;
     if (this.version && !this.hasChanges()) return;
-    const before = this.#made;
+    const before = this.#result;
     try {
-      this.#made = { value: this.read(this.#make, null) };
+      this.#result = { value: this.read(this.#make, null) };
     } catch (error) {
-      this.#made = { error };
+      this.#result = { error };
     }
-    const isSame = "value" in before && Object.is(before.value, this.#made.value);
-    if (!isSame || "error" in this.#made) this.version += 1;
+    const isSame = "value" in before && Object.is(before.value, this.#result.value);
+    if (!isSame || "error" in this.#result) this.version += 1;
   }
 
   stale() {
@@ -259,8 +259,7 @@ function flush() {
     now.due.clear();
     for (const effect of due) {
       try {
-        if (round === MAX_ROUNDS)
-          throw new Error("An effect changes again and again what it reads.");
+        if (round === MAX_ROUNDS) throw new Error("An effect keeps changing its own inputs.");
         effect.refresh();
       } catch (error) {
         console.error(error);
@@ -296,10 +295,10 @@ export const computed = (make) => new Computed(make);
  * @returns {End}
  */
 export function effect(run) {
-  const made = new Effect(run);
-  const end = owned(() => made.end());
+  const instance = new Effect(run);
+  const end = owned(() => instance.end());
   try {
-    made.run();
+    instance.run();
   } catch (error) {
     end();
     throw error;
@@ -381,7 +380,7 @@ export const untracked = (read) => within(null, now.owner, read);
  * @returns {() => R[]}
  */
 export function each(list, keyOf, makeRow) {
-  /** @type {Map<K, {item: Signal<T>, made: R, end: End}>} */
+  /** @type {Map<K, {item: Signal<T>, result: R, end: End}>} */
   const rows = new Map();
   owned(() => rows.forEach(({ end }) => end()));
   return () => {
@@ -392,9 +391,9 @@ export function each(list, keyOf, makeRow) {
       end();
     }
     return [...items].map(([key, value]) => {
-      const known = rows.get(key) ?? root((end) => add(value, key, end));
-      known.item.value = value;
-      return known.made;
+      const row = rows.get(key) ?? root((end) => add(value, key, end));
+      row.item.value = value;
+      return row.result;
     });
   };
 
@@ -405,7 +404,7 @@ export function each(list, keyOf, makeRow) {
    */
   function add(value, key, end) {
     const item = signal(value);
-    const row = { item, made: makeRow(item, key), end };
+    const row = { item, result: makeRow(item, key), end };
     rows.set(key, row);
     return row;
   }

@@ -162,9 +162,9 @@ class Store {
 
 /** @param {string} name */
 function storeOf(name) {
-  const known = stores.get(name) ?? new Store(name);
-  stores.set(name, known);
-  return known;
+  const entry = stores.get(name) ?? new Store(name);
+  stores.set(name, entry);
+  return entry;
 }
 
 /**

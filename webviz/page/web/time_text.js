@@ -47,8 +47,8 @@ export function duration(seconds, digits = 1) {
  * @param {string} name
  */
 export function savedText(name) {
-  const found = /^(\d{4}-\d\d-\d\d)_(\d\d)-(\d\d)-(\d\d)_(.*)$/.exec(name);
-  if (!found) return name;
-  const [, date, hours, minutes, seconds, cause] = found;
+  const match = /^(\d{4}-\d\d-\d\d)_(\d\d)-(\d\d)-(\d\d)_(.*)$/.exec(name);
+  if (!match) return name;
+  const [, date, hours, minutes, seconds, cause] = match;
   return `${date} ${hours}:${minutes}:${seconds} · ${cause.replaceAll("_", " ")}`;
 }

@@ -16,7 +16,7 @@ const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
 const MAX_SHOWN = 3;
 
 /** @type {Map<string, Toast>} */
-const shown = new Map();
+const toasts = new Map();
 const place = signal(/** @type {HTMLElement | null} */ (null));
 
 /** @param {HTMLElement} scene */
@@ -40,7 +40,7 @@ export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
   const home = untracked(() => place.value);
   if (!home) return () => {};
   const key = topic || `${level} ${text}`;
-  const one = shown.get(key) ?? make(home, key);
+  const one = toasts.get(key) ?? make(home, key);
   one.count += topic ? 0 : 1;
   set(one.element, { "data-level": level });
   setText(one.text, one.count > 1 ? `${text} (${one.count})` : text);
@@ -49,7 +49,7 @@ export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
   one.run = action?.run;
   clearTimeout(one.timer);
   one.timer = setTimeout(one.remove, SHOWN_MS[level]);
-  for (const old of [...shown.values()].slice(0, -MAX_SHOWN)) old.remove();
+  for (const old of [...toasts.values()].slice(0, -MAX_SHOWN)) old.remove();
   return one.remove;
 }
 
@@ -61,7 +61,7 @@ export function toast(text, { level = "ok", action = null, topic = "" } = {}) {
 function make(place, key) {
   const remove = () => {
     clearTimeout(one.timer);
-    if (shown.get(key) === one) shown.delete(key);
+    if (toasts.get(key) === one) toasts.delete(key);
     one.element.remove();
   };
   const act = () => {
@@ -74,7 +74,7 @@ function make(place, key) {
   const element = el("div", { class: "wv-toast" }, parts);
   /** @type {Toast} */
   const one = { count: 0, timer: 0, run: undefined, element, text, button, remove };
-  shown.set(key, one);
+  toasts.set(key, one);
   place.append(one.element);
   return one;
 }

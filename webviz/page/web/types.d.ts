@@ -77,7 +77,7 @@ export type Outcome = { level: string; text: string; [made: string]: string };
 /** An option of a list: `label` is shown in place of the value, `note` at the right. */
 export type Choice = { value: string; label?: string; note?: string; level?: string };
 /** What messages tell of a property: the rate of a topic, or names and how many have each. */
-export type Known = LiveTopic | Record<string, number | string>;
+export type LiveFacts = LiveTopic | Record<string, number | string>;
 /** Sends the value of a property by its path; returns the promise of `act`. */
 export type SendProperty = (path: string, value: unknown) => unknown;
 /** The values of a form, by "value.", "offered." or "topic." and a path; they are read in effects. */
@@ -94,7 +94,7 @@ export interface ControlOptions<T = any> {
   /** Says why that means nothing, "" if all is well. */
   refused(text: string): void;
   /** What messages tell of topics, and of switches whose names are "offered". */
-  known?(): Known | undefined;
+  live?(): LiveFacts | undefined;
   /** What holds for switches of other names, for properties with an "otherwise". */
   otherwise?(): unknown;
 }
@@ -194,7 +194,7 @@ export type SceneEvent = PointerEvent | WheelEvent;
 /** A tool as the viewer describes it. */
 export type ViewerTool = Tools["tools"][number];
 /** What a gesture adds to a tool; see `gestures.js`. */
-export interface Made {
+export interface GestureParts {
   /** A sentence on what to do. */
   hint?: string;
   icon?: string;
@@ -207,7 +207,7 @@ export interface Made {
   leave?(): void;
 }
 /** A tool of the registry. */
-export interface Tool extends Made, Partial<Omit<ViewerTool, "icon">> {
+export interface Tool extends GestureParts, Partial<Omit<ViewerTool, "icon">> {
   id: string;
   name: string;
   tooltip: string;
@@ -231,7 +231,7 @@ export type MadeGesture = {
   several?: string;
 };
 /** Makes what a tool of the viewer has besides its name. */
-export type Gesture = (tool: ViewerTool, done: (made: Partial<MadeGesture> & { points: Vec3[] }) => void) => Made;
+export type Gesture = (tool: ViewerTool, finish: (result: Partial<MadeGesture> & { points: Vec3[] }) => void) => GestureParts;
 
 /** A rectangle of the window, in CSS pixels. */
 export type Box = { left: number; top: number; right: number; bottom: number };

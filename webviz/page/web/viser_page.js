@@ -124,9 +124,9 @@ export const reveal = () => (document.documentElement.dataset.wvShown = "");
 export function until(condition) {
   return /** @type {Promise<void>} */ (
     new Promise((resolve) => {
-      (function look() {
+      (function poll() {
         if (condition()) resolve();
-        else requestAnimationFrame(look);
+        else requestAnimationFrame(poll);
       })();
     })
   );

@@ -72,11 +72,11 @@ class CurveHistory:
 
     def chunks(self) -> tuple[Chunk, ...]:
         """All values, oldest first; the same objects as before if they have not changed."""
-        if self._shown is None or self._shown[0] != self._revision:
+        if self._chunks is None or self._chunks[0] != self._revision:
             points = [*self._open, *self._pending()]
             newest = Chunk(self._number, *_columns(points))
-            self._shown = self._revision, (*self._closed, newest)
-        return self._shown[1]
+            self._chunks = self._revision, (*self._closed, newest)
+        return self._chunks[1]
 
     def points(self) -> list[Point]:
         """All values that are kept, oldest first; NaN where a line ends."""
@@ -96,7 +96,7 @@ class CurveHistory:
         self._index = 0
         self._number = next(self._numbers)
         self._revision = 0
-        self._shown: tuple[int, tuple[Chunk, ...]] | None = None
+        self._chunks: tuple[int, tuple[Chunk, ...]] | None = None
 
     def _flush(self) -> None:
         for point in self._pending():

@@ -9,7 +9,7 @@ import uuid
 from viser import _messages as wire
 
 from webviz.scene.deferred import DeferredMessages
-from webviz.server.channel.messages import Answer, Ask
+from webviz.server.channel.messages import SyncReply, SyncRequest
 from webviz.server.http.viser_server import Server
 
 
@@ -51,7 +51,7 @@ class Acknowledgements:
         self._deferred = late
         self._answered: dict[str, set[int]] = {}
         self._changed = threading.Condition()
-        server.channel.on(Answer, self._receive)
+        server.channel.on(SyncReply, self._receive)
 
     def wait(self, timeout: float, browser: int | None = None) -> None:
         """Wait until one connected browser, or all of them, have applied everything queued so far.
@@ -85,7 +85,7 @@ class Acknowledgements:
                 with connection.get_message_buffer().sanctioned_dead_writes():
                     connection.queue_message(own)
                 client.flush()
-                self._server.channel.send(Ask(tokens[2]), client.client_id)
+                self._server.channel.send(SyncRequest(tokens[2]), client.client_id)
             with self._changed:
                 while (clients.keys() & self._server.get_clients().keys()) - set.intersection(
                     *answered.values()
@@ -98,7 +98,7 @@ class Acknowledgements:
                 del self._answered[token]
             socket.get_message_buffer().remove_from_buffer(lambda message: message is shared)
 
-    def _receive(self, browser: int, answer: Answer) -> None:
+    def _receive(self, browser: int, answer: SyncReply) -> None:
         with self._changed:
             if answer.token in self._answered:
                 self._answered[answer.token].add(browser)

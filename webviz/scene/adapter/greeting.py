@@ -11,15 +11,13 @@ from viser import _messages as wire
 from viser.infra._infra import ClientId, WebsockClientConnection
 from websockets.asyncio.server import ServerConnection
 
-from webviz.server.channel.channel import Channel
+from webviz.server.channel.channel import CLOSE_TIMEOUT_S, Channel
 from webviz.server.channel.links import Links
-from webviz.server.channel.messages import Beat
+from webviz.server.channel.messages import Heartbeat
 from webviz.server.channel.modules import Modules
 from webviz.server.http.connections import Connection
 from webviz.server.sending.congestion import CongestionControl
 
-FAREWELL_S = 1.0
-"""Time in seconds for a page to close its connection when its visit is ended."""
 BEAT_PERIOD = 1.0
 """Seconds between two heartbeats."""
 
@@ -57,7 +55,7 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
         if (connection := socket._live_connections.get(ClientId(browser))) is None:
             return
         with contextlib.suppress(TimeoutError):
-            await asyncio.wait_for(connection.close(1002, "Ended by the owner"), FAREWELL_S)
+            await asyncio.wait_for(connection.close(1002, "Ended by the owner"), CLOSE_TIMEOUT_S)
         connection.transport.abort()
 
     channel.on_lost = end
@@ -67,7 +65,7 @@ def greet(server: viser.ViserServer, channel: Channel, modules: Modules) -> None
     links = Links(channel)
 
     def beat() -> None:
-        channel.send(Beat(time.time()))
+        channel.send(Heartbeat(time.time()))
         links.tell()
         loop.call_later(BEAT_PERIOD, beat)
 

@@ -41,10 +41,10 @@ class SceneChange(msgspec.Struct, frozen=True):
     """Messages that came, and numbers of those that a browser that joins would not get any more."""
 
     added: Sequence[SceneMessage]
-    gone: Collection[int]
+    removals: Collection[int]
 
 
-class SceneTape:
+class SceneRecorder:
     """Reads the messages that a browser would receive.
 
     Args:
@@ -53,7 +53,7 @@ class SceneTape:
 
     def __init__(self, server: viser.ViserServer) -> None:
         self._buffer = server._websock_server.get_message_buffer()
-        self._known: dict[int, None] = {}
+        self._live: dict[int, None] = {}
         self._cursor = -1
         self._buffer.generator_cursors[TAPE] = self._cursor
 
@@ -63,11 +63,11 @@ class SceneTape:
             live = dict(self._buffer.message_from_id)
             self._cursor = self._buffer.message_counter - 1
             self._buffer.generator_cursors[TAPE] = self._cursor
-        new = {n: m for n, m in live.items() if n not in self._known}
-        removed = self._known.keys() - live.keys()
+        new = {n: m for n, m in live.items() if n not in self._live}
+        removed = self._live.keys() - live.keys()
         for number in removed:
-            del self._known[number]
-        self._known |= dict.fromkeys(new)
+            del self._live[number]
+        self._live |= dict.fromkeys(new)
         added = [
             _message(number, message)
             for number, message in new.items()

@@ -28,7 +28,8 @@ INVALID_LINK = (
 )
 
 NO_COOKIES = (
-    "This browser keeps no cookies of this viewer. Allow them, or open the link in another browser."
+    "This browser blocks the cookies of this viewer. Allow them, or open the link in another "
+    "browser."
 )
 AGAIN = "again"
 """Parameter of a link, and part of a cookie, when this site sends its browser to it again."""

@@ -10,8 +10,8 @@ from webviz.api.roles import Role
 from webviz.engine import feature
 
 MESSAGES: Mapping[str, Role | None] = {
-    "Answer": Role.WATCHER,
-    "Do": None,
+    "SyncReply": Role.WATCHER,
+    "CommandRequest": None,
     "Drive": Role.OPERATOR,
     "FramesShown": Role.WATCHER,
     "HasPainted": Role.OPERATOR,
@@ -40,7 +40,7 @@ SCENE: Mapping[str, Role] = {
 """Roles of the messages that viser's page sends of its own accord. Deliberately missing are those
 of viser's widgets, of which pages show none, and ShareUrlRequest, which opens a public tunnel."""
 
-UNKNOWN = "Not done: this page is out of date. Reload the page."
+UNKNOWN = "Failed: this page is out of date. Reload the page."
 REMEDY = "Ask the owner of this viewer for another link."
 
 
@@ -68,11 +68,11 @@ def refusal(role: Role, kind: str, command: str = "", store: str = "") -> str:
     Args:
         role: of the sender.
         kind: of the message, one of `MESSAGES` or `SCENE`.
-        command: name of the command within, if it is a `Do`.
+        command: name of the command within, if it is a `CommandRequest`.
         store: that is to be watched, if it is a `Watch`.
     """
     required = SCENE.get(kind) or MESSAGES.get(kind)
-    if kind == "Do":
+    if kind == "CommandRequest":
         required = _by_name().get(command)
     if required is None:
         return UNKNOWN

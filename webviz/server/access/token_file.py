@@ -60,7 +60,7 @@ def read(path: Path) -> Tokens:
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
         # Not the reason in words, which might quote a secret.
         raise TokenError(
-            f"{path} is not a valid file of tokens. Delete it, and make tokens anew with "
+            f"{path} is not a valid file of tokens. Delete it, and create new tokens with "
             "`webviz token make`."
         ) from None
     if len({token.name for token in tokens}) < len(tokens) or len(tokens) > MAX_TOKENS:

@@ -22,17 +22,17 @@ from webviz.server.access.access import Grant
 from webviz.server.access.roles import LIMITS, Limits
 from webviz.server.access.visitors import Visitor
 from webviz.server.channel.messages import (
-    Do,
-    Done,
+    CommandRequest,
+    CommandResult,
     FromPage,
     Hello,
+    Identity,
     Number,
     Ping,
     Pong,
     ToPage,
     Unwatch,
     Watch,
-    You,
 )
 from webviz.server.channel.outgoing import PageQueue
 from webviz.server.channel.refusals import answer, answer_to_halves
@@ -41,8 +41,8 @@ from webviz.server.sending.congestion import CongestionControl, InFlightWindow
 
 MAX_QUOTED = 200
 """Characters of a message that the log quotes."""
-FAREWELL_S = 1.0
-"""Time in seconds for a page to close its connection when its visit is ended."""
+CLOSE_TIMEOUT_S = 1.0
+"""Time in seconds for a browser to close its connection, after which it is cut."""
 HELLO_S = 10.0
 """Time in seconds for a page to say who it is."""
 
@@ -55,7 +55,7 @@ class Websocket(Protocol):
 
     logger: Any
     transport: Any
-    is_expelled: bool
+    is_disconnecting: bool
     """True if nothing that it sends counts any more."""
     window: InFlightWindow
     """Bytes sent that may not have arrived."""
@@ -108,7 +108,7 @@ class Channel:
         self._thread: int | None = None
         self._outboxes: dict[int, PageQueue] = {}
         self._visitors: dict[int, tuple[Visitor, Websocket]] = {}
-        self._kept: dict[type[ToPage], ToPage] = {}
+        self._last_messages: dict[type[ToPage], ToPage] = {}
         self._stores = Stores()
         self.may_watch: Callable[[int, str], bool] = lambda browser, store: True
         """Called on the event loop: whether a browser may watch a store."""
@@ -126,7 +126,7 @@ class Channel:
         """
         with self._lock:
             if browser is None and message.kept:
-                self._kept[type(message)] = message
+                self._last_messages[type(message)] = message
             data = msgspec.json.encode(message)
             filled = [each for id_, each in self._outboxes.items() if browser in (None, id_)]
             for outbox in filled:
@@ -195,15 +195,15 @@ class Channel:
             entry = self._visitors.get(browser)
         return None if entry is None else entry[1].grant
 
-    async def dismiss(self, browser: int) -> None:
+    async def disconnect(self, browser: int) -> None:
         """End the visit of a browser; what it has sent counts no more. On the event loop."""
         with self._lock:
             entry = self._visitors.get(browser)
         if entry is not None:
-            entry[1].is_expelled = True
+            entry[1].is_disconnecting = True
             await self.end_scene(browser)
             with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(entry[1].close(), FAREWELL_S)
+                await asyncio.wait_for(entry[1].close(), CLOSE_TIMEOUT_S)
             entry[1].transport.abort()
 
     def on(self, kind: type[M], listener: Callable[[int, M], object]) -> None:
@@ -229,7 +229,7 @@ class Channel:
         with self._lock:
             self._loop, self._thread = asyncio.get_running_loop(), threading.get_ident()
             outbox = self._outboxes[browser] = PageQueue(key, congestion)
-            for message in self._kept.values():
+            for message in self._last_messages.values():
                 outbox.put(message, msgspec.json.encode(message))
         return key
 
@@ -261,7 +261,7 @@ class Channel:
         visitor = Visitor(grant.name, grant.role, connection.address, time.time())
         with self._lock:
             self._visitors[browser] = visitor, connection
-            outbox.put_first(You(grant.role.label, grant.name))
+            outbox.put_first(Identity(grant.role.label, grant.name))
         writer = asyncio.create_task(self._write(connection, outbox))
         self._wake([outbox])
         try:
@@ -330,15 +330,15 @@ class Channel:
         """Answer a command that is too long, without reading all of it."""
         with contextlib.suppress(msgspec.MsgspecError, RecursionError):
             long = msgspec.json.decode(text, type=_Long)
-            reason = f"Not done: {excess}."
-            self.send(Done(long.number, long.command, "error", reason, {}), browser)
+            reason = f"Failed: {excess}."
+            self.send(CommandResult(long.number, long.command, "error", reason, {}), browser)
 
     @staticmethod
     def _refusal(role: Role, message: FromPage) -> str:
         return rules.refusal(
             role,
             type(message).__name__,
-            command=message.command if isinstance(message, Do) else "",
+            command=message.command if isinstance(message, CommandRequest) else "",
             store=message.store if isinstance(message, Watch) else "",
         )
 
@@ -355,7 +355,7 @@ class Channel:
             self.on_watch(browser)
             self._wake([outbox])
         else:
-            log.warning("A page may not watch a store that it asked for, or not so many.")
+            log.warning("A page asked to watch a store that it may not, or too many.")
 
     def _wake_soon(self, outboxes: list[PageQueue]) -> None:
         """Have these sent; from any thread, each of which costs a wake-up of the event loop."""
@@ -377,7 +377,7 @@ async def _nothing(browser: int) -> None:
     pass
 
 
-class _Long(msgspec.Struct, tag="Do"):
+class _Long(msgspec.Struct, tag="CommandRequest"):
     """Readable part of a command that is too long."""
 
     number: Number

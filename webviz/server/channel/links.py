@@ -29,7 +29,7 @@ class Links:
 
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
-        self._told: dict[int, str] = {}
+        self._texts: dict[int, str] = {}
 
     def tell(self) -> None:
         """Send each page what has changed for it."""
@@ -37,9 +37,9 @@ class Links:
         for browser in self._channel.browsers():
             congestion = self._channel.congestion(browser)
             texts[browser] = "" if congestion is None else reduced(congestion)
-            if texts[browser] != self._told.get(browser, ""):
+            if texts[browser] != self._texts.get(browser, ""):
                 self._channel.send(SlowLink(texts[browser]), browser)
-        self._told = texts
+        self._texts = texts
 
 
 def reduced(congestion: CongestionControl) -> str:

@@ -32,7 +32,7 @@ class Hello(FromPage, frozen=True):
     key: str
 
 
-class You(ToPage, frozen=True):
+class Identity(ToPage, frozen=True):
     """The first message to a page: what it may do.
 
     Args:
@@ -46,20 +46,20 @@ class You(ToPage, frozen=True):
     name: str
 
 
-class Ask(ToPage, frozen=True):
-    """Asks for an `Answer` after everything that was sent before."""
+class SyncRequest(ToPage, frozen=True):
+    """Asks for a `SyncReply` after everything that was sent before."""
 
     token: str
 
 
-class Answer(FromPage, frozen=True):
-    """Says that all has been done that came before the `Ask` with the same token."""
+class SyncReply(FromPage, frozen=True):
+    """Says that all has been done that came before the `SyncRequest` with the same token."""
 
     token: str
 
 
 class Ping(FromPage, frozen=True):
-    """Asks for a `Pong`, by which the page measures the way to the server and back."""
+    """Asks for a `Pong`, by which the page measures the round trip to the server."""
 
 
 class Pong(ToPage, frozen=True):
@@ -68,7 +68,7 @@ class Pong(ToPage, frozen=True):
     kept = True
 
 
-class Beat(ToPage, frozen=True):
+class Heartbeat(ToPage, frozen=True):
     """Says that the server is there; at least every second something does.
 
     Args:
@@ -200,7 +200,7 @@ class Published(ToPage, frozen=True):
     """A message that a gesture published.
 
     Args:
-        number: of the `Do` with the gesture.
+        number: of the `CommandRequest` with the gesture.
         topic, message_type: as chosen.
         values: by field.
     """
@@ -289,11 +289,11 @@ class Values(ToPage, frozen=True):
     gone: tuple[str, ...]
 
 
-class Do(FromPage, frozen=True):
+class CommandRequest(FromPage, frozen=True):
     """Asks for a change; the only message by which a page does something that others notice.
 
     Args:
-        number: of the request, for the page to know its `Done`.
+        number: of the request, for the page to know its `CommandResult`.
         command: name of one of `webviz.server.access.rules.commands`.
         arguments: its fields.
         step: of several that are undone together, the number of the first; else 0.
@@ -305,8 +305,8 @@ class Do(FromPage, frozen=True):
     step: Number = 0
 
 
-class Done(ToPage, frozen=True):
-    """Outcome of a `Do`; a command that goes on, such as a tool with a goal, has several.
+class CommandResult(ToPage, frozen=True):
+    """Outcome of a `CommandRequest`; what goes on, such as a tool with a goal, has several.
 
     Args:
         number, command: of the request.

@@ -49,7 +49,7 @@ class Modules:
         return f"window.webviz?.connect({facts});"
 
     def answer(self, token: str) -> str:
-        """Return a script that makes a page send an `Answer` with this token."""
+        """Return a script that makes a page send a `SyncReply` with this token."""
         return f"window.webviz?.answer({json.dumps(token)});"
 
     def probe(self, number: int) -> str:

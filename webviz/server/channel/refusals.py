@@ -6,9 +6,16 @@ import re
 
 import msgspec
 
-from webviz.server.channel.messages import Do, Done, Drive, DrivingReport, FromPage, ToPage
+from webviz.server.channel.messages import (
+    CommandRequest,
+    CommandResult,
+    Drive,
+    DrivingReport,
+    FromPage,
+    ToPage,
+)
 
-HALF = "Not done: the text contains half of a letter, such as of an emoji. Remove it."
+HALF = "Failed: the text contains half of a letter, such as of an emoji. Remove it."
 _ESCAPE = re.compile(r"(\\\\)|\\u[dD][89a-fA-F][0-9a-fA-F]{2}")
 """A backslash, or half of a surrogate pair, in JSON."""
 
@@ -21,8 +28,8 @@ def answer(message: FromPage, reason: str) -> ToPage | None:
         reason: a sentence.
     """
     match message:
-        case Do():
-            return Done(message.number, message.command, "error", reason, {})
+        case CommandRequest():
+            return CommandResult(message.number, message.command, "error", reason, {})
         case Drive():
             return DrivingReport(message.tool, 0, None, reason)
         case _:
@@ -37,7 +44,7 @@ def answer_to_halves(decoder: msgspec.json.Decoder[FromPage], text: str) -> ToPa
         text: of the message.
     """
     try:
-        message = decoder.decode(_ESCAPE.sub(lambda found: found[1] or "?", text))
+        message = decoder.decode(_ESCAPE.sub(lambda match: match[1] or "?", text))
     except (msgspec.MsgspecError, RecursionError):
         return None
     return answer(message, HALF)

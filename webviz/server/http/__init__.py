@@ -1,1 +1,1 @@
-"""HTTP, websockets and TLS, and the limits that guard them."""
+"""HTTP, websockets and TLS, and their limits."""

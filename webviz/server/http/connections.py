@@ -18,6 +18,7 @@ from websockets.protocol import State
 from webviz.api.roles import Role
 from webviz.server.access.access import EVERYBODY, Grant
 from webviz.server.access.roles import LIMITS
+from webviz.server.channel.channel import CLOSE_TIMEOUT_S
 from webviz.server.http.eviction import network_of, oldest_of_most_crowded
 from webviz.server.http.listener import Handshakes
 from webviz.server.http.rate_limits import BackOff, RateLimit, SpentRates
@@ -44,12 +45,10 @@ WHOLE = (Opcode.BINARY, Opcode.TEXT)
 """Frames that carry a whole message if they are final."""
 ANSWER_S = 0.05
 """Pause in seconds after which to look again whether a request is answered; most are at once."""
-FAREWELL = 1.0
-"""Seconds for a browser to close its connection when the server stops."""
 
 
-class Newcomer(Protocol):
-    """A browser that asks to connect."""
+class ConnectingClient(Protocol):
+    """A browser that connects."""
 
     address: str
 
@@ -59,7 +58,7 @@ class Newcomer(Protocol):
         ...
 
 
-def sender_of(browser: Newcomer) -> tuple[str, str]:
+def sender_of(browser: ConnectingClient) -> tuple[str, str]:
     """Return by what the connections of one browser are known: its network and its cookie."""
     return network_of(browser.address), browser.grant.cookie
 
@@ -92,14 +91,14 @@ class ConnectionLimits:
         self.back_off = BackOff()
         """Pauses of browsers whose connections were ended for what they sent, likewise."""
 
-    def absence(self, newcomer: Newcomer) -> str:
+    def absence(self, client: ConnectingClient) -> str:
         """Return why a browser has to stay away for a while: a sentence, "" if it may connect."""
-        wait_s = self.back_off.wait_s(sender_of(newcomer), asyncio.get_running_loop().time())
+        wait_s = self.back_off.wait_s(sender_of(client), asyncio.get_running_loop().time())
         return f"{FLOODED} Try again in {math.ceil(wait_s)} s." if wait_s > 0.0 else ""
 
-    def refusal(self, newcomer: Newcomer) -> str:
+    def refusal(self, client: ConnectingClient) -> str:
         """Return why one more browser may not connect: a sentence, "" if it may."""
-        role = newcomer.grant.role
+        role = client.grant.role
         limits = LIMITS[role]
         browsers = [connection for connection in self._open if not connection.is_channel]
         limit = int(self.limit * limits.share)
@@ -108,7 +107,7 @@ class ConnectionLimits:
             return f"{limit} browsers are connected, which is the limit{reserved}. {CLOSE_ONE}"
         if len(browsers) >= self.limit:
             return f"{self.limit} browsers are connected, which is the limit. {CLOSE_ONE}"
-        network = network_of(newcomer.address)
+        network = network_of(client.address)
         near = sum(network_of(connection.address) == network for connection in browsers)
         if near >= limits.per_address:
             return f"{near} browsers of your address are connected, which is the limit. {CLOSE_ONE}"
@@ -138,10 +137,10 @@ class ConnectionLimits:
         finally:
             self._open.discard(connection)
 
-    def expel(self, is_over: Callable[[Connection], bool]) -> None:
+    def disconnect(self, is_over: Callable[[Connection], bool]) -> None:
         """End open connections at once, and ignore what they have sent."""
         for connection in filter(is_over, tuple(self._open)):
-            connection.is_expelled = True
+            connection.is_disconnecting = True
             connection.transport.abort()
 
     def close(self) -> None:
@@ -149,7 +148,7 @@ class ConnectionLimits:
         if self._handshakes is not None:
             self._handshakes.close()
         for connection in (*self._opening, *self._open):
-            patience = 0.0 if connection in self._opening else FAREWELL
+            patience = 0.0 if connection in self._opening else CLOSE_TIMEOUT_S
             connection.loop.call_later(patience, connection.transport.abort)
 
 
@@ -157,12 +156,12 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     """A connection that checks its request before websockets, and its messages before viser.
 
     Args:
-        gate: of the server.
+        connections: limits of the server's connections.
         rate: bytes a second that links to browsers are known to take; None to measure it.
     """
 
     def __init__(
-        self, gate: ConnectionLimits, rate: float | None, *arguments: Any, **options: Any
+        self, connections: ConnectionLimits, rate: float | None, *arguments: Any, **options: Any
     ) -> None:
         super().__init__(*arguments, **options)
         self.window = InFlightWindow(CongestionControl(rate))
@@ -181,10 +180,10 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         """True if the browser uses https."""
         self.is_channel = False
         """True if this is the channel of a page, instead of viser's own connection."""
-        self._gate = gate
+        self._connections = connections
         self.objection: Callable[[str | bytes, Role], str | None] = objection
         """The reason to ignore a message, or None."""
-        self.is_expelled = False
+        self.is_disconnecting = False
         """True if nothing that it sends counts any more."""
         self.grant = EVERYBODY
         self._head: bytearray | None = bytearray()
@@ -212,17 +211,17 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             grant: what it may do.
         """
         self.address, self.grant = address, grant
-        self._gate.spent.resume(sender_of(self), self._rate_limit, self.loop.time())
+        self._connections.spent.resume(sender_of(self), self._rate_limit, self.loop.time())
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Add the connection to the gate."""
+        """Add the connection to those of the server."""
         super().connection_made(transport)
-        self._gate.enter(self)
+        self._connections.enter(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Remove the connection from the gate."""
-        self._gate.leave(self)
-        self._gate.spent.note(sender_of(self), self._rate_limit)
+        """Remove the connection from those of the server."""
+        self._connections.leave(self)
+        self._connections.spent.note(sender_of(self), self._rate_limit)
         self.window.drop()
         super().connection_lost(exc)
 
@@ -258,7 +257,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
             if self.transport.can_write_eof():
                 self.transport.write_eof()
             else:  # with TLS: closing at once would discard the response
-                self.loop.call_later(FAREWELL, self.transport.close)
+                self.loop.call_later(CLOSE_TIMEOUT_S, self.transport.close)
             return
         self.wants_head = is_head(head)
         super().data_received(as_get(head))
@@ -284,7 +283,7 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         is_answer = is_pong and bytes(event.data) in self.pending_pings
         is_instant = not (is_whole or is_request or is_answer)
         if is_instant and self._rate_limit.spend(1.0, self.loop.time()) > MAX_WAIT:
-            self._expel_for_flood()
+            self._disconnect_for_flood()
             self.transport.abort()
         super().process_event(event)
 
@@ -355,14 +354,14 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
         while True:
             data = await super().recv(decode)
             cost = 1.0 + len(data) / self._bytes_per_message
-            wait = 0.0 if self.is_expelled else self._rate_limit.spend(cost, self.loop.time())
+            wait = 0.0 if self.is_disconnecting else self._rate_limit.spend(cost, self.loop.time())
             if wait > 0.0:
                 # A server that stops does not wait for this, either.
                 await asyncio.wait([self.connection_lost_waiter], timeout=wait)
                 await self._end_flood()
             else:
                 await asyncio.sleep(0.0)  # received messages must not keep other tasks waiting
-            if self.is_expelled:
+            if self.is_disconnecting:
                 continue
             objection = self.objection(data, self.grant.role)
             if objection is None:
@@ -372,19 +371,21 @@ class Connection(websocket.ServerConnection, asyncio.BufferedProtocol):
     async def _end_flood(self) -> None:
         """End the connection if it sends too much for long, or has closed its end."""
         if self._is_gone:
-            self.is_expelled = True
+            self.is_disconnecting = True
             self.transport.abort()
         elif self._rate_limit.exhausted_s(self.loop.time()) > FLOOD_S:
-            self._expel_for_flood()
+            self._disconnect_for_flood()
             self.logger.warning("Ended a connection that sent too many messages.")
             with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self.close(CloseCode.POLICY_VIOLATION, FLOODED), FAREWELL)
+                await asyncio.wait_for(
+                    self.close(CloseCode.POLICY_VIOLATION, FLOODED), CLOSE_TIMEOUT_S
+                )
             self.transport.abort()
 
-    def _expel_for_flood(self) -> None:
-        self.is_expelled = True
+    def _disconnect_for_flood(self) -> None:
+        self.is_disconnecting = True
         if self.grant.role < Role.OWNER:  # whose robot it is; a page of theirs may go wrong
-            self._gate.back_off.send_away(sender_of(self), self.loop.time())
+            self._connections.back_off.send_away(sender_of(self), self.loop.time())
 
     @property
     def _is_gone(self) -> bool:

@@ -29,11 +29,11 @@ class Revocation:
     def _look(self, loop: asyncio.AbstractEventLoop) -> None:
         def then() -> None:
             with contextlib.suppress(RuntimeError):  # the server has stopped
-                loop.call_soon_threadsafe(self._expel)
+                loop.call_soon_threadsafe(self._disconnect)
 
         loop.call_later(CHECK_S, self._look, loop)  # first, as nothing may end this
-        self._expel()  # tokens expire also while the disk does not respond
+        self._disconnect()  # tokens expire also while the disk does not respond
         self._access.begin_refresh(then)
 
-    def _expel(self) -> None:
-        self._limits.expel(lambda connection: not self._access.holds(connection.grant))
+    def _disconnect(self) -> None:
+        self._limits.disconnect(lambda connection: not self._access.holds(connection.grant))

@@ -6,7 +6,7 @@ import http
 
 from webviz.api.roles import Role
 from webviz.server.http.requests import is_upgrade
-from webviz.server.http.steps import HTML, Reply, Visit
+from webviz.server.http.steps import HTML, Reply, RequestContext
 
 PATH = "/shared"
 NONE = b"No file has been shared. Choose Share this moment in the menu.\n"
@@ -29,11 +29,11 @@ class SharedFile:
         """
         self._name, self._data = name, data
 
-    def step(self, visit: Visit) -> Reply | None:
+    def step(self, context: RequestContext) -> Reply | None:
         """Serve the file; see `webviz.server.http.steps`."""
-        if visit.path != PATH or is_upgrade(visit.request):
+        if context.path != PATH or is_upgrade(context.request):
             return None
-        if visit.grant.role < Role.OWNER:
+        if context.grant.role < Role.OWNER:
             return Reply(http.HTTPStatus.FORBIDDEN, OWNER_ONLY)
         if not self._data:
             return Reply(http.HTTPStatus.NOT_FOUND, NONE)

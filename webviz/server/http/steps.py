@@ -24,11 +24,11 @@ HTML = "text/html; charset=utf-8"
 JSON = "application/json"
 
 
-class Visit(msgspec.Struct):
-    """A request on its way.
+class RequestContext(msgspec.Struct):
+    """The request that the steps handle, and their findings so far.
 
     Args:
-        request: what was asked.
+        request: of the browser.
         fetch: makes viser's response to it, None if viser opens a websocket.
         address: IP address of the other end of the connection, then of the browser.
         is_secure: whether the connection uses TLS, then whether the browser does.
@@ -73,28 +73,28 @@ class Reply(msgspec.Struct, frozen=True):
     headers: dict[str, str] = msgspec.field(default_factory=dict[str, str])
 
 
-Step = Callable[[Visit], Reply | None]
+Step = Callable[[RequestContext], Reply | None]
 
 
 class Room(Protocol):
     """Room for browsers."""
 
-    def absence(self, newcomer: Visit, /) -> str:
+    def absence(self, client: RequestContext, /) -> str:
         """Return why a browser has to stay away for a while: a sentence, or ""."""
         ...
 
-    def refusal(self, newcomer: Visit, /) -> str:
+    def refusal(self, client: RequestContext, /) -> str:
         """Return why one more may not connect: a sentence, or ""."""
         ...
 
 
-def answer_of(steps: Iterable[Step], visit: Visit) -> Reply | None:
+def answer_of(steps: Iterable[Step], context: RequestContext) -> Reply | None:
     """Return the answer of the first step that has one.
 
     None lets viser open a websocket, or the server behind this one answer, if there is one.
     """
     for step in steps:
-        if (reply := step(visit)) is not None or visit.socket:
+        if (reply := step(context)) is not None or context.socket:
             return reply
     return None
 
@@ -102,10 +102,11 @@ def answer_of(steps: Iterable[Step], visit: Visit) -> Reply | None:
 def behind(proxies: Proxies) -> Step:
     """Note who asks: the browser, if a trusted proxy says which."""
 
-    def step(visit: Visit) -> None:
-        headers = visit.request.headers
-        caller = proxies.caller(visit.address, headers, is_secure=visit.is_secure)
-        visit.address, visit.is_secure, visit.hosts = caller.address, caller.is_secure, caller.hosts
+    def step(context: RequestContext) -> None:
+        headers = context.request.headers
+        caller = proxies.caller(context.address, headers, is_secure=context.is_secure)
+        context.address, context.hosts = caller.address, caller.hosts
+        context.is_secure = caller.is_secure
 
     return step
 
@@ -113,12 +114,12 @@ def behind(proxies: Proxies) -> Step:
 def at(hosts: HostList) -> Step:
     """Refuse other names than those of the server, and pages of other sites."""
 
-    def step(visit: Visit) -> Reply | None:
-        origins = visit.request.headers.get_all("Origin")
-        reason = hosts.refusal(visit.hosts) or origin_refusal(visit.hosts[0].lower(), origins)
+    def step(context: RequestContext) -> Reply | None:
+        origins = context.request.headers.get_all("Origin")
+        reason = hosts.refusal(context.hosts) or origin_refusal(context.hosts[0].lower(), origins)
         if reason is not None:
             return _sentence(http.HTTPStatus.FORBIDDEN, reason)
-        visit.host = visit.hosts[0].lower()
+        context.host = context.hosts[0].lower()
         return None
 
     return step
@@ -132,11 +133,11 @@ def with_link(access: Access, port: int) -> Step:
         port: of the server, after which the cookie is named.
     """
 
-    def step(visit: Visit) -> Reply | None:
-        path, headers = visit.request.path, visit.request.headers
-        if visit.path in PAGES and login.token_in(path) and access.asks:
+    def step(context: RequestContext) -> Reply | None:
+        path, headers = context.request.path, context.request.headers
+        if context.path in PAGES and login.token_in(path) and access.asks:
             try:
-                welcome = login.welcome(access, path, headers, port, visit.is_secure)
+                welcome = login.welcome(access, path, headers, port, context.is_secure)
             except login.NoCookies:
                 return _turned_away(login.NO_COOKIES)
             if welcome is None:
@@ -145,7 +146,7 @@ def with_link(access: Access, port: int) -> Step:
         grant = login.grant_of(access, headers, port)
         if grant is None:
             return _turned_away(login.NO_LINK)
-        visit.grant = grant
+        context.grant = grant
         return None
 
     return step
@@ -157,10 +158,10 @@ def within(limits: Room) -> Step:
     Each browser has a channel besides.
     """
 
-    def step(visit: Visit) -> Reply | None:
-        if reason := limits.absence(visit):
+    def step(context: RequestContext) -> Reply | None:
+        if reason := limits.absence(context):
             return _sentence(http.HTTPStatus.TOO_MANY_REQUESTS, reason)
-        reason = "" if visit.is_channel else limits.refusal(visit)
+        reason = "" if context.is_channel else limits.refusal(context)
         return _sentence(http.HTTPStatus.SERVICE_UNAVAILABLE, reason) if reason else None
 
     return step
@@ -179,18 +180,18 @@ def page(head: bytes, source_map: bytes) -> Step:
         text = with_head(body, head)
         return gzip.compress(text) if is_packed else text
 
-    def step(visit: Visit) -> Reply | None:
-        request = visit.request
+    def step(context: RequestContext) -> Reply | None:
+        request = context.request
         if is_upgrade(request):
             return None
-        if source_map and visit.path == MAP:
+        if source_map and context.path == MAP:
             return Reply(http.HTTPStatus.OK, source_map, {"Content-Type": JSON})
-        if visit.path not in PAGES:
+        if context.path not in PAGES:
             return _sentence(*NOT_FOUND)
         encodings = ", ".join(request.headers.get_all("Accept-Encoding"))
         if encodings:
             del request.headers["Accept-Encoding"]
-        if (response := visit.fetch(request)) is None:
+        if (response := context.fetch(request)) is None:
             return None
         is_packed = "gzip" in encodings
         headers = dict(response.headers.raw_items())

@@ -13,11 +13,11 @@ from websockets.http11 import Request, Response
 
 from webviz.api.roles import Role
 from webviz.server.http.connections import Connection
-from webviz.server.http.steps import HTML, Reply, Visit
+from webviz.server.http.steps import HTML, Reply, RequestContext
 
 FOLDER = "/past/"
 """Path below which they are, each in a folder of its own."""
-GONE = (
+MOVED = (
     b"<!doctype html><meta charset=utf-8><title>webviz</title><p>This look back has ended. "
     b"<a href=../../>Back to live</a></p>\n"
 )
@@ -63,27 +63,27 @@ class Tunnels:
         """Return the path of the page behind a name."""
         return f"{FOLDER}{name}/"
 
-    def step(self, visit: Visit) -> Reply | None:
+    def step(self, context: RequestContext) -> Reply | None:
         """Note where a request goes, see `webviz.server.http.steps`."""
-        if not visit.path.startswith(FOLDER):
+        if not context.path.startswith(FOLDER):
             return None
-        name, slash, below = visit.path.removeprefix(FOLDER).partition("/")
+        name, slash, below = context.path.removeprefix(FOLDER).partition("/")
         target = self._targets.get(name)
         if target is None or not slash:
             headers = {"Content-Type": HTML, "Cache-Control": "no-store"}
-            return Reply(http.HTTPStatus.NOT_FOUND, GONE, headers)
-        if visit.grant.role < Role.OPERATOR or visit.grant.cookie != target.cookie:
+            return Reply(http.HTTPStatus.NOT_FOUND, MOVED, headers)
+        if context.grant.role < Role.OPERATOR or context.grant.cookie != target.cookie:
             return Reply(http.HTTPStatus.FORBIDDEN, NOT_YOURS)
-        visit.socket, visit.below = target.path, f"/{below}"
+        context.socket, context.below = target.path, f"/{below}"
         return None
 
 
-def hand_over(connection: Connection, visit: Visit) -> Response:
+def hand_over(connection: Connection, context: RequestContext) -> Response:
     """Let a server behind this one answer a request, and all that comes on its connection.
 
     Args:
         connection: that has received the request and answered nothing.
-        visit: with the socket of the server.
+        context: with the socket of the server.
 
     Returns:
         A response that nobody receives, for websockets.
@@ -95,8 +95,8 @@ def hand_over(connection: Connection, visit: Visit) -> Response:
     front.other, back.other = back, front
     transport.set_protocol(front)
     front.connection_made(transport)
-    head = _head(visit, is_head=connection.wants_head)
-    connection.loop.create_task(_connect(visit.socket, front, back, head))
+    head = _head(context, is_head=connection.wants_head)
+    connection.loop.create_task(_connect(context.socket, front, back, head))
     return connection.respond(http.HTTPStatus.OK, "")
 
 
@@ -113,13 +113,13 @@ async def _connect(path: str, front: _End, back: _End, head: bytes) -> None:
     front.transport.resume_reading()
 
 
-def _head(visit: Visit, *, is_head: bool) -> bytes:
+def _head(context: RequestContext, *, is_head: bool) -> bytes:
     """Return the request as the server behind gets it, which trusts this one alone."""
-    request = Request(visit.below, visit.request.headers.copy())
+    request = Request(context.below, context.request.headers.copy())
     for name in ("Host", *FORWARDED):
         if name in request.headers:
             del request.headers[name]
-    request.headers["Host"] = visit.host
+    request.headers["Host"] = context.host
     data = request.serialize()
     return b"HEAD" + data.removeprefix(b"GET") if is_head else data
 

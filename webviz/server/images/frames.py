@@ -114,7 +114,7 @@ def frame(
     number: int,
     pane: Pane,
     file: File | None,
-    sent: SentPicture,
+    previous: SentPicture,
     is_readable: bool = True,
 ) -> tuple[bytes, SentPicture]:
     """Return a message with a picture.
@@ -124,7 +124,7 @@ def frame(
         number: of the picture.
         pane: with the picture.
         file: see `file_of`; None of a video, and of a picture that the page has.
-        sent: what the page has.
+        previous: what the page has.
         is_readable: whether the page can ask for the values of pixels.
 
     Returns:
@@ -135,9 +135,9 @@ def frame(
     if pane.marks:
         head = replace(head, marks=pane.marks)
     if isinstance(picture, Video):
-        packets = _following(picture.packets, sent.packet)
+        packets = _following(picture.packets, previous.packet)
         if not packets:
-            return b"", sent
+            return b"", previous
         head = replace(
             head,
             video=picture.codec,
@@ -150,7 +150,7 @@ def frame(
     data = [] if file is None else [file.data]
     if isinstance(picture, Readout):
         head = replace(head, topic=picture.topic, type=picture.type, received=picture.received_s)
-        return _joined(head, data), sent
+        return _joined(head, data), previous
     head = replace(head, size=picture.size)
     if isinstance(picture, Pixels):
         head = replace(head, legend=_legend(picture), readable=is_readable)
@@ -160,15 +160,15 @@ def frame(
     if pane.camera is not None:
         warp = pane.camera.warp
         head = replace(head, camera=camera_of(pane.camera))
-        if warp is not sent.warp:
+        if warp is not previous.warp:
             head = replace(head, warp=warp_of(warp))
-    return _joined(head, data), SentPicture(sent.packet, warp, picture)
+    return _joined(head, data), SentPicture(previous.packet, warp, picture)
 
 
-def _following(packets: tuple[Packet, ...], sent: int) -> tuple[Packet, ...]:
+def _following(packets: tuple[Packet, ...], packet: int) -> tuple[Packet, ...]:
     """Return the packets for a page that has all up to one of them: the rest, all after a gap."""
     first, last = packets[0].number, packets[-1].number
-    return packets[sent + 1 - first :] if first <= sent <= last else packets
+    return packets[packet + 1 - first :] if first <= packet <= last else packets
 
 
 def _legend(picture: Pixels) -> ColorRange | UnsetType:

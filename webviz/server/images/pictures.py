@@ -103,14 +103,14 @@ class Pictures:
         """Counts what is sent while it is there."""
         self._lock = threading.Lock()
         self._pool = ThreadPoolExecutor(max_workers=2, thread_name_prefix="webviz-pictures")
-        self._shown: dict[str, _PaneEntry] = {}
+        self._panes: dict[str, _PaneEntry] = {}
         self._looks: dict[int, dict[str, _Look]] = {}
-        self._made: dict[tuple[str, int], tuple[int, Future[File]]] = {}
+        self._encodings: dict[tuple[str, int], tuple[int, Future[File]]] = {}
         """Pictures by display and factor, made of the newest: pages of one size share it."""
         self._reading: dict[int, Future[None]] = {}
         self._pages: set[int] = set()
         """Pages that have panes, whether or not they show them."""
-        self._seen: dict[str, float] = {}
+        self._empty_since: dict[str, float] = {}
         """Times when pages were found not to show a display any more."""
         self._number = 0
         channel.on(ShowPictures, self._look)
@@ -121,7 +121,7 @@ class Pictures:
         """Make this the picture of a display."""
         with self._lock:
             self._number += 1
-            self._shown[display] = _PaneEntry(self._number, pane)
+            self._panes[display] = _PaneEntry(self._number, pane)
             looks = self._looks_at(display)
             is_ready = [self._continue(browser, display, look) for browser, look in looks]
         if any(is_ready):
@@ -130,10 +130,10 @@ class Pictures:
     def remove(self, display: str) -> None:
         """Forget the picture of a display."""
         with self._lock:
-            self._shown.pop(display, None)
-            self._seen.pop(display, None)
-            for key in [key for key in self._made if key[0] == display]:
-                del self._made[key]
+            self._panes.pop(display, None)
+            self._empty_since.pop(display, None)
+            for key in [key for key in self._encodings if key[0] == display]:
+                del self._encodings[key]
 
     def is_unseen(self, display: str) -> bool:
         """Return whether pages have a pane for a display, but none has shown it for `UNSEEN_S`."""
@@ -141,14 +141,14 @@ class Pictures:
         with self._lock:
             self._pages &= self._channel.browsers()
             if not self._pages or any(display in self._looks.get(each, {}) for each in self._pages):
-                self._seen.pop(display, None)
+                self._empty_since.pop(display, None)
                 return False
-            return now - self._seen.setdefault(display, now) > UNSEEN_S
+            return now - self._empty_since.setdefault(display, now) > UNSEEN_S
 
     def panes(self) -> dict[str, Pane]:
         """Return the panes shown now by display id, in the order of the displays."""
         with self._lock:
-            panes = {display: each.pane for display, each in self._shown.items()}
+            panes = {display: each.pane for display, each in self._panes.items()}
         return dict(sorted(panes.items(), key=lambda item: item[1].order))
 
     # Called on the event loop
@@ -186,7 +186,7 @@ class Pictures:
     def _read(self, browser: int, message: ReadPixel) -> None:
         with self._lock:
             before = self._reading.get(browser)
-            entry = self._shown.get(message.display)
+            entry = self._panes.get(message.display)
             if (before and not before.done()) or entry is None:
                 return
             self._reading[browser] = self._pool.submit(self._answer, browser, message, entry.pane)
@@ -211,7 +211,7 @@ class Pictures:
         Returns:
             Whether it is a file already, which `_send_ready` sends.
         """
-        entry = self._shown.get(display)
+        entry = self._panes.get(display)
         if entry is None or entry.number == look.sent:
             return False
         if look.is_busy or len(look.waiting) >= MAX_IN_FLIGHT:
@@ -227,7 +227,7 @@ class Pictures:
     def _send(self, browser: int, display: str, look: _Look) -> None:
         """Send the newest picture."""
         with self._lock:
-            entry = self._shown.get(display)
+            entry = self._panes.get(display)
             has = look.has
             rate = self._rate(browser)
         data = b""
@@ -269,9 +269,9 @@ class Pictures:
         return None if congestion.rate is None else congestion.rate / max(1, len(looks))
 
     @staticmethod
-    def _fit(look: _Look, shown: _PaneEntry, size: int, rate: float | None) -> bool:
+    def _fit(look: _Look, entry: _PaneEntry, size: int, rate: float | None) -> bool:
         """Adapts how much smaller pictures are made; whether this one is much too large."""
-        if rate is None or not isinstance(shown.pane.picture, Pixels | Encoded):
+        if rate is None or not isinstance(entry.pane.picture, Pixels | Encoded):
             look.shrink = 1
             return False
         excess = size / (rate * PICTURE_S)
@@ -282,9 +282,9 @@ class Pictures:
             look.shrink //= 2
         return look.shrink > before
 
-    def _file(self, shown: _PaneEntry, display: str, look: _Look) -> File | None:
+    def _file(self, entry: _PaneEntry, display: str, look: _Look) -> File | None:
         """Return the picture a page decodes, None for video; made once for all pages of a size."""
-        picture = shown.pane.picture
+        picture = entry.pane.picture
         if isinstance(picture, Video):
             return None
         factor = factor_for(picture, look.width) * look.shrink
@@ -292,12 +292,12 @@ class Pictures:
             return file_of(picture, factor)
         key = display, factor
         with self._lock:
-            number, encoding = self._made.get(key, (0, None))
-            if encoding is not None and number == shown.number:
+            number, encoding = self._encodings.get(key, (0, None))
+            if encoding is not None and number == entry.number:
                 mine = None
             else:
                 mine = encoding = Future()
-                self._made[key] = shown.number, encoding
+                self._encodings[key] = entry.number, encoding
         if mine is not None:
             try:
                 mine.set_result(file_of(picture, factor))

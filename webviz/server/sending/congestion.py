@@ -46,7 +46,7 @@ class SentMarker(msgspec.Struct, frozen=True, eq=False):
     Args:
         size: bytes of its connection since the ping before.
         began: when the first of them was sent.
-        sent: when it was sent.
+        sent_at: when it was sent.
         in_flight: bytes on their way then, with these.
         delivered: bytes that had arrived by then.
         acknowledged: when the last pong before came.
@@ -55,7 +55,7 @@ class SentMarker(msgspec.Struct, frozen=True, eq=False):
 
     size: int
     began: float
-    sent: float
+    sent_at: float
     in_flight: int
     delivered: int
     acknowledged: float
@@ -107,7 +107,7 @@ class CongestionControl:
         room = share * self._window - self.in_flight
         if not self._marks:  # so that there will be a pong
             room = max(room, MIN_WINDOW)
-        elif self.clock() - next(iter(self._marks)).sent > STALLED_S:
+        elif self.clock() - next(iter(self._marks)).sent_at > STALLED_S:
             room = 0
         if self._limit is not None:
             room = min(
@@ -166,7 +166,7 @@ class CongestionControl:
         now = self.clock()
         self._delivered += marker.size
         self._acknowledged = now
-        trip = now - marker.sent
+        trip = now - marker.sent_at
         if self._trip is None or trip < self._trip:
             self._trip = trip
         elif marker.in_flight <= MIN_WINDOW:  # the way itself has become longer
@@ -192,7 +192,7 @@ class CongestionControl:
 
         `queue_s` is by how much longer a pong took than the shortest.
         """
-        known_rate = self._known()
+        known_rate = self._known_rate()
         if marker.is_limited:
             self._limited_at = self._acknowledged
         elif (
@@ -205,9 +205,9 @@ class CongestionControl:
             while self._rates and self._rates[0][0] < self._acknowledged - MEMORY_S:
                 self._rates.popleft()
             self._rates.append((self._acknowledged, rate))
-        return self._known()
+        return self._known_rate()
 
-    def _known(self) -> float:
+    def _known_rate(self) -> float:
         rates = sorted(rate for _, rate in self._rates)
         return rates[int(GOOD * len(rates))] if rates else 0.0
 

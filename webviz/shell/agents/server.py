@@ -19,8 +19,8 @@ from mcp.types import ToolAnnotations
 from webviz.api.errors import Error
 from webviz.api.roles import Role
 from webviz.server.access.access import Access
+from webviz.shell.agents.agent_tools import AgentTools, command_names
 from webviz.shell.agents.caller import AgentCaller
-from webviz.shell.agents.tools import AgentTools, known
 from webviz.shell.pictures.browser import Pixels
 
 INSTRUCTIONS = """\
@@ -48,7 +48,7 @@ Send = Callable[[Any], Awaitable[None]]
 
 def serve_stdio(tools: AgentTools, caller: AgentCaller) -> None:
     """Answer on standard output what comes on standard input, until that ends."""
-    made(tools, lambda: caller).run("stdio")
+    make_server(tools, lambda: caller).run("stdio")
 
 
 class HttpServer:
@@ -64,7 +64,7 @@ class HttpServer:
     def __init__(self, tools: AgentTools, access: Access, host: str, port: int) -> None:
         self._caller: ContextVar[AgentCaller] = ContextVar("caller")
         self._access = access
-        app = made(tools, self._caller.get).streamable_http_app(
+        app = make_server(tools, self._caller.get).streamable_http_app(
             stateless_http=True,
             transport_security=TransportSecuritySettings(
                 allowed_hosts=[f"{name}:{port}" for name in ("127.0.0.1", "localhost", host)]
@@ -73,7 +73,12 @@ class HttpServer:
         self._app = app
         self._server = uvicorn.Server(
             uvicorn.Config(
-                self._guarded, host, port, interface="asgi3", log_level="warning", lifespan="on"
+                self._authenticate,
+                host,
+                port,
+                interface="asgi3",
+                log_level="warning",
+                lifespan="on",
             )
         )
 
@@ -85,16 +90,16 @@ class HttpServer:
         """End `run`, from any thread."""
         self._server.should_exit = True
 
-    async def _guarded(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def _authenticate(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http":
-            caller = self._known(scope)
+            caller = self._caller_of(scope)
             if caller is None:
                 await _refuse(send)
                 return
             self._caller.set(caller)
         await self._app(scope, receive, send)
 
-    def _known(self, scope: Scope) -> AgentCaller | None:
+    def _caller_of(self, scope: Scope) -> AgentCaller | None:
         """Return the caller that a request's token belongs to."""
         headers = dict(scope["headers"])
         kind, _, secret = headers.get(b"authorization", b"").decode("latin-1").partition(" ")
@@ -113,7 +118,7 @@ async def _refuse(send: Send) -> None:
     await send({"type": "http.response.body", "body": text})
 
 
-def made(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]:
+def make_server(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]:
     """Return a server of tools.
 
     Args:
@@ -177,7 +182,7 @@ def made(tools: AgentTools, caller: Callable[[], AgentCaller]) -> MCPServer[Any]
     async def act(command: str, fields: dict[str, Any] | None = None) -> str:
         return await called(tools.act, command, fields or {})
 
-    server.tool(description=ACT + ", ".join(sorted(known())) + ".", annotations=ACTS)(act)
+    server.tool(description=ACT + ", ".join(sorted(command_names())) + ".", annotations=ACTS)(act)
     return server
 
 

@@ -17,7 +17,7 @@ from webviz.data.recordings.latched import TF
 from webviz.data.transforms.tree import root_of
 from webviz.engine.parts.by_topic import Pick, picks
 from webviz.files.config import STANDARD, Config, Item
-from webviz.sources.bag.ghost import BASES, ROOT
+from webviz.sources.bag.comparison import BASES, ROOT
 from webviz.sources.bag.history import BagHistory
 
 PREFERRED = ("RobotModel", "Image", "OccupancyGrid", "PlanningScene", "Trajectory", "NavSatFix")
@@ -41,7 +41,7 @@ def config_of(bag: BagHistory) -> Config:
     offers = {
         topic: offer
         for topic, offer in bag.offers({}).items()
-        if bag.has(topic) and not (bag.ghost and topic.startswith(f"{ROOT}/"))
+        if bag.has(topic) and not (bag.comparison and topic.startswith(f"{ROOT}/"))
     }
     config, drawn_topics = displays_of(offers)
     links = bag.links() or [(frame, frame) for frame in bag.frames(drawn_topics)]
@@ -93,10 +93,10 @@ def _place(pick: Pick) -> tuple[int, str, str]:
     return place, pick.display, pick.topic
 
 
-def _displays(found: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iterable[Item]:
-    counts = Counter(pick.display for pick in found)
+def _displays(picks: Sequence[Pick], types: Mapping[str, type[Display]]) -> Iterable[Item]:
+    counts = Counter(pick.display for pick in picks)
     totals = Counter[str]()
-    for pick in found:
+    for pick in picks:
         totals[pick.display] += 1
         values = {**pick.values, "enabled": totals[pick.display] <= MAX_ENABLED}
         if counts[pick.display] > 1:

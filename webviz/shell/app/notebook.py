@@ -21,21 +21,21 @@ HEIGHT = 600
 """Height of the page in pixels."""
 
 
-def embedders(wanted: Sequence[str] | None) -> Sequence[str]:
+def embedders(origins: Sequence[str] | None) -> Sequence[str]:
     """Return the origins of pages that may embed a viewer.
 
     Args:
-        wanted: as given; None for notebooks of this machine, if this program is one.
+        origins: as given; None for notebooks of this machine, if this program is one.
 
     Raises:
         Error: one is no origin.
     """
-    if wanted is None:
+    if origins is None:
         return OF_NOTEBOOKS if any(name in sys.modules for name in KERNELS) else ()
-    for each in wanted:
+    for each in origins:
         if not ORIGIN.fullmatch(each):
             raise Error(f"`{each}` is not the origin of a page, such as http://localhost:8888.")
-    return wanted
+    return origins
 
 
 def html(page: str, access: Access, is_embeddable: bool) -> str:

@@ -34,7 +34,7 @@ MAX_PAGES = 4
 """Largest number of pages of one: a page that is loaded again comes before the one before it has
 gone."""
 TOO_MANY = (
-    f"{MAX_PASTS} pages look back on their own already, which is the limit. Look back for "
+    f"{MAX_PASTS} pages already look back for themselves, which is the limit. Look back for "
     "everybody, or wait until one of them returns to live."
 )
 ENDED = "The viewer is closing."

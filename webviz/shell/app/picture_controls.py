@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from webviz.shell.pictures.browser import Pixels
     from webviz.shell.pictures.snapshots import Snapshots
 
-Wanted = View | str | Mapping[str, Any] | None
+ViewChoice = View | str | Mapping[str, Any] | None
 """A view, its values, the name of a saved one, or the default view."""
 
 
@@ -50,7 +50,7 @@ class PictureControls(ABC):
         path: str | os.PathLike[str] | None = None,
         *,
         size: tuple[int, int] = (1280, 720),
-        view: Wanted = None,
+        view: ViewChoice = None,
     ) -> Pixels:
         """Make a picture of the scene as a new browser would show it, with images beside it.
 
@@ -75,7 +75,7 @@ class PictureControls(ABC):
         return pixels
 
     def screenshots(
-        self, views: Sequence[Wanted], *, size: tuple[int, int] = (1280, 720)
+        self, views: Sequence[ViewChoice], *, size: tuple[int, int] = (1280, 720)
     ) -> list[Pixels]:
         """Make pictures of several views with one browser, which is what takes long.
 
@@ -97,7 +97,7 @@ class PictureControls(ABC):
         y: int,
         *,
         size: tuple[int, int] = (1280, 720),
-        view: Wanted = None,
+        view: ViewChoice = None,
     ) -> Mapping[str, Any]:
         """Select what a picture of this size and view has at a pixel, as a click does.
 
@@ -112,7 +112,7 @@ class PictureControls(ABC):
         """
         return self._snapshots.select(self.url, size, self._view(view), (x, y))
 
-    def _view(self, view: Wanted) -> View | None:
+    def _view(self, view: ViewChoice) -> View | None:
         if isinstance(view, str):
             if view not in (saved := self.settings.views):
                 hint = config_file.nearest(view, saved)

@@ -97,7 +97,7 @@ class TimeControls(ABC):
         if playback.is_opened:
             raise Error("A recording is shown. Return to live first.")
         if playback.is_live is None:
-            raise Error("A bag has no present. Use `seek`.")
+            raise Error("A bag cannot return to live. Use `seek`.")
         self.do(commands.Seek((time.time_ns() - playback.start_ns) / 1e9 - seconds))
 
     def open_recording(self, path: str | os.PathLike[str]) -> None:

@@ -38,7 +38,7 @@ Exit status: 0 without findings above "note", 3 with some or with an error of a 
 explains, 1 after an error or with too little time to find any, 2 for invalid arguments.
 
 """
-FOUND, UNKNOWN = 3, 1
+FINDINGS, UNKNOWN = 3, 1
 
 app = App("doctor", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
@@ -92,7 +92,7 @@ def doctor(
                 say_json(f"{to_json(report)}\n")
             else:
                 say_painted(to_text(report, is_colored))
-            return UNKNOWN if report.is_unknown else 0 if report.is_well else FOUND
+            return UNKNOWN if report.is_unknown else 0 if report.is_well else FINDINGS
 
         return _examine(options, connect, ros, until_s, tell)
 

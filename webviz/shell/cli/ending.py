@@ -5,6 +5,7 @@ printed. Imports are few, because signals are handled only once this module is l
 """
 
 import contextlib
+import errno
 import math
 import os
 import signal
@@ -44,14 +45,29 @@ def on_signal(action: Callable[[], object]) -> None:
 
 
 def piped(command: Callable[[], int]) -> int:
-    """Run a command; one whose output nothing reads any more, as before `head`, ends quietly."""
+    """Run a command; one whose output nothing reads any more ends quietly.
+
+    Returns:
+        Its exit status: 1 if its pipe was closed, as by `head`, and 0 if its terminal was.
+    """
     try:
         status = command()
         sys.stdout.flush()
-    except BrokenPipeError:
+    except OSError as error:
+        is_pipe = isinstance(error, BrokenPipeError)
+        if not is_pipe and not _has_lost_terminal():
+            raise
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+        return int(is_pipe)
     return status
+
+
+def _has_lost_terminal() -> bool:
+    try:
+        os.get_terminal_size(sys.stdout.fileno())
+    except OSError as error:
+        return error.errno == errno.EIO  # else it never was one
+    return False
 
 
 def say(line: str) -> None:

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from webviz.shell.cli.comparison_options import ComparisonOptions
 from webviz.shell.cli.ending import INTERRUPTED, end_in_time, on_signal, say_end
-from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import ConfigOptions, File, Size
 from webviz.shell.cli.screenshot_options import Seconds, Time
 from webviz.shell.cli.terminal import progress, say, warn
@@ -26,7 +26,7 @@ app = App("export", help_epilogue=EXAMPLES)
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class ExportOptions(ConfigOptions, GhostOptions):
+class ExportOptions(ConfigOptions, ComparisonOptions):
     """Options for the file to make."""
 
     output: Annotated[File, Parameter(alias="-o")]
@@ -45,7 +45,7 @@ class ExportOptions(ConfigOptions, GhostOptions):
 
 def _check(bag: Path, *, options: ExportOptions) -> None:
     """Raise ValueError for an invalid combination of arguments."""
-    options.check_ghost(has_bag=True)
+    options.check_comparison(has_bag=True)
 
 
 @app.default(validator=_check)

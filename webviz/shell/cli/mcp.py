@@ -61,9 +61,9 @@ def mcp(
 
     def work(stop: Stop) -> int:
         from webviz.api.roles import Role
+        from webviz.shell.agents.agent_tools import AgentTools
         from webviz.shell.agents.caller import AgentCaller
         from webviz.shell.agents.server import HttpServer, serve_stdio
-        from webviz.shell.agents.tools import AgentTools
         from webviz.shell.cli.serving import serve
 
         def answer(viewer: "Viewer") -> None:

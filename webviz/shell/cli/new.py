@@ -87,11 +87,11 @@ def _is_taken(name: str) -> bool:
     if name in sys.stdlib_module_names:
         return True
     try:
-        found = importlib.util.find_spec(name)
+        spec = importlib.util.find_spec(name)
     except (ImportError, ValueError):
         return True
     # A folder that only has this name is none.
-    return found is not None and found.origin is not None
+    return spec is not None and spec.origin is not None
 
 
 def _files(kind: Kind, name: str) -> dict[str, str]:

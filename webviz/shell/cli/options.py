@@ -81,14 +81,14 @@ class ConfigOptions:
         Raises:
             Error: see `read`.
         """
-        from webviz.engine.parts.ghost_config import with_ghost
+        from webviz.engine.parts.comparison_config import with_comparison
         from webviz.shell.bag_player import bag_of
 
         config = self.read(self.display_config, source)
         if self.fixed_frame:
             config.set_fixed_frame(self.fixed_frame)
         bag = bag_of(source)
-        return with_ghost(config, bag) if bag and bag.ghost else config
+        return with_comparison(config, bag) if bag and bag.comparison else config
 
     def allow_meshes(self) -> None:
         """Add the mesh roots to the environment variable.

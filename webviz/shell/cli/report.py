@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter, validators
 
+from webviz.shell.cli.comparison_options import ComparisonOptions
 from webviz.shell.cli.ending import Stop, until_signal
-from webviz.shell.cli.ghost_options import GhostOptions
 from webviz.shell.cli.options import (
     ROS_ARGS_HELP,
     ConfigOptions,
@@ -40,7 +40,7 @@ app = App("report", help_epilogue=EXAMPLES + ROS_ARGS_HELP)
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class ReportOptions(ConfigOptions, GhostOptions):
+class ReportOptions(ConfigOptions, ComparisonOptions):
     """Subject of the report, and the file."""
 
     output: Annotated[File | None, Parameter(alias="-o")] = None
@@ -73,7 +73,7 @@ def _check(
 ) -> None:
     """Raise ValueError for an invalid combination of arguments."""
     connect.check(options.bag is not None)
-    options.check_ghost(options.bag is not None)
+    options.check_comparison(options.bag is not None)
     if options.bag is None:
         defaults_changed = {
             "from": options.first != "start",

@@ -179,7 +179,7 @@ class _Report:
             self.count += 1
             height, width = picture.pixels.shape[:2]
             self.size = width, height
-            if not picture.shown.is_ok:
+            if not picture.readiness.is_ok:
                 self._bad += 1
                 self._first = self._first or picture
             yield picture
@@ -195,7 +195,7 @@ class _Report:
         # Unsupported parts were reported when the config was read; the bag is reported afterwards.
         general = {
             key: status
-            for key, status in first.shown.general.items()
+            for key, status in first.readiness.general.items()
             if status.level is not Level.OK and key not in ("Import", "Bag")
         }
         for line in _table(first.statuses | general):

@@ -13,7 +13,7 @@ from pathlib import Path
 from webviz.api.check_registry import known_checks
 from webviz.api.registry import display_types
 from webviz.data.messages import type_exists
-from webviz.engine.parts.ghost_config import with_ghost
+from webviz.engine.parts.comparison_config import with_comparison
 from webviz.files.config import Config
 from webviz.files.sessions import Sessions, name_of
 from webviz.server.access.starting import link
@@ -63,8 +63,8 @@ def serve(
     @functools.cache
     def read(path: Path | None, source: Source | None) -> Config:
         config = options.read(path or template, beside or source)
-        ghost = bag_of(beside)
-        return with_ghost(config, ghost) if ghost else config
+        run = bag_of(beside)
+        return with_comparison(config, run) if run else config
 
     if (options.display_config or options.template) and not options.plugin:
         # Report errors before imports that take seconds. With plug-ins the viewer reads the file
@@ -89,8 +89,9 @@ def serve(
                 else:
                     with contextlib.suppress(OSError):  # the terminal was closed meanwhile
                         _announce(options, viewer, note)
-                # A hundred modules, which the frame loop would import for the first browser.
+                # Modules that the frame loop would import for the first browser or message.
                 known_checks()
+                type_exists("std_msgs/msg/Header")  # reads the definitions of ROS
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
@@ -135,7 +136,6 @@ def _viewer(
 def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
     display_types()
-    type_exists("std_msgs/msg/Header")  # reads the definitions of ROS
     import webviz.page.pages
     import webviz.scene
     import webviz.shell.pictures.snapshots

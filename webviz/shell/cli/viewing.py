@@ -39,7 +39,7 @@ def check(
     if bag.paused and not bag.bag:
         raise ValueError("--paused needs --bag.")
     connect.check(bool(bag.bag))
-    bag.check_ghost(bool(bag.bag))
+    bag.check_comparison(bool(bag.bag))
 
 
 def view(

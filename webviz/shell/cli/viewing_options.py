@@ -8,7 +8,7 @@ import msgspec
 from cyclopts import Group, Parameter, validators
 
 from webviz.shell.cli.amounts import memory_of
-from webviz.shell.cli.ghost_options import GhostOptions
+from webviz.shell.cli.comparison_options import ComparisonOptions
 from webviz.shell.cli.options import ConfigOptions, File, Flag, Repeatable
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ BAG = Parameter(group=Group("A bag instead of live topics", sort_key=2))
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class BagOptions(GhostOptions):
+class BagOptions(ComparisonOptions):
     """The bag to play, and a second one."""
 
     bag: Annotated[Repeatable[Path], BAG, Parameter(metavar="FILE", consume_multiple=1)] = ()

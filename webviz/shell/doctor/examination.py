@@ -105,10 +105,10 @@ class Examination:
         self._loop.doctor.environment = environment
         if since_s is not None:
             self._loop.doctor.listening_since_s = since_s
-        self._seen: dict[tuple[str, str], Finding] = {}
+        self._findings: dict[tuple[str, str], Finding] = {}
         self._is_open = True
         self._offers: Mapping[str, Offer] = {}
-        self._shown = [subject for subject, _ in _added(config)]
+        self._subjects = [subject for subject, _ in _added(config)]
 
     def watch(self, until_s: float, is_given: bool) -> DoctorReport:
         """Examine live topics, and end the threads.
@@ -179,7 +179,7 @@ class Examination:
         ending = {(each.id, each.subject) for each in self._loop.doctor.findings}
         lasting = [
             each
-            for key, each in self._seen.items()
+            for key, each in self._findings.items()
             if (key in ending and each.id not in OF_SILENCE)
             or each.last_ns - each.first_ns >= LASTING_S * 1e9
         ]
@@ -200,8 +200,8 @@ class Examination:
         doctor = self._loop.doctor
         for each in doctor.findings:
             key = each.id, each.subject
-            former = self._seen.get(key, each)
-            self._seen[key] = replace(each, first_ns=former.first_ns or each.first_ns)
+            former = self._findings.get(key, each)
+            self._findings[key] = replace(each, first_ns=former.first_ns or each.first_ns)
         if self._results and doctor.rounds != self._rounds:
             self._rounds = doctor.rounds
             playback = self._loop.fact("playback")
@@ -217,8 +217,8 @@ class Examination:
             return
         self._offers = offers
         for subject, command in _added(live_config(offers)):
-            if subject not in self._shown:
-                self._shown.append(subject)
+            if subject not in self._subjects:
+                self._subjects.append(subject)
                 self._loop.enqueue(command)
 
     def _choose_frame(self) -> None:

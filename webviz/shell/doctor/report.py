@@ -32,10 +32,10 @@ class ReportedStatus(msgspec.Struct):
 
     display: Annotated[str, Meta(description='Name of the display; "" for the whole viewer.')]
     status: Annotated[str, Meta(description="Name of the status.")]
-    text: Annotated[str, Meta(description="What it says.")] = ""
-    level: Annotated[str, Meta(description='"error" or "warning"; "" if it is gone.')] = ""
+    text: Annotated[str, Meta(description="Text of the status.")] = ""
+    level: Annotated[str, Meta(description='"error" or "warning"; "" if it no longer exists.')] = ""
     values: Annotated[
-        Sequence[Measurement], Meta(description="What was measured, more exact than in the text.")
+        Sequence[Measurement], Meta(description="Measured values, more exact than in the text.")
     ] = ()
     finding: Annotated[
         str, Meta(description='Id of the first finding that explains it; "" for none.')
@@ -50,10 +50,10 @@ class ReportedFinding(msgspec.Struct, kw_only=True):
     severity: Annotated[str, Meta(description="error, warning or note; a note breaks nothing.")]
     subject: Annotated[str, Meta(description="The topic, frame or device that it is about.")]
     cause: Annotated[str, Meta(description="One sentence.")]
-    proof: Annotated[str, Meta(description='What was measured, a sentence; "" for none.')] = ""
-    remedy: Annotated[str, Meta(description="What to do, a sentence.")]
-    command: Annotated[str, Meta(description='To type in a terminal; "" if there is none.')]
-    evidence: Annotated[Mapping[str, Fact], Meta(description="What was observed, by name.")]
+    proof: Annotated[str, Meta(description='Sentence with the measurement; "" for none.')] = ""
+    remedy: Annotated[str, Meta(description="Sentence with the remedy.")]
+    command: Annotated[str, Meta(description='Command for a terminal; "" for none.')]
+    evidence: Annotated[Mapping[str, Fact], Meta(description="Observed values, by name.")]
     explains: Annotated[
         Sequence[ReportedStatus], Meta(description="The statuses that follow from it.")
     ]

@@ -94,7 +94,7 @@ class _Column(msgspec.Struct):
     each: list[msgspec.Raw]
 
 
-class TapeChunk(msgspec.Struct):
+class ExportChunk(msgspec.Struct):
     """Some seconds of a run.
 
     Args:

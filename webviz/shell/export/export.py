@@ -26,7 +26,7 @@ from webviz.shell.export.limit import SizeLimit
 from webviz.shell.export.order import ExportOrder
 from webviz.shell.export.recorder import ExportSpan, RunRecorder
 from webviz.shell.export.stores import RecordingChannel
-from webviz.shell.export.tape import ChunkIndex, Tape
+from webviz.shell.export.tape import ChunkIndex, ExportWriter
 from webviz.shell.pictures.files import writing
 
 POLICY = "; ".join(
@@ -132,7 +132,7 @@ def export(
                 "itself. Choose a larger one."
             )
         limit = SizeLimit(order.max_bytes, (span.last_ns - span.first_ns) / 1e9)
-        tape = Tape(run_file.write_chunk, limit, run_file.bytes)
+        tape = ExportWriter(run_file.write_chunk, limit, run_file.bytes)
         with contextlib.closing(RunRecorder(order.config, order.source)) as recorder:
             for frame in recorder.frames(span, tell):
                 tape.add(frame)
@@ -164,7 +164,7 @@ def about(
     settings, frames = recorder.viewer.loop.settings, recorder.followed
     first_s = (span.first_ns - history.start_ns) / 1e9
     last_s = (span.last_ns - history.start_ns) / 1e9
-    greeting = [channel.kept.get(kind) for kind in (Shell, Tools)]
+    greeting = [channel.last_messages.get(kind) for kind in (Shell, Tools)]
     return {
         "names": history.names,
         "start": span.first_ns / 1e9,

@@ -55,8 +55,8 @@ def _end_with_input() -> None:
 
 
 def _work(order: ExportRequest, out: IO[bytes]) -> None:
-    def tell(told: ExportProgress) -> None:
-        out.write(msgspec.json.encode(told) + b"\n")
+    def tell(progress: ExportProgress) -> None:
+        out.write(msgspec.json.encode(progress) + b"\n")
         out.flush()
 
     try:

@@ -19,13 +19,13 @@ from webviz.engine.pipeline.selectable import SelectableValues
 from webviz.files.config import Config
 from webviz.page.pages import Pages
 from webviz.scene import ViserScene, open_server
-from webviz.scene.adapter.tape import SceneTape
+from webviz.scene.adapter.tape import SceneRecorder
 from webviz.scene.cameras import ViserCameras
 from webviz.server.http.viser_server import Server
 from webviz.server.images.encoding import factor_for, file_of
 from webviz.server.images.frames import SentPicture, frame
 from webviz.shell.export.stores import VALUES, RecordingChannel
-from webviz.shell.export.tape import TapeFrame
+from webviz.shell.export.tape import ExportFrame
 from webviz.shell.pictures.offline_viewer import OfflineViewer
 from webviz.sources.player import Player
 from webviz.sources.steps import steps_of
@@ -39,12 +39,12 @@ MAX_MARKED = 30
 through all of them to show the last."""
 
 
-class PaneTape:
+class PaneRecorder:
     """Makes pictures of those panes that have changed."""
 
     def __init__(self) -> None:
-        self._shown: dict[str, Pane] = {}
-        self._sent: dict[str, SentPicture] = {}
+        self._current_panes: dict[str, Pane] = {}
+        self._pictures: dict[str, SentPicture] = {}
         self._marked: dict[str, int] = {}
         self._number = 0
 
@@ -54,16 +54,20 @@ class PaneTape:
         None if one is gone.
         """
         changes: dict[str, tuple[bytes, bool] | None] = {}
-        for removed in self._shown.keys() - panes.keys():
-            del self._shown[removed]
-            self._sent.pop(removed, None)
+        for removed in self._current_panes.keys() - panes.keys():
+            del self._current_panes[removed]
+            self._pictures.pop(removed, None)
             changes[removed] = None
         for display, pane in panes.items():
-            if self._shown.get(display) is pane:
+            if self._current_panes.get(display) is pane:
                 continue
-            self._shown[display] = pane
+            self._current_panes[display] = pane
             self._number += 1
-            picture, sent_picture, file = pane.picture, self._sent.get(display, SentPicture()), None
+            picture, sent_picture, file = (
+                pane.picture,
+                self._pictures.get(display, SentPicture()),
+                None,
+            )
             marked = self._marked.get(display, 0) + 1
             if isinstance(picture, Video):
                 is_whole = sent_picture.packet < picture.packets[0].number
@@ -73,7 +77,7 @@ class PaneTape:
                 is_whole, sent_picture = True, SentPicture()
                 file = file_of(picture, factor_for(picture, WIDTH))
             self._marked[display] = 0 if is_whole else marked
-            data, self._sent[display] = frame(
+            data, self._pictures[display] = frame(
                 display, self._number, pane, file, sent_picture, False
             )
             if data:
@@ -148,10 +152,10 @@ class RunRecorder:
             server = open_server(port=0)
             stack.callback(server.stop)
             self._scene = RecordedScene(server)
-            self._tape = SceneTape(server)
+            self._tape = SceneRecorder(server)
             stack.callback(self._tape.close)
             self.channel = RecordingChannel()
-            self._panes = PaneTape()
+            self._panes = PaneRecorder()
             self._pages: Pages | None = None
             self.viewer = OfflineViewer(config, source, self._scene, self._show)
             stack.callback(self.viewer.close)
@@ -170,7 +174,7 @@ class RunRecorder:
 
     def frames(
         self, span: ExportSpan, tell: Callable[[float], object] = lambda share: None
-    ) -> Iterator[TapeFrame]:
+    ) -> Iterator[ExportFrame]:
         """Play a span.
 
         Args:
@@ -197,7 +201,7 @@ class RunRecorder:
             pictures = self._panes.take(self._scene.link.pictures.panes())
             ros_s = self._source.now_ns() / 1e9
             stores = self.channel.take(is_slow_due)
-            yield TapeFrame(at_s, ros_s, self._tape.take(), stores, pictures)
+            yield ExportFrame(at_s, ros_s, self._tape.take(), stores, pictures)
             tell(at_s / length_s if length_s else 1.0)
 
     def _show_values(self) -> None:

@@ -45,10 +45,10 @@ class RecordingChannel(Channel):
 
     def __init__(self) -> None:
         super().__init__()
-        self.kept: dict[type[ToPage], ToPage] = {}
+        self.last_messages: dict[type[ToPage], ToPage] = {}
         """The newest message of each kind."""
         self._names: set[str] = set(SHARED)
-        self._made = Stores()
+        self._contents = Stores()
         self._changes: dict[tuple[str, str], msgspec.Raw | None] = {}
         self._waiting: dict[str, Mapping[str, Any]] = {}
         """Newest values of those that change all the time."""
@@ -73,7 +73,7 @@ class RecordingChannel(Channel):
     def send(self, message: ToPage, browser: int | None = None) -> None:
         """Keep a message to all pages."""
         if browser is None:
-            self.kept[type(message)] = message
+            self.last_messages[type(message)] = message
 
     def show(self, store: str, values: Mapping[str, Any]) -> None:
         """Note which values of a store have changed."""
@@ -83,13 +83,13 @@ class RecordingChannel(Channel):
             self._note(store, values)
 
     def _note(self, store: str, values: Mapping[str, Any]) -> None:
-        for key in self._made.replace(store, values):
-            content = self._made.get(store) or {}
+        for key in self._contents.replace(store, values):
+            content = self._contents.get(store) or {}
             self._changes[store, key] = content.get(key)
 
     def content(self, store: str) -> Mapping[str, Any]:
         """Return the values of a store now."""
-        content = self._made.get(store) or {}
+        content = self._contents.get(store) or {}
         return {key: msgspec.json.decode(value) for key, value in content.items()}
 
     def take(self, is_slow_due: bool) -> Changes:

@@ -9,7 +9,7 @@ import msgspec
 
 from webviz.scene.adapter.tape import SceneChange, SceneMessage
 from webviz.server.sending.outbox import BULK_BYTES
-from webviz.shell.export.chunks import TapeChunk
+from webviz.shell.export.chunks import ExportChunk
 from webviz.shell.export.limit import MAX_EVERY, SizeLimit
 from webviz.shell.export.stores import VALUES, Changes
 
@@ -21,7 +21,7 @@ MAX_KNOWN = 100_000
 """Values that are recognised when they come again."""
 
 
-class TapeFrame(msgspec.Struct, frozen=True):
+class ExportFrame(msgspec.Struct, frozen=True):
     """A moment of a run.
 
     Args:
@@ -54,7 +54,7 @@ class ChunkIndex(msgspec.Struct, frozen=True):
     picture: int
 
 
-class Tape:
+class ExportWriter:
     """Collects frames, and hands each chunk on as soon as it is complete.
 
     Args:
@@ -76,13 +76,13 @@ class Tape:
         """Numbers of the messages that the scene consists of, by the numbers that the server gave
         them."""
         self._stores: dict[tuple[str, str], int] = {}
-        self._known: dict[bytes, int] = {}
+        self._value_numbers: dict[bytes, int] = {}
         self._panes: dict[str, list[int]] = {}
         self._left_out: set[str] = set()
-        self._chunk: TapeChunk | None = None
+        self._chunk: ExportChunk | None = None
         self._times: list[float] = []
 
-    def add(self, frame: TapeFrame) -> None:
+    def add(self, frame: ExportFrame) -> None:
         """Add the next frame."""
         chunk = self._chunk
         if chunk is not None:
@@ -90,7 +90,9 @@ class Tape:
             if is_long or chunk.size > CHUNK_BYTES:
                 self._pack(chunk, frame.at_s)
         is_key = self._chunk is None
-        chunk = self._chunk = self._chunk or TapeChunk(self._messages, self._values, self._pictures)
+        chunk = self._chunk = self._chunk or ExportChunk(
+            self._messages, self._values, self._pictures
+        )
         added, removed = self._add_scene(chunk, frame.scene)
         values = self._add_values(chunk, frame.stores)
         pictures = self._add_pictures(chunk, frame.pictures)
@@ -106,7 +108,7 @@ class Tape:
         if chunk is not None:
             self._pack(chunk, self._times[-1])
 
-    def _pack(self, chunk: TapeChunk, until_s: float) -> None:
+    def _pack(self, chunk: ExportChunk, until_s: float) -> None:
         first = chunk.first_message, chunk.first_value, chunk.first_picture
         first_s, limit = self._times[0], self._limit
         self.index.append(ChunkIndex(self._times, *first))
@@ -119,10 +121,12 @@ class Tape:
         limit.adapt(len(packed), room, first_s, until_s)
         self._used = self._write(packed)
 
-    def _add_scene(self, chunk: TapeChunk, change: SceneChange) -> tuple[list[int], list[int]]:
+    def _add_scene(self, chunk: ExportChunk, change: SceneChange) -> tuple[list[int], list[int]]:
         added: list[int] = []
         messages = [message for message in change.added if not self._is_left_out(message)]
-        removed = [self._numbers.pop(number) for number in change.gone if number in self._numbers]
+        removed = [
+            self._numbers.pop(number) for number in change.removals if number in self._numbers
+        ]
         for message in messages:
             chunk.add_message(message)
             self._numbers[message.number] = self._messages
@@ -146,7 +150,7 @@ class Tape:
         count = self._versions[key] = self._versions.get(key, 0) + 1
         return count % self._limit.skip != 0
 
-    def _add_values(self, chunk: TapeChunk, changes: Changes) -> list[Any]:
+    def _add_values(self, chunk: ExportChunk, changes: Changes) -> list[Any]:
         entries: list[Any] = []
         for (store, key), value in changes.items():
             if value is None or (store.startswith(VALUES) and self._limit.is_exceeded):
@@ -158,19 +162,19 @@ class Tape:
             entries.append([store, key, number])
         return entries
 
-    def _number(self, chunk: TapeChunk, kind: str, value: msgspec.Raw) -> int:
+    def _number(self, chunk: ExportChunk, kind: str, value: msgspec.Raw) -> int:
         encoded = bytes(value)
-        if (known := self._known.get(encoded)) is not None:
-            return known
-        if len(self._known) >= MAX_KNOWN:
-            self._known.clear()
-        number = self._known[encoded] = self._values
+        if (index := self._value_numbers.get(encoded)) is not None:
+            return index
+        if len(self._value_numbers) >= MAX_KNOWN:
+            self._value_numbers.clear()
+        number = self._value_numbers[encoded] = self._values
         self._values += 1
         chunk.add_value(kind, value)
         return number
 
     def _add_pictures(
-        self, chunk: TapeChunk, pictures: Mapping[str, tuple[bytes, bool] | None]
+        self, chunk: ExportChunk, pictures: Mapping[str, tuple[bytes, bool] | None]
     ) -> list[Any]:
         entries: list[Any] = []
         for display, picture in pictures.items():

@@ -43,18 +43,18 @@ class Picture(msgspec.Struct, frozen=True, eq=False):
             background is transparent.
         view: name of the view, "" for the default view.
         at_s: seconds from the start of the bag, None for live topics.
-        shown: statuses of the displays.
+        readiness: statuses of the displays.
     """
 
     pixels: Pixels
     view: str
     at_s: float | None
-    shown: Readiness
+    readiness: Readiness
 
     @property
     def statuses(self) -> dict[str, Status]:
         """The worst status of each enabled display, by its name."""
-        return dict(self.shown.statuses)
+        return dict(self.readiness.statuses)
 
 
 class Capture(msgspec.Struct, frozen=True, eq=False):
@@ -75,7 +75,7 @@ class Capture(msgspec.Struct, frozen=True, eq=False):
     @property
     def is_ok(self) -> bool:
         """Return whether all awaited displays are OK in every picture."""
-        return all(picture.shown.is_ok for picture in self.pictures)
+        return all(picture.readiness.is_ok for picture in self.pictures)
 
 
 class Order(msgspec.Struct, frozen=True):

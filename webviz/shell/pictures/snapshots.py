@@ -114,7 +114,7 @@ class Snapshots:
 
     def _take(self, url: str, size: tuple[int, int], views: Sequence[View | None]) -> list[Pixels]:
         by_number: dict[int, Pixels] = {}
-        with self._shown(url, size) as (page, client):
+        with self._page(url, size) as (page, client):
             # The default view is that of a new browser, hence first.
             for number in sorted(range(len(views)), key=lambda number: views[number] is not None):
                 self._show(page, client, views[number])
@@ -126,7 +126,7 @@ class Snapshots:
     def _select(
         self, url: str, size: tuple[int, int], view: View | None, at: tuple[int, int]
     ) -> Mapping[str, Any]:
-        with self._shown(url, size) as (page, client):
+        with self._page(url, size) as (page, client):
             self._show(page, client, view)
             page.tab.add_style_tag(content=BEHIND)
             page.tab.keyboard.press("s")
@@ -136,7 +136,7 @@ class Snapshots:
             return self._selection(client)
 
     @contextlib.contextmanager
-    def _shown(self, url: str, size: tuple[int, int]) -> Iterator[tuple[Page, int]]:
+    def _page(self, url: str, size: tuple[int, int]) -> Iterator[tuple[Page, int]]:
         """Provide a new page, and the id of its browser."""
         check_size(size)
         try:

@@ -18,8 +18,8 @@ from webviz.api.status import OtherFixedFrame, Remedy, Status
 from webviz.data.messages import encode, interfaces
 from webviz.data.rotations import matrices
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.commands import Picks
-from webviz.engine.pipeline import Runner, Services
+from webviz.engine.commands import NodePicks
+from webviz.engine.pipeline import DisplayServices, Runner
 from webviz.engine.pipeline.background import Workers
 from webviz.engine.pipeline.details import details_tree
 from webviz.engine.pipeline.point_budget import PointBudget
@@ -27,7 +27,7 @@ from webviz.shell.testing.messages import header
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import SECOND, HandFedSource
-from webviz.sources import Gate, Offer, Publisher, Raw, Rights
+from webviz.sources import Offer, Publisher, Raw, RestrictedGraph, Rights
 
 PATIENCE_S = 60.0
 START = 100 * SECOND
@@ -53,13 +53,15 @@ class DisplayBench:
         self.scene = RecordingScene()
         self.now_ns = START
         self.graph = RememberingGraph()
-        gate = Gate(HandFedSource(graph=self.graph), Rights(), lambda: ("/*",))
-        services = Services(
+        restricted_graph = RestrictedGraph(
+            HandFedSource(graph=self.graph), Rights(), lambda: ("/*",)
+        )
+        services = DisplayServices(
             self.scene,
             workers,
             lambda topic: topic,
             strict=True,
-            gate=gate,
+            graph=restricted_graph,
             points=PointBudget(self.scene.points_held),
         )
         self.runner = Runner("display", display, services)
@@ -189,7 +191,7 @@ class DisplayBench:
             point = tuple(map(float, place[0] if place.ndim > 1 else place))
             if isinstance(node, Points) and not isinstance(node.colors, tuple):
                 color = tuple(node.colors[number].tolist())
-        hits = self.runner.find(Picks(group, key, ((7, number, point, color),)))
+        hits = self.runner.find(NodePicks(group, key, ((7, number, point, color),)))
         frames = Frames(self.buffer, self.fixed_frame, self.now_ns)
         details = self.runner.inspect(hits[7], frames)
         assert details is not None, f"{key} cannot be selected."

@@ -277,21 +277,21 @@ class DisplayChecks:
     ) -> None:
         """Other values of a property show, and the default shows what it did before."""
         needs = {**changed.needs, **self.needs.get(changed.path, {})}
-        before = value_at(_made(self.display, needs), changed.path)
+        before = value_at(_display(self.display, needs), changed.path)
         others = self.other_values(replace(changed, value=before), tmp_path)
         valid = [each for each in others if _is_valid(self.display(), changed.path, each)]
         assert valid, f"Name other values of {changed.path} in `values`."
-        bench = webviz_bench(_made(self.display, needs))
+        bench = webviz_bench(_display(self.display, needs))
         self.publish(bench)
         for value in valid:
             former = _picture(bench)
             if changed.path in self.later or "show_trail=True" in str(value):
-                again = webviz_bench(_made(self.display, {changed.path: value} | needs))
+                again = webviz_bench(_display(self.display, {changed.path: value} | needs))
                 self.publish(again)
                 assert _picture(again) != former, f"{value} shows as {before} does"
                 continue
             _set(bench, changed.path, before)
-            assert _picture(bench) == former, "What changes by itself would prove nothing."
+            assert _picture(bench) == former, "A display that changes by itself proves nothing."
             _set(bench, changed.path, value)
             assert _picture(bench) != former, f"{value} shows as {before} does"
             _set(bench, changed.path, before)
@@ -337,7 +337,7 @@ def _is_valid(display: Display, path: str, value: Any) -> bool:
     return True
 
 
-def _made(cls: type[Display], values: Mapping[str, Any]) -> Display:
+def _display(cls: type[Display], values: Mapping[str, Any]) -> Display:
     display = cls()
     for path, value in values.items():
         set_property(display, path, value)

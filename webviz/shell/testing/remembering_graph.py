@@ -45,18 +45,18 @@ class RememberingGraph:
     def advertise(self, advertisements: Collection[Advertisement]) -> Future[None]:
         """Remember what may be published."""
         self.advertised = advertisements
-        return done(None)
+        return answered(None)
 
     def publish(self, advertisement: Advertisement, cdr: bytes) -> Future[int]:
         """Remember a message, decoded."""
         self.published.append((advertisement, decode(advertisement.type, cdr)))
-        return done(self.subscriptions)
+        return answered(self.subscriptions)
 
     def call(self, service: str, type: str, request: bytes, timeout_s: float) -> Future[bytes]:
         """Remember a request, and return the response that a test has set."""
         self.requests.append((service, type, request))
         if service in self.responses:
-            return done(self.responses[service])
+            return answered(self.responses[service])
         missing: Future[bytes] = Future()
         missing.set_exception(NotConnected(f"No node offers {service}. Start one."))
         return missing
@@ -78,7 +78,7 @@ class RememberingGraph:
         return {}
 
 
-def done(result: Any) -> Future[Any]:
+def answered(result: Any) -> Future[Any]:
     """Return a future with a result."""
     future: Future[Any] = Future()
     future.set_result(result)

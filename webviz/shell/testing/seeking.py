@@ -94,7 +94,7 @@ class BagViewer:
             self.turn()
             if self.loop.is_busy():
                 self.source.inbox.arrived.wait(LOOK_S)
-        raise AssertionError("The viewer did not get there.")
+        raise AssertionError("The viewer did not reach this state.")
 
     def shown(self) -> dict[str, Any]:
         """Return the nodes that are seen of each display, with their poses in the fixed frame."""

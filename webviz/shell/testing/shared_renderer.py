@@ -29,7 +29,7 @@ class SharedRenderer:
         self._thread: ThreadPoolExecutor | None = None
         self._open = contextlib.ExitStack()
         self._renderer: HeadlessRenderer | None = None
-        self._shown: RecordingScene | None = None
+        self._scene: RecordingScene | None = None
         self._look: tuple[View, Size] | None = None
 
     def close(self) -> None:
@@ -78,13 +78,13 @@ class SharedRenderer:
 
     def forget(self, scene: RecordingScene) -> None:
         """Stop showing a scene."""
-        if self._shown is scene:
+        if self._scene is scene:
             self._call(self._leave)
 
     # In the thread
 
     def _call(self, work: Callable[[], T]) -> T:
-        def guarded() -> T:
+        def attempt() -> T:
             try:
                 return work()
             except BrowserDied:
@@ -94,7 +94,7 @@ class SharedRenderer:
         if self._thread is None:
             self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="webviz-pictures")
         try:
-            return self._thread.submit(guarded).result()
+            return self._thread.submit(attempt).result()
         except (NoBrowser, BrowserDied) as error:
             raise type(error)(str(error)) from None
 
@@ -103,9 +103,9 @@ class SharedRenderer:
             browser = self._open.enter_context(launched())
             self._renderer = HeadlessRenderer(browser, *size)
             self._open.callback(self._renderer.close)
-        if self._shown is not scene:
+        if self._scene is not scene:
             self._leave()
-            self._shown = scene
+            self._scene = scene
             scene.attach(self._renderer.scene)
         if self._look is None or self._look[1] != size:
             self._renderer.resize(*size)
@@ -134,9 +134,9 @@ class SharedRenderer:
                 renderer.scene.flush()
 
     def _leave(self) -> None:
-        if self._shown is not None:
-            self._shown.detach()
-        self._shown = None
+        if self._scene is not None:
+            self._scene.detach()
+        self._scene = None
 
     def _forget(self) -> None:
         self._leave()

@@ -14,14 +14,14 @@ from webviz.data.disk import DiskThreads, in_thread
 from webviz.data.messages import MessageError, TFMessage, decode, peek_header
 from webviz.data.messages.typestore import fields
 from webviz.data.recordings.latched import TF
+from webviz.sources.bag.comparison import ComparisonRun, comparison_files
 from webviz.sources.bag.extras import Extra
 from webviz.sources.bag.file import BagChannel, BagError
 from webviz.sources.bag.files import BagFiles
-from webviz.sources.bag.ghost import Ghost, ghost_files
 from webviz.sources.bag.log import LogReader
 from webviz.sources.bag.qos import weakest
 from webviz.sources.bag.time import BagTime
-from webviz.sources.history import CLOCK, HistoryChannel, Recorded, Runs
+from webviz.sources.history import CLOCK, HistoryChannel, Recorded, ValidityIntervals
 from webviz.sources.names import resolved
 from webviz.sources.past_state import Event
 from webviz.sources.source import Subscription
@@ -42,8 +42,8 @@ _readers = DiskThreads(16)
 """Threads for whole bags, which take longer than other files."""
 
 
-class TransformRuns:
-    """Finds the runs in a worker, once they are asked for.
+class IntervalReader:
+    """Finds validity intervals in a worker, once they are asked for.
 
     Args:
         paths: of the bags, which it opens anew.
@@ -51,44 +51,44 @@ class TransformRuns:
 
     def __init__(self, paths: Sequence[Path]) -> None:
         self._paths = paths
-        self._reading: Future[Runs] | None = None
+        self._reading: Future[ValidityIntervals] | None = None
         self._is_closed = threading.Event()
 
-    def found(self) -> Runs:
-        """Return the runs; none until they are found, for which the first call waits a little."""
+    def intervals(self) -> ValidityIntervals:
+        """Return the intervals; none before they are read, for which the first call waits a bit."""
         wait_s = 0.0
         if self._reading is None:
             try:
                 self._reading = _readers.start(self._read)
             except OSError:  # no thread is free; another time
-                return Runs()
+                return ValidityIntervals()
             wait_s = WAIT_S
         concurrent.futures.wait([self._reading], wait_s)
         # That a bag can no longer be read, others report.
         is_read = self._reading.done() and not self._reading.exception()
-        return self._reading.result() if is_read else Runs()
+        return self._reading.result() if is_read else ValidityIntervals()
 
     def close(self) -> None:
         """Stop reading."""
         self._is_closed.set()
 
-    def _read(self) -> Runs:
-        runs = Runs()
+    def _read(self) -> ValidityIntervals:
+        validity = ValidityIntervals()
         bags = BagFiles(self._paths)
         static = [c for c in bags.channels if c.type == TF and c.topic.endswith("/tf_static")]
         moving = [c for c in bags.channels if c.type == TF and c not in static]
         try:
             for recorded in itertools.islice(bags.messages(static, bags.start_ns), MAX_STATIC):
-                runs.read(recorded.cdr, recorded.stamp_ns, is_static=True)
+                validity.read(recorded.cdr, recorded.stamp_ns, is_static=True)
             for number, recorded in enumerate(bags.messages(moving, bags.start_ns), 1):
                 if number > MAX_MESSAGES or self._is_closed.is_set():
                     break
-                runs.read(recorded.cdr, recorded.stamp_ns)
+                validity.read(recorded.cdr, recorded.stamp_ns)
                 if number > AT_ONCE and number % YIELD_AFTER == 0:
                     self._is_closed.wait(YIELD_S)
         finally:
             bags.close()
-        return runs
+        return validity
 
 
 MAX_READ = 1000
@@ -150,7 +150,7 @@ class BagHistory:
         paths: of the bag, or of several.
         extras: messages that the bag lacks, latched from its start on.
         remappings: full topic names by the full names that displays use.
-        ghost: a second run to show beside it, with topics of its own.
+        comparison: a second run to show beside it, with topics of its own.
 
     Raises:
         BagError: a bag cannot be read.
@@ -165,13 +165,13 @@ class BagHistory:
         paths: Path | Sequence[Path],
         extras: Sequence[Extra] = (),
         remappings: Mapping[str, str] | None = None,
-        ghost: Ghost | None = None,
+        comparison: ComparisonRun | None = None,
     ) -> None:
         self.paths = (paths,) if isinstance(paths, Path) else tuple(paths)
-        self.ghost = ghost
+        self.comparison = comparison
         self.extras = tuple(extras)
         self.remappings = dict(remappings or {})
-        others = ghost_files(self.paths, ghost) if ghost else ()
+        others = comparison_files(self.paths, comparison) if comparison else ()
         self.files = BagFiles(self.paths, others, extras)
         self.wake: Callable[[], object] = lambda: None
         """Called in a worker when `histogram` or `logged` know more."""
@@ -180,7 +180,7 @@ class BagHistory:
             self._own.setdefault(HistoryChannel(channel.topic, channel.type), []).append(channel)
         self._time = BagTime(self.files)
         self._log = LogReader(self.paths, lambda: self.wake())
-        self._runs = TransformRuns(self.paths)
+        self._validity = IntervalReader(self.paths)
         self._problems: dict[HistoryChannel, str] = {}
         self._firsts: dict[HistoryChannel, int | None] = {}
         self._offers: tuple[object, Mapping[str, Offer]] = None, {}
@@ -248,9 +248,9 @@ class BagHistory:
         is_latched = is_wanted or weakest(_publishers(own))[1] == "transient_local"
         return sum(each.depth for each in own) if is_latched else 0
 
-    def runs(self) -> Runs:
-        """`History.runs`, as far as a worker has found them."""
-        return self._runs.found()
+    def validity(self) -> ValidityIntervals:
+        """`History.validity`, as far as a worker has found them."""
+        return self._validity.intervals()
 
     def time(self) -> BagTime:
         """`History.time`."""
@@ -304,7 +304,7 @@ class BagHistory:
 
     def close(self) -> None:
         """Close the files."""
-        self._runs.close()
+        self._validity.close()
         self.files.close()
 
     # For configs that are made of a bag

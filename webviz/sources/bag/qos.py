@@ -46,15 +46,15 @@ def profiles_of(text: str) -> tuple[BagProfile, ...]:
         return ()
 
 
-def _profile(given: Any) -> BagProfile:
-    if not isinstance(given, dict):
+def _profile(profile: Any) -> BagProfile:
+    if not isinstance(profile, dict):
         raise ValueError
-    is_best_effort = _word(given, "reliability") in ("2", "best_effort")
-    is_latched = _word(given, "durability") in ("1", "transient_local")
+    is_best_effort = _word(profile, "reliability") in ("2", "best_effort")
+    is_latched = _word(profile, "durability") in ("1", "transient_local")
     return BagProfile(
         "best_effort" if is_best_effort else "reliable",
         "transient_local" if is_latched else "volatile",
-        min(max(0, int(_word(given, "depth") or 0)), MAX_DEPTH),
+        min(max(0, int(_word(profile, "depth") or 0)), MAX_DEPTH),
     )
 
 

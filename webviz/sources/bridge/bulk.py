@@ -13,7 +13,7 @@ from typing import Protocol
 from websockets.exceptions import WebSocketException
 
 from webviz.sources.bridge.connection import BridgeConnection
-from webviz.sources.bridge.pacing import MAX_RATE, Pacer
+from webviz.sources.bridge.pacing import MAX_RATE, RateController
 from webviz.sources.bridge.session import BridgeSession, Host
 from webviz.sources.bridge.talking import first_of, read, write
 from webviz.sources.source import Subscription
@@ -37,7 +37,7 @@ class BulkConnection(BridgeConnection):
     What may be on its way is bounded by the receive buffer, whose room TCP announces to the bridge.
     """
 
-    pacer = Pacer()
+    rate_controller = RateController()
     """Pacer that decides on the rate."""
     _allowed = 0.0
     _allowed_s = 0.0
@@ -50,7 +50,7 @@ class BulkConnection(BridgeConnection):
             return
         with contextlib.suppress(OSError):  # it is being closed
             least = max(MIN_BUFFER, SEGMENTS * _segment(sock))
-            size = self.pacer.rate * (self.pacer.trip_s + QUEUE_S)
+            size = self.rate_controller.rate * (self.rate_controller.trip_s + QUEUE_S)
             size = round(min(max(size, least), MAX_BUFFER))
             if size != self._buffer:
                 self._buffer = size
@@ -59,9 +59,9 @@ class BulkConnection(BridgeConnection):
     def data_received(self, data: bytes) -> None:
         """Count the bytes, and pause if they exceed the rate."""
         now_s = time.monotonic()
-        self.pacer.note_bytes(len(data), now_s)
+        self.rate_controller.note_bytes(len(data), now_s)
         super().data_received(data)
-        rate = self.pacer.rate
+        rate = self.rate_controller.rate
         if rate >= MAX_RATE:
             return
         rested = (now_s - self._allowed_s) * rate
@@ -102,36 +102,39 @@ class BulkHost(Protocol):
         ...
 
 
-class BulkLine:
+class BulkTopics:
     """The large topics of a bridge, over a connection of their own; the host of its session.
 
     Args:
-        pacer: decides when each is subscribed to, and how fast the connection is read.
+        rate_controller: decides when each is subscribed to, and how fast the connection is read.
         source: takes the messages.
         begin: makes the session.
     """
 
     def __init__(
-        self, pacer: Pacer, source: BulkHost, begin: Callable[[Host], BridgeSession]
+        self,
+        rate_controller: RateController,
+        source: BulkHost,
+        begin: Callable[[Host], BridgeSession],
     ) -> None:
-        self._pacer = pacer
+        self._rate_controller = rate_controller
         self._source = source
         self._begin = begin
-        self._wishes: Mapping[str, Subscription] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
         self._outbox: asyncio.Queue[str | bytes] = asyncio.Queue()
         self._session: BridgeSession | None = None
         self.is_refused = False
         """True if the bridge takes no second connection, so that the first has all topics."""
 
-    def want(self, wishes: Mapping[str, Subscription]) -> None:
+    def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the large topics exactly these."""
-        self._wishes = wishes
+        self._subscriptions = subscriptions
         self.subscribe()
 
     async def run(self) -> None:
         """Have a connection while there are large topics."""
         while True:
-            if self._wishes or self.is_refused:
+            if self._subscriptions or self.is_refused:
                 await self._talk()
                 await asyncio.sleep(RETRY_S)
             else:
@@ -140,7 +143,7 @@ class BulkLine:
     async def _talk(self) -> None:
         try:
             async with self._source.open_bulk() as socket:
-                socket.pacer = self._pacer
+                socket.rate_controller = self._rate_controller
                 self._outbox = asyncio.Queue()
                 self._session = session = self._begin(self)
                 self._refuse(False)
@@ -171,13 +174,15 @@ class BulkLine:
             await asyncio.sleep(TICK_S)
 
     def _step(self) -> None:
-        if self._pacer.step(time.monotonic()):
+        if self._rate_controller.step(time.monotonic()):
             self._source.sort_topics()
 
     def subscribe(self) -> None:
         """Subscribe to what is offered now, of which some topics rest."""
         if self._session is not None:
-            self._session.want(self._wishes, self._wishes.keys() - self._pacer.subscribed())
+            self._session.want(
+                self._subscriptions, self._subscriptions.keys() - self._rate_controller.subscribed()
+            )
 
     # The interface of webviz.sources.bridge.session.Host
 

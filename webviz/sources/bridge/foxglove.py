@@ -40,7 +40,7 @@ MAX_STATUSES = 8
 MAX_PENDING = 1000
 """Calls and files whose answers are outstanding."""
 NO_PUBLISHING = (
-    "The bridge takes no messages. Add clientPublish to the parameter capabilities of "
+    "The bridge does not accept messages. Add clientPublish to the parameter capabilities of "
     "foxglove_bridge."
 )
 NO_SERVICES = (
@@ -50,10 +50,10 @@ NO_ASSETS = (
     "The bridge sends no files. Add assets to the parameter capabilities of foxglove_bridge."
 )
 LIMITS = (
-    "The bridge does not tell the QoS of publishers; it subscribes with one that matches them.",
+    "The bridge does not report the QoS of publishers; it subscribes with a matching one.",
     "Actions do not pass the bridge, so no goal can be sent to one.",
 )
-NO_GRAPH = "The bridge does not tell which nodes publish and subscribe."
+NO_GRAPH = "The bridge does not report which nodes publish and subscribe."
 
 
 class FoxgloveSession:
@@ -75,7 +75,7 @@ class FoxgloveSession:
         self._channels = FoxgloveChannels()
         self._services: dict[str, wire.ServiceOffer] = {}
         self._parameters = ParameterServices(host.send, host.look)
-        self._wishes: Mapping[str, Subscription] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
         self._lines = ChannelSubscriptions()
         self._foreign: dict[str, wire.ServerChannel] = {}
         """Subscribed channels of Foxglove's own schemas, by topic."""
@@ -139,19 +139,20 @@ class FoxgloveSession:
             self._take_text(wire.read_text(frame))
 
     def want(
-        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+        self, subscriptions: Mapping[str, Subscription], resting: Collection[str] = frozenset()
     ) -> None:
         """Make the subscriptions exactly these, as far as they are offered."""
-        self._wishes = wishes = {t: wish for t, wish in wishes.items() if t not in resting}
+        subscriptions = {t: each for t, each in subscriptions.items() if t not in resting}
+        self._subscriptions = subscriptions
         ended: list[int] = []
         for line in self._lines:
             channel = self._channel(line.topic)
-            target = channel and (channel.id, wishes[line.topic].asked)
-            if target != (line.channel, line.asked):
+            target = channel and (channel.id, subscriptions[line.topic].resubscriptions)
+            if target != (line.channel, line.resubscriptions):
                 self._lines.end(line)
                 ended.append(line.id)
         begun: list[tuple[int, int]] = []
-        for topic in wishes:
+        for topic in subscriptions:
             if topic not in self._lines and (channel := self._channel(topic)) is not None:
                 begun.append(self._begin(topic, channel))
         if ended:
@@ -248,11 +249,11 @@ class FoxgloveSession:
             case wire.Advertise():
                 for channel in message.channels:
                     self._channels.add(channel)
-                self.want(self._wishes)
+                self.want(self._subscriptions)
             case wire.Unadvertise():
                 for id in message.channel_ids:
                     self._channels.remove(id)
-                self.want(self._wishes)
+                self.want(self._subscriptions)
             case wire.AdvertiseServices():
                 for service in message.services[: MAX_SERVICES - len(self._services)]:
                     self._services[service.name] = service
@@ -315,18 +316,20 @@ class FoxgloveSession:
 
     def _channel(self, topic: str) -> wire.ServerChannel | None:
         """Return the channel to subscribe to, None if none is wanted or can be read."""
-        wish = self._wishes.get(topic)
-        for channel in self._channels.by_topic.get(topic, ()) if wish else ():
-            if wish and type_of(channel) == wish.type and not unread(channel):
+        subscription = self._subscriptions.get(topic)
+        for channel in self._channels.by_topic.get(topic, ()) if subscription else ():
+            if subscription and type_of(channel) == subscription.type and not unread(channel):
                 if self._lines.channel(topic) == channel.id:
                     return channel
                 text = "" if is_foreign(channel) else channel.schema
-                if not self._host.learn(topic, wish.type, text):
+                if not self._host.learn(topic, subscription.type, text):
                     return channel
         return None
 
     def _begin(self, topic: str, channel: wire.ServerChannel) -> tuple[int, int]:
-        line = ChannelSubscription(self._new_id(), topic, channel.id, self._wishes[topic].asked)
+        line = ChannelSubscription(
+            self._new_id(), topic, channel.id, self._subscriptions[topic].resubscriptions
+        )
         self._lines.begin(line)
         self._foreign.pop(topic, None)
         if is_foreign(channel):
@@ -372,7 +375,7 @@ class FoxgloveSession:
     def _require(self, capability: str, problem: str) -> None:
         """Raise NotConnected if the server lacks a capability."""
         if self._info is None:
-            raise NotConnected("The bridge has not said yet what it can do. Try again.")
+            raise NotConnected("The bridge has not announced its capabilities yet. Try again.")
         if capability not in self._info.capabilities:
             raise NotConnected(problem)
 

@@ -32,13 +32,13 @@ class ChannelSubscription(msgspec.Struct, frozen=True):
         id: chosen by webviz.
         topic: of the channel.
         channel: its id.
-        asked: of the wish, see `webviz.sources.Subscription`.
+        resubscriptions: of the subscription, see `webviz.sources.Subscription`.
     """
 
     id: int
     topic: str
     channel: int
-    asked: int
+    resubscriptions: int
 
 
 class ChannelSubscriptions:

@@ -95,7 +95,7 @@ class ParameterServices:
                 frame = wire.get_parameters(names, id)
                 take = _values_of(names)
             case _:
-                assignments = [_wanted(node, each) for each in decoded.parameters]
+                assignments = [_assignment(node, each) for each in decoded.parameters]
                 frame = wire.set_parameters(assignments, id)
                 take = _results_of(assignments)
         self._pending[id] = answer, parts.response, take
@@ -169,20 +169,20 @@ def _values_of(names: Sequence[str]) -> Take:
     return take
 
 
-def _results_of(wanted: Sequence[wire.ServerParameter]) -> Take:
+def _results_of(parameters: Sequence[wire.ServerParameter]) -> Take:
     def take(values: Values) -> dict[str, Any]:
-        return {"results": [_result(each, values.get(each.name)) for each in wanted]}
+        return {"results": [_result(each, values.get(each.name)) for each in parameters]}
 
     return take
 
 
-def _result(wanted: wire.ServerParameter, found: wire.ServerParameter | None) -> dict[str, Any]:
+def _result(parameter: wire.ServerParameter, answer: wire.ServerParameter | None) -> dict[str, Any]:
     """Return the outcome of a change: the server answers with the values that hold then."""
-    if found is None:
+    if answer is None:
         return {"successful": False, "reason": "The bridge does not return this parameter."}
-    if _value(wanted)[0] == _value(found)[0]:
+    if _value(parameter)[0] == _value(answer)[0]:
         return {"successful": True}
-    current = printable(str(found.value), 80)
+    current = printable(str(answer.value), 80)
     return {"successful": False, "reason": f"The bridge keeps it at {current}."}
 
 
@@ -196,13 +196,13 @@ def _full(node: str, name: str) -> str:
     return name if node == SERVER else f"{node}.{name}"
 
 
-def _wanted(node: str, parameter: Any) -> wire.ServerParameter:
+def _assignment(node: str, parameter: Any) -> wire.ServerParameter:
     """Return a rcl_interfaces/msg/Parameter for the server; raises NotConnected."""
     kind = int(parameter.value.type)
     value: Any = plain(parameter.value, kind)
     numbers: list[Any] = value if isinstance(value, list) else [value]
     if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
-        raise NotConnected("The bridge takes no infinite numbers. Enter a finite one.")
+        raise NotConnected("The bridge does not accept infinite numbers. Enter a finite one.")
     if kind == BYTES:
         value = base64.b64encode(bytes(numbers)).decode()
     types = {DOUBLE: "float64", DOUBLES: "float64_array", BYTES: "byte_array"}
@@ -213,7 +213,7 @@ def _value(parameter: wire.ServerParameter) -> tuple[dict[str, Any], str]:
     """Return a rcl_interfaces/msg/ParameterValue, and why it cannot be set, "" if it can."""
     value, type = parameter.value, parameter.type
     try:
-        kind, parameter_value = _known(value, type)
+        kind, parameter_value = _typed(value, type)
     except (TypeError, ValueError, OverflowError, binascii.Error):
         return {"type": STRING, "string_value": _text(value)}, "ROS has no type for this value."
     return ({"type": kind, KINDS[kind][1]: parameter_value} if kind else {"type": 0}), ""
@@ -226,7 +226,7 @@ def _text(value: Any) -> str:
         return "..."
 
 
-def _known(value: Any, type: str | None) -> tuple[int, Any]:
+def _typed(value: Any, type: str | None) -> tuple[int, Any]:
     """Return the kind of a value and it; raises an error if ROS has none for it."""
     match value:
         case None:
@@ -242,7 +242,7 @@ def _known(value: Any, type: str | None) -> tuple[int, Any]:
         case [_, *_]:
             if any(isinstance(each, list | dict) for each in value):
                 raise TypeError
-            kinds = {_known(each, None)[0] for each in value}
+            kinds = {_typed(each, None)[0] for each in value}
             if type == "float64_array" or kinds == {2, DOUBLE}:
                 return DOUBLES, [_number(each, True)[1] for each in value]
             if len(kinds) == 1 and (kind := kinds.pop()) in (1, 2, DOUBLE, STRING):

@@ -19,7 +19,7 @@ FETCH_TIMEOUT_S = 30.0
 T = TypeVar("T")
 
 
-class Line(Protocol):
+class BridgeLink(Protocol):
     """The part of the source that the graph uses."""
 
     @property
@@ -48,7 +48,7 @@ class BridgeGraph:
         line: to the bridge.
     """
 
-    def __init__(self, line: Line) -> None:
+    def __init__(self, line: BridgeLink) -> None:
         self._line = line
         self._advertised: frozenset[Advertisement] = frozenset()
 

@@ -10,7 +10,7 @@ from webviz.api.bridge import Bridge
 from webviz.data.words import Problem, counted, joined, listed
 from webviz.sources.bridge.backlog import BEHIND_S, LinkDelay, TopicBacklog
 from webviz.sources.bridge.connection import STALLED_S
-from webviz.sources.bridge.pacing import Pacer
+from webviz.sources.bridge.pacing import RateController
 from webviz.sources.bridge.session import BridgeSession
 
 DROPPED_S = 10.0
@@ -19,13 +19,13 @@ MOST = 5
 """Thinned topics that are named."""
 
 
-def thinning(pacer: Pacer) -> list[str]:
+def thinning(rate_controller: RateController) -> list[str]:
     """Return a sentence on the topics that are thinned; none if the link takes all."""
-    rates = pacer.thinned(time.monotonic())
+    rates = rate_controller.thinned(time.monotonic())
     if not rates:
         return []
     parts = listed([f"{topic} to {hz:.2g} Hz" for topic, hz in sorted(rates.items())], MOST)
-    mbit = pacer.carried() * 8e-6
+    mbit = rate_controller.carried() * 8e-6
     return [f"The link carries {mbit:.2g} Mbit/s, so webviz thins {parts}."]
 
 

@@ -74,13 +74,13 @@ RECENT_S = 5.0
 """Time in seconds for which rates are measured."""
 
 
-def is_thinnable(wish: Subscription) -> bool:
+def is_thinnable(subscription: Subscription) -> bool:
     """Return whether messages may be left out, since each is shown alone."""
-    if wish.type in PICTURE_TYPES:
+    if subscription.type in PICTURE_TYPES:
         return True  # displays of images also read video, of which each needs those before
-    return wish.type not in STREAMED_TYPES | {TF_TYPE} and all(
+    return subscription.type not in STREAMED_TYPES | {TF_TYPE} and all(
         (each.count or each.seconds) and not (each.since or each.starts_over or each.chooses)
-        for each in wish.lookbacks
+        for each in subscription.lookbacks
     )
 
 
@@ -94,7 +94,7 @@ class Flow(msgspec.Struct):
 
     size: float
     window_s: float = FIRST_WINDOW_S
-    taken: float = 0.0
+    sent_bytes: float = 0.0
     """Bytes that were received in turns, by which topics are chosen."""
     digest: int = 0
     is_kept: bool = False
@@ -111,7 +111,7 @@ class Flow(msgspec.Struct):
         return 0.0 if self.is_kept else self.size / self.window_s
 
 
-class Pacer:
+class RateController:
     """Decides which topics are subscribed to, and how fast those with large messages are read.
 
     All moments are monotonic times in seconds.
@@ -152,30 +152,30 @@ class Pacer:
         """The last message that came as fast as the rate allows."""
         self._turns_s = 0.0
         """The beginning of the turns."""
-        self._told: tuple[set[str], int] = set(), 0
+        self._last_state: tuple[set[str], int] = set(), 0
         """The last decision of `step`, which messages change in between."""
 
-    # What is wanted
+    # Subscriptions
 
-    def large(self, wishes: Mapping[str, Subscription]) -> dict[str, Subscription]:
-        """Return the wishes with large messages, and forget the flows of others."""
-        large_wishes = {
-            t: w for t, w in wishes.items() if w.type in LARGE_TYPES or t in self._moved
+    def large(self, subscriptions: Mapping[str, Subscription]) -> dict[str, Subscription]:
+        """Return the subscriptions with large messages, and forget the flows of others."""
+        large = {
+            t: w for t, w in subscriptions.items() if w.type in LARGE_TYPES or t in self._moved
         }
-        self._moved &= wishes.keys()
-        self._thin = {topic: is_thinnable(wish) for topic, wish in large_wishes.items()}
-        least_taken = min((flow.taken for flow in self._flows.values()), default=0.0)
+        self._moved &= subscriptions.keys()
+        self._thin = {topic: is_thinnable(subscription) for topic, subscription in large.items()}
+        least_taken = min((flow.sent_bytes for flow in self._flows.values()), default=0.0)
         sizes = {topic: moments[-1][1] for topic, moments in self._small.items()}
         self._flows = {
-            topic: self._flows.get(topic) or Flow(size=sizes.get(topic, 0), taken=least_taken)
-            for topic in large_wishes
+            topic: self._flows.get(topic) or Flow(size=sizes.get(topic, 0), sent_bytes=least_taken)
+            for topic in large
         }
         self._small = {
-            t: d for t, d in self._small.items() if t in wishes and t not in large_wishes
+            t: d for t, d in self._small.items() if t in subscriptions and t not in large
         }
-        if self._turn not in large_wishes:
+        if self._turn not in large:
             self._turn = ""
-        return large_wishes
+        return large
 
     def subscribed(self) -> Collection[str]:
         """Return the large topics that are subscribed to now."""
@@ -223,7 +223,7 @@ class Pacer:
         flow.arrived.append(now_s)
         flow.size = len(cdr)
         # A turn takes a round trip, too, in which others could have had the link.
-        flow.taken += max(len(cdr), min(self.rate * self.trip_s, UNKNOWN_SIZE))
+        flow.sent_bytes += max(len(cdr), min(self.rate * self.trip_s, UNKNOWN_SIZE))
         digest = hash(cdr)
         if flow.is_kept and rested_s < RARE_S:
             flow.is_kept = False
@@ -251,8 +251,8 @@ class Pacer:
             self._changed_s = now_s
             self._choose_rate(now_s)
         self._take_turns(now_s)
-        before, self._told = self._told, (set(self.subscribed()), len(self._moved))
-        return self._told != before
+        before, self._last_state = self._last_state, (set(self.subscribed()), len(self._moved))
+        return self._last_state != before
 
     @property
     def late_s(self) -> float:
@@ -325,7 +325,7 @@ class Pacer:
         self.is_in_turns, self._turns_s = True, self._changed_s
         self._turn = ""
         for flow in self._flows.values():
-            flow.taken = 0.0
+            flow.sent_bytes = 0.0
 
     def _take_turns(self, now_s: float) -> None:
         """End a turn that has brought its message or nothing, and begin the next."""
@@ -343,7 +343,7 @@ class Pacer:
                     return
                 flow.window_s *= WIDER
                 flow.is_kept = flow.window_s > RARE_S
-                flow.taken += EMPTY_TURN
+                flow.sent_bytes += EMPTY_TURN
             if self._has_room():
                 self.is_in_turns = False
                 self._moved -= {t for t, f in self._flows.items() if f.size < LARGE}
@@ -365,7 +365,7 @@ class Pacer:
         def finish(topic: str) -> float:
             flow = self._flows[topic]
             is_coming = topic == self._turn and not flow.count
-            return flow.taken + (flow.size or UNKNOWN_SIZE) * (2 if is_coming else 1)
+            return flow.sent_bytes + (flow.size or UNKNOWN_SIZE) * (2 if is_coming else 1)
 
         return min(self._waiting(), key=finish, default="")
 

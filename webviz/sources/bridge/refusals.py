@@ -38,7 +38,7 @@ def explain(error: BaseException, address: Address) -> Problem:
             return Problem(_closed(error), "Check the log of the bridge.")
         case InvalidMessage() | InvalidHandshake():
             return Problem(
-                f"What listens on {place} is not a websocket server.",
+                f"The program at {place} is not a websocket server.",
                 "Check the port; a bridge with TLS needs wss://.",
             )
         case TimeoutError():

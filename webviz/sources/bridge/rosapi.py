@@ -54,7 +54,7 @@ class Rosapi:
         """Full names, sorted."""
         self.with_parameters: tuple[str, ...] = ()
         """Nodes with services for parameters."""
-        self._asked_s: float | None = None
+        self._requested_s: float | None = None
         """Moment of the reading that is not answered yet."""
         self._problem = ""
         self._left_out: list[str] = []
@@ -63,7 +63,7 @@ class Rosapi:
 
     def start(self) -> None:
         """Ask for the topics, and again and again."""
-        self._asked_s = time.monotonic()
+        self._requested_s = time.monotonic()
         self._call("/rosapi/topics", {}, self._take_topics)
         if self._polls % NODES_EACH == 0:
             self._call("/rosapi/nodes", {}, self._take_nodes)
@@ -77,13 +77,13 @@ class Rosapi:
 
     def remarks(self) -> Sequence[str]:
         """Sentences: what rosapi lacks, and what is left out of its lists."""
-        late_s = 0.0 if self._asked_s is None else time.monotonic() - self._asked_s
+        late_s = 0.0 if self._requested_s is None else time.monotonic() - self._requested_s
         late = f"rosapi has not answered for {late_s:.0f} s, so topics may be missing. {START}"
         problem = [self._problem] if self._problem else []
         return [*([late] if late_s > LATE_S else []), *problem, *self._left_out]
 
     def _take_topics(self, response: wire.RosbridgeResponse) -> None:
-        self._asked_s = None
+        self._requested_s = None
         self._timer = asyncio.get_running_loop().call_later(POLL_S, self.start)
         if not response.result:
             reason = plain(str(response.values), 200).rstrip(".")

@@ -40,8 +40,8 @@ NO_ASSETS = (
     "foxglove_bridge."
 )
 LIMITS = (
-    "rosbridge does not tell the QoS of publishers; it subscribes with one that matches them.",
-    "rosbridge tells neither which nodes publish a topic nor whether any does.",
+    "rosbridge does not report the QoS of publishers; it subscribes with a matching one.",
+    "rosbridge does not report which nodes publish a topic, or whether any does.",
     "Messages above its max_message_size, 10 MB unless set, do not arrive.",
     "A topic that another client of rosbridge reads as JSON does not arrive.",
     "While a service takes its time, rosbridge publishes nothing; its parameter "
@@ -64,14 +64,14 @@ class RosbridgeSession:
         self._host = host
         self._is_first = api is None
         self._api = api or Rosapi(self._ask, self._take_changes)
-        self._wishes: Mapping[str, Subscription] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
         self._resting: Collection[str] = ()
         self._lines: dict[str, tuple[str, int]] = {}
-        """Types, and `asked` of the wish, by subscribed topic."""
+        """Types, and `resubscriptions` of the subscription, by subscribed topic."""
         self._throttles: dict[str, int] = {}
         """Least time between two messages in ms, by subscribed topic."""
         self._advertised: set[Advertisement] = set()
-        self._asked: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
+        self._calls: dict[str, Callable[[wire.RosbridgeResponse], object]] = {}
         """Calls of rosapi by their id."""
         self._pending: dict[str, tuple[Future[bytes], str, str]] = {}
         """Answers by the id of their call, the service, and the type of the response."""
@@ -135,11 +135,14 @@ class RosbridgeSession:
                 return
 
     def want(
-        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+        self, subscriptions: Mapping[str, Subscription], resting: Collection[str] = frozenset()
     ) -> None:
         """Make the subscriptions exactly these, as far as they are offered."""
-        self._wishes, self._resting = wishes, resting
-        targets = {topic: (wish.type, wish.asked) for topic, wish in wishes.items()}
+        self._subscriptions, self._resting = subscriptions, resting
+        targets = {
+            topic: (subscription.type, subscription.resubscriptions)
+            for topic, subscription in subscriptions.items()
+        }
         if self._is_first and self._api.types.get(CLOCK) == CLOCK_TYPE:
             targets.setdefault(CLOCK, (CLOCK_TYPE, 0))
         lines = {topic: line for topic, line in targets.items() if self._can_read(topic, line[0])}
@@ -203,17 +206,17 @@ class RosbridgeSession:
         for answer, _, _ in self._pending.values():
             fail(answer, problem)
         self._pending.clear()
-        self._asked.clear()
+        self._calls.clear()
 
     # Frames
 
     def _take_message(self, message: wire.RosbridgeMessage) -> None:
-        # What was on its way when a subscription ended is not wanted any more.
+        # Messages on their way when a subscription ended are ignored.
         if message.topic not in self._lines:
             return
         if message.topic == CLOCK and self._lines[CLOCK][0] == CLOCK_TYPE:
             self._take_clock(message.cdr)
-        if message.topic in self._wishes:
+        if message.topic in self._subscriptions:
             self._host.arrive(message.topic, message.cdr, message.stamp_ns)
 
     def _take_clock(self, cdr: bytes) -> None:
@@ -224,7 +227,7 @@ class RosbridgeSession:
         self._host.set_time(clock.clock.ns)
 
     def _take_response(self, response: wire.RosbridgeResponse) -> None:
-        if take := self._asked.pop(response.id, None):
+        if take := self._calls.pop(response.id, None):
             take(response)
             return
         answer, service, type = self._pending.pop(response.id, (None, "", ""))
@@ -254,7 +257,7 @@ class RosbridgeSession:
 
     def _take_changes(self) -> None:
         """Subscribe to what rosapi lists now."""
-        self.want(self._wishes, self._resting)
+        self.want(self._subscriptions, self._resting)
         self._host.look()
 
     def _ask(
@@ -264,7 +267,7 @@ class RosbridgeSession:
         take: Callable[[wire.RosbridgeResponse], object],
     ) -> None:
         id = self._new_id()
-        self._asked[id] = take
+        self._calls[id] = take
         self._host.send(wire.call(id, service, values))
 
     def _can_read(self, topic: str, type: str) -> bool:
@@ -306,5 +309,5 @@ def _values(type: str, cdr: bytes) -> dict[str, Any]:
         return to_values(type, cdr)
     except MessageError as error:
         raise NotConnected(
-            f"rosbridge takes messages as JSON, and this is none: {error}"
+            f"rosbridge needs messages as JSON, but this one cannot be converted: {error}"
         ) from error

@@ -36,7 +36,7 @@ def from_values(type: str, values: Mapping[str, Any]) -> bytes:
     Raises:
         MessageError: the values are not of this type, or it is unknown.
     """
-    return encode(type, _given(type, values))
+    return encode(type, _completed(type, values))
 
 
 def _message(type: str, reader: Reader) -> dict[str, Any]:
@@ -69,7 +69,7 @@ def _one(field: MessageField, reader: Reader) -> Any:
     raise DecodeError(f"Fields of type {field.base}, such as {field.name}, are not supported.")
 
 
-def _given(type: str, values: Any) -> Any:
+def _completed(type: str, values: Any) -> Any:
     """Return values as the encoder takes them; what does not fit is left to it."""
     if not isinstance(values, Mapping):
         return values
@@ -93,6 +93,6 @@ def _given_value(field: MessageField, value: Any) -> Any:
 
 def _given_one(field: MessageField, value: Any) -> Any:
     if field.is_message:
-        return _given(field.base, value)
+        return _completed(field.base, value)
     # JSON has no NaN and no infinity; rosbridge writes both as null.
     return math.nan if value is None and field.base in ("float32", "float64") else value

@@ -32,21 +32,23 @@ class CarriedTopic(msgspec.Struct, frozen=True):
     problem: str = ""
     readers: tuple[Endpoint, ...] | None = None
 
-    def offer(self, wish: Subscription | None, problem: str) -> Offer:
+    def offer(self, subscription: Subscription | None, problem: str) -> Offer:
         """Return the offer of this topic.
 
         Args:
-            wish: our subscription, None without one.
+            subscription: our subscription, None without one.
             problem: why no message can arrive, "" if it can.
         """
         count = None if self.readers is None else len(self.readers)
         offer = Offer(self.publishers, None, problem, "", count, readers=self.readers or ())
-        matching = [p for p in self.publishers if wish is not None and p.type == wish.type]
-        if wish is None or not matching:
+        matching = [
+            p for p in self.publishers if subscription is not None and p.type == subscription.type
+        ]
+        if subscription is None or not matching:
             return offer
         is_latched = all(p.durability == "transient_local" for p in matching)
         policies = "reliable", "transient_local" if is_latched else "volatile"
-        return replace(offer, requested=policies, type=wish.type)
+        return replace(offer, requested=policies, type=subscription.type)
 
 
 class Host(Protocol):
@@ -125,12 +127,12 @@ class BridgeSession(Protocol):
         ...
 
     def want(
-        self, wishes: Mapping[str, Subscription], resting: Collection[str] = frozenset()
+        self, subscriptions: Mapping[str, Subscription], resting: Collection[str] = frozenset()
     ) -> None:
         """Make the subscriptions exactly these, as far as they are offered.
 
         Args:
-            wishes: by topic.
+            subscriptions: by topic.
             resting: topics of which no message shall come for now.
         """
         ...

@@ -15,13 +15,13 @@ from webviz.api.offer import Offer
 from webviz.data import assets
 from webviz.data.words import Problem
 from webviz.sources.bridge.address import Address
-from webviz.sources.bridge.bulk import BulkConnection, BulkLine
+from webviz.sources.bridge.bulk import BulkConnection, BulkTopics
 from webviz.sources.bridge.clock import BridgeClock
 from webviz.sources.bridge.connection import BridgeConnection, Silent
 from webviz.sources.bridge.definitions import Definitions
 from webviz.sources.bridge.graph import BridgeGraph
 from webviz.sources.bridge.health import LinkHealth, described, thinning
-from webviz.sources.bridge.pacing import TF_TYPE, Pacer
+from webviz.sources.bridge.pacing import TF_TYPE, RateController
 from webviz.sources.bridge.refusals import explain
 from webviz.sources.bridge.session import BridgeSession, CarriedTopic
 from webviz.sources.bridge.talking import first_of, open_session, opened, read, write
@@ -72,7 +72,7 @@ class BridgeSource:
         self._address = address
         self._remappings = dict(remappings or {})
         self._definitions = Definitions()
-        self._wanted: Mapping[str, Subscription] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
         self._opened: dict[str, str] = {}
         """Types by topic, of the topics that are open in the inbox."""
         self._topics: Mapping[str, CarriedTopic] = {}
@@ -81,8 +81,8 @@ class BridgeSource:
         self._bridges = (Bridge(address.name, problem=NEVER.cause, remedy=NEVER.remedy),)
         self._session: BridgeSession | None = None
         self._socket: BridgeConnection | None = None
-        self._pacer = Pacer()
-        self._bulk: BulkLine | None = None
+        self._rate_controller = RateController()
+        self._bulk: BulkTopics | None = None
         self._problem: Problem | None = NEVER
         self._clock_ns: int | None = None
         self._clock_messages = 0
@@ -102,8 +102,8 @@ class BridgeSource:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Replace all subscriptions; takes effect soon."""
-        if subscriptions != self._wanted:
-            self._wanted = dict(subscriptions)
+        if subscriptions != self._subscriptions:
+            self._subscriptions = dict(subscriptions)
             self.soon(self._reconcile)
 
     def offers(self) -> Mapping[str, Offer]:
@@ -178,13 +178,13 @@ class BridgeSource:
         """Take a message."""
         delay_s = self._take(topic, cdr, stamp_ns)
         type = self._opened.get(topic, "")
-        if self._pacer.note_small(topic, type, len(cdr), delay_s, time.monotonic()):
+        if self._rate_controller.note_small(topic, type, len(cdr), delay_s, time.monotonic()):
             self.sort_topics()
 
     def arrive_large(self, topic: str, cdr: bytes, stamp_ns: int) -> None:
         """Take a message of the second connection."""
         delay_s = self._take(topic, cdr, stamp_ns, is_large=True)
-        self._pacer.note_large(topic, cdr, delay_s, time.monotonic())
+        self._rate_controller.note_large(topic, cdr, delay_s, time.monotonic())
 
     def _take(self, topic: str, cdr: bytes, stamp_ns: int, is_large: bool = False) -> float:
         """Take a message; its delay in seconds, 0 if it is unknown."""
@@ -197,7 +197,7 @@ class BridgeSource:
             self.look()
             return delay_s
         if stamp_ns and self._clock_ns is None:  # simulated time has a pace of its own
-            is_thinned = is_large and self._pacer.is_thinned(topic)
+            is_thinned = is_large and self._rate_controller.is_thinned(topic)
             delay_s = self._health.note_message(topic, stamp_ns, is_thinned)
             self.clock.note(stamp_ns, time.time_ns())
         cdr, types = self._definitions.read(topic, cdr)
@@ -266,8 +266,8 @@ class BridgeSource:
             self._socket = socket
             self._outbox = asyncio.Queue()
             self._session = session = open_session(socket.subprotocol, self)
-            self._pacer = Pacer()
-            self._bulk = BulkLine(self._pacer, self, session.beside)
+            self._rate_controller = RateController()
+            self._bulk = BulkTopics(self._rate_controller, self, session.beside)
             self._joined(session)
             await first_of(
                 read(socket, session, self._note_malformed),
@@ -294,7 +294,9 @@ class BridgeSource:
             if pong.done():
                 self._round_trip_s = time.monotonic() - pinged_s
                 self.clock.note_trip(self._round_trip_s)
-                self._pacer.note_trip(self._round_trip_s, self.clock.trip_s, time.monotonic())
+                self._rate_controller.note_trip(
+                    self._round_trip_s, self.clock.trip_s, time.monotonic()
+                )
                 await asyncio.sleep(PING_S)
             silent_s = socket.silent_s
             if silent_s > BROKEN_S:
@@ -334,8 +336,8 @@ class BridgeSource:
         self._look()
 
     def _reconcile(self) -> None:
-        """Subscribe to what is wanted."""
-        types = {topic: wish.type for topic, wish in self._wanted.items()}
+        """Subscribe to the current topics."""
+        types = {topic: subscription.type for topic, subscription in self._subscriptions.items()}
         for topic in [t for t in self._opened if t not in types]:
             del self._opened[topic]
             self._definitions.forget(topic)
@@ -351,12 +353,12 @@ class BridgeSource:
         self._look()
 
     def sort_topics(self) -> None:
-        """Subscribe to what is wanted over the first connection, and to large topics in turns."""
+        """Subscribe to small topics over the first connection, and to large topics in turns."""
         if self._session is None:
             return
         is_apart = self._bulk is not None and not self._bulk.is_refused
-        large = self._pacer.large(self._wanted) if is_apart else {}
-        self._session.want({t: wish for t, wish in self._wanted.items() if t not in large})
+        large = self._rate_controller.large(self._subscriptions) if is_apart else {}
+        self._session.want({t: each for t, each in self._subscriptions.items() if t not in large})
         if self._bulk is not None:
             self._bulk.want(large)
 
@@ -378,10 +380,10 @@ class BridgeSource:
 
     def _offer(self, topic: str, carried: CarriedTopic) -> Offer:
         problem = carried.problem or self._too_large.get(topic) or self._definitions.problem(topic)
-        wish = self._wanted.get(topic)
-        if wish is not None and self._problem is not None:
+        subscription = self._subscriptions.get(topic)
+        if subscription is not None and self._problem is not None:
             problem = f"the link is broken. {self._problem.cause}"
-        return carried.offer(wish, problem)
+        return carried.offer(subscription, problem)
 
     def _tell(self) -> None:
         """Describe the bridge as it is now."""
@@ -390,7 +392,7 @@ class BridgeSource:
             before,
             self._session,
             self._problem,
-            [*thinning(self._pacer), *self._health.remarks()],
+            [*thinning(self._rate_controller), *self._health.remarks()],
             socket.silent_s if socket else 0.0,
             self._round_trip_s,
         )

@@ -127,7 +127,7 @@ class FleetMember:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these, by names of the fleet."""
-        self._types = {topic: wish.type for topic, wish in subscriptions.items()}
+        self._types = {topic: subscription.type for topic, subscription in subscriptions.items()}
         self.source.want({self.inner(topic): self._inner(w) for topic, w in subscriptions.items()})
 
     def offers(self) -> Mapping[str, Offer]:
@@ -175,9 +175,9 @@ class FleetMember:
         cdr = shifted(type, raw.cdr, -ahead_ns, raw.types) if ahead_ns and type else raw.cdr
         return replace(raw, cdr=cdr, received_ns=self._now_ns())
 
-    def _inner(self, wish: Subscription) -> Subscription:
-        name = self.inner(wish.topic.name)
-        return replace(wish, topic=msgspec.structs.replace(wish.topic, name=name))
+    def _inner(self, subscription: Subscription) -> Subscription:
+        name = self.inner(subscription.topic.name)
+        return replace(subscription, topic=msgspec.structs.replace(subscription.topic, name=name))
 
     def _outer(self, offer: Offer) -> Offer:
         publishers = tuple(self._named(each) for each in offer.publishers)

@@ -132,7 +132,7 @@ def _all(futures: Sequence[Future[None]]) -> Future[None]:
 
 
 ALONE = (
-    "Only the robots of the config are connected, and the name is in the namespace of none. "
+    "The name is in the namespace of no robot of the config. "
     "Choose a name such as /{robot}/cmd_vel."
 )
 
@@ -163,7 +163,7 @@ class FleetSource:
         self._members: Sequence[FleetMember] = ()
         self._refused: Sequence[Bridge] = ()
         """Robots of the config that cannot be connected."""
-        self._wanted: Mapping[str, Subscription] = {}
+        self._subscriptions: Mapping[str, Subscription] = {}
         alone = ReadOnly(ALONE)
         self._graph = FleetGraph(lambda: alone if base is None else base.graph)
         self._offers: tuple[list[Mapping[str, Offer]], Mapping[str, Offer]] = [], {}
@@ -189,7 +189,7 @@ class FleetSource:
             member.leave()
         self._members, self._refused = members, refused
         self._graph.follow(members)
-        self.want(self._wanted)
+        self.want(self._subscriptions)
 
     @property
     def graph(self) -> Graph:
@@ -205,13 +205,13 @@ class FleetSource:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Make the subscriptions exactly these, each over its connection."""
-        self._wanted = subscriptions
+        self._subscriptions = subscriptions
         rest: dict[str, Subscription] = {}
         by_robot: dict[str, dict[str, Subscription]] = {m.robot.root: {} for m in self._members}
         robots = [member.robot for member in self._members]
-        for topic, wish in subscriptions.items():
+        for topic, subscription in subscriptions.items():
             robot = robot_of([topic], robots)
-            (rest if robot is None else by_robot[robot.root])[topic] = wish
+            (rest if robot is None else by_robot[robot.root])[topic] = subscription
         for member in self._members:
             member.want(by_robot[member.robot.root])
         if self._base is not None:

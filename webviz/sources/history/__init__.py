@@ -8,9 +8,9 @@ from webviz.sources.history.history import (
     Recorded,
     RecordedTime,
 )
+from webviz.sources.history.intervals import ValidityIntervals
 from webviz.sources.history.needed import NeededMessages
 from webviz.sources.history.playhead import Playhead
-from webviz.sources.history.runs import Runs
 
 __all__ = [
     "CLOCK",
@@ -21,5 +21,5 @@ __all__ = [
     "Playhead",
     "Recorded",
     "RecordedTime",
-    "Runs",
+    "ValidityIntervals",
 ]

@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 from webviz.api.offer import Offer
 from webviz.data.messages import KNOWN, MessageTypes
 from webviz.data.recordings.latched import TF
-from webviz.sources.history.runs import Runs
+from webviz.sources.history.intervals import ValidityIntervals
 from webviz.sources.past_state import Event
 from webviz.sources.source import Subscription
 
@@ -145,7 +145,7 @@ class History(Protocol):
         """
         ...
 
-    def runs(self) -> Runs:
+    def validity(self) -> ValidityIntervals:
         """Return when frames have transforms, as far as that is known by now."""
         ...
 

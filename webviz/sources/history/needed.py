@@ -11,7 +11,7 @@ from webviz.api.lookback import Lookback
 from webviz.data.messages import MessageError, decode, peek_header
 from webviz.data.recordings.latched import TF
 from webviz.sources.history.history import CLOCK, FOLLOWED, History, HistoryChannel, Recorded
-from webviz.sources.history.runs import GAP_NS, Runs, links_in
+from webviz.sources.history.intervals import GAP_NS, ValidityIntervals, links_in
 from webviz.sources.source import Subscription
 
 RECENT_NS = 15_000_000_000
@@ -36,7 +36,7 @@ class NeededMessages:
     Args:
         history: all messages.
         channels: those to read.
-        wanted: subscriptions with their lookbacks, by topic.
+        subscriptions: by topic, with their lookbacks.
         at_ns: the time of recording.
     """
 
@@ -44,13 +44,13 @@ class NeededMessages:
         self,
         history: History,
         channels: Collection[HistoryChannel],
-        wanted: Mapping[str, Subscription],
+        subscriptions: Mapping[str, Subscription],
         at_ns: int,
     ) -> None:
         self._history = history
-        self._wanted = wanted
+        self._subscriptions = subscriptions
         self._at_ns = at_ns
-        self._runs: Runs = history.runs()
+        self._validity: ValidityIntervals = history.validity()
         self._channels: dict[str, list[HistoryChannel]] = {}
         for channel in channels:
             self._channels.setdefault(channel.topic, []).append(channel)
@@ -69,7 +69,7 @@ class NeededMessages:
         follow: list[HistoryChannel] = []
         together: list[HistoryChannel] = []
         alone: list[Iterator[Recorded]] = []
-        ended_ns = self._runs.ended_ns(self._at_ns - RECENT_NS)
+        ended_ns = self._validity.ended_ns(self._at_ns - RECENT_NS)
         placed = [(stamp_ns - AROUND_NS, stamp_ns + AROUND_NS) for stamp_ns in ended_ns]
         timed: list[tuple[int, int]] = []
         for topic, channels in self._channels.items():
@@ -83,7 +83,7 @@ class NeededMessages:
             alone.append(self._read(channels, start_ns, self._at_ns))
             spans = self._spans(channels, start_ns, recent_ns)
             timed += spans
-            if (subscription := self._wanted.get(topic)) and subscription.is_placed:
+            if (subscription := self._subscriptions.get(topic)) and subscription.is_placed:
                 placed += spans
         clocks = [channel for channel in follow if channel.type == CLOCK]
         moving = [channel for channel in follow if channel.type != CLOCK]
@@ -97,7 +97,7 @@ class NeededMessages:
         )
 
     def _is_whole(self, topic: str) -> bool:
-        subscription = self._wanted.get(topic)
+        subscription = self._subscriptions.get(topic)
         return subscription is not None and Lookback() in subscription.lookbacks
 
     def _young(self, channels: Sequence[HistoryChannel], recent_ns: int) -> Iterator[Recorded]:
@@ -141,7 +141,7 @@ class NeededMessages:
         """Return the first time at which a topic is needed."""
         if topic not in self._starts:
             self._starts[topic] = self._history.start_ns  # if inputs refer to each other
-            subscription, channels = self._wanted[topic], self._channels[topic]
+            subscription, channels = self._subscriptions[topic], self._channels[topic]
             plain = [each for each in subscription.lookbacks if each.chooses is None]
             starts = [self._start_of(channels, lookback, subscription) for lookback in plain]
             self._whole_from[topic] = min(starts, default=self._at_ns + 1)
@@ -210,14 +210,14 @@ class NeededMessages:
             return ()
         frame = header[0].removeprefix("/")
         if frame not in self._ends:
-            above = self._runs.above(frame, self._at_ns)
+            above = self._validity.above(frame, self._at_ns)
             ends = {end_ns for end_ns in above.values() if end_ns is not None}
             ends.update(self._last({child for child, end_ns in above.items() if end_ns is None}))
-            found: list[int] = []
+            stamps: list[int] = []
             for end_ns in sorted(ends, reverse=True):
-                if not found or found[-1] - end_ns > NEAR_ENDS_NS:
-                    found.append(end_ns)
-            self._ends[frame] = found
+                if not stamps or stamps[-1] - end_ns > NEAR_ENDS_NS:
+                    stamps.append(end_ns)
+            self._ends[frame] = stamps
         return self._ends[frame]
 
     def _last(self, children: set[str]) -> Iterator[int]:

@@ -32,7 +32,7 @@ class EarlierMessages:
 
     def __init__(self, history: History) -> None:
         self._history = history
-        self._known: dict[str, Earlier] = {}
+        self._earlier_stamps: dict[str, Earlier] = {}
 
     def look(self, channels: Collection[HistoryChannel], at_ns: int, *, is_new: bool) -> None:
         """Look up the last messages of channels until a time of recording.
@@ -45,25 +45,25 @@ class EarlierMessages:
         if self._history.is_growing:
             return
         for channel in channels:
-            if channel.type in FOLLOWED or (channel.topic in self._known and not is_new):
+            if channel.type in FOLLOWED or (channel.topic in self._earlier_stamps and not is_new):
                 continue
             newest = self._history.newest_stamps([channel], at_ns)
             stamps = list(itertools.islice(newest, LAST))
             if stamps:
                 first_ns = self._history.first_ns(channel)
                 first_ns = stamps[-1] if first_ns is None else first_ns
-                self._known[channel.topic] = Earlier(stamps, first_ns)
+                self._earlier_stamps[channel.topic] = Earlier(stamps, first_ns)
 
     def clear(self) -> None:
         """Forget what no message was delivered for."""
-        self._known.clear()
+        self._earlier_stamps.clear()
 
     def take(self, recorded: Recorded) -> Earlier | None:
         """Return what came before a message, once it is the newest or follows that."""
-        earlier, stamp_ns = self._known.get(recorded.topic), recorded.stamp_ns
+        earlier, stamp_ns = self._earlier_stamps.get(recorded.topic), recorded.stamp_ns
         if earlier is None or stamp_ns < earlier.recorded_ns[0]:
             return None
-        del self._known[recorded.topic]
+        del self._earlier_stamps[recorded.topic]
         # Others of the same time are delivered with it.
         before = [each for each in earlier.recorded_ns if each < stamp_ns]
         return replace(earlier, recorded_ns=before)
@@ -114,7 +114,7 @@ class Playhead:
         delivered, self._types_of_seek = self._types_of_seek, {}
         for topic, subscription in subscriptions.items():
             is_new = types_before.get(topic) != subscription.type
-            is_repeated = is_new or subscription.asked > before[topic].asked
+            is_repeated = is_new or subscription.resubscriptions > before[topic].resubscriptions
             if is_repeated and delivered.get(topic) != subscription.type:
                 self._catch_up(topic, subscription, is_new)
         if types_before != self._types:

@@ -27,16 +27,16 @@ class Channels:
 
     def __init__(self, offers: Callable[[], Mapping[str, Offer]]) -> None:
         self._offers = offers
-        self._known: dict[str, RecordedChannel] = {}
+        self._channels: dict[str, RecordedChannel] = {}
         self._types: dict[str, MessageTypes] = {}
         """Types that define them."""
-        self._seen: Mapping[str, Offer] = {}
+        self._last_offers: Mapping[str, Offer] = {}
         self._latched: dict[str, int] = {}
         self._last: dict[str, Offer] = {}
         """Last graph of topics that had publishers."""
 
     def __len__(self) -> int:
-        return len(self._known)
+        return len(self._channels)
 
     def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
         """Return the channel of a topic, None if nobody knows the type of its messages yet.
@@ -45,7 +45,7 @@ class Channels:
             topic: full name.
             types: that define the type of a message; None for those of the last one.
         """
-        channel = self._known.get(topic)
+        channel = self._channels.get(topic)
         if channel is None or types not in (None, self._types[topic]):
             offer = self._offers().get(topic)
             if offer is None or not offer.publishers:  # they ended, but their messages are here
@@ -55,13 +55,13 @@ class Channels:
             if not type_:
                 return None
             types = self._types[topic] = types or KNOWN
-            channel = self._known[topic] = _channel(topic, type_, publishers, types)
+            channel = self._channels[topic] = _channel(topic, type_, publishers, types)
         return channel
 
     def look(self) -> None:
         """Note what topics are; to be called now and then, since publishers may end."""
         offers = self._offers()
-        if offers is self._seen:
+        if offers is self._last_offers:
             return
         for topic, offer in offers.items():
             if offer.publishers:
@@ -71,7 +71,7 @@ class Channels:
             count = sum(each.durability == "transient_local" for each in offer.publishers)
             if count:
                 self._latched[topic] = max(count, self._latched.get(topic, 0))
-        self._seen = offers
+        self._last_offers = offers
 
     def latched(self, topic: str) -> int:
         """Return the number of publishers of a topic that late subscribers hear from."""

@@ -9,15 +9,15 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from webviz.data.recordings.latched import STATIC_TF, TF
-from webviz.sources.history import HistoryChannel, Recorded, Runs
+from webviz.sources.history import HistoryChannel, Recorded, ValidityIntervals
 from webviz.sources.inbox import Raw
 from webviz.sources.recording.channels import Channels
 from webviz.sources.recording.recent import Entry
 from webviz.sources.source import Offer, Source, Subscription
 
 NOT_REMEMBERED = (
-    "none of this moment or before is remembered; only displayed topics are, and the oldest "
-    "messages go first, large ones before others"
+    "memory has none up to this moment; it holds displayed topics only, and drops the oldest "
+    "messages first, large ones before others"
 )
 """Reason why a topic has no message in the past."""
 Numbered = tuple[int, Raw]
@@ -60,7 +60,7 @@ class EntriesHistory:
         self._entries: list[Entry] = []
         """Entries in the order of arrival."""
         self._by_topic: dict[str, list[Numbered]] = {}
-        self._runs = Runs()
+        self._validity = ValidityIntervals()
         self._offers: tuple[object, object, Mapping[str, Offer]] = None, None, {}
 
     def channels(self, subscriptions: Mapping[str, Subscription]) -> Sequence[HistoryChannel]:
@@ -98,9 +98,9 @@ class EntriesHistory:
         """`History.latched`: one of each publisher."""
         return self.recorded_channels.latched(channel.topic)
 
-    def runs(self) -> Runs:
-        """`History.runs`."""
-        return self._runs
+    def validity(self) -> ValidityIntervals:
+        """`History.validity`."""
+        return self._validity
 
     def time(self) -> MemoryTime:
         """`History.time`."""
@@ -138,7 +138,7 @@ class EntriesHistory:
             channel = self.recorded_channels.find(topic)
             if channel is not None and channel.type == TF:
                 is_static = topic.endswith(STATIC_TF)
-                self._runs.read(raw.cdr, self.clock.stamp_ns(raw.arrived_s), is_static)
+                self._validity.read(raw.cdr, self.clock.stamp_ns(raw.arrived_s), is_static)
         self._entries += entries
 
     def _of_channel(

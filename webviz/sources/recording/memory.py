@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from webviz.api.declared import Topic
 from webviz.sources.bag.log import LEVEL_AT, LOG, MAX_EVENTS, ROSOUT, WARN, event_of
-from webviz.sources.history import Recorded, Runs
+from webviz.sources.history import Recorded, ValidityIntervals
 from webviz.sources.inbox import Raw
 from webviz.sources.past_state import Event
 from webviz.sources.recording.channels import Channels
@@ -37,7 +37,7 @@ class LiveLog:
         self._clock = clock
         self._new: deque[Raw] = deque(maxlen=MAX_EVENTS)
         self._events: deque[Event] = deque(maxlen=MAX_EVENTS)
-        self._shown: Sequence[Event] = ()
+        self._timeline_events: Sequence[Event] = ()
 
     def put(self, topic: str, raw: Raw) -> None:
         """Take a message of any topic; most are ignored by their topic or level."""
@@ -56,8 +56,8 @@ class LiveLog:
             events.popleft()
             is_changed = True
         if is_changed:
-            self._shown = tuple(events)
-        return self._shown
+            self._timeline_events = tuple(events)
+        return self._timeline_events
 
 
 class LiveHistogram:
@@ -137,7 +137,7 @@ class MemoryHistory(EntriesHistory):
     def hold(self) -> bool:
         """Keep what is in memory now until `release`; whether that is anything."""
         self._held = self.recent.last(math.inf).whole
-        self._entries, self._by_topic, self._runs = [], {}, Runs()
+        self._entries, self._by_topic, self._validity = [], {}, ValidityIntervals()
         self._histogram.hold()
         self._add(self._held)
         return bool(self._held)
@@ -233,8 +233,9 @@ class MemoryHistory(EntriesHistory):
             before, self._subscriptions = self._subscriptions, subscriptions
             self._passed_on = {
                 topic: subscription
-                if topic not in before or (is_live and subscription.asked != before[topic].asked)
-                else replace(subscription, asked=self._passed_on[topic].asked)
+                if topic not in before
+                or (is_live and subscription.resubscriptions != before[topic].resubscriptions)
+                else replace(subscription, resubscriptions=self._passed_on[topic].resubscriptions)
                 for topic, subscription in subscriptions.items()
             }
         self.live.want(self._with_log(self._passed_on))

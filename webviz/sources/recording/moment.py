@@ -27,8 +27,8 @@ class MomentHistory(EntriesHistory):
 
     def __init__(self, memory: MemoryHistory) -> None:
         super().__init__(memory.live, memory.recorded_channels, memory.clock)
-        self._taken: Sequence[Entry] = memory.entries()
-        first, last = self._taken[0][1], self._taken[-1][1]
+        self._batch: Sequence[Entry] = memory.entries()
+        first, last = self._batch[0][1], self._batch[-1][1]
         self.origin_ns = self.start_ns = self.clock.stamp_ns(first.arrived_s)
         self.last_ns = self.end_ns = self.clock.stamp_ns(last.arrived_s)
         self._logged = memory.logged()
@@ -36,7 +36,7 @@ class MomentHistory(EntriesHistory):
 
     def prepared(self) -> MomentHistory:
         """Sort the messages, which takes a while."""
-        pending, self._taken = self._taken, ()
+        pending, self._batch = self._batch, ()
         self._add(pending)
         return self
 

@@ -15,7 +15,7 @@ from webviz.sources.zenoh.calls import ZenohCalls
 from webviz.sources.zenoh.discovered import GraphSnapshot
 
 UNDEFINED = (
-    "the definition of {type} is not known here, and its publisher does not tell it. Source the "
+    "the definition of {type} is unknown here, and its publisher does not provide it. Source the "
     "workspace that has its package before starting webviz"
 )
 SERVICE = "type_description_interfaces/srv/GetTypeDescription"
@@ -43,7 +43,7 @@ class TypeDescriptions:
     def __init__(self, calls: ZenohCalls, learn: Callable[[str, str, str], None]) -> None:
         self._calls = calls
         self._learn = learn
-        self._asked = set[tuple[str, str]]()
+        self._requests = set[tuple[str, str]]()
 
     def ask(self, types: Mapping[str, str], graph: GraphSnapshot) -> None:
         """Ask for what is unknown of these types by topic, unless their publishers were asked."""
@@ -55,10 +55,10 @@ class TypeDescriptions:
                 server = graph.servers.get(service)
                 is_known = server is not None and server.type == SERVICE
                 key = topic, publisher.node
-                if publisher.type == type and is_known and key not in self._asked:
-                    if len(self._asked) >= MAX_ASKED:
+                if publisher.type == type and is_known and key not in self._requests:
+                    if len(self._requests) >= MAX_ASKED:
                         return
-                    self._asked.add(key)
+                    self._requests.add(key)
                     self._ask(topic, type, service, publisher.hash)
 
     def _ask(self, topic: str, type: str, service: str, hash: str) -> None:

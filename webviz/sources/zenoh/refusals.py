@@ -71,7 +71,7 @@ def _silent(endpoints: Sequence[str], error: str) -> Problem:
             f"Check that a router listens for QUIC on this UDP port, and name {AUTHORITY}.",
         )
     return Problem(
-        f"What listens on {place} is not a Zenoh router, refuses webviz, or hangs.",
+        f"The program at {place} is not a Zenoh router, refuses webviz, or hangs.",
         "Check the port, which is 7447 by default; a router with TLS needs tls/…, one that asks "
         "for a user WEBVIZ_ZENOH_USER and WEBVIZ_ZENOH_PASSWORD.",
     )

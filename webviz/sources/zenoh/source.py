@@ -32,8 +32,8 @@ from webviz.sources.zenoh.link import NEVER, STALLED_S, ZenohLink
 from webviz.sources.zenoh.publishers import ZenohPublishers
 from webviz.sources.zenoh.subscriptions import (
     ZenohSubscriptions,
-    wanted_durability,
-    wanted_reliability,
+    requested_durability,
+    requested_reliability,
 )
 from webviz.sources.zenoh.survey import DomainSurvey
 from webviz.sources.zenoh.tokens import BRIDGED_PATTERN, graph_pattern
@@ -74,13 +74,13 @@ class ZenohSource:
         self._clock_lock = threading.Lock()
         self._address = address
         self._remappings = dict(remappings or {})
-        self._found = DiscoveredGraph()
+        self._graph = DiscoveredGraph()
         self.snapshot = GraphSnapshot()
         """The newest graph."""
-        self._told: Problem | None = NEVER
+        self._problem: Problem | None = NEVER
         """The problem of the link that the offers state."""
         self._definitions = Definitions(UNDEFINED)
-        self._wanted: Mapping[str, Subscription] = {}
+        self._topics: Mapping[str, Subscription] = {}
         self._opened: dict[str, str] = {}
         """Types by topic, of the topics that are open in the inbox."""
         self._is_wish_new = False
@@ -109,8 +109,8 @@ class ZenohSource:
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Replace all subscriptions; takes effect soon."""
-        if subscriptions != self._wanted:
-            self._wanted = dict(subscriptions)
+        if subscriptions != self._topics:
+            self._topics = dict(subscriptions)
             self._is_wish_new = True
             self.link.wake()
 
@@ -147,7 +147,7 @@ class ZenohSource:
 
     def joined(self, session: Any) -> None:
         """Begin a session with what the last one had."""
-        self._found.clear()
+        self._graph.clear()
         self.clock.start()
         node = OwnNode(session, self._address.domain)
         domain = self._address.domain
@@ -162,7 +162,7 @@ class ZenohSource:
         self._is_wish_new = True
 
     def turn(self) -> None:
-        """Follow the graph and the wishes, and advance pending calls."""
+        """Follow the graph and the subscriptions, and advance pending calls."""
         now_s = time.monotonic()
         if self._is_wish_new or now_s >= self._next_look_s:
             self._next_look_s = now_s + LOOK_S
@@ -208,9 +208,9 @@ class ZenohSource:
     def _token(self, sample: Any) -> None:
         token = str(sample.key_expr)
         if sample.kind == engine().SampleKind.DELETE:
-            self._found.remove(token)
+            self._graph.remove(token)
         else:
-            self._found.add(token)
+            self._graph.add(token)
 
     def _arrive(self, topic: str, sample: Any, is_old: bool) -> None:
         """Take a message."""
@@ -255,14 +255,14 @@ class ZenohSource:
         return write_attachment(Attachment(self._requests, time.time_ns(), gid))
 
     def _look(self) -> None:
-        """Read the graph, subscribe to what is wanted, and describe what there is."""
+        """Read the graph, subscribe, and describe what there is."""
         is_new, self._is_wish_new = self._is_wish_new, False
         problem, now_s = self.link.problem, time.monotonic()
         if problem is not None and self._bridges[0].was_up:
             self._settled_s = now_s + SETTLE_S
         # While the link is broken, what was known holds; and then until the tokens are there again.
         is_settled = problem is None and now_s >= self._settled_s
-        snapshot = self._found.snapshot() if is_settled else None
+        snapshot = self._graph.snapshot() if is_settled else None
         if snapshot is not None:
             self.snapshot = snapshot
         if is_new:
@@ -274,8 +274,8 @@ class ZenohSource:
             self.advertise(self._advertised)
             if CLOCK not in self.snapshot.topics:
                 self._clock_ns = None
-        if is_new or problem is not self._told:
-            self._told = problem
+        if is_new or problem is not self._problem:
+            self._problem = problem
             offers = {topic: self._offer(topic) for topic in self.snapshot.topics}
             if offers != self._offers:
                 self._offers = offers
@@ -283,8 +283,8 @@ class ZenohSource:
         self._describe()
 
     def _open_topics(self) -> None:
-        """Open the wanted topics in the inbox."""
-        types = {topic: wish.type for topic, wish in self._wanted.items()}
+        """Open the subscribed topics in the inbox."""
+        types = {topic: subscription.type for topic, subscription in self._topics.items()}
         for topic in [t for t in self._opened if t not in types]:
             del self._opened[topic]
             self._definitions.forget(topic)
@@ -306,20 +306,26 @@ class ZenohSource:
         """Return the subscriptions, also those of feedback and of simulated time."""
         own = {topic: type for topic, (type, _) in self._feedback.items()}
         own[CLOCK] = CLOCK_TYPE
-        return {t: Subscription(type, Topic(t)) for t, type in own.items()} | dict(self._wanted)
+        return {t: Subscription(type, Topic(t)) for t, type in own.items()} | dict(self._topics)
 
     def _offer(self, topic: str) -> Offer:
         carried = self.snapshot.topics[topic]
-        wish = self._wanted.get(topic)
+        subscription = self._topics.get(topic)
         problem = self._too_large.get(topic) or self._definitions.problem(topic)
-        if wish is not None and self.link.problem is not None:
+        if subscription is not None and self.link.problem is not None:
             problem = f"the link is broken. {self.link.problem.cause}"
-        offer = carried.offer(wish, problem)
-        if offer.requested is None or wish is None:
+        offer = carried.offer(subscription, problem)
+        if offer.requested is None or subscription is None:
             return offer
-        of_type = [p for p in self.snapshot.publishers.get(topic, ()) if p.type == wish.type]
+        of_type = [
+            p for p in self.snapshot.publishers.get(topic, ()) if p.type == subscription.type
+        ]
         return replace(
-            offer, requested=(wanted_reliability(wish), wanted_durability(wish, of_type))
+            offer,
+            requested=(
+                requested_reliability(subscription),
+                requested_durability(subscription, of_type),
+            ),
         )
 
     def _describe(self) -> None:

@@ -23,14 +23,14 @@ class TopicSubscription(NamedTuple):
 
     Attributes:
         keys: that are subscribed to.
-        asked: see `Subscription`.
+        resubscriptions: see `Subscription`.
         durability: with which it is subscribed.
         subscribers: of the engine.
         token: in the graph; None behind zenoh-bridge-ros2dds.
     """
 
     keys: tuple[str, ...]
-    asked: int
+    resubscriptions: int
     durability: Durability
     subscribers: tuple[Any, ...]
     token: DeclaredEndpoint | None
@@ -53,22 +53,24 @@ class ZenohSubscriptions:
         self._arrive = arrive
         self._topics: dict[str, TopicSubscription] = {}
 
-    def want(self, wishes: Mapping[str, Subscription], graph: GraphSnapshot) -> None:
+    def want(self, subscriptions: Mapping[str, Subscription], graph: GraphSnapshot) -> None:
         """Make the subscriptions exactly these, as far as their topics are published."""
-        for topic in [t for t in self._topics if t not in wishes]:
+        for topic in [t for t in self._topics if t not in subscriptions]:
             self._end(topic)
-        for topic, wish in wishes.items():
-            of_type = [p for p in graph.publishers.get(topic, ()) if p.type == wish.type]
+        for topic, subscription in subscriptions.items():
+            of_type = [p for p in graph.publishers.get(topic, ()) if p.type == subscription.type]
             former = self._topics.get(topic)
             if not of_type and former is not None:
                 continue  # as in ROS, a subscription outlives its publishers
             if not of_type:
                 continue
-            durability = wanted_durability(wish, of_type)
-            keys = self._keys(topic, wish.type, of_type)
-            if former is None or former[:3] != (keys, wish.asked, durability):
+            durability = requested_durability(subscription, of_type)
+            keys = self._keys(topic, subscription.type, of_type)
+            if former is None or former[:3] != (keys, subscription.resubscriptions, durability):
                 self._end(topic)
-                self._topics[topic] = self._subscribe(topic, wish, keys, durability, of_type)
+                self._topics[topic] = self._subscribe(
+                    topic, subscription, keys, durability, of_type
+                )
 
     def _keys(self, topic: str, type: str, publishers: Sequence[GraphEntity]) -> tuple[str, ...]:
         """Return the keys of the messages of a type: of any version, and those of bridges."""
@@ -80,7 +82,7 @@ class ZenohSubscriptions:
     def _subscribe(
         self,
         topic: str,
-        wish: Subscription,
+        subscription: Subscription,
         keys: tuple[str, ...],
         durability: Durability,
         publishers: Sequence[GraphEntity],
@@ -94,11 +96,13 @@ class ZenohSubscriptions:
         native = next((p for p in publishers if not p.is_bridged), None)
         token = None
         if native is not None:
-            reliability = wanted_reliability(wish)
+            reliability = requested_reliability(subscription)
             qos = write_qos(reliability, durability, DEFAULT_DEPTH)
-            own = GraphEntity("subscription", "", topic, wish.type, hash=native.hash or NO_HASH)
+            own = GraphEntity(
+                "subscription", "", topic, subscription.type, hash=native.hash or NO_HASH
+            )
             token = self._node.declare(own, qos)
-        return TopicSubscription(keys, wish.asked, durability, subscribers, token)
+        return TopicSubscription(keys, subscription.resubscriptions, durability, subscribers, token)
 
     def _declared(self, key: str, take: Callable[[Any], None], is_latched: bool) -> Any:
         if not is_latched:
@@ -119,15 +123,17 @@ class ZenohSubscriptions:
                 ended.token.undeclare()
 
 
-def wanted_reliability(wish: Subscription) -> Any:
+def requested_reliability(subscription: Subscription) -> Any:
     """Return the reliability of a subscription; over Zenoh all are compatible."""
-    return "best_effort" if wish.topic.reliability == "best_effort" else "reliable"
+    return "best_effort" if subscription.topic.reliability == "best_effort" else "reliable"
 
 
-def wanted_durability(wish: Subscription, publishers: Sequence[GraphEntity]) -> Durability:
+def requested_durability(
+    subscription: Subscription, publishers: Sequence[GraphEntity]
+) -> Durability:
     """Return whether the last messages of before are asked for."""
-    if wish.latched or wish.topic.durability == "transient_local":
+    if subscription.latched or subscription.topic.durability == "transient_local":
         return "transient_local"
     has_cache = any(each.qos.durability == "transient_local" for each in publishers)
-    is_refused = wish.topic.durability == "volatile"
+    is_refused = subscription.topic.durability == "volatile"
     return "transient_local" if has_cache and not is_refused else "volatile"

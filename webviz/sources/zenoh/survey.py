@@ -27,7 +27,7 @@ class DomainSurvey:
     def __init__(self, domain: int) -> None:
         self._domain = domain
         self._next_s = time.monotonic() + PATIENCE_S
-        self._found: Counter[int] = Counter()
+        self._counts: Counter[int] = Counter()
         self.remark = ""
         """A sentence on the other domains; "" if the own one has nodes, or none has any."""
 
@@ -44,7 +44,7 @@ class DomainSurvey:
             self._next_s = now_s + PATIENCE_S
         elif now_s >= self._next_s:
             self._next_s = now_s + AGAIN_S
-            self._found = counts = Counter[int]()
+            self._counts = counts = Counter[int]()
 
             def take(reply: Any) -> None:
                 if reply.ok is not None:
@@ -57,7 +57,7 @@ class DomainSurvey:
     def _tell(self) -> None:
         others = [
             (count, domain)
-            for domain, count in self._found.items()
+            for domain, count in self._counts.items()
             if domain != self._domain and domain <= MAX_DOMAIN
         ]
         if not others:

@@ -35,21 +35,21 @@ import { at, roomy } from "webviz/charts/scale.js";
 /** The curves of a chart as they are or were when this page paused, and the part that is in sight. */
 function makeView() {
   const live = signal(/** @type {Curve[]} */ ([]));
-  const held = signal(/** @type {{curves: Curve[], end: number} | null} */ (null));
+  const snapshot = signal(/** @type {{curves: Curve[], end: number} | null} */ (null));
   /** @type {ChartFacts} */
   const none = { window: 1, now: 0, across: -1, seeks: false, curves: [] };
   const facts = signal(none);
   const zoom = signal(/** @type {Zoom | null} */ (null));
   const cursor = signal(/** @type {number | null} */ (null));
-  const curves = () => held.value?.curves ?? live.value;
+  const curves = () => snapshot.value?.curves ?? live.value;
   const axes = computed(() => byAxis(curves(), facts.value.across));
   const times = computed(() => {
-    const end = held.value?.end ?? facts.value.now;
+    const end = snapshot.value?.end ?? facts.value.now;
     return /** @type {Range} */ (zoom.value?.times ?? [end - facts.value.window, end]);
   });
   /** @param {Curve[]} some */
   const fitting = (some) => roomy(...extent(some, times.value));
-  const shown = () => ({
+  const ranges = () => ({
     times: times.value,
     values: zoom.value?.values ?? fitting(axes.value.left),
   });
@@ -57,10 +57,10 @@ function makeView() {
   const isFollowing = signal(false);
   const seeks = () => facts.value.seeks && facts.value.across < 0;
   return {
-    ...{ live, held, facts, zoom, cursor, curves, axes, times, fitting, shown },
-    ...{ hasSums, isFollowing, seeks },
+    ...{ live, snapshot, facts, zoom, cursor, curves, axes, times },
+    ...{ fitting, ranges, hasSums, isFollowing, seeks },
     togglePause() {
-      held.value = held.value ? null : { curves: live.value, end: facts.value.now };
+      snapshot.value = snapshot.value ? null : { curves: live.value, end: facts.value.now };
     },
   };
 }
@@ -93,7 +93,7 @@ export const chart = (_, send) =>
     observer.observe(canvas);
     const unshare = onHover((time) => (view.cursor.value = time));
     /** @type {WeakMap<object, Piece>} */
-    const known = new WeakMap();
+    const cache = new WeakMap();
     return {
       element,
       head: tools(view),
@@ -103,14 +103,15 @@ export const chart = (_, send) =>
        * @param {string} id
        */
       update(next, store, id) {
-        const curves = curvesOf(next.curves, store, id, known);
+        const curves = curvesOf(next.curves, store, id, cache);
         batch(() => {
           view.facts.value = next;
           view.live.value = curves;
-          const { held } = view;
+          const { snapshot } = view;
           /** @param {Curve} curve */
           const isThere = ({ key }) => curves.some((curve) => curve.key === key);
-          if (held.value) held.value = { ...held.value, curves: held.value.curves.filter(isThere) };
+          if (snapshot.value)
+            snapshot.value = { ...snapshot.value, curves: snapshot.value.curves.filter(isThere) };
         });
         legend.show(curves);
       },
@@ -138,7 +139,7 @@ function gestures(canvas, view, send) {
   }
   return listenToGestures(canvas, {
     area: () => inside(canvas.clientWidth, canvas.clientHeight, view.axes.value.rights.length),
-    shown: view.shown,
+    ranges: view.ranges,
     zoom: () => view.zoom.value,
     setZoom: (zoom) => (view.zoom.value = zoom),
     point,
@@ -152,18 +153,18 @@ function gestures(canvas, view, send) {
  * @param {View} view
  */
 function tools(view) {
-  const pauseLabel = () => (view.held.value ? "Resume" : "Pause");
+  const pauseLabel = () => (view.snapshot.value ? "Resume" : "Pause");
   const pause = el(
     "button",
     {
       type: "button",
       class: "wv-icon",
       onclick: view.togglePause,
-      "aria-pressed": () => String(view.held.value !== null),
+      "aria-pressed": () => String(view.snapshot.value !== null),
       "aria-label": pauseLabel,
       "data-tip": pauseLabel,
     },
-    () => icon(view.held.value ? "play" : "pause"),
+    () => icon(view.snapshot.value ? "play" : "pause"),
   );
   const reset = iconButton("reset", "Reset zoom (double click)", () => (view.zoom.value = null), {
     disabled: () => !view.zoom.value,
@@ -211,7 +212,7 @@ function drawing(element, canvas, view, legend) {
     const { across, rights } = view.axes.value;
     const cursor = view.cursor.value;
     draw(canvas, {
-      ...{ curves: view.curves(), colors: colorOf, ...view.shown(), cursor },
+      ...{ curves: view.curves(), colors: colorOf, ...view.ranges(), cursor },
       rights: rights.map((some) => ({
         ...{ axis: some[0].axis, range: view.fitting(some) },
         color: some.length === 1 ? colorOf(some[0].key) : "",
@@ -224,7 +225,7 @@ function drawing(element, canvas, view, legend) {
     frame ||= requestAnimationFrame(() => untracked(now));
   };
   effect(() => {
-    for (const part of [view.live, view.held, view.facts, view.zoom, view.cursor, view.hasSums])
+    for (const part of [view.live, view.snapshot, view.facts, view.zoom, view.cursor, view.hasSums])
       void part.value;
     later();
   });

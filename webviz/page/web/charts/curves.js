@@ -10,16 +10,16 @@ import { csvText } from "webviz/csv.js";
  * @param {Facts[]} facts
  * @param {ValuesOf<"panel">} values
  * @param {string} id
- * @param {WeakMap<object, Piece>} known
+ * @param {WeakMap<object, Piece>} cache
  * @returns {Curve[]}
  */
-export function curvesOf(facts, values, id, known) {
+export function curvesOf(facts, values, id, cache) {
   return facts.map(({ key, name, problem, axis, unit, chunks: [first, end] }) => {
     /** @type {Piece[]} */
     const pieces = [];
     for (let number = first; number < end; number++) {
       const part = values.get(`${id}/${key}.${number}`);
-      if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), known));
+      if (part) pieces.push(pieceOf(/** @type {Parameters<typeof pieceOf>[0]} */ (part), cache));
     }
     return { key, name, problem, axis, unit, pieces };
   });
@@ -44,15 +44,15 @@ export function byAxis(curves, key) {
 // A piece that has not changed is the same object in the store.
 /**
  * @param {{start: number, times: number[], values: (number | null)[]}} part
- * @param {WeakMap<object, Piece>} known
+ * @param {WeakMap<object, Piece>} cache
  * @returns {Piece}
  */
-function pieceOf(part, known) {
-  let piece = known.get(part);
+function pieceOf(part, cache) {
+  let piece = cache.get(part);
   if (!piece) {
     const times = Float64Array.from(part.times, (time) => part.start + time);
     piece = { times, values: Float64Array.from(part.values, (value) => value ?? NaN) };
-    known.set(part, piece);
+    cache.set(part, piece);
   }
   return piece;
 }
@@ -132,13 +132,13 @@ export function pairs(curve, across, range) {
   const places = [];
   visit(across, range, (time, value) => places.push([time, value]));
   /** @type {Vec2[]} */
-  const found = [];
+  const points = [];
   let at = 0;
   visit(curve, range, (time, value) => {
     while (at + 1 < places.length && places[at + 1][0] <= time) at += 1;
-    if (places.length && places[at][0] <= time) found.push([places[at][1], value]);
+    if (places.length && places[at][0] <= time) points.push([places[at][1], value]);
   });
-  return found;
+  return points;
 }
 
 /**
@@ -185,13 +185,13 @@ const bounds = new WeakMap();
  * @returns {Range}
  */
 function boundsOf(piece) {
-  let known = bounds.get(piece);
-  if (!known) {
-    known = [Infinity, -Infinity];
-    for (const value of piece.values) widen(known, value);
-    bounds.set(piece, known);
+  let range = bounds.get(piece);
+  if (!range) {
+    range = [Infinity, -Infinity];
+    for (const value of piece.values) widen(range, value);
+    bounds.set(piece, range);
   }
-  return known;
+  return range;
 }
 
 /**

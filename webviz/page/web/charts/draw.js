@@ -205,7 +205,7 @@ function line(context, curve, { times: range, x, y, color, ratio }) {
   const [from, to] = range;
   const start = x(from) * ratio;
   const pace = (x(to) * ratio - start) / (to - from);
-  let [column, low, high, last, isDown, drawn] = [NaN, 0, 0, 0, false, 0];
+  let [column, low, high, last, isDown, columns] = [NaN, 0, 0, 0, false, 0];
   const finish = () => {
     if (!isDown || low === high) return;
     for (const value of [low, high, last]) context.lineTo(column / ratio, y(value));
@@ -225,7 +225,7 @@ function line(context, curve, { times: range, x, y, color, ratio }) {
       if (place === column && value === value) last = value;
       else {
         finish();
-        if (isDown && (drawn += 1) % COLUMNS === 0) {
+        if (isDown && (columns += 1) % COLUMNS === 0) {
           context.stroke();
           context.beginPath();
           context.moveTo(column / ratio, y(last));

@@ -5,7 +5,7 @@ import { el } from "webviz/dom.js";
 import { boxBetween, boxed, panned, scaled, shareOf } from "webviz/charts/zoom.js";
 
 /** @import {Area, Vec2} from "webviz/types.js" */
-/** @import {Shown, Zoom} from "webviz/charts/zoom.js" */
+/** @import {AxisRanges, Zoom} from "webviz/charts/zoom.js" */
 
 const WHEEL = 1.2;
 const CLICK_PX = 3;
@@ -13,15 +13,15 @@ const UP_PX = 20; // of a drag, from which on it moves values, too
 
 /**
  * @typedef {{
- *   shown: () => Shown, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void, pause: () => void,
+ *   ranges: () => AxisRanges, zoom: () => Zoom | null, setZoom: (zoom: Zoom | null) => void, pause: () => void,
  * }} Zoomed
  */
 
 /** @param {{move?: number, by?: number}} step */
 const zooming =
   (step) =>
-  (/** @type {Zoomed} */ { shown, zoom, setZoom }) =>
-    setZoom(scaled(shown(), zoom(), step, false));
+  (/** @type {Zoomed} */ { ranges, zoom, setZoom }) =>
+    setZoom(scaled(ranges(), zoom(), step, false));
 
 /** @type {ReturnType<typeof shortcuts<Zoomed>>} */
 const takeKey = shortcuts("Plot", [
@@ -44,8 +44,8 @@ const takeKey = shortcuts("Plot", [
  * @param {HTMLCanvasElement} canvas
  * @param {Zoomed & {area: () => Area, point: (share: number | null) => void}} chart `point` gets the share of the time axis left of the pointer, null when it is not over it
  */
-export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pause }) {
-  /** @type {{from: Vec2, shown: Shown, isBox: boolean, isFar: boolean} | null} */
+export function listenToGestures(canvas, { area, ranges, zoom, setZoom, point, pause }) {
+  /** @type {{from: Vec2, ranges: AxisRanges, isBox: boolean, isFar: boolean} | null} */
   let drag = null;
   const box = el("div", { class: "wv-chart-box", hidden: true });
 
@@ -66,12 +66,12 @@ export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pa
     const isValues = event.shiftKey || x < 0;
     // Browsers turn the wheel sideways with Shift.
     const by = WHEEL ** Math.sign(event.deltaY || event.deltaX);
-    setZoom(scaled(shown(), zoom(), { around: isValues ? y : x, by }, isValues));
+    setZoom(scaled(ranges(), zoom(), { around: isValues ? y : x, by }, isValues));
   });
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
-    drag = { from: shareAt(event), shown: shown(), isBox: event.shiftKey, isFar: false };
+    drag = { from: shareAt(event), ranges: ranges(), isBox: event.shiftKey, isFar: false };
   });
   canvas.addEventListener("pointermove", (event) => {
     const to = shareAt(event);
@@ -83,20 +83,20 @@ export function listenToGestures(canvas, { area, shown, zoom, setZoom, point, pa
     if (!drag.isFar) return;
     if (!drag.isBox) {
       const isUp = zoom()?.values != null || Math.abs(dy * height) > UP_PX;
-      return setZoom(panned(drag.shown, [dx, dy], isUp));
+      return setZoom(panned(drag.ranges, [dx, dy], isUp));
     }
     for (const [key, pixels] of Object.entries(boxBetween(from, to, area())))
       box.style.setProperty(key, `${pixels}px`);
     box.hidden = false;
   });
   canvas.addEventListener("pointerup", (event) => {
-    const zoomed = drag?.isBox && drag.isFar && boxed(drag.shown, drag.from, shareAt(event));
+    const zoomed = drag?.isBox && drag.isFar && boxed(drag.ranges, drag.from, shareAt(event));
     if (zoomed) setZoom(zoomed);
     end();
   });
   canvas.addEventListener("pointercancel", end);
   canvas.addEventListener("pointerleave", () => point(null));
   canvas.addEventListener("dblclick", () => setZoom(null));
-  takeKeysOf(canvas, (event) => takeKey({ shown, zoom, setZoom, pause }, event));
+  takeKeysOf(canvas, (event) => takeKey({ ranges, zoom, setZoom, pause }, event));
   return box;
 }

@@ -51,10 +51,10 @@ export function makeLegend(remove) {
       for (const key of entries.keys())
         if (!curves.some((curve) => curve.key === key)) entries.delete(key);
       const children = curves.map((curve) => {
-        const made = entries.get(curve.key) ?? entry(curve);
-        entries.set(curve.key, made);
-        setText(made.problem, curve.problem);
-        return made.element;
+        const item = entries.get(curve.key) ?? entry(curve);
+        entries.set(curve.key, item);
+        setText(item.problem, curve.problem);
+        return item.element;
       });
       setChildren(element, children);
     },
@@ -65,10 +65,10 @@ export function makeLegend(remove) {
      */
     read(curves, time, span) {
       for (const curve of curves) {
-        const shown = entries.get(curve.key);
-        if (!shown) continue;
-        setText(shown.value, valueText(curve, time));
-        setText(shown.sums, span ? sumsText(curve, span) : "");
+        const item = entries.get(curve.key);
+        if (!item) continue;
+        setText(item.value, valueText(curve, time));
+        setText(item.sums, span ? sumsText(curve, span) : "");
       }
     },
   };

@@ -52,11 +52,11 @@ export function valueAt({ pieces }, time) {
  * @param {number} time
  */
 export function valueText(curve, time) {
-  const found = valueAt(curve, time);
-  if (!found) return "";
-  return Number.isNaN(found.value)
+  const sample = valueAt(curve, time);
+  if (!sample) return "";
+  return Number.isNaN(sample.value)
     ? "no value"
-    : withUnit(numberText(found.value, SPAN), curve.unit);
+    : withUnit(numberText(sample.value, SPAN), curve.unit);
 }
 
 /**

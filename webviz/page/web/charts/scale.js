@@ -19,10 +19,11 @@ export function ticks(low, high, count) {
   const power = 10 ** Math.floor(Math.log10(span));
   const step = power * ([1, 2, 5].find((each) => each * power >= span * 0.999) ?? 10);
   /** @type {number[]} */
-  const found = [];
+  const positions = [];
   const first = Math.ceil(low / step - EDGE) || 0; // never -0
-  for (let i = first; i <= high / step + EDGE && found.length < 50; i++) found.push(i * step);
-  return found;
+  for (let i = first; i <= high / step + EDGE && positions.length < 50; i++)
+    positions.push(i * step);
+  return positions;
 }
 
 /**

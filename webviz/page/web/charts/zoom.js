@@ -5,7 +5,7 @@ import { at, changed } from "webviz/charts/scale.js";
 /** @import {Area, Range, Vec2} from "webviz/types.js" */
 
 /**
- * @typedef {{times: Range, values: Range}} Shown ranges of the axes
+ * @typedef {{times: Range, values: Range}} AxisRanges ranges of the axes
  * @typedef {{times: Range, values: Range | null}} Zoom `values` is null for the range that fits
  */
 
@@ -28,7 +28,7 @@ export const shareOf = ([x, y], { left, top, width, height }) => [
 /**
  * The zoom after a step of the wheel or a key, null where times would be too short or too long.
  *
- * @param {Shown} shown
+ * @param {AxisRanges} ranges
  * @param {Zoom | null} zoom
  * @param {{around?: number, by?: number, move?: number}} change
  * @param {boolean} isValues whether it is that of the values, not of the times
@@ -45,7 +45,7 @@ export function scaled({ times, values }, zoom, change, isValues) {
 /**
  * The zoom after a drag by shares of the area, of values only if it `isUp`.
  *
- * @param {Shown} shown as the drag began
+ * @param {AxisRanges} ranges as the drag began
  * @param {Vec2} by
  * @param {boolean} isUp
  * @returns {Zoom}
@@ -58,7 +58,7 @@ export const panned = ({ times, values }, [dx, dy], isUp) => ({
 /**
  * The zoom to the box between two places in shares of the area, null if it is too small.
  *
- * @param {Shown} shown
+ * @param {AxisRanges} ranges
  * @param {Vec2} a
  * @param {Vec2} b
  * @returns {Zoom | null}

@@ -33,8 +33,8 @@ export function color({ default: standard }, options) {
     encode: (rgb) => rgb?.join(", ") ?? "",
     decode: (typed) => (isOptional && !typed.trim() ? null : parse(typed)),
     after: () => {
-      const shown = attempt(text.value);
-      if (shown && swatch.value !== shown) swatch.value = shown;
+      const hex = attempt(text.value);
+      if (hex && swatch.value !== hex) swatch.value = hex;
       set(swatch, { "data-automatic": isOptional && !text.value.trim() });
     },
   });

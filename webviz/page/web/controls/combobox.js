@@ -51,7 +51,7 @@ class Combobox {
   /** @type {Signal<string | Mixed>} */
   #current;
   /** Content of the field while nobody types. */
-  #shown = signal({ text: "", note: "", level: /** @type {string | undefined} */ (undefined) });
+  #content = signal({ text: "", note: "", level: /** @type {string | undefined} */ (undefined) });
   #isFree;
   #options;
   #list;
@@ -72,7 +72,7 @@ class Combobox {
     this.#state = sync({
       ...rest,
       value,
-      show: (shown) => this.#show(shown),
+      show: (next) => this.#show(next),
       isFocused: () => this.input.matches(":focus"),
       refused: (text) => {
         this.#isInvalid.value = text !== "";
@@ -94,13 +94,13 @@ class Combobox {
       {
         class: "wv-combobox-note",
         "aria-hidden": "true",
-        "data-level": () => this.#shown.value.level,
+        "data-level": () => this.#content.value.level,
       },
-      () => this.#shown.value.note,
+      () => this.#content.value.note,
     );
     const { input } = this;
     effect(() => {
-      const isThere = this.#shown.value.note !== "";
+      const isThere = this.#content.value.note !== "";
       note.hidden = false;
       input.style.paddingRight = isThere ? `${note.offsetWidth + CHEVRON_PX}px` : "";
       note.hidden = input.scrollWidth > input.clientWidth;
@@ -131,7 +131,7 @@ class Combobox {
       inputmode: isToTap ? "none" : null, // a list to tap, without a keyboard over it
       placeholder: () => (this.#current.value === MIXED ? MIXED_TEXT : placeholder),
       title: () =>
-        this.#shown.value.text.length > 24 ? this.#shown.value.text.slice(0, 1000) : null,
+        this.#content.value.text.length > 24 ? this.#content.value.text.slice(0, 1000) : null,
       "aria-invalid": () => this.#isInvalid.value || null,
       onfocus: () => input.select(),
       onclick: () => {
@@ -160,7 +160,7 @@ class Combobox {
     const option = this.#options.value.find((one) => one.value === current);
     const text = current === MIXED ? "" : (option?.label ?? current);
     if (this.input.value !== text) this.input.value = text;
-    this.#shown.value = { text, note: option?.note ?? "", level: option?.level };
+    this.#content.value = { text, note: option?.note ?? "", level: option?.level };
   }
 
   /** @param {string} [text] */

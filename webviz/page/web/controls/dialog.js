@@ -176,16 +176,16 @@ export async function ask(text, { confirm = "OK", title = "Are you sure?", dange
  *
  * @param {string} noun what has the name, such as "layout"
  * @param {{
- *   title: string, confirm: string, taken: string[], value?: string,
+ *   title: string, confirm: string, usedNames: string[], value?: string,
  *   accept?: (name: string) => unknown,
  * }} options `value` is there at first, by default one that is not `taken`; the name is taken only
  *   once `accept` says true
  * @returns {Promise<string | null>}
  */
-export async function askName(noun, { title, confirm, taken, value, accept }) {
+export async function askName(noun, { title, confirm, usedNames, value, accept }) {
   const stem = noun[0].toUpperCase() + noun.slice(1);
   let number = 1;
-  while (taken.includes(`${stem} ${number}`)) number += 1;
+  while (usedNames.includes(`${stem} ${number}`)) number += 1;
   const field = textField(`Name of the ${noun}`, {
     value: value ?? `${stem} ${number}`,
     autofocus: true,

@@ -33,8 +33,8 @@ export function disclosure(label, content, attributes = {}, isOpen = signal(fals
     icon("chevron", 12),
     label,
   );
-  const shown = el("div", { id, hidden: () => !isOpen.value }, () =>
+  const region = el("div", { id, hidden: () => !isOpen.value }, () =>
     wasOpen.value ? content() : null,
   );
-  return el("div", attributes, button, shown);
+  return el("div", attributes, button, region);
 }

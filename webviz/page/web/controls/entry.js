@@ -82,7 +82,7 @@ class Entry {
     });
     this.state = sync({
       value,
-      show: (/** @type {T | Mixed} */ shown) => this.#show(shown),
+      show: (/** @type {T | Mixed} */ next) => this.#show(next),
       change,
       isFocused: () => field.matches(":focus"),
       refused: (text) => {

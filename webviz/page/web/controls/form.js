@@ -63,7 +63,7 @@ function part(property, options, depth) {
       : kind === "group"
         ? section(property, options, depth)
         : rowOf(property, options, {
-            known: () => values.get(`offered.${path}`),
+            live: () => values.get(`offered.${path}`),
             otherwise: () => (otherwise ? values.get(`value.${otherwise}`) : undefined),
           });
   element.style.setProperty("--wv-depth", String(depth));
@@ -97,12 +97,12 @@ function rowOf(property, { values, send, marks, command }, others) {
  */
 function topic({ path, label, help, type, children = [] }, options, depth) {
   const [named, ...rest] = children;
-  const known = () => options.values.get(`topic.${path}`);
-  const name = rowOf({ ...named, kind: "topic", label, help, type }, options, { known });
+  const live = () => options.values.get(`topic.${path}`);
+  const name = rowOf({ ...named, kind: "topic", label, help, type }, options, { live });
   const note = el(
     "div",
     { class: "wv-section-note" },
-    el("span", {}, () => known()?.qos),
+    el("span", {}, () => live()?.qos),
   );
   const inner = rest.map((child) => part(child, options, depth + 1));
   const key = `fold.${options.name}.${path}.qos`;

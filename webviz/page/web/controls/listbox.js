@@ -28,7 +28,7 @@ export class Listbox {
   #options;
   #isFree;
   #choose;
-  #shown = signal(/** @type {Choice[]} */ ([]));
+  #choices = signal(/** @type {Choice[]} */ ([]));
   #note = signal("");
   #active = signal(-1);
   #search = "";
@@ -56,7 +56,7 @@ export class Listbox {
         onpointerdown: (event) => event.preventDefault(), // the field keeps the focus
       },
       each(
-        () => this.#shown.value.map((choice, index) => ({ ...choice, index })),
+        () => this.#choices.value.map((choice, index) => ({ ...choice, index })),
         ({ index }) => index,
         (choice) => this.#item(choice),
       ),
@@ -76,10 +76,10 @@ export class Listbox {
     });
     // Last, since they need what the others have changed.
     effect(() => {
-      if (isOpen.value && this.#shown.value) untracked(() => this.#place());
+      if (isOpen.value && this.#choices.value) untracked(() => this.#place());
     });
     effect(() => {
-      if (isOpen.value && this.#shown.value) this.#scroll(this.#active.value);
+      if (isOpen.value && this.#choices.value) this.#scroll(this.#active.value);
     });
   }
 
@@ -94,15 +94,15 @@ export class Listbox {
     this.#isOpen.value = true;
     this.#fill();
     const typed = text.trim();
-    const shown = this.#shown.value;
+    const choices = this.#choices.value;
     this.#active.value = typed
-      ? likely(shown, typed)
-      : shown.findIndex((one) => one.value === value);
+      ? likely(choices, typed)
+      : choices.findIndex((one) => one.value === value);
   }
 
   /** @param {number} by */
   move(by) {
-    const last = this.#shown.value.length - 1;
+    const last = this.#choices.value.length - 1;
     if (last < 0) return;
     const next = this.#active.value + by;
     if (Math.abs(by) === 1) this.#active.value = next < 0 ? last : next > last ? 0 : next;
@@ -111,12 +111,12 @@ export class Listbox {
 
   /** The option that the arrow keys have come to, null for none. */
   active() {
-    return this.#shown.value[this.#active.value] ?? null;
+    return this.#choices.value[this.#active.value] ?? null;
   }
 
   /** The first that fits, null for none. */
   first() {
-    return this.#shown.value[0] ?? null;
+    return this.#choices.value[0] ?? null;
   }
 
   #appear() {
@@ -135,16 +135,17 @@ export class Listbox {
     const chosen = untracked(() => this.active()?.value);
     const words = wordsOf(this.#search);
     const matches = this.#options.value.filter((one) => fits(one, words));
-    const shown = matches.slice(0, MAX_SHOWN);
+    const choices = matches.slice(0, MAX_SHOWN);
     const typed = this.#search.trim();
     // Enter takes what is marked: the text itself is still to be had.
-    const marked = typed ? shown[likely(shown, typed)] : undefined;
+    const marked = typed ? choices[likely(choices, typed)] : undefined;
     if (this.#isFree && marked && textOf(marked) !== typed)
-      shown.push({ value: typed, label: `“${typed}”`, note: "as typed" });
-    this.#shown.value = shown;
-    this.#active.value = shown.findIndex(({ value }) => value === chosen);
+      choices.push({ value: typed, label: `“${typed}”`, note: "as typed" });
+    this.#choices.value = choices;
+    this.#active.value = choices.findIndex(({ value }) => value === chosen);
     const rest = matches.length - MAX_SHOWN;
-    this.#note.value = rest > 0 ? `${rest} more. Type to search.` : shown.length ? "" : "No match.";
+    this.#note.value =
+      rest > 0 ? `${rest} more. Type to search.` : choices.length ? "" : "No match.";
   }
 
   /** @param {Signal<Choice & {index: number}>} choice */

@@ -32,7 +32,7 @@ export class OptionList {
   /** @type {OptionRow[]} */
   #rows = [];
   /** @type {Map<OptionRow["id"], {text: string, element: HTMLElement}>} */
-  #made = new Map();
+  #elements = new Map();
   /** @type {OptionRow["id"] | null} */
   #active = null;
 
@@ -66,8 +66,8 @@ export class OptionList {
 
   /** @param {OptionRow[]} rows */
   show(rows) {
-    const before = this.#made;
-    this.#made = new Map();
+    const before = this.#elements;
+    this.#elements = new Map();
     this.#rows = rows;
     /** @type {HTMLElement[]} */
     const children = [];
@@ -75,9 +75,9 @@ export class OptionList {
     let group;
     for (const row of rows) {
       const text = JSON.stringify(row);
-      const known = before.get(row.id);
-      const one = known?.text === text ? known : { text, element: this.#elementFor(row) };
-      this.#made.set(row.id, one);
+      const previous = before.get(row.id);
+      const one = previous?.text === text ? previous : { text, element: this.#elementFor(row) };
+      this.#elements.set(row.id, one);
       if (row.group?.title !== group?.title && row.group) children.push(headOf(row.group));
       group = row.group;
       children.push(one.element);
@@ -105,7 +105,7 @@ export class OptionList {
 
   /** @param {OptionRow["id"] | null} id */
   #elementOf(id) {
-    return id === null ? undefined : this.#made.get(id)?.element;
+    return id === null ? undefined : this.#elements.get(id)?.element;
   }
 
   /** @param {OptionRow} row */
@@ -221,6 +221,6 @@ export function search(all, text, textOf) {
     return words.every((word) => title.includes(word)) ? 2 : 1;
   };
   const scored = all.map((item) => ({ item, points: score(item) }));
-  const found = scored.filter(({ points }) => points > 0);
-  return found.sort((a, b) => b.points - a.points).map(({ item }) => item);
+  const matches = scored.filter(({ points }) => points > 0);
+  return matches.sort((a, b) => b.points - a.points).map(({ item }) => item);
 }

@@ -102,7 +102,7 @@ function remedy({ right, name, isOwner, isHere }) {
       `--allow-publish ${name()}.`;
     return isHere ? "" : elsewhere;
   }
-  if (right.isDeclined()) return " The owner has said not now.";
+  if (right.isDeclined()) return " The owner declined for now.";
   if (right.isAsked()) return " The owner has been asked.";
   return self().role === "watcher"
     ? " Its owner can allow it to operators."

@@ -28,7 +28,7 @@ export function row(property, { marks, command, ...options }) {
     return marks && value !== undefined && JSON.stringify(value) !== JSON.stringify(standard);
   });
   const help = about(property);
-  const made = control(property, {
+  const field = control(property, {
     ...options,
     label,
     help,
@@ -37,13 +37,13 @@ export function row(property, { marks, command, ...options }) {
   const name = el(
     "span",
     {
-      class: made.handle ? "wv-property-label wv-property-handle" : "wv-property-label",
+      class: field.handle ? "wv-property-label wv-property-handle" : "wv-property-label",
       title: help,
-      onclick: made.handle ? undefined : made.focus,
+      onclick: field.handle ? undefined : field.focus,
     },
     label,
   );
-  made.handle?.(name);
+  field.handle?.(name);
   const reset = el(
     "button",
     {
@@ -55,7 +55,7 @@ export function row(property, { marks, command, ...options }) {
       onclick() {
         refusal.value = "";
         options.change(standard);
-        made.focus();
+        field.focus();
       },
     },
     icon("reset", 14),
@@ -72,7 +72,7 @@ export function row(property, { marks, command, ...options }) {
       "aria-invalid": () => (refusal.value ? "true" : null),
     },
     name,
-    holder(command, { class: "wv-property-control" }, made.element),
+    holder(command, { class: "wv-property-control" }, field.element),
     reset,
     el("div", { class: "wv-refused", role: "alert", hidden: () => !refusal.value }, refusal),
   );

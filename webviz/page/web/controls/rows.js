@@ -80,7 +80,7 @@ class RowList {
       keyOf: ({ key }) => key,
       height: () => this.#height,
       beyond: () => BEYOND * this.#height,
-      held: () => untracked(() => this.#marked.value),
+      activeKey: () => untracked(() => this.#marked.value),
       make: (item, index, key) => this.#make(item, index, key),
     });
     set(this.focused, {

@@ -19,12 +19,12 @@ import { stepOf } from "webviz/controls/units.js";
  */
 export function slider(property, options) {
   const { low, high } = property;
-  const shown = signal(/** @type {number | Mixed | undefined} */ (undefined));
-  const isMixed = () => shown.value === MIXED;
+  const current = signal(/** @type {number | Mixed | undefined} */ (undefined));
+  const isMixed = () => current.value === MIXED;
   const state = sync({
     ...options,
     /** @param {number | Mixed} value */
-    show: (value) => (shown.value = value),
+    show: (value) => (current.value = value),
   });
   /** @type {HTMLInputElement} */
   const range = el("input", {
@@ -40,10 +40,10 @@ export function slider(property, options) {
     onpointerdown: state.hold,
     onpointerup: state.release,
     onpointercancel: state.release,
-    oninput: () => state.edit((shown.value = Number(range.value))),
+    oninput: () => state.edit((current.value = Number(range.value))),
   });
   effect(() => {
-    const place = isMixed() ? low : Number(shown.value ?? low);
+    const place = isMixed() ? low : Number(current.value ?? low);
     if (Number(range.value) !== place) range.value = String(place);
     // Where the value is, for the part of the track before it.
     const share = (Number(range.value) - low) / (high - low);
@@ -52,7 +52,7 @@ export function slider(property, options) {
   const field = number(property, {
     ...options,
     label: `${options.label}, as a number`,
-    value: () => shown.value,
+    value: () => current.value,
   });
   return {
     element: el("div", { class: "wv-slide" }, range, field.element),

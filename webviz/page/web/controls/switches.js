@@ -36,7 +36,7 @@ export function switches({ offered }, options) {
   const noun = label.toLowerCase();
   const words = signal(/** @type {string[]} */ ([]));
   const { all, counts, isOn, put } = valuesOf(offered, options);
-  const shown = computed(() =>
+  const matches = computed(() =>
     all.value.filter((name) => words.value.every((word) => name.toLowerCase().includes(word))),
   );
   /** @type {HTMLInputElement} */
@@ -52,7 +52,10 @@ export function switches({ offered }, options) {
    * @param {string} tip
    */
   const button = (text, value, tip) =>
-    textButton(text, () => put(shown.value, value), { tip, disabled: () => !shown.value.length });
+    textButton(text, () => put(matches.value, value), {
+      tip,
+      disabled: () => !matches.value.length,
+    });
   const list = rowList({
     label,
     height,
@@ -64,8 +67,8 @@ export function switches({ offered }, options) {
   });
   set(list.element, { "aria-multiselectable": "true", "aria-description": help });
   effect(() => {
-    list.element.style.height = `${Math.min(shown.value.length, MAX_ROWS) * height}px`;
-    list.show(shown.value.map((key) => ({ key })));
+    list.element.style.height = `${Math.min(matches.value.length, MAX_ROWS) * height}px`;
+    list.show(matches.value.map((key) => ({ key })));
   });
   const nothing = () => (all.value.length ? `No match in ${noun}.` : `No ${noun} yet.`);
   const head = [
@@ -73,7 +76,7 @@ export function switches({ offered }, options) {
     button("All", true, `Switch on all ${noun} in the list`),
     button("None", false, `Switch off all ${noun} in the list`),
   ];
-  const empty = { class: "wv-quiet wv-switches-empty", hidden: () => shown.value.length > 0 };
+  const empty = { class: "wv-quiet wv-switches-empty", hidden: () => matches.value.length > 0 };
   return {
     element: el(
       "div",
@@ -94,7 +97,7 @@ export function switches({ offered }, options) {
  */
 function valuesOf(offered, options) {
   const current = signal(/** @type {Switches} */ ({}));
-  const counts = () => /** @type {Record<string, number | string>} */ (options.known?.() ?? {});
+  const counts = () => /** @type {Record<string, number | string>} */ (options.live?.() ?? {});
   const otherwise = () => options.otherwise?.() !== false;
   const all = computed(() => {
     const names = offered ? Object.keys(counts()) : (frames.get("frames") ?? []);

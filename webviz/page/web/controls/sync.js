@@ -11,7 +11,7 @@ import { effect, untracked } from "webviz/signals.js";
 
 const SETTLE_MS = 500;
 const ANSWER_MS = 8000; // then it was lost with the connection
-const LOST = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
+const NO_ANSWER = { level: "error", text: "Not changed: the viewer does not answer. Try again." };
 
 /**
  * `value()` is read in an effect: what the viewer has, undefined before that is known. `show(value)`
@@ -32,12 +32,12 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
   let isRefused = false;
   const settling = pause(SETTLE_MS, showNewest);
   const sending = sender(change, (answer) => {
-    tell(answer?.level === "error" ? answer.text : "");
+    showError(answer?.level === "error" ? answer.text : "");
     if (!isRefused) settling.start();
   });
 
   /** @param {string} text */
-  function tell(text) {
+  function showError(text) {
     isRefused = text !== "";
     refused(text);
   }
@@ -45,7 +45,7 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
   /** @param {T | Mixed} value that the viewer has */
   function take(value) {
     const isOther = newest !== undefined && JSON.stringify(value) !== JSON.stringify(newest);
-    if (isOther && isRefused && !isHeld && !isFocused()) tell("");
+    if (isOther && isRefused && !isHeld && !isFocused()) showError("");
     newest = value;
     showNewest();
   }
@@ -72,11 +72,11 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
     /** They entered a value. */
     edit: sending.send,
     /** Report invalid input, and leave it for correction. */
-    refuse: tell,
+    refuse: showError,
     /** Back to what the viewer has, or is about to have. */
     cancel() {
       isHeld = false;
-      if (isRefused) tell("");
+      if (isRefused) showError("");
       showNewest();
     },
   };
@@ -88,9 +88,9 @@ export function sync({ value, show, change, refused = () => {}, isFocused = () =
  *
  * @template T
  * @param {(value: T) => unknown} change
- * @param {(answer: Outcome | undefined) => void} done
+ * @param {(answer: Outcome | undefined) => void} onAnswer
  */
-function sender(change, done) {
+function sender(change, onAnswer) {
   let isUnderWay = false;
   /** @type {{value: T} | null} */
   let waiting = null;
@@ -98,10 +98,12 @@ function sender(change, done) {
   /** @param {T} value */
   async function next(value) {
     isUnderWay = true;
-    const lost = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, LOST));
-    const answer = /** @type {Outcome | undefined} */ (await Promise.race([change(value), lost]));
+    const timeout = new Promise((resolve) => setTimeout(resolve, ANSWER_MS, NO_ANSWER));
+    const answer = /** @type {Outcome | undefined} */ (
+      await Promise.race([change(value), timeout])
+    );
     isUnderWay = false;
-    if (!waiting) return done(answer);
+    if (!waiting) return onAnswer(answer);
     const newer = waiting;
     waiting = null;
     next(newer.value);
@@ -121,9 +123,9 @@ function sender(change, done) {
  * A pause that `start()` begins anew; `done` is called at its end.
  *
  * @param {number} milliseconds
- * @param {() => void} done
+ * @param {() => void} onEnd
  */
-function pause(milliseconds, done) {
+function pause(milliseconds, onEnd) {
   /** @type {ReturnType<typeof setTimeout> | 0} */
   let timer = 0;
   return {
@@ -132,7 +134,7 @@ function pause(milliseconds, done) {
       clearTimeout(timer);
       timer = setTimeout(() => {
         timer = 0;
-        done();
+        onEnd();
       }, milliseconds);
     },
   };

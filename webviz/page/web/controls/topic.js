@@ -30,14 +30,14 @@ export function topic({ type, default: standard }, options) {
       all.sort((a, b) => (rank(a) < rank(b) ? -1 : 1));
       // While the list is shut the field has the note of its own topic.
       const own = value();
-      const known = /** @type {LiveTopic | undefined} */ (options.known?.());
+      const current = /** @type {LiveTopic | undefined} */ (options.live?.());
       if (
         typeof own === "string" &&
-        known &&
-        known.rate !== null &&
+        current &&
+        current.rate !== null &&
         !all.some((one) => one.value === own)
       )
-        all.push({ value: own, note: hertz(known.rate, known.is_latched) });
+        all.push({ value: own, note: hertz(current.rate, current.is_latched) });
       return all;
     },
     placeholder: "No topic",
@@ -45,11 +45,13 @@ export function topic({ type, default: standard }, options) {
 }
 
 /** @param {TopicOffer} offer */
-function describe({ publishers, rate, shown, problem, is_latched }) {
+function describe({ publishers, rate, shown: displays, problem, is_latched }) {
   if (problem) return { note: problem, level: "error" };
   const notes = [publishers === 1 ? "1 publisher" : `${publishers} publishers`];
   if (rate !== null) notes.unshift(hertz(rate, is_latched));
-  if (shown.length)
-    notes.push(`shown by ${shown[0]}${shown.length > 1 ? ` and ${shown.length - 1} more` : ""}`);
+  if (displays.length)
+    notes.push(
+      `shown by ${displays[0]}${displays.length > 1 ? ` and ${displays.length - 1} more` : ""}`,
+    );
   return { note: notes.join(" · ") };
 }

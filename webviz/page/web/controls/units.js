@@ -39,10 +39,10 @@ export function parse(text, unit) {
  */
 function factorOf(suffix, unit) {
   if (suffix === "" || suffix === unit) return 1;
-  const known = UNITS[unit ?? ""] ?? {};
-  const names = Object.keys(known);
+  const factors = UNITS[unit ?? ""] ?? {};
+  const names = Object.keys(factors);
   const exact = names.find((name) => name === suffix);
-  return known[exact ?? names.find((name) => same(name, suffix)) ?? ""];
+  return factors[exact ?? names.find((name) => same(name, suffix)) ?? ""];
 }
 
 /**

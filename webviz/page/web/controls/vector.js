@@ -19,7 +19,7 @@ const AXES = ["X", "Y", "Z"];
 export function vector(property, { label, help, value, change, refused }) {
   let current = /** @type {(number | Mixed)[]} */ (property.default);
   /** @type {Map<number, string>} */
-  const told = new Map();
+  const refusals = new Map();
   const parts = current.map((_, index) =>
     number(property, {
       label: `${label} ${AXES[index]}`,
@@ -36,8 +36,8 @@ export function vector(property, { label, help, value, change, refused }) {
       },
       /** @param {string} text */
       refused(text) {
-        told.set(index, text);
-        refused([...told.values()].find(Boolean) ?? "");
+        refusals.set(index, text);
+        refused([...refusals.values()].find(Boolean) ?? "");
       },
     }),
   );

@@ -25,7 +25,7 @@ const SETTLED_MS = 300; // by then, rows that come into sight have been measured
  * A row in the page; it is made once, and follows its item.
  *
  * @template T, R
- * @typedef {{made: R, item: Signal<T>, index: Signal<number>, end: End}} Mounted
+ * @typedef {{content: R, item: Signal<T>, index: Signal<number>, end: End}} Mounted
  */
 
 /**
@@ -115,7 +115,7 @@ export class VirtualList {
   #items = [];
   /** @type {Map<string, number>} */
   #places = new Map();
-  #shown = signal(0); // counts what was shown
+  #revision = signal(0); // rises with each list that is shown
   /** @type {Heights} */
   #heights;
   #width = 0;
@@ -129,7 +129,7 @@ export class VirtualList {
    * @param {{
    *   scroller: HTMLElement, canvas: HTMLElement, keyOf: (item: T) => string,
    *   make: (item: () => T, index: () => number, key: string) => R,
-   *   height?: () => number, guess?: (item: T) => number, held: () => string | null,
+   *   height?: () => number, guess?: (item: T) => number, activeKey: () => string | null,
    *   beyond: () => number,
    * }} options
    */
@@ -149,7 +149,7 @@ export class VirtualList {
 
   /** The items; read in effects. */
   items() {
-    return this.#shown.value ? this.#items : [];
+    return this.#revision.value ? this.#items : [];
   }
 
   /**
@@ -161,7 +161,7 @@ export class VirtualList {
     untracked(() =>
       batch(() => {
         this.#lay(items);
-        this.#shown.value += 1;
+        this.#revision.value += 1;
         this.mount();
       }),
     );
@@ -182,7 +182,7 @@ export class VirtualList {
    * @param {string | null | undefined} key
    */
   row(key) {
-    return this.#mounted.get(key ?? "")?.made ?? null;
+    return this.#mounted.get(key ?? "")?.content ?? null;
   }
 
   /**
@@ -225,30 +225,30 @@ export class VirtualList {
 
   /** Puts the rows into the page that are seen. */
   mount() {
-    const { scroller, canvas, keyOf, held, beyond } = this.#options;
+    const { scroller, canvas, keyOf, activeKey, beyond } = this.#options;
     const { scrollTop, clientHeight } = scroller;
     const top = scrollTop - canvas.offsetTop;
     const [first, last] = [this.at(top - beyond()), this.at(top + clientHeight + beyond())];
-    const wanted = new Set(this.#items.slice(first, last + 1).map(keyOf));
-    const stays = held();
-    if (stays !== null && this.#places.has(stays)) wanted.add(stays);
-    for (const [key, { made }] of this.#mounted) {
-      if (this.#places.has(key) && made.element.contains(document.activeElement)) wanted.add(key);
-      if (!wanted.has(key)) this.#unmount(key);
+    const keys = new Set(this.#items.slice(first, last + 1).map(keyOf));
+    const stays = activeKey();
+    if (stays !== null && this.#places.has(stays)) keys.add(stays);
+    for (const [key, { content }] of this.#mounted) {
+      if (this.#places.has(key) && content.element.contains(document.activeElement)) keys.add(key);
+      if (!keys.has(key)) this.#unmount(key);
     }
-    const shown = [...wanted].sort((a, b) => this.indexOf(a) - this.indexOf(b));
+    const order = [...keys].sort((a, b) => this.indexOf(a) - this.indexOf(b));
     /** @type {[string, HTMLElement][]} */
     const added = [];
     untracked(() =>
       batch(() => {
-        for (const key of shown) {
+        for (const key of order) {
           if (this.#follow(key)) added.push([key, this.#row(key).element]);
         }
       }),
     );
     setChildren(
       canvas,
-      shown.map((key) => this.#row(key).element),
+      order.map((key) => this.#row(key).element),
     );
     for (const [key, element] of added) this.#heights.watch(key, element);
   }
@@ -264,7 +264,7 @@ export class VirtualList {
 
   /** @param {string} key */
   #row(key) {
-    return /** @type {Mounted<T, R>} */ (this.#mounted.get(key)).made;
+    return /** @type {Mounted<T, R>} */ (this.#mounted.get(key)).content;
   }
 
   /**
@@ -280,7 +280,7 @@ export class VirtualList {
     row ??= root((end) => this.#make(key, item, at, end));
     row.item.value = item;
     row.index.value = at;
-    row.made.element.style.top = `${this.#heights.top(at)}px`;
+    row.content.element.style.top = `${this.#heights.top(at)}px`;
     return isNew;
   }
 
@@ -292,18 +292,18 @@ export class VirtualList {
    */
   #make(key, first, at, end) {
     const [item, index] = [signal(first), signal(at)];
-    const read = () => (this.#shown.value ? item.value : first);
-    const row = { made: this.#options.make(read, () => index.value, key), item, index, end };
+    const read = () => (this.#revision.value ? item.value : first);
+    const row = { content: this.#options.make(read, () => index.value, key), item, index, end };
     this.#mounted.set(key, row);
     return row;
   }
 
   /** @param {string} key */
   #unmount(key) {
-    const { made, end } = /** @type {Mounted<T, R>} */ (this.#mounted.get(key));
-    this.#heights.unwatch(made.element);
+    const { content, end } = /** @type {Mounted<T, R>} */ (this.#mounted.get(key));
+    this.#heights.unwatch(content.element);
     end();
-    made.element.remove();
+    content.element.remove();
     this.#mounted.delete(key);
   }
 
@@ -315,18 +315,18 @@ export class VirtualList {
   #lay(items) {
     const { scroller, canvas, keyOf } = this.#options;
     const isKept = !this.#heights.isFixed && scroller.scrollTop > 0 && this.#items.length > 0;
-    const seen = isKept ? this.at(scroller.scrollTop) : -1;
-    const anchor = isKept ? keyOf(this.#items[seen]) : "";
-    const before = isKept ? this.#heights.top(seen) : 0;
+    const topIndex = isKept ? this.at(scroller.scrollTop) : -1;
+    const anchor = isKept ? keyOf(this.#items[topIndex]) : "";
+    const before = isKept ? this.#heights.top(topIndex) : 0;
     this.#items = items;
     const keys = items.map(keyOf);
     this.#places = new Map(keys.map((key, index) => [key, index]));
     this.#heights.lay(keys);
     const height = `${this.#heights.top(items.length)}px`;
     if (canvas.style.height !== height) canvas.style.height = height;
-    for (const [key, { made }] of this.#mounted) {
+    for (const [key, { content }] of this.#mounted) {
       const at = this.indexOf(key);
-      if (at >= 0) made.element.style.top = `${this.#heights.top(at)}px`;
+      if (at >= 0) content.element.style.top = `${this.#heights.top(at)}px`;
     }
     const index = isKept ? this.indexOf(anchor) : -1;
     const moved = index < 0 ? 0 : this.#heights.top(index) - before;

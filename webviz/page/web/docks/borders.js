@@ -5,7 +5,7 @@ import { splitter } from "webviz/docks/splitter.js";
 import { arrange, layout } from "webviz/docks/state.js";
 
 /** @type {Map<string, HTMLElement>} */
-const known = new Map();
+const splitters = new Map();
 
 /**
  * The border between a row of panels and the scene; `size` is that of the row.
@@ -33,9 +33,9 @@ export const border = (along, key, label, size) =>
  */
 export function between(row, panel, next) {
   const key = JSON.stringify([row, panel, next]);
-  const made = known.get(key) ?? make(row, panel, next);
-  known.set(key, made);
-  return made;
+  const border = splitters.get(key) ?? make(row, panel, next);
+  splitters.set(key, border);
+  return border;
 }
 
 /**
@@ -46,8 +46,8 @@ export function between(row, panel, next) {
 function make(row, panel, next) {
   const size = row === "beside" ? "offsetHeight" : "offsetWidth";
   /** @param {"previousElementSibling" | "nextElementSibling"} side */
-  const length = (side) => /** @type {HTMLElement | null} */ (made[side])?.[size] ?? 0;
-  const made = splitter({
+  const length = (side) => /** @type {HTMLElement | null} */ (border[side])?.[size] ?? 0;
+  const border = splitter({
     label: "Size of the panels",
     along: () => (row === "beside" ? "y" : "x"),
     size: () => length("previousElementSibling"),
@@ -57,5 +57,5 @@ function make(row, panel, next) {
     },
     end: () => arrange(layout.value),
   });
-  return made;
+  return border;
 }

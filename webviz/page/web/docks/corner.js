@@ -11,19 +11,19 @@ import { el } from "webviz/dom.js";
 export function corner(element, { move, end }) {
   /** @type {{x: number, y: number} | null} */
   let grab = null; // from the size to the pointer
-  const made = el("div", { class: "wv-docked-corner", "aria-hidden": "true" });
-  made.addEventListener("pointerdown", (event) => {
+  const handle = el("div", { class: "wv-docked-corner", "aria-hidden": "true" });
+  handle.addEventListener("pointerdown", (event) => {
     const { offsetWidth, offsetHeight } = element;
     grab = { x: event.clientX - offsetWidth, y: event.clientY - offsetHeight };
-    made.setPointerCapture(event.pointerId);
+    handle.setPointerCapture(event.pointerId);
   });
-  made.addEventListener("pointermove", (event) => {
+  handle.addEventListener("pointermove", (event) => {
     if (grab) move(event.clientX - grab.x, event.clientY - grab.y);
   });
   for (const over of ["pointerup", "pointercancel"])
-    made.addEventListener(over, () => {
+    handle.addEventListener(over, () => {
       grab = null;
       end();
     });
-  return made;
+  return handle;
 }

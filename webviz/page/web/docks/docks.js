@@ -17,7 +17,7 @@ import {
   floating,
   full,
   isTabsOnly,
-  known,
+  panelsByName,
   layout,
   others,
   panels,
@@ -64,7 +64,8 @@ export function install(page) {
   effect(() => {
     frames.value = new Map(rows().map((frame) => [frame.name, frame]));
   });
-  const isUnknown = () => Boolean(alone) && panels.value.length > 0 && !known.value.has(alone);
+  const isUnknown = () =>
+    Boolean(alone) && panels.value.length > 0 && !panelsByName.value.has(alone);
   const unknown = el(
     "p",
     { class: "wv-empty", hidden: () => !isUnknown() },
@@ -120,7 +121,7 @@ export const bringForward = (name) => choose(shortName(name));
  */
 export function reveal(name) {
   const short = shortName(name);
-  if (!untracked(() => placed.value.has(short) && known.value.has(short))) return false;
+  if (!untracked(() => placed.value.has(short) && panelsByName.value.has(short))) return false;
   choose(short);
   const element = untracked(() => frames.value.get(short)?.element);
   element?.animate([{ outline: "2px solid var(--wv-accent)" }, {}], { duration: 900 });
@@ -139,7 +140,7 @@ export function dragTab(tab, name) {
     boxes: () => boxes(short()),
     drop: (to) => drop(short(), to),
     touch: false,
-    home: () => known.value.get(short())?.home,
+    home: () => panelsByName.value.get(short())?.home,
   });
 }
 
@@ -247,14 +248,14 @@ function position(name, { left, top, width, height }) {
 
 /** @param {string} name */
 function make(name) {
-  const panel = /** @type {Panel} */ (untracked(() => known.value.get(name)));
-  const panelNow = () => known.value.get(name) ?? panel;
+  const panel = /** @type {Panel} */ (untracked(() => panelsByName.value.get(name)));
+  const panelNow = () => panelsByName.value.get(name) ?? panel;
   const { element, head, end } = makeFrame(panel, {
     name,
     names: () =>
       [...placesOf("beside"), ...placesOf("below")].find(({ names }) => names.includes(name))
         ?.names ?? [name],
-    titleOf: (each) => known.value.get(each)?.title ?? each,
+    titleOf: (each) => panelsByName.value.get(each)?.title ?? each,
     choose: chooseTab,
     isFull: () => full.value === name,
     isAlone: alone === name,
@@ -333,7 +334,7 @@ function boxes(dragged) {
   if (isTabsOnly()) return null;
   const side = document.querySelector(".wv-side");
   const images = document.querySelector(".wv-dock:not([hidden])");
-  const home = known.value.get(dragged)?.home ? (images ?? side) : side;
+  const home = panelsByName.value.get(dragged)?.home ? (images ?? side) : side;
   /** @param {"beside" | "below"} place @returns {PanelBox[]} */
   const others = (place) =>
     placesOf(place).flatMap(({ names, front }) => {

@@ -44,11 +44,11 @@ const isFolded = () => document.body.classList.contains("wv-folded");
 /**
  * Folds the side away, or shows it again. On a phone it lies over the scene, and begins folded.
  *
- * @param {boolean} [wanted]
+ * @param {boolean} [next]
  */
-export function fold(wanted = !isFolded()) {
-  if (wanted !== isFolded()) document.body.classList.toggle("wv-folded", wanted);
-  if (!narrow.matches) remember("folded", wanted);
+export function fold(next = !isFolded()) {
+  if (next !== isFolded()) document.body.classList.toggle("wv-folded", next);
+  if (!narrow.matches) remember("folded", next);
 }
 
 /**

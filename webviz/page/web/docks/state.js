@@ -56,7 +56,7 @@ export const shortName = (name) => (name.startsWith(PLUGIN) ? name.slice(PLUGIN.
 /** Panels that are never tabs of the side. @type {Signal<Panel[]>} */
 export const others = signal([]);
 
-export const known = computed(
+export const panelsByName = computed(
   () => new Map([...panels.value, ...others.value].map((panel) => [shortName(panel.name), panel])),
 );
 /** Panels are tabs alone: on a phone, and in a window that has one panel. */
@@ -72,14 +72,14 @@ export const placesOf = (row) =>
   isTabsOnly()
     ? []
     : layout.value[row].flatMap((place) => {
-        const names = namesIn(place).filter((name) => known.value.has(name));
+        const names = namesIn(place).filter((name) => panelsByName.value.has(name));
         if (!names.length) return [];
         const front = chosen.value.find((name) => names.includes(name)) ?? names[0];
         return [{ key: place.panel, weight: place.weight, names, front }];
       });
 
 export const floating = () =>
-  isTabsOnly() ? [] : layout.value.over.filter(({ panel }) => known.value.has(panel));
+  isTabsOnly() ? [] : layout.value.over.filter(({ panel }) => panelsByName.value.has(panel));
 
 /** Names of the panels that are not in the tabs. */
 export const placed = computed(() => {
@@ -92,7 +92,7 @@ export const placed = computed(() => {
 export const visible = computed(() => {
   const rows = [...placesOf("beside"), ...placesOf("below")].map(({ front }) => front);
   const names = new Set([...rows, ...floating().map(({ panel }) => panel)]);
-  if (known.value.has(full.value)) names.add(full.value);
+  if (panelsByName.value.has(full.value)) names.add(full.value);
   return [...names];
 });
 

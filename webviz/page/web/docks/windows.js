@@ -1,10 +1,10 @@
 // Windows of a viewer that show one panel, or a layout of their own, as their addresses say.
 
-const asked = new URLSearchParams(location.search);
+const parameters = new URLSearchParams(location.search);
 /** The panel that is all that this window shows, "" for none. */
-export const alone = asked.get("panel") ?? "";
+export const alone = parameters.get("panel") ?? "";
 /** The saved layout of this window, "" for the one that browsers share. */
-export const layoutName = asked.get("layout") ?? "";
+export const layoutName = parameters.get("layout") ?? "";
 
 /**
  * Opens another window of this viewer.

@@ -14,7 +14,7 @@ import { makePicture } from "webviz/images/picture.js";
 
 const SCENE_MS = 100; // at most so often for what moves in the scene; for each picture anyway
 
-/** @typedef {{camera: PictureCamera | null, warp: PictureWarp | null, size: Vec2}} Seen */
+/** @typedef {{camera: PictureCamera | null, warp: PictureWarp | null, size: Vec2}} PictureView */
 
 /**
  * `drawn()` is called whenever there is another picture, `fail(sentence)` if a video is damaged.
@@ -23,18 +23,18 @@ const SCENE_MS = 100; // at most so often for what moves in the scene; for each 
  * @param {PictureListener} listener
  * @returns {Picture}
  */
-export function makeCamera(canvas, { drawn, fail }) {
+export function makeCamera(canvas, { onDraw, fail }) {
   const context = contextOf(canvas);
   const sheet = document.createElement("canvas");
   const undistorted = contextOf(document.createElement("canvas"));
-  const picture = makePicture(sheet, { drawn: take, fail });
+  const picture = makePicture(sheet, { onDraw: take, fail });
   /** @type {PictureCamera | null} */
   let camera = null;
   /** @type {PictureWarp | null} */
   let warp = null;
   /** @type {string[]} */
   let hidden = [];
-  const seen = () => ({ camera, warp, size: picture.size() });
+  const view = () => ({ camera, warp, size: picture.size() });
   const painting = paintNowAndThen(canvas, {
     isReady: () => picture.size()[0] > 0,
     paint() {
@@ -53,7 +53,7 @@ export function makeCamera(canvas, { drawn, fail }) {
 
   function take() {
     prepare();
-    drawn();
+    onDraw();
   }
 
   return {
@@ -70,9 +70,9 @@ export function makeCamera(canvas, { drawn, fail }) {
       if (ids.join() !== hidden.join()) painting.ask();
       hidden = ids;
     },
-    width: () => widthIn(canvas, seen()),
-    pixelAt: (pointer) => pixelUnder(canvas, seen(), pointer),
-    placeIn: (width, height) => placeIn(seen(), width, height),
+    width: () => widthIn(canvas, view()),
+    pixelAt: (pointer) => pixelUnder(canvas, view(), pointer),
+    placeIn: (width, height) => placeIn(view(), width, height),
     colorAt: picture.colorAt,
     close() {
       painting.end();
@@ -134,7 +134,7 @@ function paintNowAndThen(canvas, { isReady, paint }) {
  * Width of the picture on the screen, in its pixels.
  *
  * @param {HTMLCanvasElement} canvas
- * @param {Seen} seen
+ * @param {PictureView} view
  */
 function widthIn({ clientWidth, clientHeight }, { camera, size }) {
   if (!size[0]) return clientWidth * devicePixelRatio;
@@ -146,7 +146,7 @@ function widthIn({ clientWidth, clientHeight }, { camera, size }) {
  * Column and row of the picture under a pointer, null beside it.
  *
  * @param {HTMLCanvasElement} canvas
- * @param {Seen} seen
+ * @param {PictureView} view
  * @param {{clientX: number, clientY: number}} pointer
  * @returns {Vec2 | null}
  */

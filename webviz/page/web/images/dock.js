@@ -26,7 +26,7 @@ const narrow = matchMedia("(max-width: 640px)");
 /** @param {HTMLElement} page */
 export function install(page) {
   const list = el("div", { class: "wv-panes" });
-  const { border, layOut } = sizes(page, list, () => shown());
+  const { border, layOut } = sizes(page, list, () => visiblePanes());
   const dock = el(
     "aside",
     { class: "wv-dock", "aria-label": "Images", hidden: true },
@@ -35,10 +35,11 @@ export function install(page) {
   );
   page.append(dock);
   const images = follow(layOut);
-  const shown = () => images.value.filter(({ panel }) => !isPlaced(panel)).map(({ pane }) => pane);
+  const visiblePanes = () =>
+    images.value.filter(({ panel }) => !isPlaced(panel)).map(({ pane }) => pane);
   effect(() => offerOthers(images.value.map(({ panel }) => panel)));
   effect(() => {
-    const panes = shown();
+    const panes = visiblePanes();
     setChildren(
       list,
       panes.map(({ element }) => element),
@@ -105,9 +106,9 @@ const panelOf = (pane, name) => ({
  *
  * @param {HTMLElement} page
  * @param {HTMLElement} list
- * @param {() => Image["pane"][]} shown
+ * @param {() => Image["pane"][]} visiblePanes
  */
-function sizes(page, list, shown) {
+function sizes(page, list, visiblePanes) {
   const side = /** @type {HTMLElement} */ (page.querySelector(".wv-side"));
   const beside = /** @type {HTMLElement} */ (page.querySelector(".wv-beside"));
   let size = recall("dock", /** @type {number | null} */ (null));
@@ -115,7 +116,7 @@ function sizes(page, list, shown) {
   const width = () => innerWidth - side.offsetWidth - beside.offsetWidth;
   const isBelow = () => narrow.matches || width() < LEAST_ROOM;
   const room = () => (isBelow() ? innerHeight : width());
-  const wanted = () =>
+  const preferredSize = () =>
     Math.max(
       MIN_SIZE,
       Math.min(size ?? STANDARD, (size === null ? FAIR_SHARE : MAX_SHARE) * room()),
@@ -123,7 +124,7 @@ function sizes(page, list, shown) {
   const border = splitter({
     label: "Size of the images",
     along: () => (isBelow() ? "y" : "x"),
-    size: wanted,
+    size: preferredSize,
     move: (pixels, before) => resize(before - pixels),
     end: () => remember("dock", size),
     class: "wv-dock-border",
@@ -139,8 +140,8 @@ function sizes(page, list, shown) {
   return { border, layOut };
 
   function layOut() {
-    const panes = shown();
-    const full = Math.round(wanted());
+    const panes = visiblePanes();
+    const full = Math.round(preferredSize());
     const low = panes.every((pane) => pane.isFolded())
       ? Math.min(full, FOLDED * panes.length)
       : full;

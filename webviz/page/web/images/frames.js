@@ -19,18 +19,18 @@ const SETTLE_MS = 100;
 /** @type {Map<string, PicturePane>} */
 const panes = new Map();
 /** @type {Map<string, Promise<unknown>>} */
-const taken = new Map(); // by display, the promise of the newest picture
+const deliveries = new Map(); // by display, the promise of the newest picture
 /** @type {Map<string, number>} */
-const shown = new Map();
-const asked = signal(""); // each page says once that it has panes, and which it shows
+const acknowledgements = new Map();
+const lastRequest = signal(""); // each page says once that it has panes, and which it shows
 
 /** Tells the server soon which pictures are shown, and how wide. */
 export const refresh = debounced(ask, SETTLE_MS);
 
 /** Confirms pictures of all panes in one message. */
 const confirm = oncePerFrame(() => {
-  channel.send({ type: "FramesShown", numbers: Object.fromEntries(shown) });
-  shown.clear();
+  channel.send({ type: "FramesShown", numbers: Object.fromEntries(acknowledgements) });
+  acknowledgements.clear();
 });
 
 channel.onBytes((buffer) => {
@@ -42,15 +42,18 @@ channel.onBytes((buffer) => {
   // One after another: a later one that is decoded sooner must not be drawn first. Also without a
   // pane, which may come back before the server hears that it was gone.
   const take = () => panes.get(display)?.take(header, data);
-  const done = () => {
-    shown.set(display, number);
+  const acknowledge = () => {
+    acknowledgements.set(display, number);
     confirm();
   };
-  taken.set(display, (taken.get(display) ?? Promise.resolve()).then(take).then(done, done));
+  deliveries.set(
+    display,
+    (deliveries.get(display) ?? Promise.resolve()).then(take).then(acknowledge, acknowledge),
+  );
 });
 
 channel.onOpen(() => {
-  asked.value = "";
+  lastRequest.value = "";
   ask();
 });
 document.addEventListener("visibilitychange", ask);
@@ -70,22 +73,22 @@ export function open(display, pane) {
 /** @param {string} display */
 export function close(display) {
   panes.delete(display);
-  taken.delete(display);
+  deliveries.delete(display);
   refresh();
 }
 
 function ask() {
   const all = document.hidden ? [] : [...panes];
-  const shown = all.map(([display, pane]) => ({ display, width: pane.width() }));
-  const looked = shown.filter(({ width }) => width > 0).slice(0, constants.MAX_PANES);
+  const sizes = all.map(([display, pane]) => ({ display, width: pane.width() }));
+  const looked = sizes.filter(({ width }) => width > 0).slice(0, constants.MAX_PANES);
   const widths = Object.fromEntries(
     looked.map(({ display, width }) => [
       display,
       Math.min(Math.ceil(width / COARSE) * COARSE, 1 << 16),
     ]),
   );
-  const wanted = JSON.stringify(widths);
-  if (wanted === asked.value) return;
-  asked.value = wanted;
+  const request = JSON.stringify(widths);
+  if (request === lastRequest.value) return;
+  lastRequest.value = request;
   if (channel.isOpen()) channel.send({ type: "ShowPictures", widths });
 }

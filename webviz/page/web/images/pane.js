@@ -42,7 +42,7 @@ export class Pane {
   #isFolded = signal(false);
   #isFull = signal(false);
   #isEmpty = signal(false);
-  #said = signal("");
+  #problem = signal("");
   #failed = signal("");
   /** @type {Signal<Partial<PictureHeader>>} */
   #last = signal({});
@@ -75,7 +75,7 @@ export class Pane {
     const zoom = makeZoom(canvas, () => this.#zoomed());
     this.#zoom = zoom;
     const picture = (withScene ? makeCamera : makePicture)(canvas, {
-      drawn: () => this.#drawn(),
+      onDraw: () => this.#afterDraw(),
       fail: (sentence) => (this.#failed.value = sentence),
     });
     this.#picture = picture;
@@ -84,7 +84,7 @@ export class Pane {
       header: () => this.#last.value,
       aboutAt: (mouse) => this.#marks.textAt(mouse),
     });
-    const problem = () => this.#failed.value || this.#said.value;
+    const problem = () => this.#failed.value || this.#problem.value;
     this.#body = el(
       "div",
       { class: "wv-pane-body" },
@@ -174,13 +174,13 @@ export class Pane {
 
   /** @param {PaneCaption} row */
   update(row) {
-    const wanted = sanitized(row.title, 200);
+    const title = sanitized(row.title, 200);
     batch(() => {
-      if (wanted !== this.#title.value)
-        this.#isFolded.value = recall(`pane.${wanted}`, { isFolded: false }).isFolded ?? false;
-      this.#title.value = wanted;
-      this.#about.value = [sanitized(row.name, 100), wanted].join("\n");
-      this.#said.value = sanitized(row.problem);
+      if (title !== this.#title.value)
+        this.#isFolded.value = recall(`pane.${title}`, { isFolded: false }).isFolded ?? false;
+      this.#title.value = title;
+      this.#about.value = [sanitized(row.name, 100), title].join("\n");
+      this.#problem.value = sanitized(row.problem);
       this.#isEmpty.value = !row.has_picture;
     });
     this.#picture.hide?.(row.hidden ?? []);
@@ -248,7 +248,7 @@ export class Pane {
     return this.#canvas.clientWidth && this.#zoom.zoom() * this.#picture.width();
   }
 
-  #drawn() {
+  #afterDraw() {
     this.#times.push(performance.now());
     this.#failed.value = "";
     const size = this.#picture.size();

@@ -9,7 +9,7 @@ import { makeVideo } from "webviz/images/video.js";
 /** @import {Places} from "webviz/images/marks.js" */
 
 /**
- * @typedef {{drawn: () => void, fail: (sentence: string) => void}} PictureListener
+ * @typedef {{onDraw: () => void, fail: (sentence: string) => void}} PictureListener
  * @typedef {{
  *   size: () => Vec2, take: (header: PictureHeader, data: Uint8Array<ArrayBuffer>) => Promise<void>,
  *   width: () => number, pixelAt: (pointer: {clientX: number, clientY: number}) => Vec2 | null,
@@ -27,7 +27,7 @@ const SHARP = 2;
  * @param {PictureListener} listener
  * @returns {Picture}
  */
-export function makePicture(canvas, { drawn, fail }) {
+export function makePicture(canvas, { onDraw, fail }) {
   const context = contextOf(canvas);
   const pixels = pixelsOf(canvas);
   /** @type {Vec2} */
@@ -54,7 +54,7 @@ export function makePicture(canvas, { drawn, fail }) {
     const own = sizeOf(image);
     fill(canvas, context, image, own);
     size = full ?? own;
-    drawn();
+    onDraw();
   }
 
   return {

@@ -29,33 +29,33 @@ export function makeReading(id, canvas, { picture, header, aboutAt }) {
   const element = el("div", { class: "wv-pane-value", hidden: true });
   /** @type {Mouse | null} */
   let mouse = null;
-  let asked = 0;
+  let lastRead = 0;
   let later = 0;
 
   /** @param {Vec2} pixel @param {string} text */
-  const tell = ([x, y], text) => {
+  const showText = ([x, y], text) => {
     const about = mouse ? aboutAt(mouse) : "";
     setText(element, [`x ${x} · y ${y}`, text, about].filter(Boolean).join(" · "));
   };
 
   function read() {
     const pixel = mouse && picture.pixelAt(mouse);
-    if (pixel && element.hidden) tell(pixel, "");
+    if (pixel && element.hidden) showText(pixel, "");
     element.hidden = !pixel;
     if (!pixel) return;
     const { readable, legend } = header();
-    if (!readable) return tell(pixel, pixelText(picture.colorAt(pixel), legend));
+    if (!readable) return showText(pixel, pixelText(picture.colorAt(pixel), legend));
     const now = performance.now();
     clearTimeout(later);
-    if (now - asked < READ_MS) {
-      later = setTimeout(read, asked + READ_MS - now); // else a mouse that rests has an old value
+    if (now - lastRead < READ_MS) {
+      later = setTimeout(read, lastRead + READ_MS - now); // else a mouse that rests has an old value
       return;
     }
-    asked = now;
+    lastRead = now;
     channel.send({ type: "ReadPixel", display: id, x: pixel[0], y: pixel[1] });
   }
 
-  readers.set(id, ({ x, y, text }) => mouse && tell([x, y], text));
+  readers.set(id, ({ x, y, text }) => mouse && showText([x, y], text));
   canvas.addEventListener("pointermove", ({ clientX, clientY }) => {
     mouse = { clientX, clientY };
     read();

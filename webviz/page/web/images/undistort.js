@@ -98,7 +98,7 @@ function makeBench() {
  */
 function trianglesOf({ rows, columns, places }) {
   /** @type {number[]} */
-  const found = [];
+  const vertices = [];
   for (let row = 0; row + 1 < rows; row++) {
     for (let column = 0; column + 1 < columns; column++) {
       const cell = [
@@ -113,10 +113,10 @@ function trianglesOf({ rows, columns, places }) {
       });
       const corners = cell.map((corner) => corner.filter((each) => each !== null));
       if (corners.some((corner) => corner.length < 4)) continue;
-      for (const corner of [0, 1, 2, 2, 1, 3]) found.push(...corners[corner]);
+      for (const corner of [0, 1, 2, 2, 1, 3]) vertices.push(...corners[corner]);
     }
   }
-  return new Float32Array(found);
+  return new Float32Array(vertices);
 }
 
 /**
@@ -171,7 +171,7 @@ const cellAt = (share) => Math.max(0, Math.min(CELLS - 1, Math.floor(share * CEL
 function nearbyOf(places) {
   const nearby = new Int32Array(CELLS * CELLS).fill(-1);
   /** @type {number[]} */
-  const known = [];
+  const cells = [];
   /**
    * @param {number} cell
    * @param {number} corner
@@ -179,13 +179,13 @@ function nearbyOf(places) {
   const note = (cell, corner) => {
     if (nearby[cell] >= 0) return;
     nearby[cell] = corner;
-    known.push(cell);
+    cells.push(cell);
   };
   for (let corner = 0; 2 * corner < places.length; corner++) {
     const [u, v] = [places[2 * corner], places[2 * corner + 1]];
     if (Number.isFinite(u + v)) note(cellAt(v) * CELLS + cellAt(u), corner);
   }
-  for (const cell of known) {
+  for (const cell of cells) {
     // Cells without a corner have that of a neighbour.
     const [row, column] = [Math.floor(cell / CELLS), cell % CELLS];
     if (column > 0) note(cell - 1, nearby[cell]);

@@ -38,12 +38,12 @@ export function makeVideo(draw, fail) {
     decoder = null;
   }
 
-  /** @param {string} wanted */
-  async function open(wanted) {
+  /** @param {string} codecName */
+  async function open(codecName) {
     close();
     failure = null;
-    codec = wanted;
-    const config = await configFor(wanted);
+    codec = codecName;
+    const config = await configFor(codecName);
     decoder = new VideoDecoder({
       output: closing(draw),
       error(error) {

@@ -32,15 +32,15 @@ export function build() {
     },
     ...ends.map(({ group }) => group),
   );
-  let shown = "";
+  let previous = "";
   viser.beforeRender(() => {
     const axes = views.axes();
     const now = axes
       .flat()
       .map((number) => number.toFixed(2))
       .join();
-    if (now === shown) return;
-    shown = now;
+    if (now === previous) return;
+    previous = now;
     const order = ends.map((end) => ({ end, depth: end.sign * axes[end.axis][2] }));
     order.sort((a, b) => a.depth - b.depth);
     for (const { end, depth } of order) place(end, axes[end.axis], depth);

@@ -10,7 +10,7 @@ import * as rates from "webviz/overlay/rates.js";
 import * as scaleBar from "webviz/overlay/scale_bar.js";
 import * as slowLink from "webviz/overlay/slow_link.js";
 
-const shown = new Map();
+const elements = new Map();
 
 /**
  * Adds an overlay, or replaces that of the same name.
@@ -20,8 +20,8 @@ const shown = new Map();
  * @param {Element} element
  */
 export function overlay(place, name, element) {
-  shown.get(name)?.remove();
-  shown.set(name, element);
+  elements.get(name)?.remove();
+  elements.set(name, element);
   places[place].append(element);
 }
 

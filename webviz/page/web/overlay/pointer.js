@@ -91,22 +91,22 @@ class Pointing {
   async #rest() {
     const begun = performance.now();
     const at = this.#mouse;
-    const found = at && hit(at);
-    if (!found || !("group" in found)) {
+    const target = at && hit(at);
+    if (!target || !("group" in target)) {
       // the ground
       if (this.#isNamed) this.#show(at && groundAt(...at), "");
       this.#isNamed = false;
       return;
     }
-    const point = toFixedFrame(found.point);
+    const point = toFixedFrame(target.point);
     const pause = Math.max(AGAIN_MS, SHARE * (performance.now() - begun));
     this.#resting = setTimeout(() => this.#rest(), pause);
-    if (!this.#isNamed) this.#show(point, nameOf(found));
+    if (!this.#isNamed) this.#show(point, nameOf(target));
     this.#isNamed = true;
-    const [picks] = sendable([{ ...found, id: 0 }]);
+    const [picks] = sendable([{ ...target, id: 0 }]);
     const { level, text } = await act("Identify", { picks }, { quiet: true, errors: "caller" });
     if (this.#isNamed && this.#mouse === at)
-      this.#show(point, (level === "ok" && text) || nameOf(found));
+      this.#show(point, (level === "ok" && text) || nameOf(target));
   }
 
   /** @param {PointerEvent} event */

@@ -12,7 +12,7 @@ const EVERY_MS = 1000;
 const PING_TICKS = 2;
 const IDLE_FPS = 1; // viser's page draws a frame a second by itself
 
-const HINT = "Frames drawn in a second, and the time to the server and back";
+const HINT = "Frames drawn per second, and the round trip to the server";
 
 const watchers = () => store("watchers").get("count") ?? 0;
 
@@ -49,7 +49,7 @@ export function build() {
 }
 
 /**
- * Signals: frames in the last second, the last time to the server and back, and the one that is shown,
+ * Signals: frames in the last second, the last round trip to the server, and the one that is shown,
  * in milliseconds; `now` changes each second.
  */
 function measurements() {
@@ -59,28 +59,28 @@ function measurements() {
   const shownTrip = signal(/** @type {number | null} */ (null));
   let frames = 0;
   let ticks = 0;
-  let sent = 0;
+  let sendTime = 0;
   // While nothing is drawn nothing is late, and the page stands still.
   const show = () => {
     if (rate.value || shownTrip.value === null) shownTrip.value = trip.value;
   };
   const tick = () =>
     batch(() => {
-      const drawn = frames > IDLE_FPS ? frames : 0;
+      const fps = frames > IDLE_FPS ? frames : 0;
       frames = 0;
       ticks += 1;
       if (document.hidden) return;
-      rate.value = drawn;
+      rate.value = fps;
       now.value = ticks;
       if (ticks % PING_TICKS === 0 && channel.isOpen()) {
-        sent = performance.now();
+        sendTime = performance.now();
         channel.send({ type: "Ping" });
       }
       show();
     });
   channel.on("Pong", () =>
     batch(() => {
-      trip.value = performance.now() - sent;
+      trip.value = performance.now() - sendTime;
       show();
     }),
   );

@@ -13,8 +13,8 @@ import { signal } from "webviz/signals.js";
 
 const finder = signal(/** @type {Finder | null} */ (null));
 
-/** @param {Finder} found */
-export const explainStatuses = (found) => (finder.value = found);
+/** @param {Finder} find */
+export const explainStatuses = (find) => (finder.value = find);
 
 /**
  * Returns true if a finding is more than a note.

@@ -17,18 +17,18 @@ export const frameActions = [];
 /** @param {FrameAction} action */
 export const frameAction = (action) => frameActions.push(action);
 
-const wanted = signal(/** @type {string | null} */ (null));
+const frameToShow = signal(/** @type {string | null} */ (null));
 
 /**
  * Marks a frame when the panel is shown.
  *
  * @param {string} name
  */
-export const showFrame = (name) => void (wanted.value = name);
+export const showFrame = (name) => void (frameToShow.value = name);
 
 /** That frame, once; read in effects. */
 export function wantedFrame() {
-  const name = wanted.value;
-  wanted.value = null;
+  const name = frameToShow.value;
+  frameToShow.value = null;
   return name;
 }

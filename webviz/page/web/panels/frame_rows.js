@@ -51,8 +51,8 @@ export function frameRows(values, folded, text) {
     const at = rows.length;
     rows.push({ key: `${[...path].join("\n")}\n${name}`, depth, name, isOpen, frame, isLoop });
     const inside = new Set(path).add(name);
-    const found = isOpen ? own.filter((child) => add(child, depth + 1, inside)) : [];
-    if (isFound || found.length || !words.length) return true;
+    const matches = isOpen ? own.filter((child) => add(child, depth + 1, inside)) : [];
+    if (isFound || matches.length || !words.length) return true;
     rows.splice(at);
     return false;
   }
@@ -84,8 +84,8 @@ export function frameRow(row) {
   const frame = () => row().frame;
   const problems = () => frame()?.problems ?? [];
   const age = () => {
-    const shown = frame();
-    return shown && !shown.is_static ? ageText(shown) : "";
+    const current = frame();
+    return current && !current.is_static ? ageText(current) : "";
   };
   const element = el(
     "div",

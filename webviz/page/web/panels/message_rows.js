@@ -26,11 +26,11 @@ export function messageRows({ label, topic }) {
   /** @type {Map<string, boolean>} */
   const folds = new Map();
   /** @type {Fields | null} */
-  let shown = null;
+  let current = null;
 
   /** @param {Fields | null} tree */
   function show(tree) {
-    shown = tree;
+    current = tree;
     list.show(tree ? rowsOf(tree, folds) : []);
   }
 
@@ -38,7 +38,7 @@ export function messageRows({ label, topic }) {
   function toggle(row) {
     if (row.isOpen === null) return;
     folds.set(row.key, !row.isOpen);
-    show(shown);
+    show(current);
   }
 
   /** @type {ReturnType<typeof rowList<MessageRow>>} */

@@ -30,7 +30,7 @@ import { computed, each, root, signal, untracked } from "webviz/signals.js";
 const TYPING_MS = 600;
 
 /** @type {Map<string, MakeWidget>} */
-const makers = new Map();
+const factories = new Map();
 /** @type {Map<string, Set<() => void>>} */
 const awaited = new Map();
 
@@ -42,7 +42,7 @@ const awaited = new Map();
  * @param {MakeWidget} make
  */
 export function widget(kind, make) {
-  makers.set(kind, make);
+  factories.set(kind, make);
   for (const draw of awaited.get(kind) ?? []) draw();
   awaited.delete(kind);
 }
@@ -57,12 +57,12 @@ export function widget(kind, make) {
 export const makeWidget = (values, send) =>
   root((end) => {
     const { kind } = values;
-    const made = (makers.get(kind) ?? later)(values, send);
+    const instance = (factories.get(kind) ?? later)(values, send);
     return {
       kind,
-      ...made,
+      ...instance,
       close() {
-        made.close?.();
+        instance.close?.();
         end();
       },
     };
@@ -78,7 +78,7 @@ function later(values, send) {
   /** @type {Parameters<Widget["update"]> | null} */
   let last = null;
   const draw = () => {
-    inner = makers.get(kind)?.(values, send) ?? null;
+    inner = factories.get(kind)?.(values, send) ?? null;
     if (!inner) return;
     if (last) inner.update(...last);
     element.className = "";
@@ -143,10 +143,10 @@ function tableOf(rows) {
  * @returns {MakeWidget}
  */
 const following = (make) => (values, send) => {
-  const shown = signal(/** @type {V} */ (values));
+  const latest = signal(/** @type {V} */ (values));
   return {
-    element: make(() => shown.value, send),
-    update: (next) => (shown.value = /** @type {V} */ (next)),
+    element: make(() => latest.value, send),
+    update: (next) => (latest.value = /** @type {V} */ (next)),
   };
 };
 
@@ -173,9 +173,9 @@ const button = following((/** @type {() => Labelled & {width: number}} */ values
 const checkbox = following((/** @type {() => Labelled & {value: boolean}} */ values, send) => {
   /** @type {HTMLInputElement} */
   const box = el("input", { type: "checkbox", onchange: () => state.edit(box.checked) });
-  const shown = computed(() => values().value);
+  const current = computed(() => values().value);
   const state = sync({
-    value: () => shown.value,
+    value: () => current.value,
     show: (value) => (box.checked = value === true),
     change: send,
   });
@@ -202,21 +202,21 @@ const field = following((/** @type {() => Labelled & {value: string}} */ values,
     onblur: () => state.release(),
   });
   /** @type {string | null} */
-  let sent = null;
-  const shown = computed(() => values().value);
+  let lastValue = null;
+  const current = computed(() => values().value);
   const state = sync({
-    value: () => shown.value,
+    value: () => current.value,
     show(value) {
-      sent = String(value);
-      if (input.value !== sent) input.value = sent;
+      lastValue = String(value);
+      if (input.value !== lastValue) input.value = lastValue;
     },
     change: send,
   });
   function enter() {
     clearTimeout(timer);
-    if (input.value === sent) return;
-    sent = input.value;
-    state.edit(sent);
+    if (input.value === lastValue) return;
+    lastValue = input.value;
+    state.edit(lastValue);
   }
   return line(values, input);
 });
@@ -255,10 +255,10 @@ const sliders = following((/** @type {() => {slides: Slide[]}} */ values, send) 
   );
   return el("div", { class: "wv-plugin-sliders" }, slides);
 
-  /** @param {Signal<Slide>} shown */
-  function slide(shown) {
-    const { name, low, high, unit } = untracked(() => shown.value);
-    const value = computed(() => shown.value.value);
+  /** @param {Signal<Slide>} model */
+  function slide(model) {
+    const { name, low, high, unit } = untracked(() => model.value);
+    const value = computed(() => model.value.value);
     const control = slider(
       { kind: "float", low, high, unit },
       {

@@ -93,13 +93,13 @@ function typesText(topic) {
  */
 export function arranged(topics, text, sort) {
   const words = wordsOf(text);
-  const found = topics.filter(({ key, types }) => {
+  const matches = topics.filter(({ key, types }) => {
     const all = `${key} ${types.join(" ")}`.toLowerCase();
     return words.every((word) => all.includes(word));
   });
   const { value, isNumber } = COLUMNS.find(({ id }) => id === sort.column) ?? COLUMNS[0];
   const sign = sort.isUp ? 1 : -1;
-  return found.sort(
+  return matches.sort(
     (a, b) => sign * compare(value(a), value(b), isNumber) || compare(a.key, b.key),
   );
 }

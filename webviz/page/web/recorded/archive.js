@@ -4,7 +4,7 @@ import { bufferOf, chunks, revived } from "webviz/recorded/chunks.js";
 import { lastUpTo } from "webviz/recorded/moments.js";
 
 /** @import {ViserMessage} from "webviz/types.js" */
-/** @import {Chunk, ChunkIndex, Known} from "webviz/recorded/types.js" */
+/** @import {Chunk, ChunkIndex, MessageFacts} from "webviz/recorded/types.js" */
 
 /** @typedef {"message" | "value" | "picture"} Kind */
 
@@ -42,10 +42,10 @@ function homesIn(index, chunk) {
    */
   return async (kind, numbers) => {
     /** @type {Map<number, Chunk>} */
-    const found = new Map();
+    const chunks = new Map();
     for (const place of new Set(numbers.map((number) => home(kind, number))))
-      found.set(place, await chunk(place));
-    return (number) => /** @type {Chunk} */ (found.get(home(kind, number)));
+      chunks.set(place, await chunk(place));
+    return (number) => /** @type {Chunk} */ (chunks.get(home(kind, number)));
   };
 }
 
@@ -66,7 +66,7 @@ export function archive(index) {
      * The nodes, keys and phases of messages.
      *
      * @param {number[]} numbers
-     * @returns {Promise<Known[]>}
+     * @returns {Promise<MessageFacts[]>}
      */
     async facts(numbers) {
       const of = await homes("message", numbers);

@@ -83,8 +83,8 @@ export function chunks() {
   }
 
   return async (/** @type {number} */ number) => {
-    const known = at(number) ?? underway.get(number);
-    if (known) return known;
+    const entry = at(number) ?? underway.get(number);
+    if (entry) return entry;
     const promise = unpack(number);
     underway.set(number, promise);
     try {

@@ -15,7 +15,7 @@ const TELL_MS = 100;
 export function clock(duration, show, tell) {
   /** @type {Playing} */
   const state = { position: 0, isPlaying: false, rate: 1, loop: false, selected: null };
-  let [last, told] = [0, 0]; // when it was looked, and when `tell` was called, in ms
+  let [last, lastReport] = [0, 0]; // when it was looked, and when `tell` was called, in ms
   /** @type {Promise<void>} */
   let showing = Promise.resolve();
 
@@ -35,8 +35,8 @@ export function clock(duration, show, tell) {
     const position = positionAfter(state, passed, span());
     if (position === null) return pause(true);
     await showNext((state.position = position));
-    if (now - told >= TELL_MS) {
-      told = now;
+    if (now - lastReport >= TELL_MS) {
+      lastReport = now;
       tell();
     }
     if (state.isPlaying) requestAnimationFrame(tick);

@@ -8,7 +8,7 @@ import { frameAt } from "webviz/recorded/moments.js";
 import { selection } from "webviz/recorded/selection.js";
 import { views } from "webviz/recorded/views.js";
 
-/** @import {Do, Done, FromPage, ToPage} from "webviz/messages.js" */
+/** @import {CommandRequest, CommandResult, FromPage, ToPage} from "webviz/messages.js" */
 /** @import {Socket} from "webviz/channel.js" */
 /** @import {ViserMessage} from "webviz/types.js" */
 /** @import {About} from "webviz/recorded/types.js" */
@@ -53,13 +53,13 @@ export function refusal(what, { path }) {
 export function connection(about, feed, fail) {
   const socket = makeSocket((message) => answer(message));
   /** @param {ToPage} message */
-  const tell = (message) => socket.onmessage?.({ data: JSON.stringify(message) });
+  const deliver = (message) => socket.onmessage?.({ data: JSON.stringify(message) });
   const panes = pictureSender((data) => socket.onmessage?.({ data }));
   /** @type {Promise<void>} */
   let applied = Promise.resolve();
   const run = new Player(about, {
     scene: (messages) => (applied = feed(messages)),
-    store: (store, all, set, gone) => tell({ type: "Values", store, all, set, gone }),
+    store: (store, all, set, gone) => deliver({ type: "Values", store, all, set, gone }),
     pictures: panes.offer,
   });
   /** @param {number} at */
@@ -71,14 +71,14 @@ export function connection(about, feed, fail) {
       fail(error); // and other times can still be shown
     }
   };
-  const time = clock(about.duration, show, () => own.tell(["clock", "playback"]));
-  const view = views(about, tell, () => own.tell(["view:0", "view_type:0"]));
+  const time = clock(about.duration, show, () => own.update(["clock", "playback"]));
+  const view = views(about, deliver, () => own.update(["view:0", "view_type:0"]));
   const picked = selection(
     (display) => run.value("displays", display),
     (display, node) => run.read(`values:${display}`, node),
     () => `${run.ros().toFixed(3)} s`,
   );
-  const own = ownStores(about, tell, {
+  const own = ownStores(about, deliver, {
     clock: () => clockValues(run.ros(), time.state()),
     playback: () => playbackValues(about, time.state()),
     // Of this page alone, whose number is 0.
@@ -90,21 +90,21 @@ export function connection(about, feed, fail) {
   const acts = {
     ...timeActs(about, time),
     ...view.acts,
-    ...sceneActs(run, view, tell),
+    ...sceneActs(run, view, deliver),
     Select: (/** @type {any} */ fields) =>
-      picked.select(fields).then(() => own.tell(["selected:0", "selection:0"])),
+      picked.select(fields).then(() => own.update(["selected:0", "selection:0"])),
   };
 
-  const answer = answers({ own, run, acts, panes, tell });
+  const answer = answers({ own, run, acts, panes, deliver });
   const begun = time.seek(about.at);
   return {
     socket,
     /** To be called once the page listens to the socket. */
     async open() {
       socket.onopen?.(null);
-      tell({ type: "You", role: "recording", name: "" });
+      deliver({ type: "Identity", role: "recording", name: "" });
       await begun;
-      for (const message of about.greeting) tell(message);
+      for (const message of about.greeting) deliver(message);
     },
   };
 }
@@ -128,22 +128,22 @@ const makeSocket = (hear) => ({
  *
  * @param {{
  *   own: ReturnType<typeof ownStores>, run: Player, acts: Acts,
- *   panes: ReturnType<typeof pictureSender>, tell: (message: ToPage) => void,
+ *   panes: ReturnType<typeof pictureSender>, deliver: (message: ToPage) => void,
  * }} viewer
  * @returns {(message: FromPage) => void}
  */
-const answers = ({ own, run, acts, panes, tell }) =>
+const answers = ({ own, run, acts, panes, deliver }) =>
   function answer(message) {
     if (message.type === "Watch") {
       if (!own.watch(message.store)) run.watch(message.store);
     } else if (message.type === "Unwatch") {
       own.unwatch(message.store);
       run.unwatch(message.store);
-    } else if (message.type === "Do") carryOut(acts, message).then(tell);
+    } else if (message.type === "CommandRequest") carryOut(acts, message).then(deliver);
     else if (message.type === "ShowPictures")
       panes.show(Object.keys(message.widths), (display) => run.repeat(display));
     else if (message.type === "FramesShown") panes.confirm(Object.keys(message.numbers));
-    else if (message.type === "Ping") tell({ type: "Pong" });
+    else if (message.type === "Ping") deliver({ type: "Pong" });
   };
 
 /**
@@ -159,9 +159,9 @@ function pictureSender(send) {
   function sendNext(display) {
     const pane = panes.get(display);
     if (!pane?.next || pane.underway >= MAX_IN_FLIGHT) return;
-    const makers = pane.next;
+    const factories = pane.next;
     pane.next = null;
-    for (const make of makers) {
+    for (const make of factories) {
       pane.underway += 1;
       send(make());
     }
@@ -172,12 +172,12 @@ function pictureSender(send) {
      * The pictures of a display have come, in place of those that were not sent yet.
      *
      * @param {string} display
-     * @param {(() => ArrayBuffer)[]} makers
+     * @param {(() => ArrayBuffer)[]} factories
      */
-    offer(display, makers) {
+    offer(display, factories) {
       const pane = panes.get(display);
       if (!pane) return;
-      pane.next = makers;
+      pane.next = factories;
       sendNext(display);
     },
     /**
@@ -209,23 +209,23 @@ function pictureSender(send) {
  * The stores that are made here, and those that do not change.
  *
  * @param {About} about
- * @param {(message: ToPage) => void} tell
- * @param {Record<string, () => Record<string, unknown>>} makers
+ * @param {(message: ToPage) => void} deliver
+ * @param {Record<string, () => Record<string, unknown>>} factories
  */
-function ownStores(about, tell, makers) {
+function ownStores(about, deliver, factories) {
   /** @type {Set<string>} */
   const watched = new Set();
   /**
    * @param {string} store
    * @param {Record<string, unknown>} set
    */
-  const send = (store, set) => tell({ type: "Values", store, all: true, set, gone: [] });
+  const send = (store, set) => deliver({ type: "Values", store, all: true, set, gone: [] });
   /** @param {string} name */
-  const tellOne = (name) => send(name, makers[name]?.() ?? about.stores[name] ?? {});
+  const updateOne = (name) => send(name, factories[name]?.() ?? about.stores[name] ?? {});
   return {
     /** @param {string[]} names */
-    tell(names) {
-      for (const name of names) if (watched.has(name)) tellOne(name);
+    update(names) {
+      for (const name of names) if (watched.has(name)) updateOne(name);
     },
     /**
      * Sends a store, and when it changes; false for one that the run has.
@@ -233,9 +233,9 @@ function ownStores(about, tell, makers) {
      * @param {string} name
      */
     watch(name) {
-      if (name in makers || name in about.stores) {
+      if (name in factories || name in about.stores) {
         watched.add(name);
-        tellOne(name);
+        updateOne(name);
       } else if (NOT_RECORDED.test(name)) send(name, { problem: NO_VALUES });
       else return false;
       return true;
@@ -296,16 +296,16 @@ const timeActs = ({ duration, index }, time) => ({
 /**
  * @param {Player} run
  * @param {ReturnType<typeof views>} view
- * @param {(message: ToPage) => void} tell
+ * @param {(message: ToPage) => void} deliver
  * @returns {Acts}
  */
-const sceneActs = (run, view, tell) => ({
+const sceneActs = (run, view, deliver) => ({
   FocusDisplay({ display }) {
     const box = boxOf(run.within(display));
     if (!box) throw new Error("This display draws nothing to focus on. Check its statuses.");
     view.lookAt(box);
   },
-  SaveImage: ({ name = "" }) => tell({ type: "SaveCanvas", name }),
+  SaveImage: ({ name = "" }) => deliver({ type: "SaveCanvas", name }),
   SetProperty: ({ display, value }) => run.enable(display, value),
   Identify: () => {},
 });
@@ -326,8 +326,8 @@ function neighbour(index, position, isForward) {
 
 /**
  * @param {Acts} acts
- * @param {Do} request
- * @returns {Promise<Done>}
+ * @param {CommandRequest} request
+ * @returns {Promise<CommandResult>}
  */
 async function carryOut(acts, { number, command, arguments: fields }) {
   let [level, text] = ["ok", ""];
@@ -338,5 +338,5 @@ async function carryOut(acts, { number, command, arguments: fields }) {
   } catch (error) {
     [level, text] = ["error", error instanceof Error ? error.message : String(error)];
   }
-  return { type: "Done", number, command, level, text, result: {} };
+  return { type: "CommandResult", number, command, level, text, result: {} };
 }

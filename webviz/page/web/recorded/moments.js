@@ -1,6 +1,6 @@
 // Contents of a recorded run at each of its frames, by numbers of messages, values and pictures.
 
-/** @import {Chunk, ChunkIndex, Shown} from "webviz/recorded/types.js" */
+/** @import {Chunk, ChunkIndex, RecordedState} from "webviz/recorded/types.js" */
 
 /**
  * The last item of a sorted list that is not above a value; at least the first.
@@ -37,12 +37,12 @@ export function frameAt(index, at) {
  *
  * @param {Pick<Chunk, "start" | "frames">} chunk
  * @param {number} frame
- * @returns {Shown}
+ * @returns {RecordedState}
  */
 export function shownAt(chunk, frame) {
   const { scene, stores, panes } = chunk.start;
-  /** @type {Shown} */
-  const shown = {
+  /** @type {RecordedState} */
+  const state = {
     ros: chunk.frames[frame][1],
     scene: new Set(scene),
     stores: new Map(
@@ -50,21 +50,21 @@ export function shownAt(chunk, frame) {
     ),
     panes: new Map(Object.entries(panes)),
   };
-  for (const [, , added, gone, values, pictures] of chunk.frames.slice(1, frame + 1)) {
-    for (const number of gone) shown.scene.delete(number);
-    for (const number of added) shown.scene.add(number);
+  for (const [, , added, removals, values, pictures] of chunk.frames.slice(1, frame + 1)) {
+    for (const number of removals) state.scene.delete(number);
+    for (const number of added) state.scene.add(number);
     for (const [store, key, number] of values) {
-      const content = shown.stores.get(store) ?? new Map();
-      shown.stores.set(store, content);
+      const content = state.stores.get(store) ?? new Map();
+      state.stores.set(store, content);
       if (number < 0) content.delete(key);
       else content.set(key, number);
     }
     for (const [display, numbers] of pictures) {
-      if (numbers.length) shown.panes.set(display, numbers);
-      else shown.panes.delete(display);
+      if (numbers.length) state.panes.set(display, numbers);
+      else state.panes.delete(display);
     }
   }
-  return shown;
+  return state;
 }
 
 /**

@@ -1,4 +1,4 @@
-// Shows a recorded run at a time, to viser's page and to whoever watches stores and pictures.
+// Shows a recorded run at a time, to viser's page and to listeners of stores and pictures.
 
 import { archive } from "webviz/recorded/archive.js";
 import { frameAt, shownAt, within } from "webviz/recorded/moments.js";
@@ -6,7 +6,7 @@ import { changesBetween } from "webviz/recorded/scene_changes.js";
 import { switches } from "webviz/recorded/switches.js";
 
 /** @import {ViserMessage} from "webviz/types.js" */
-/** @import {About, Known, Shown} from "webviz/recorded/types.js" */
+/** @import {About, MessageFacts, RecordedState} from "webviz/recorded/types.js" */
 
 /**
  * @typedef {{
@@ -18,7 +18,7 @@ import { switches } from "webviz/recorded/switches.js";
 
 const ROWS = "displays";
 
-/** @type {Shown} */
+/** @type {RecordedState} */
 const NOTHING = { ros: 0, scene: new Set(), stores: new Map(), panes: new Map() };
 
 /** Shows the moments of a run, and answers what is asked of the one that is shown. */
@@ -26,10 +26,10 @@ export class Player {
   #index;
   #run;
   #sinks;
-  #shown = NOTHING;
+  #state = NOTHING;
   #place = ""; // the chunk and the frame that are shown
-  /** @type {Map<number, Known>} */
-  #known = new Map(); // of the scene
+  /** @type {Map<number, MessageFacts>} */
+  #nodes = new Map(); // of the scene
   /** @type {Map<string, Map<string, unknown>>} */
   #values = new Map(); // of the stores that are shown, by key
   /** @type {Set<string>} */
@@ -56,12 +56,12 @@ export class Player {
     const place = `${number}.${frame}`;
     if (this.#place === place) return;
     const next = shownAt(await this.#run.chunk(number), frame);
-    const { all, messages } = await sceneMessages(this.#run, this.#known, next);
+    const { all, messages } = await sceneMessages(this.#run, this.#nodes, next);
     const stores = await storeValues(this.#run, next, this.#watched);
-    const before = this.#shown;
-    this.#shown = next;
+    const before = this.#state;
+    this.#state = next;
     this.#place = place;
-    this.#known = all;
+    this.#nodes = all;
     this.#sinks.scene(this.#switched.messages(messages));
     this.#showStores(stores);
     for (const display of new Set([...before.panes.keys(), ...next.panes.keys()])) {
@@ -73,7 +73,7 @@ export class Player {
 
   /** The ROS time of the frame that is shown. */
   ros() {
-    return this.#shown.ros;
+    return this.#state.ros;
   }
 
   /**
@@ -94,7 +94,7 @@ export class Player {
    * @param {string} start
    */
   async read(store, start) {
-    const all = [...(this.#shown.stores.get(store) ?? [])].filter(([key]) => key.startsWith(start));
+    const all = [...(this.#state.stores.get(store) ?? [])].filter(([key]) => key.startsWith(start));
     const value = await this.#run.values(all.map(([, number]) => number));
     return new Map(all.map(([key, number]) => [key.slice(start.length), value(number)]));
   }
@@ -112,7 +112,7 @@ export class Player {
   async watch(name) {
     this.#watched.add(name);
     this.#values.delete(name);
-    if (this.#place) this.#showStores(await storeValues(this.#run, this.#shown, [name]));
+    if (this.#place) this.#showStores(await storeValues(this.#run, this.#state, [name]));
   }
 
   /** @param {string} name */
@@ -130,9 +130,9 @@ export class Player {
   async enable(display, enabled) {
     const problem = this.#switched.set(display, enabled);
     if (problem) throw new Error(problem);
-    const { messages, numbers } = this.#switched.difference(this.#known.values());
+    const { messages, numbers } = this.#switched.difference(this.#nodes.values());
     this.#sinks.scene([...messages, ...(await this.#run.messages(numbers))]);
-    this.#showStores(await storeValues(this.#run, this.#shown, this.#watched));
+    this.#showStores(await storeValues(this.#run, this.#state, this.#watched));
   }
 
   /**
@@ -141,7 +141,7 @@ export class Player {
    * @param {string} display
    */
   repeat(display) {
-    return this.#showPicture(this.#shown, display);
+    return this.#showPicture(this.#state, display);
   }
 
   /**
@@ -162,13 +162,14 @@ export class Player {
         continue;
       }
       const set = [...content].filter(([key, value]) => before.get(key) !== value);
-      const gone = [...before.keys()].filter((key) => !content.has(key));
-      if (set.length || gone.length) this.#sinks.store(name, false, Object.fromEntries(set), gone);
+      const deletions = [...before.keys()].filter((key) => !content.has(key));
+      if (set.length || deletions.length)
+        this.#sinks.store(name, false, Object.fromEntries(set), deletions);
     }
   }
 
   /**
-   * @param {Shown} next
+   * @param {RecordedState} next
    * @param {string} display
    */
   async #showPicture(next, display) {
@@ -182,39 +183,41 @@ export class Player {
  * All that the scene consists of at a moment, and the messages that lead there from what is known.
  *
  * @param {Archive} run
- * @param {Map<number, Known>} known
- * @param {Shown} next
+ * @param {Map<number, MessageFacts>} before
+ * @param {RecordedState} next
  */
-async function sceneMessages(run, known, next) {
+async function sceneMessages(run, before, next) {
   const numbers = [...next.scene].sort((a, b) => a - b);
-  const fresh = await run.facts(numbers.filter((number) => !known.has(number)));
+  const fresh = await run.facts(numbers.filter((number) => !before.has(number)));
   const facts = new Map([
-    ...known,
+    ...before,
     ...fresh.map((one) => /** @type {const} */ ([one.number, one])),
   ]);
-  const all = new Map(numbers.map((number) => [number, /** @type {Known} */ (facts.get(number))]));
-  const { gone, wanted } = changesBetween(known.values(), all.values());
-  const removals = gone.map((name) => ({ type: "RemoveSceneNodeMessage", name, owner: "" }));
-  return { all, messages: [...removals, ...(await run.messages(wanted))] };
+  const all = new Map(
+    numbers.map((number) => [number, /** @type {MessageFacts} */ (facts.get(number))]),
+  );
+  const { deletions, updates } = changesBetween(before.values(), all.values());
+  const removals = deletions.map((name) => ({ type: "RemoveSceneNodeMessage", name, owner: "" }));
+  return { all, messages: [...removals, ...(await run.messages(updates))] };
 }
 
 /**
  * The values of the stores of these names at a moment, by their keys.
  *
  * @param {Archive} run
- * @param {Shown} next
+ * @param {RecordedState} next
  * @param {Iterable<string>} names
  */
 async function storeValues(run, next, names) {
-  const wanted = [...names].map((name) => ({
+  const entries = [...names].map((name) => ({
     name,
     numbers: [...(next.stores.get(name) ?? [])],
   }));
   const value = await run.values(
-    wanted.flatMap(({ numbers }) => numbers.map(([, number]) => number)),
+    entries.flatMap(({ numbers }) => numbers.map(([, number]) => number)),
   );
   return new Map(
-    wanted.map(({ name, numbers }) => [
+    entries.map(({ name, numbers }) => [
       name,
       new Map(numbers.map(([key, number]) => [key, value(number)])),
     ]),

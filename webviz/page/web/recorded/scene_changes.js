@@ -3,9 +3,9 @@
 // A state is the set of messages that a browser would receive that joins then. Those of one node come
 // together: the one that creates it, and changes, each of which has a key.
 
-/** @import {Known} from "webviz/recorded/types.js" */
+/** @import {MessageFacts} from "webviz/recorded/types.js" */
 
-/** @typedef {{create: Known | null, changes: Map<string, Known>}} Node */
+/** @typedef {{create: MessageFacts | null, changes: Map<string, MessageFacts>}} Node */
 
 /** @type {Node} */
 const NOTHING = { create: null, changes: new Map() };
@@ -13,7 +13,7 @@ const NOTHING = { create: null, changes: new Map() };
 /**
  * By node, "" for the scene as a whole. A node that was removed has nothing.
  *
- * @param {Iterable<Known>} messages in order
+ * @param {Iterable<MessageFacts>} messages in order
  */
 function byNode(messages) {
   /** @type {Map<string, Node>} */
@@ -32,30 +32,30 @@ function byNode(messages) {
 /**
  * The nodes to remove, and then the numbers of the messages to apply, both in order.
  *
- * @param {Iterable<Known>} before in order
- * @param {Iterable<Known>} after likewise
+ * @param {Iterable<MessageFacts>} before in order
+ * @param {Iterable<MessageFacts>} after likewise
  */
 export function changesBetween(before, after) {
   const [old, next] = [byNode(before), byNode(after)];
   /** @type {Set<string>} */
-  const gone = new Set();
+  const deletions = new Set();
   /** @type {number[]} */
-  const wanted = [];
+  const updates = [];
   // Parents come before what is below them, which goes with them.
   for (const name of [...new Set([...old.keys(), ...next.keys()])].sort()) {
-    const from = isBelow(name, gone) ? NOTHING : (old.get(name) ?? NOTHING);
+    const from = isBelow(name, deletions) ? NOTHING : (old.get(name) ?? NOTHING);
     const to = next.get(name) ?? NOTHING;
     // A page cannot take back a change, but make the node anew.
     const isStale = [...from.changes.keys()].some((key) => !to.changes.has(key));
-    if (from.create && (!to.create || isStale)) gone.add(name);
+    if (from.create && (!to.create || isStale)) deletions.add(name);
     const isNew =
-      to.create !== null && (from.create?.number !== to.create.number || gone.has(name));
-    if (isNew && to.create) wanted.push(to.create.number);
+      to.create !== null && (from.create?.number !== to.create.number || deletions.has(name));
+    if (isNew && to.create) updates.push(to.create.number);
     for (const [key, { number }] of to.changes) {
-      if (isNew || from.changes.get(key)?.number !== number) wanted.push(number);
+      if (isNew || from.changes.get(key)?.number !== number) updates.push(number);
     }
   }
-  return { gone: [...gone], wanted: wanted.sort((a, b) => a - b) };
+  return { deletions: [...deletions], updates: updates.sort((a, b) => a - b) };
 }
 
 /**

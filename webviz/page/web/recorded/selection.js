@@ -34,7 +34,7 @@ export function selection(rowOf, valuesOf, stamp) {
    * @param {any} item
    * @param {NodeValues} values
    */
-  function made({ group, key }, [, number, at, color], values) {
+  function thingOf({ group, key }, [, number, at, color], values) {
     const display = group.split("/", 1)[0];
     const row = rowOf(display);
     const name = row?.name ?? display;
@@ -67,7 +67,7 @@ export function selection(rowOf, valuesOf, stamp) {
       for (const each of picks) {
         const display = each.group.split("/", 1)[0];
         const values = await valuesOf(display, `${each.group}\n${each.key}\n`);
-        for (const item of each.items) next.set(item[0], made(each, item, values));
+        for (const item of each.items) next.set(item[0], thingOf(each, item, values));
       }
       things = next;
       total = Math.max(count, things.size);
@@ -75,9 +75,9 @@ export function selection(rowOf, valuesOf, stamp) {
     selected: () =>
       Object.fromEntries([...things].map(([id, { display }]) => [id, [display, false]])),
     selection() {
-      const told = [...things].map(([id, { thing }]) => [id, thing]);
+      const entries = [...things].map(([id, { thing }]) => [id, thing]);
       const info = { total, live: things.size, count: things.size };
-      return things.size ? { ...Object.fromEntries(told), "/info": info } : {};
+      return things.size ? { ...Object.fromEntries(entries), "/info": info } : {};
     },
   };
 }

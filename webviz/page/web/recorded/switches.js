@@ -4,7 +4,7 @@ import constants from "webviz/constants.js";
 
 /** @import {DisplayRow} from "webviz/contents.js" */
 /** @import {ViserMessage} from "webviz/types.js" */
-/** @import {Known} from "webviz/recorded/types.js" */
+/** @import {MessageFacts} from "webviz/recorded/types.js" */
 
 const WAS_OFF = "was off when this file was made, so the file does not contain it.";
 const VISIBILITY = "SetSceneNodeVisibilityMessage";
@@ -23,7 +23,7 @@ function displayOf(name) {
   return group.split("%", 1)[0];
 }
 
-/** @param {Known} message */
+/** @param {MessageFacts} message */
 const isVisibility = ({ key }) => key.endsWith(VISIBILITY);
 
 /** @param {string} name @param {boolean} visible */
@@ -34,7 +34,7 @@ const visibility = (name, visible) => ({ type: VISIBILITY, name, visible, owner:
  */
 export function switches() {
   /** @type {Map<string, boolean>} */
-  const wanted = new Map(); // by id of the display
+  const overrides = new Map(); // by id of the display
   /** @type {Set<string>} */
   let hidden = new Set(); // displays, by themselves or with their group
   /** @type {Content} */
@@ -43,8 +43,8 @@ export function switches() {
   /** @param {Content} content */
   function rows(content) {
     recorded = content;
-    hidden = hiddenBy(wanted, recorded);
-    return new Map([...content].map(([id, row]) => [id, switched(row, wanted.get(id))]));
+    hidden = hiddenBy(overrides, recorded);
+    return new Map([...content].map(([id, row]) => [id, switched(row, overrides.get(id))]));
   }
 
   return {
@@ -58,9 +58,9 @@ export function switches() {
       /** @type {DisplayRow | undefined} */
       const row = recorded.get(id);
       if (enabled && row && !row.enabled) return `${row.name} ${WAS_OFF}`;
-      if (enabled) wanted.delete(id);
-      else wanted.set(id, false);
-      hidden = hiddenBy(wanted, recorded);
+      if (enabled) overrides.delete(id);
+      else overrides.set(id, false);
+      hidden = hiddenBy(overrides, recorded);
       return "";
     },
     /**
@@ -85,7 +85,7 @@ export function switches() {
     /**
      * Hides or shows the nodes of displays after a switch: messages, and numbers of recorded ones.
      *
-     * @param {Iterable<Known>} all messages of the scene
+     * @param {Iterable<MessageFacts>} all messages of the scene
      */
     difference: (all) => differenceOf(all, hidden),
   };
@@ -103,10 +103,10 @@ const switched = (row, isWanted) =>
 /**
  * The displays that are hidden, by themselves or with their group.
  *
- * @param {Map<string, boolean>} wanted
+ * @param {Map<string, boolean>} overrides
  * @param {Content} recorded the store "displays"
  */
-function hiddenBy(wanted, recorded) {
+function hiddenBy(overrides, recorded) {
   /** @type {Set<string>} */
   const hidden = new Set();
   /** @type {number | null} */
@@ -115,7 +115,7 @@ function hiddenBy(wanted, recorded) {
     /** @type {DisplayRow} */
     const row = recorded.get(id);
     if (off !== null && row.depth <= off) off = null;
-    if (off === null && wanted.get(id) === false) off = row.depth;
+    if (off === null && overrides.get(id) === false) off = row.depth;
     if (off !== null) hidden.add(id);
   }
   return hidden;
@@ -130,10 +130,10 @@ function hiddenBy(wanted, recorded) {
 function without(content, hidden) {
   /** @param {string} id */
   const isShown = (id) => !hidden.has(id);
-  const shown = new Map([...content].filter(([id]) => isShown(id)));
+  const result = new Map([...content].filter(([id]) => isShown(id)));
   const order = content.get("order");
-  if (order) shown.set("order", order.filter(isShown));
-  return shown;
+  if (order) result.set("order", order.filter(isShown));
+  return result;
 }
 
 /**
@@ -150,7 +150,7 @@ function hiding(message, hidden) {
 }
 
 /**
- * @param {Iterable<Known>} all
+ * @param {Iterable<MessageFacts>} all
  * @param {Set<string>} hidden
  */
 function differenceOf(all, hidden) {

@@ -60,14 +60,14 @@ export interface About {
   stores: Record<string, Record<string, unknown>>;
 }
 /** What is shown at a moment, by the numbers in the chunks. */
-export interface Shown {
+export interface RecordedState {
   ros: number;
   scene: Set<number>;
   stores: Map<string, Map<string, number>>;
   panes: Map<string, number[]>;
 }
 /** A message of the scene without its content. */
-export type Known = { number: number; key: string; node: string; phase: string };
+export type MessageFacts = { number: number; key: string; node: string; phase: string };
 /** The playback of a run. */
 export interface Playing {
   position: number;

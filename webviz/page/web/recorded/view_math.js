@@ -63,8 +63,10 @@ const OPTIONS = ["target_frame", "invert_z_axis", "point_towards", "lock_camera"
  */
 export const optionsOf = (type, view) => {
   const own = ["target_frame", ...Object.keys(DEFAULTS[type] ?? AROUND)];
-  const kept = Object.entries(view).filter(([key]) => OPTIONS.includes(key) && own.includes(key));
-  return Object.fromEntries(kept);
+  const entries = Object.entries(view).filter(
+    ([key]) => OPTIONS.includes(key) && own.includes(key),
+  );
+  return Object.fromEntries(entries);
 };
 
 /**

@@ -178,10 +178,10 @@ function boxAround(about, frame) {
  * @param {View} view
  */
 function valuesOf(about, view) {
-  const told = Object.entries(view).map(([key, value]) => [`value.${key}`, rounded(value)]);
+  const fields = Object.entries(view).map(([key, value]) => [`value.${key}`, rounded(value)]);
   return {
     declared: about.view_forms[view.type] ?? [],
     types: VIEW_TYPES,
-    ...Object.fromEntries(told),
+    ...Object.fromEntries(fields),
   };
 }

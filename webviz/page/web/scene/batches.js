@@ -12,9 +12,9 @@ export function install() {
   let before = new Set();
   viser.afterRender(() => {
     /** @type {Set<SceneObject>} */
-    const drawn = new Set();
-    viser.scene().traverse((object) => object.isInstancedMesh2 && drawn.add(object));
-    for (const batch of before) if (!drawn.has(batch)) batch.geometry.dispose();
-    before = drawn;
+    const batches = new Set();
+    viser.scene().traverse((object) => object.isInstancedMesh2 && batches.add(object));
+    for (const batch of before) if (!batches.has(batch)) batch.geometry.dispose();
+    before = batches;
   });
 }

@@ -18,8 +18,8 @@ export function install() {
   let others = 0;
   let thinned = 0;
   viser.beforeEveryRender((gl, scene, camera) => {
-    const held = capacity.points();
-    thinned = thin(blocks(), camera, Math.max(held - others, LEAST_SHARE * held));
+    const limit = capacity.points();
+    thinned = thin(blocks(), camera, Math.max(limit - others, LEAST_SHARE * limit));
   });
   // three.js may find blocks out of sight that were counted.
   viser.afterRender(() => (others = Math.max(viser.gl().info.render.points - thinned, 0)));
@@ -28,13 +28,13 @@ export function install() {
 /** @returns {SceneObject[]} */
 function blocks() {
   /** @type {SceneObject[]} */
-  const found = [];
+  const clouds = [];
   const nodes = viser.nodes();
   for (const name in nodes) {
     if (!name.includes(MARK) || !nodes[name] || !isShown(nodes[name])) continue;
-    nodes[name].traverse((object) => object.isPoints && found.push(object));
+    nodes[name].traverse((object) => object.isPoints && clouds.push(object));
   }
-  return found;
+  return clouds;
 }
 
 /**
@@ -54,25 +54,25 @@ function isShown(object) {
  * @param {number} budget
  */
 function thin(objects, camera, budget) {
-  const wanted = [];
+  const candidates = [];
   for (const object of objects) {
     object.visible = false;
     const xyz = object.geometry.attributes.position?.array;
     if (!xyz?.length) continue;
     const weight = weightOf(sphereOf(xyz), object.matrixWorld, camera) * xyz.length;
-    if (weight) wanted.push({ object, count: xyz.length / 3, weight });
+    if (weight) candidates.push({ object, count: xyz.length / 3, weight });
   }
-  wanted.sort((a, b) => a.count / a.weight - b.count / b.weight);
-  let weights = wanted.reduce((sum, { weight }) => sum + weight, 0);
-  let drawn = 0;
-  for (const { object, count, weight } of wanted) {
-    const shown = Math.min(count, Math.floor(((budget - drawn) * weight) / weights));
-    object.visible = shown > 0;
-    object.geometry.setDrawRange(0, shown);
+  candidates.sort((a, b) => a.count / a.weight - b.count / b.weight);
+  let weights = candidates.reduce((sum, { weight }) => sum + weight, 0);
+  let total = 0;
+  for (const { object, count, weight } of candidates) {
+    const quota = Math.min(count, Math.floor(((budget - total) * weight) / weights));
+    object.visible = quota > 0;
+    object.geometry.setDrawRange(0, quota);
     weights -= weight;
-    drawn += shown;
+    total += quota;
   }
-  return drawn;
+  return total;
 }
 
 // The weight of a sphere, the more the nearer; 0 out of sight.
@@ -101,8 +101,8 @@ function weightOf({ middle, radius }, matrixWorld, camera) {
  * @returns {{middle: number[], radius: number}}
  */
 function sphereOf(xyz) {
-  const known = spheres.get(xyz);
-  if (known) return known;
+  const entry = spheres.get(xyz);
+  if (entry) return entry;
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < xyz.length; i += 3) {

@@ -16,36 +16,36 @@ const USED = 0.7; // of the points held, for a fast frame to say that there is r
 const FRAMES = 5;
 const PATIENCE_MS = 1500; // of a slow browser, fewer frames are enough
 
-const held = signal(POINTS_HELD);
+const limit = signal(POINTS_HELD);
 
 /** The number of points to draw at once; read in effects. */
-export const points = () => held.value;
+export const points = () => limit.value;
 
 export function install() {
   let began = 0;
   let isMeasuring = false;
   let isMeasured = false;
-  /** @type {{ms: number, drawn: number}[]} */
+  /** @type {{ms: number, pointCount: number}[]} */
   let frames = [];
 
   channel.onOpen(() => isMeasured && report());
   viser.beforeRender(() => (began = performance.now()));
   viser.afterRender(() => {
-    const drawn = viser.gl().info.render.points;
-    if (isMeasuring || 2 * drawn < FEWEST_POINTS || isHeld()) return;
+    const pointCount = viser.gl().info.render.points;
+    if (isMeasuring || 2 * pointCount < FEWEST_POINTS || isHeld()) return;
     isMeasuring = true;
     const from = began;
     whenDrawn((isDrawn) => {
       const ms = performance.now() - from;
       isMeasuring = false;
       if (document.hidden || !isDrawn) return;
-      frames.push({ ms, drawn });
+      frames.push({ ms, pointCount });
       const all = frames.reduce((sum, frame) => sum + frame.ms, 0);
       if (frames.length < FRAMES && all < PATIENCE_MS) return;
       const count = countAfter(frames);
       frames = [];
-      if (count === held.value && isMeasured) return;
-      held.value = count;
+      if (count === limit.value && isMeasured) return;
+      limit.value = count;
       isMeasured = true;
       report();
       viser.requestRender();
@@ -56,15 +56,15 @@ export function install() {
 /**
  * The number of points to draw from now on.
  *
- * @param {{ms: number, drawn: number}[]} frames
+ * @param {{ms: number, pointCount: number}[]} frames
  */
 function countAfter(frames) {
   const times = frames.map(({ ms }) => ms).sort((a, b) => a - b);
   const ms = times[times.length >> 1];
-  const drawn = Math.max(...frames.map((frame) => frame.drawn));
-  const before = held.value;
-  if (ms > SLOW_MS) return stepBelow((Math.min(drawn, before) * GOAL_MS) / ms);
-  return ms < FAST_MS && drawn > USED * before ? stepBelow(2 * before) : before;
+  const pointCount = Math.max(...frames.map((frame) => frame.pointCount));
+  const before = limit.value;
+  if (ms > SLOW_MS) return stepBelow((Math.min(pointCount, before) * GOAL_MS) / ms);
+  return ms < FAST_MS && pointCount > USED * before ? stepBelow(2 * before) : before;
 }
 
 /** @param {number} count */
@@ -75,7 +75,7 @@ function stepBelow(count) {
 
 // Reports of watchers would change what others see.
 const report = () =>
-  why("PointCapacity") || channel.send({ type: "PointCapacity", points: held.value });
+  why("PointCapacity") || channel.send({ type: "PointCapacity", points: limit.value });
 
 // Pages that only take pictures draw on request; those must not depend on how fast that is.
 const isHeld = () => viser.canvas().style.visibility === "hidden";

@@ -13,8 +13,8 @@ export const hasWebGL = () => Boolean(document.createElement("canvas").getContex
 /** The name of what draws, as the browser tells it. */
 export function renderer() {
   const context = viser.gl().getContext();
-  const known = names.get(context);
-  if (known) return known;
+  const cachedName = names.get(context);
+  if (cachedName) return cachedName;
   const info = context.getExtension("WEBGL_debug_renderer_info");
   const name = context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER);
   names.set(context, String(name));
@@ -29,19 +29,19 @@ export const isSoftware = () =>
  * Calls `done(true)` when the graphics card has drawn what it was told, not when it was told;
  * `done(false)` if it has lost all.
  *
- * @param {(isDrawn: boolean) => void} done
+ * @param {(isDrawn: boolean) => void} report
  */
-export function whenDrawn(done) {
+export function whenDrawn(report) {
   const context = /** @type {WebGL2RenderingContext} */ (viser.gl().getContext());
-  const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
-  if (!drawn) return done(false);
+  const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!fence) return report(false);
   context.flush();
-  (function look() {
-    if (context.isContextLost()) return done(false);
-    if (context.getSyncParameter(drawn, context.SYNC_STATUS) !== context.SIGNALED) {
-      return setTimeout(look, LOOK_MS);
+  (function poll() {
+    if (context.isContextLost()) return report(false);
+    if (context.getSyncParameter(fence, context.SYNC_STATUS) !== context.SIGNALED) {
+      return setTimeout(poll, LOOK_MS);
     }
-    context.deleteSync(drawn);
-    done(true);
+    context.deleteSync(fence);
+    report(true);
   })();
 }

@@ -47,8 +47,8 @@ export const groundAt = (x, y) => planeAt([x, y], 0);
  * @returns {Vec3 | null}
  */
 export function surfaceAt(xy) {
-  const found = hit(xy);
-  if (found?.object) return toFixedFrame(found.point);
+  const surface = hit(xy);
+  if (surface?.object) return toFixedFrame(surface.point);
   return planeAt(xy, 0);
 }
 

@@ -119,8 +119,8 @@ function notches({ deltaY, deltaMode }) {
  * @returns {Hit | null}
  */
 export function hit(xy) {
-  const found = pickAt(xy);
-  if (found) return found;
+  const target = pickAt(xy);
+  if (target) return target;
   const { origin, direction } = casterAt(xy).ray;
   const steps = -origin.y / direction.y;
   if (!(steps > 0 && steps < 1e6)) return null;
@@ -140,8 +140,8 @@ export const pick = (xy) => hit(xy)?.point ?? null;
  * @param {Vec2} xy
  */
 export function focusOn(xy) {
-  const found = pick(xy);
-  if (found) return focus(found);
+  const target = pick(xy);
+  if (target) return focus(target);
   const { origin, direction } = casterAt(xy).ray;
   focus(origin.addScaledVector(direction, 1));
 }

@@ -86,9 +86,9 @@ export function drawSecond(context, width, height, sight) {
 /** @returns {Eye} */
 function makeEye() {
   const Camera = /** @type {typeof PerspectiveCamera} */ (viser.camera().constructor);
-  const made = Object.assign(new Camera(), { near: NEAR, edges: [-1, 1, 1, -1], flat: 0 });
-  made.matrixAutoUpdate = false;
-  made.updateProjectionMatrix = function () {
+  const camera = Object.assign(new Camera(), { near: NEAR, edges: [-1, 1, 1, -1], flat: 0 });
+  camera.matrixAutoUpdate = false;
+  camera.updateProjectionMatrix = function () {
     const { edges, far, flat, coordinateSystem, reversedDepth } = this;
     const [depth, near] = flat ? [flat, flat / 100] : [NEAR, NEAR];
     const [left, right, top, bottom] = edges.map((edge) => edge * depth);
@@ -105,7 +105,7 @@ function makeEye() {
     );
     this.projectionMatrixInverse.copy(this.projectionMatrix).invert();
   };
-  return made;
+  return camera;
 }
 
 /**
@@ -127,18 +127,18 @@ function hide(hidden) {
   const names = prefixes.length
     ? Object.keys(viser.nodes()).filter((name) => prefixes.some((one) => name.startsWith(one)))
     : [];
-  const found = names.flatMap((name) => viser.node(name) ?? []);
+  const nodes = names.flatMap((name) => viser.node(name) ?? []);
   // Besides displays, what the page draws for itself: handles, marks, and the like.
   const world = viser.node(ROOT);
   const labels = viser.scene().children.find((child) => child.children.some(lettersOf));
   for (const child of viser.scene().children) {
-    if (!child.isLight && child !== labels && !contains(child, world ?? null)) found.push(child);
+    if (!child.isLight && child !== labels && !contains(child, world ?? null)) nodes.push(child);
   }
-  const shown = found.filter((node) => node.visible);
+  const visibleNodes = nodes.filter((node) => node.visible);
   const undo = names.length && labels ? hideLabels(labels, names) : () => {};
-  for (const node of shown) node.visible = false;
+  for (const node of visibleNodes) node.visible = false;
   return () => {
-    for (const node of shown) node.visible = true;
+    for (const node of visibleNodes) node.visible = true;
     undo();
   };
 }

@@ -13,7 +13,7 @@ const PRIMES = [0x01000193, 0x85ebca6b]; // of two hashes by words, as FNV-1a ha
 
 /** @type {Map<string, Promise<WeakRef<ImageBitmap> | undefined>>} */
 const decoded = new Map(); // promises of weak references to pictures, by their content
-const gone = new FinalizationRegistry((content) => decoded.delete(content));
+const registry = new FinalizationRegistry((content) => decoded.delete(content));
 /** @type {WeakMap<ImageBitmap, TextureSource<ImageBitmap>>} */
 const sources = new WeakMap(); // by picture, what three.js uploads
 /** @type {WeakSet<object>} */
@@ -40,14 +40,16 @@ export function install() {
  */
 async function once(image, options, decode) {
   const content = `${await hash(image)} ${image.type} ${JSON.stringify(options)}`;
-  const known = (await decoded.get(content))?.deref();
-  isShared.value ||= Boolean(known);
-  if (known) return known;
-  const made = decode(image, options);
-  const kept = made.then((bitmap) => new WeakRef(bitmap)).catch(() => void decoded.delete(content));
-  decoded.set(content, kept);
-  const bitmap = await made;
-  gone.register(bitmap, content);
+  const hit = (await decoded.get(content))?.deref();
+  isShared.value ||= Boolean(hit);
+  if (hit) return hit;
+  const decoding = decode(image, options);
+  const reference = decoding
+    .then((bitmap) => new WeakRef(bitmap))
+    .catch(() => void decoded.delete(content));
+  decoded.set(content, reference);
+  const bitmap = await decoding;
+  registry.register(bitmap, content);
   return bitmap;
 }
 

@@ -23,7 +23,7 @@ const SENT_MS = 100; // after which viser has reported the camera
 
 /** @type {(() => void)[]} */
 const listeners = [];
-const shown = signal(/** @type {PlaceCamera | StartView | null} */ (null));
+const currentView = signal(/** @type {PlaceCamera | StartView | null} */ (null));
 /** The transform before the camera's own pose, null for a view that follows nothing. */
 const rig = signal(/** @type {Matrix4 | null} */ (null));
 /** The height of the canvas that the view is shown for. */
@@ -32,7 +32,7 @@ const height = signal(0);
 const focus = signal(/** @type {{focal: Vector3, aimed: Vector3} | null} */ (null));
 
 /** The type of the view, "" before there is one. */
-export const type = () => shown.value?.view ?? "";
+export const type = () => currentView.value?.view ?? "";
 /** True for views that look around from a position, without a focal point. */
 export const isFPS = () => type() === "FPS" || type() === "FrameAligned";
 /** The target frame of the view. */
@@ -42,7 +42,7 @@ export const targetFrame = () => options().target_frame ?? "";
  *
  * @returns {Record<string, any>}
  */
-export const options = () => shown.value?.options ?? {};
+export const options = () => currentView.value?.options ?? {};
 /** The transform before the camera's own pose. */
 export const followed = () => rig.value ?? matrix();
 /** The offset of the point that the camera looks at from the focal point of the view. */
@@ -100,7 +100,7 @@ const isFlat = () => type() === "TopDownOrtho";
 // Follow the target frame: its position, with its rotation or yaw for a view that turns with it;
 // and upside down for one whose z axis is inverted.
 function follow() {
-  const view = shown.value;
+  const view = currentView.value;
   const node = view?.frame && viser.node(view.frame);
   const isInverted = options().invert_z_axis;
   if (view === null || (view.frame ? !node : !isInverted)) return;
@@ -191,14 +191,14 @@ function settle() {
   const controls = viser.controls();
   const target = controls.getTarget(vector([0, 0, 0]));
   focal.add(target).sub(aimed).setY(0);
-  const wanted = focal.clone().add(raise());
-  const isThere = target.distanceTo(wanted) < 1e-9 * (1 + wanted.length());
-  if (!isThere) controls.moveTo(wanted.x, wanted.y, wanted.z, false);
-  focus.value = { focal, aimed: isThere ? target : wanted };
+  const goal = focal.clone().add(raise());
+  const isThere = target.distanceTo(goal) < 1e-9 * (1 + goal.length());
+  if (!isThere) controls.moveTo(goal.x, goal.y, goal.z, false);
+  focus.value = { focal, aimed: isThere ? target : goal };
 }
 
 function report() {
-  const view = shown.value;
+  const view = currentView.value;
   if (view === null) return;
   channel.send({
     type: "ViewReport",
@@ -210,19 +210,19 @@ function report() {
   });
 }
 
-/** @param {PlaceCamera | StartView} wanted */
-function show(wanted) {
-  if (shown.value?.frame !== wanted.frame || !wanted.frame) rig.value = null;
-  shown.value = wanted;
+/** @param {PlaceCamera | StartView} view */
+function show(view) {
+  if (currentView.value?.frame !== view.frame || !view.frame) rig.value = null;
+  currentView.value = view;
   follow();
   height.value = viser.canvas().clientHeight;
   const camera = viser.camera();
   const controls = viser.controls();
   const up = toThree();
-  const target = vector(/** @type {Vec3} */ (wanted.look_at));
-  const offset = vector(/** @type {Vec3} */ (wanted.position)).sub(target);
+  const target = vector(/** @type {Vec3} */ (view.look_at));
+  const offset = vector(/** @type {Vec3} */ (view.position)).sub(target);
   const fov = isFlat() ? FLAT_FIELD_OF_VIEW : FIELD_OF_VIEW;
-  if (isFlat()) offset.setLength(height.value / Number(wanted.scale) / 2 / Math.tan(fov / 2));
+  if (isFlat()) offset.setLength(height.value / Number(view.scale) / 2 / Math.tan(fov / 2));
   const position = target.clone().add(offset).applyMatrix4(up);
   target.applyMatrix4(up);
   controls.minDistance = isFPS() ? EYE : 0.01;
@@ -250,7 +250,7 @@ function show(wanted) {
  * @returns {StartView | null}
  */
 function placement() {
-  const view = shown.value;
+  const view = currentView.value;
   if (view === null) return null;
   const down = toThree().clone().invert();
   const controls = viser.controls();
@@ -276,7 +276,7 @@ function placement() {
  */
 function join(start, before) {
   viser.reveal(); // also of a scene without a page around it
-  if (shown.value === null) return show({ ...start, ...before, number: start.number });
+  if (currentView.value === null) return show({ ...start, ...before, number: start.number });
   // A lost connection is back: the camera has not moved, but the server does not know it.
   viser.sendCamera();
   setTimeout(report, SENT_MS);
@@ -285,15 +285,15 @@ function join(start, before) {
 /** The cross where the camera turns about, which viser shows. */
 const findCross = () =>
   viser.scene().children.find((child) => {
-    let found = false;
-    child.traverse((part) => (found ||= part.geometry?.parameters?.width === 0.4));
-    return found;
+    let isCross = false;
+    child.traverse((part) => (isCross ||= part.geometry?.parameters?.width === 0.4));
+    return isCross;
   });
 
 /** Keeps a view without perspective as large as it is when the canvas changes its height. */
 function resize() {
   const [tall, before] = [viser.canvas().clientHeight, height.value];
-  if (shown.value === null || tall === 0 || tall === before) return;
+  if (currentView.value === null || tall === 0 || tall === before) return;
   if (isFlat()) viser.controls().dollyTo((viser.controls().distance * tall) / before, false);
   height.value = tall;
   setTimeout(report, SENT_MS);

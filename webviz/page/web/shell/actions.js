@@ -74,11 +74,11 @@ export const added = [];
 
 const LAST = 1000;
 
-/** @param {Command & {order?: number}} wanted with its place among the others, the last without it */
-export function action(wanted) {
-  added.push(wanted);
+/** @param {Command & {order?: number}} entry with its place among the others, the last without it */
+export function action(entry) {
+  added.push(entry);
   added.sort((a, b) => (a.order ?? LAST) - (b.order ?? LAST));
-  command(wanted);
+  command(entry);
 }
 
 /** @type {(() => (MenuItem | null)[])[]} */

@@ -24,7 +24,7 @@ const ORDER = ["Edit", "Displays", "Tools", "View", "File", "Time", "Help"];
 const STORES = ["settings", "frames"];
 
 /** @type {Set<Maker>} */
-const makers = new Set();
+const factories = new Set();
 
 /**
  * Adds commands that are looked for in the list only, made of the values of stores by their names:
@@ -35,7 +35,7 @@ const makers = new Set();
  * @param {(values: {[K in N]: ValuesOf<K>}) => Command[]} make
  */
 export function provideFrom(stores, make) {
-  makers.add({ stores, make: /** @type {Maker["make"]} */ (make) });
+  factories.add({ stores, make: /** @type {Maker["make"]} */ (make) });
 }
 
 export function openCommandList() {
@@ -46,7 +46,7 @@ export function openCommandList() {
   });
   /** @type {Values} */
   const values = {};
-  const stores = new Set([...STORES, ...[...makers].flatMap((maker) => maker.stores)]);
+  const stores = new Set([...STORES, ...[...factories].flatMap((maker) => maker.stores)]);
   /** @type {(() => void)[]} */
   const ends = [];
   const nothing = el("p", { class: "wv-quiet wv-nothing", hidden: true }, "No matching commands.");
@@ -56,14 +56,14 @@ export function openCommandList() {
     className: "wv-command-list",
     isLight: true,
     content(close) {
-      const list = new OptionList(input, "Commands", (row) => close(found[Number(row.id)]));
+      const list = new OptionList(input, "Commands", (row) => close(matches[Number(row.id)]));
       /** @type {Command[]} */
-      let found = [];
+      let matches = [];
       const show = () => {
-        found = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
-        found.length = Math.min(found.length, MAX_SHOWN);
+        matches = search(commands(values), input.value, ({ name, group }) => [name, group ?? ""]);
+        matches.length = Math.min(matches.length, MAX_SHOWN);
         list.show(
-          found.map((one, id) => ({
+          matches.map((one, id) => ({
             id,
             title: one.name,
             icon: one.icon ?? "chevron",
@@ -73,7 +73,7 @@ export function openCommandList() {
             group: input.value.trim() ? undefined : { title: one.group },
           })),
         );
-        nothing.hidden = found.length > 0;
+        nothing.hidden = matches.length > 0;
       };
       for (const name of stores) {
         ends.push(
@@ -105,7 +105,7 @@ const lockOf = ({ needs }) => {
  */
 function commands(values) {
   const { settings, frames } = values;
-  const more = [...makers].flatMap(({ stores, make }) =>
+  const more = [...factories].flatMap(({ stores, make }) =>
     stores.every((name) => values[name]) ? make(values) : [],
   );
   /** @param {Command} command */

@@ -81,10 +81,10 @@ const thingsToTry = () =>
  * @param {string} text
  */
 function thing(title, name, text) {
-  const wanted = () => commands.known().find((one) => one.name === name);
+  const find = () => commands.registry().find((one) => one.name === name);
   const start = () => {
-    const found = wanted();
-    if (found) commands.run(found);
+    const entry = find();
+    if (entry) commands.run(entry);
   };
   return el(
     "li",

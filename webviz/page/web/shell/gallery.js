@@ -35,7 +35,7 @@ export const chooseType = (types) =>
  */
 function content(types, close) {
   const text = signal("");
-  const found = () => search(types, text.value, ({ title, about }) => [title, about]);
+  const matches = () => search(types, text.value, ({ title, about }) => [title, about]);
   const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
   const list = new OptionList(input, "Panels", ({ id }) => {
     const type = types.find((each) => each.type === id);
@@ -43,8 +43,8 @@ function content(types, close) {
   });
   // After that of the list, which then begins with the best match.
   input.addEventListener("input", () => (text.value = input.value));
-  effect(() => list.show(found().map(row)));
-  const nothing = () => found().length > 0;
+  effect(() => list.show(matches().map(row)));
+  const nothing = () => matches().length > 0;
   return [
     input,
     list.element,

@@ -25,25 +25,25 @@ const FADED = 20; // pixels at the edge of a list that goes on, as in plugin_wid
  *
  * @typedef {{
  *   tabs: Readable<Panel[]>, open: Readable<Panel | undefined>,
- *   wanted: Signal<string>,
+ *   choice: Signal<string>,
  * }} Panels
  */
 
 /** Elements: the list of tabs, and the open one, a head above what it shows. */
 export function tabs() {
-  const known = follow();
-  const { open } = known;
-  const list = tabList(known);
+  const model = follow();
+  const { open } = model;
+  const list = tabList(model);
   const add = iconButton("plus", "Add a panel", choose, {
     class: "wv-icon wv-tabs-add",
     hidden: () => !types.value.length,
   });
-  const more = iconButton("chevron-down", "All panels", () => chooseTab(more, known, update), {
+  const more = iconButton("chevron-down", "All panels", () => chooseTab(more, model, update), {
     class: "wv-icon wv-tabs-more",
     hidden: true,
     "aria-haspopup": "menu",
   });
-  const update = fit(list, more, known);
+  const update = fit(list, more, model);
   provideFrom([], commands);
   const bar = el("div", { class: "wv-tab-bar" }, list, more, needs("AddPanel", add));
   return [bar, ...contentOf(open)];
@@ -52,10 +52,10 @@ export function tabs() {
 /** @returns {Panels} */
 function follow() {
   // It may come later than the page, or again after a save.
-  const wanted = signal(recall("tab", ""));
+  const choice = signal(recall("tab", ""));
   const tabs = computed(() => panels.value.filter((panel) => !docks.isPlaced(panel)));
   const open = computed(
-    () => tabs.value.find(({ name }) => name === wanted.value) ?? tabs.value[0],
+    () => tabs.value.find(({ name }) => name === choice.value) ?? tabs.value[0],
   );
   effect(() => docks.offer(panels.value));
   /** @type {Set<string>} */
@@ -65,7 +65,7 @@ function follow() {
     before = new Set(added.value.map(({ name }) => name));
     if (fresh) untracked(() => bring(fresh));
   });
-  return { tabs, open, wanted };
+  return { tabs, open, choice };
 
   /** @param {Panel} panel that this page has added, perhaps */
   function bring({ name }) {
@@ -73,7 +73,7 @@ function follow() {
     if (!type) return;
     adding.type = null;
     docks.bringForward(name);
-    if (type.opens !== "below" || docks.isTabsOnly()) wanted.value = name;
+    if (type.opens !== "below" || docks.isTabsOnly()) choice.value = name;
   }
 }
 
@@ -93,15 +93,17 @@ async function choose() {
 }
 
 /** @param {Panels} panels */
-function tabList({ tabs, open, wanted }) {
+function tabList({ tabs, open, choice }) {
   /** @param {KeyboardEvent} event */
   function onkeydown(event) {
     const change = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!change) return;
     event.preventDefault(); // else the list is scrolled, too
-    const seen = /** @type {HTMLElement[]} */ ([...list.children]).filter((each) => !each.hidden);
-    const next = seen.indexOf(/** @type {HTMLElement} */ (document.activeElement)) + change;
-    const button = seen[(next + seen.length) % seen.length];
+    const buttons = /** @type {HTMLElement[]} */ ([...list.children]).filter(
+      (each) => !each.hidden,
+    );
+    const next = buttons.indexOf(/** @type {HTMLElement} */ (document.activeElement)) + change;
+    const button = buttons[(next + buttons.length) % buttons.length];
     button.focus();
     button.click();
   }
@@ -118,7 +120,7 @@ function tabList({ tabs, open, wanted }) {
         "aria-selected": () => String(isOpen()),
         tabindex: () => (isOpen() ? 0 : -1),
         hidden: () => Boolean(panel.value.isOnDemand) && !isOpen(),
-        onclick: () => remember("tab", (wanted.value = name)),
+        onclick: () => remember("tab", (choice.value = name)),
         oncontextmenu: (/** @type {PointerEvent} */ event) => {
           event.preventDefault();
           openMenu(event.clientX, event.clientY, docks.menuOf(panel.value));
@@ -210,10 +212,10 @@ function contentOf(open) {
  * @param {Panels} panels
  * @param {() => void} chosen
  */
-function chooseTab(button, { tabs, open, wanted }, chosen) {
+function chooseTab(button, { tabs, open, choice }, chosen) {
   /** @param {string} name */
   function choose(name) {
-    remember("tab", (wanted.value = name));
+    remember("tab", (choice.value = name));
     chosen();
   }
   openMenuBelow(

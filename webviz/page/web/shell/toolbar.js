@@ -15,7 +15,7 @@ import { FIXED, follow } from "webviz/shell/follow.js";
 import { fold } from "webviz/docks/layout.js";
 import { openMenuBelow } from "webviz/controls/menu.js";
 import { fit } from "webviz/shell/overflow.js";
-import * as tools from "webviz/shell/tools.js";
+import * as tools from "webviz/shell/tool_buttons.js";
 import { VIEW_TYPES, setType, typeMenu } from "webviz/shell/view_menus.js";
 
 /** @import {Readable} from "webviz/signals.js" */
@@ -52,8 +52,8 @@ const menuButtons = () =>
 /** @param {BarMenu} menu */
 function menuButton({ icon, label, items }) {
   const name = el("span", { class: "wv-bar-name" }, label);
-  const made = button(icon, label, () => openMenuBelow(made, items()), name);
-  return made;
+  const element = button(icon, label, () => openMenuBelow(element, items()), name);
+  return element;
 }
 
 /** @param {{toolbar: HTMLElement, status: HTMLElement}} places */
@@ -111,15 +111,15 @@ export function install(places) {
   addCommands(fixed, target);
 }
 
-/** @param {Readable<string>} shown */
-function typeButton(shown) {
-  const name = el("span", { class: "wv-bar-name" }, shown);
-  const made = button("orbit", "", () => openMenuBelow(made, typeMenu(shown.value)), name);
+/** @param {Readable<string>} label */
+function typeButton(label) {
+  const name = el("span", { class: "wv-bar-name" }, label);
+  const element = button("orbit", "", () => openMenuBelow(element, typeMenu(label.value)), name);
   effect(() => {
-    made.ariaLabel = `View: ${shown.value}`;
-    made.dataset.tip = `View type: ${shown.value}`;
+    element.ariaLabel = `View: ${label.value}`;
+    element.dataset.tip = `View type: ${label.value}`;
   });
-  return made;
+  return element;
 }
 
 /** Signals: the type of the view of this page and the frame it follows, the last that were known. */
@@ -183,9 +183,9 @@ function addCommands(fixed, target) {
  * @param {Child} [name]
  */
 function button(iconName, tip, run, name) {
-  const made = iconButton(iconName, tip, run, { class: "wv-icon wv-bar-button" });
-  if (name) made.append(name);
-  return made;
+  const element = iconButton(iconName, tip, run, { class: "wv-icon wv-bar-button" });
+  if (name) element.append(name);
+  return element;
 }
 
 /**

@@ -12,7 +12,7 @@ const TIPPED = "[data-why], [data-tip], [title]";
 const tip = el("div", { class: "wv-tip", role: "tooltip", id: "wv-tip", popover: "manual" });
 
 /** The element whose tooltip is shown. */
-const shown = signal(/** @type {HTMLElement | null} */ (null));
+const currentOwner = signal(/** @type {HTMLElement | null} */ (null));
 /** The element whose tooltip is shown in a while. */
 const due = signal(/** @type {{owner: HTMLElement, ms: number} | null} */ (null));
 
@@ -34,12 +34,12 @@ export function install(page) {
     owned(() => clearTimeout(timer));
   });
   effect(() => {
-    if (shown.value) place(shown.value);
+    if (currentOwner.value) place(currentOwner.value);
   });
   page.addEventListener("pointerover", ({ target, pointerType }) => {
     const owner = ownerOf(target);
     if (owner) adopt(owner);
-    if (owner === shown.value) return;
+    if (owner === currentOwner.value) return;
     hide();
     if (owner && pointerType !== "touch") due.value = { owner, ms: WAIT_MS };
   });
@@ -49,7 +49,7 @@ export function install(page) {
   listenToLongPresses(page, ({ target }) => {
     const owner = ownerOf(target);
     if (owner) show(owner);
-    return owner !== null && owner === shown.value;
+    return owner !== null && owner === currentOwner.value;
   });
   page.addEventListener("focusin", ({ target }) => {
     const owner = ownerOf(target);
@@ -80,12 +80,12 @@ function adopt(owner) {
 function show(owner) {
   if (!owner.isConnected || !(owner.dataset.why || owner.dataset.tip)) return;
   hide();
-  shown.value = owner;
+  currentOwner.value = owner;
 }
 
 function hide() {
   due.value = null;
-  shown.value = null;
+  currentOwner.value = null;
 }
 
 /**

@@ -28,8 +28,8 @@ export function arrowAt([x, y, z], yaw, part = 1) {
   const perMeter = 100 * Math.hypot(to[0] - from[0], to[1] - from[1]);
   const length = SHAFT[0] + HEAD[0];
   const longest = LONGEST * canvas().clientHeight;
-  const wanted = part * Math.min(Math.max(length * perMeter, SHORTEST_PX), longest);
-  const scale = perMeter > 0 ? wanted / (length * perMeter) : 1;
+  const lengthPx = part * Math.min(Math.max(length * perMeter, SHORTEST_PX), longest);
+  const scale = perMeter > 0 ? lengthPx / (length * perMeter) : 1;
   const shape = [
     [0, SHAFT[1]],
     [SHAFT[0], SHAFT[1]],
@@ -42,6 +42,6 @@ export function arrowAt([x, y, z], yaw, part = 1) {
   const corners = shape.map(([ahead, left]) =>
     onCanvas([x + scale * (ahead * c - left * s), y + scale * (ahead * s + left * c), z]),
   );
-  const seen = corners.filter((corner) => corner !== null);
-  return seen.length === corners.length ? seen : null;
+  const points = corners.filter((corner) => corner !== null);
+  return points.length === corners.length ? points : null;
 }

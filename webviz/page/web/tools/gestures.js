@@ -5,7 +5,7 @@ import { listeners } from "webviz/listeners.js";
 /** @import {Gesture, MadeGesture, ViewerTool} from "webviz/types.js" */
 
 /** @type {Map<string, Gesture>} */
-const makers = new Map();
+const factories = new Map();
 const changes = listeners();
 
 /**
@@ -17,12 +17,12 @@ const changes = listeners();
  * @param {Gesture} make
  */
 export function gesture(name, make) {
-  makers.set(name, make);
+  factories.set(name, make);
   changes.tell();
 }
 
 /** @param {string} name */
-export const gestureOf = (name) => makers.get(name);
+export const gestureOf = (name) => factories.get(name);
 
 /** Calls a listener whenever there is another gesture. */
 export const onGesture = changes.on;

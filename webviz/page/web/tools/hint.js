@@ -7,22 +7,22 @@ import { effect, owned, signal, untracked } from "webviz/signals.js";
 const SHOWN_MS = { ok: 5000, warn: 10000, error: 10000 };
 
 const resting = signal({ level: "hint", text: "" });
-const shown = signal(resting.value);
+const current = signal(resting.value);
 
 export const hint = el(
   "output",
   {
     class: "wv-hint wv-card",
-    hidden: () => !shown.value.text,
-    "data-level": () => shown.value.level,
+    hidden: () => !current.value.text,
+    "data-level": () => current.value.level,
   },
-  () => shown.value.text,
+  () => current.value.text,
 );
 
 effect(() => {
-  const ms = SHOWN_MS[shown.value.level];
+  const ms = SHOWN_MS[current.value.level];
   if (!ms) return;
-  const timer = setTimeout(() => tellLive(""), ms);
+  const timer = setTimeout(() => showLiveHint(""), ms);
   owned(() => clearTimeout(timer));
 });
 
@@ -32,10 +32,10 @@ effect(() => {
  * @param {string} level
  * @param {string} text
  */
-export function tell(level, text) {
-  const said = { level, text };
-  shown.value = said;
-  if (level === "hint") resting.value = said;
+export function showHint(level, text) {
+  const message = { level, text };
+  current.value = message;
+  if (level === "hint") resting.value = message;
 }
 
 /**
@@ -43,6 +43,6 @@ export function tell(level, text) {
  *
  * @param {string} text
  */
-export function tellLive(text) {
-  shown.value = text ? { level: "hint", text } : untracked(() => resting.value);
+export function showLiveHint(text) {
+  current.value = text ? { level: "hint", text } : untracked(() => resting.value);
 }

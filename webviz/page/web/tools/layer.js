@@ -13,14 +13,14 @@ import { canvas } from "webviz/viser_page.js";
  */
 export function makeLayer(name, ...children) {
   const element = el("div", { class: "wv-layer", "data-webviz": name }, ...children);
-  let shown = "";
+  let style = "";
   document.body.append(element);
   return {
     element,
     place() {
       const { left, top, width, height } = canvas().getBoundingClientRect();
       const box = `left: ${left}px; top: ${top}px; width: ${width}px; height: ${height}px`;
-      if (box !== shown) element.style.cssText = shown = box;
+      if (box !== style) element.style.cssText = style = box;
     },
   };
 }

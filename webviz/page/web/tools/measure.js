@@ -7,7 +7,7 @@ import { onCanvas, surfaceAt } from "webviz/scene/ground.js";
 import * as viser from "webviz/viser_page.js";
 import { clicks } from "webviz/tools/clicks.js";
 import { onFrameChange } from "webviz/tools/frame_change.js";
-import { tell, tellLive } from "webviz/tools/hint.js";
+import { showHint, showLiveHint } from "webviz/tools/hint.js";
 import { makeLayer } from "webviz/tools/layer.js";
 import { fixed } from "webviz/numbers.js";
 
@@ -78,7 +78,7 @@ class Ruler {
   press(event) {
     const point = surfaceAt([event.clientX, event.clientY]);
     if (point === null)
-      return tell("warn", "Nothing is there. Click on a surface or on the ground.");
+      return showHint("warn", "Nothing is there. Click on a surface or on the ground.");
     if (this.#open) {
       this.#open.to = point;
       this.#finish(this.#open);
@@ -93,7 +93,7 @@ class Ruler {
   clear() {
     if (this.#open) this.#remove(this.#open);
     else this.#removeAll();
-    tellLive("");
+    showLiveHint("");
   }
 
   /**
@@ -112,7 +112,7 @@ class Ruler {
     const point = line && at && surfaceAt(at);
     if (point) {
       line.to = point;
-      tellLive(words(line));
+      showLiveHint(words(line));
       this.#draw();
     }
     const next = () => {
@@ -135,7 +135,7 @@ class Ruler {
   #finish(line) {
     set(line.label, { "data-live": null, tabindex: 0 });
     this.#open = null;
-    tellLive("");
+    showLiveHint("");
   }
 
   /** @param {Line} line */
@@ -187,8 +187,8 @@ function makeLine(from) {
 /** @param {Line} line */
 async function copyLine(line) {
   const isCopied = await copy(words(line));
-  if (isCopied) tell("ok", `Copied ${words(line)}.`);
-  else tell("error", NOT_COPIED);
+  if (isCopied) showHint("ok", `Copied ${words(line)}.`);
+  else showHint("error", NOT_COPIED);
 }
 
 /** @param {Line} line one without an end has no length */
@@ -209,19 +209,19 @@ function words(line) {
 /** @param {Line} line */
 function drawLine(line) {
   const [from, to] = [onCanvas(line.from), onCanvas(line.to ?? line.from)];
-  const seen = from && to && { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
-  for (const part of line.parts) set(part, { display: seen ? null : "none", ...seen });
+  const segment = from && to && { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
+  for (const part of line.parts) set(part, { display: segment ? null : "none", ...segment });
   [from, to].forEach((place, index) => {
     const end = place ? { display: null, cx: place[0], cy: place[1] } : { display: "none" };
     set(line.ends[index], end);
   });
-  const isHidden = !seen || line.to === null;
+  const isHidden = !segment || line.to === null;
   if (line.label.hidden !== isHidden) line.label.hidden = isHidden;
-  if (!seen || isHidden) return;
+  if (!segment || isHidden) return;
   const [length, steps] = parts(line);
   setText(line.length, length);
   setText(line.steps, steps);
-  const [x, y] = [(seen.x1 + seen.x2) / 2, (seen.y1 + seen.y2) / 2];
+  const [x, y] = [(segment.x1 + segment.x2) / 2, (segment.y1 + segment.y2) / 2];
   const place = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, 10px)`;
   if (line.label.style.transform !== place) line.label.style.transform = place;
 }

@@ -26,25 +26,25 @@ export function makePoses(name) {
   /** @type {ReturnType<typeof makeMark>[]} */
   let marks = [];
   /** @type {Pose[]} */
-  let shown = [];
+  let current = [];
 
   function draw() {
-    if (!shown.length) return;
+    if (!current.length) return;
     layer?.place();
-    shown.forEach((pose, index) => drawPose(marks[index], pose));
+    current.forEach((pose, index) => drawPose(marks[index], pose));
   }
 
   function begin() {
-    const made = svgElement("svg");
-    layer = makeLayer(name, made);
+    const svg = svgElement("svg");
+    layer = makeLayer(name, svg);
     viser.beforeRender(draw);
-    return made;
+    return svg;
   }
 
   return function show(/** @type {Pose[]} */ poses) {
-    if (!poses.length && !shown.length) return;
+    if (!poses.length && !current.length) return;
     drawing ??= begin();
-    shown = poses;
+    current = poses;
     for (const mark of marks.splice(poses.length)) mark.group.remove();
     while (marks.length < poses.length) {
       const mark = makeMark();

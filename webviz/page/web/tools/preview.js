@@ -12,11 +12,11 @@ import { heightAt, onCanvas, planeAt, surfaceAt } from "webviz/scene/ground.js";
 /** @import {MadeGesture, ToolFacts, Vec2, Vec3} from "webviz/types.js" */
 
 /**
- * @typedef {{done: (made: MadeGesture) => void, live: (text: string) => void}} Listener
+ * @typedef {{onEnd: (made: MadeGesture) => void, live: (text: string) => void}} Listener
  * @typedef {Listener & {
  *   tool: ToolFacts, start: Vec3, yaw: number, at: Vec2, from: Vec2, pointer: number | null,
  *   isTurned: boolean, isLifting: boolean, finger: {pointerId: number, y: number} | null,
- *   raised: number, made: MadeGesture | null, card: ReturnType<typeof sendCard> | null,
+ *   raised: number, result: MadeGesture | null, card: ReturnType<typeof sendCard> | null,
  *   drawing: ReturnType<typeof makeDrawing>,
  * }} Preview
  */
@@ -32,11 +32,11 @@ const AT_REST = {
   isLifting: false,
   finger: null,
   raised: 0,
-  made: null,
+  result: null,
   card: null,
 };
 
-const shown = signal(/** @type {Preview | null} */ (null));
+const currentPreview = signal(/** @type {Preview | null} */ (null));
 
 /**
  * Begins to follow a pointer, instead of what still waits to be sent. `done` gets the points, the
@@ -47,12 +47,12 @@ const shown = signal(/** @type {Preview | null} */ (null));
  * @param {ToolFacts} tool
  * @param {Listener} listener
  */
-export function begin(event, tool, { done, live }) {
+export function begin(event, tool, { onEnd, live }) {
   /** @type {Vec2} */
   const at = [event.clientX, event.clientY];
   const start = tool.surface ? surfaceAt(at) : planeAt(at, 0);
   if (start === null) return false;
-  show({ tool, done, live, start, at, from: at, pointer: event.pointerId });
+  show({ tool, onEnd, live, start, at, from: at, pointer: event.pointerId });
   canvas().setPointerCapture(event.pointerId);
   follow(event);
   return true;
@@ -65,16 +65,16 @@ export function begin(event, tool, { done, live }) {
  */
 function show(preview) {
   cancel();
-  const made = { ...AT_REST, ...preview, drawing: makeDrawing() };
-  shown.value = made;
-  redraw(made);
-  return made;
+  const next = { ...AT_REST, ...preview, drawing: makeDrawing() };
+  currentPreview.value = next;
+  redraw(next);
+  return next;
 }
 
-export const isGoing = () => shown.value !== null && !shown.value.made;
-export const isWaiting = () => Boolean(shown.value?.made);
+export const isGoing = () => currentPreview.value !== null && !currentPreview.value.result;
+export const isWaiting = () => Boolean(currentPreview.value?.result);
 /** @param {PointerEvent} event */
-export const follows = (event) => isGoing() && shown.value?.pointer === event.pointerId;
+export const follows = (event) => isGoing() && currentPreview.value?.pointer === event.pointerId;
 
 /**
  * Takes up where the pointer is; with Ctrl it lifts, else it turns.
@@ -82,7 +82,7 @@ export const follows = (event) => isGoing() && shown.value?.pointer === event.po
  * @param {PointerEvent} event
  */
 export function follow(event) {
-  const current = shown.value;
+  const current = currentPreview.value;
   if (!current) return;
   const before = current.at;
   current.at = [event.clientX, event.clientY];
@@ -107,7 +107,7 @@ export function follow(event) {
  * @param {PointerEvent} event
  */
 export function followSecond({ type, pointerId, pointerType, clientY }) {
-  const current = shown.value;
+  const current = currentPreview.value;
   if (current?.tool.gesture !== "pose" || pointerType !== "touch") return;
   if (type === "pointerdown") current.finger ??= { pointerId, y: clientY };
   if (current.finger?.pointerId !== pointerId) return;
@@ -163,15 +163,15 @@ function turn(current) {
  * @param {boolean} asks
  */
 export function end(event, asks) {
-  const current = shown.value;
+  const current = currentPreview.value;
   if (!current) return;
   follow(event);
   const { start, yaw, isTurned } = current;
   const last = isTurned ? ahead(current) : null;
   const { shiftKey: shift, ctrlKey: ctrl, altKey: alt, metaKey: meta } = event;
-  const held = Object.entries({ shift, ctrl, alt, meta }).filter(([, isHeld]) => isHeld);
-  const keys = held.map(([key]) => key);
-  current.made = { points: last === null ? [start] : [start, last], yaw, keys };
+  const modifiers = Object.entries({ shift, ctrl, alt, meta }).filter(([, isHeld]) => isHeld);
+  const keys = modifiers.map(([key]) => key);
+  current.result = { points: last === null ? [start] : [start, last], yaw, keys };
   if (asks) wait(current);
   else send();
 }
@@ -180,11 +180,11 @@ export function end(event, asks) {
  * Shows a gesture as it was made, `{points, yaw, keys}`, until it is sent.
  *
  * @param {ToolFacts} tool
- * @param {MadeGesture} made
+ * @param {MadeGesture} result
  * @param {Listener} listener
  */
-export function propose(tool, made, { done, live }) {
-  wait(show({ tool, done, live, start: made.points[0], yaw: made.yaw, made }));
+export function propose(tool, result, { onEnd, live }) {
+  wait(show({ tool, onEnd, live, start: result.points[0], yaw: result.yaw, result }));
 }
 
 /** @param {Preview} current */
@@ -197,19 +197,19 @@ function wait(current) {
 
 /** Sends what waits for that. */
 export function send() {
-  if (!shown.value?.made) return;
-  const { done, made } = shown.value;
+  if (!currentPreview.value?.result) return;
+  const { onEnd, result } = currentPreview.value;
   cancel();
-  done(made);
+  onEnd(result);
 }
 
 export function cancel() {
-  if (shown.value === null) return;
-  const { pointer, live, drawing } = shown.value;
+  if (currentPreview.value === null) return;
+  const { pointer, live, drawing } = currentPreview.value;
   if (pointer !== null && canvas().hasPointerCapture(pointer))
     canvas().releasePointerCapture(pointer);
   live("");
-  shown.value = null;
+  currentPreview.value = null;
   drawing.layer.element.remove();
 }
 
@@ -222,7 +222,7 @@ function words({ tool, start, yaw }) {
 
 /** @param {Preview} current */
 function redraw(current) {
-  if (shown.value !== current) return;
+  if (currentPreview.value !== current) return;
   requestAnimationFrame(() => redraw(current)); // the view may follow a frame that moves
   const { layer, stem, arrow, dot } = current.drawing;
   const { tool, start, yaw } = current;

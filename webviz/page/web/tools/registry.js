@@ -9,7 +9,7 @@
 
 import { batch, computed, effect, root, signal } from "webviz/signals.js";
 import { canvas } from "webviz/viser_page.js";
-import { tell } from "webviz/tools/hint.js";
+import { showHint } from "webviz/tools/hint.js";
 
 /** @import {End, Tool} from "webviz/types.js" */
 
@@ -35,7 +35,7 @@ export function provide(origin, tools) {
     else select(null);
     return same?.refusal;
   });
-  if (refusal) tell("warn", refusal); // in place of the hint of the tool that is active now
+  if (refusal) showHint("warn", refusal); // in place of the hint of the tool that is active now
 }
 
 /** All tools in the order of the toolbar. */
@@ -62,7 +62,7 @@ export const setDefault = (tool) =>
  * @returns {void}
  */
 export function select(tool) {
-  if (tool?.refusal) return tell("warn", tool.refusal);
+  if (tool?.refusal) return showHint("warn", tool.refusal);
   batch(() => {
     current.value?.leave?.();
     current.value = tool ?? fallback.value;

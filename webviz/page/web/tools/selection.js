@@ -11,7 +11,7 @@ import { effect, signal, untracked } from "webviz/signals.js";
 /** @import {Commands} from "webviz/messages.js" */
 /** @import {ownStore} from "webviz/own_store.js" */
 
-/** @typedef {ReturnType<typeof ownStore<"selected">>} Known */
+/** @typedef {ReturnType<typeof ownStore<"selected">>} SelectedFacts */
 
 /** The most things that are selected. */
 export const MAX_SELECTED = 1000;
@@ -22,7 +22,7 @@ const nextId = counter();
 const things = signal(/** @type {Map<number, Selected>} */ (new Map()));
 const total = signal(0);
 /** The things that the server knows, null before it tells them. */
-const known = signal(/** @type {Known | null} */ (null));
+const facts = signal(/** @type {SelectedFacts | null} */ (null));
 
 /** All things by id: what `pickAt` made of each. */
 export const all = () => things.value;
@@ -34,14 +34,14 @@ export const totalCount = () => total.value;
  *
  * @param {{id?: number}} pick
  */
-export const moves = ({ id }) => known.value?.get(String(id))?.[1] ?? false;
+export const moves = ({ id }) => facts.value?.get(String(id))?.[1] ?? false;
 
 /** Calls a listener whenever something else is selected; returns what ends it. */
 export const onChange = changes.on;
 
-/** @param {Known} values the things that the server knows, by id */
+/** @param {SelectedFacts} values the things that the server knows, by id */
 export function install(values) {
-  known.value = values;
+  facts.value = values;
   effect(() => {
     if (values.all()) untracked(dropUnknown);
   });
@@ -81,16 +81,16 @@ export function sendable(picks) {
  *
  * @param {"replace" | "add" | "remove"} way
  * @param {Picked[]} picks
- * @param {number} [found]
+ * @param {number} [count]
  */
-export async function change(way, picks, found = picks.length) {
+export async function change(way, picks, count = picks.length) {
   const old = new Map([...all()].map(([id, thing]) => [keyOf(thing), id]));
   const keep = way === "replace" ? [] : [...all().keys()];
   const fresh = new Map();
   if (way === "remove") {
-    const gone = new Set(picks.map((pick) => old.get(keyOf(pick))));
+    const removals = new Set(picks.map((pick) => old.get(keyOf(pick))));
     return put(
-      keep.filter((id) => !gone.has(id)),
+      keep.filter((id) => !removals.has(id)),
       fresh,
       0,
     );
@@ -101,17 +101,17 @@ export async function change(way, picks, found = picks.length) {
     const id = nextId();
     fresh.set(id, { ...pick, id });
   }
-  return put(keep, fresh, keep.length + Math.max(found, fresh.size));
+  return put(keep, fresh, keep.length + Math.max(count, fresh.size));
 }
 
 /**
  * @param {number[]} keep
  * @param {Map<number, Selected>} fresh
- * @param {number} wanted
+ * @param {number} count
  */
-async function put(keep, fresh, wanted) {
+async function put(keep, fresh, count) {
   things.value = new Map([...[...all()].filter(([id]) => keep.includes(id)), ...fresh]);
-  total.value = Math.max(wanted, all().size);
+  total.value = Math.max(count, all().size);
   changes.tell();
   const fields = { picks: sendable(fresh.values()), keep, total: total.value };
   const { level, text } = await act("Select", fields, { quiet: true, errors: "caller" });
@@ -125,16 +125,16 @@ async function put(keep, fresh, wanted) {
 function dropUnknown() {
   drop(
     [...all()]
-      .filter(([id, { isKnown }]) => isKnown && !known.value?.get(String(id)))
+      .filter(([id, { isKnown }]) => isKnown && !facts.value?.get(String(id)))
       .map(([id]) => id),
   );
 }
 
 /** @param {number[]} ids */
 function drop(ids) {
-  const gone = ids.filter((id) => all().has(id));
-  if (!gone.length) return;
-  things.value = new Map([...all()].filter(([id]) => !gone.includes(id)));
-  total.value -= gone.length;
+  const removals = ids.filter((id) => all().has(id));
+  if (!removals.length) return;
+  things.value = new Map([...all()].filter(([id]) => !removals.includes(id)));
+  total.value -= removals.length;
   changes.tell();
 }

@@ -12,7 +12,7 @@ import { topicEntries } from "webviz/panels/displays/topic_entries.js";
 
 /** @import {Close} from "webviz/controls/dialog.js" */
 /** @import {Signal} from "webviz/signals.js" */
-/** @import {AddRow, Choice, Entry, Known} from "webviz/panels/displays/topic_entries.js" */
+/** @import {AddRow, Choice, Entry, StoreContents} from "webviz/panels/displays/topic_entries.js" */
 
 const MAX_SHOWN = 200;
 const WAYS = { topic: "By topic", type: "By display" };
@@ -28,13 +28,13 @@ export function openAdd({ group = "" } = {}) {
     const way = signal(recall("add", "topic"));
     const checked = signal(/** @type {Map<string, Choice>} */ (new Map()));
     /** @type {() => Choice[] | null} */
-    let taken = () => null; // what Add would add
+    let choices = () => null; // what Add would add
     const chosen = await openDialog({
       title: "Add display",
       className: "wv-add",
       content(close) {
-        const { content, taken: own } = chooser(way, checked, close);
-        taken = own;
+        const { content, choices: own } = chooser(way, checked, close);
+        choices = own;
         return content;
       },
       buttons: [
@@ -43,11 +43,11 @@ export function openAdd({ group = "" } = {}) {
           label: () => (checked.value.size > 1 ? `Add ${checked.value.size} displays` : "Add"),
           value: "add",
           primary: true,
-          accept: () => taken() !== null,
+          accept: () => choices() !== null,
         },
       ],
     });
-    const picks = chosen === "add" ? taken() : chosen;
+    const picks = chosen === "add" ? choices() : chosen;
     end();
     const step = newStep();
     for (const { type, values } of picks ?? [])
@@ -62,14 +62,14 @@ export function openAdd({ group = "" } = {}) {
  */
 function chooser(way, checked, close) {
   const text = signal("");
-  const known = computed(knownNow);
+  const facts = computed(knownNow);
   const all = computed(() =>
-    way.value === "type" ? typeEntries(known.value) : topicEntries(known.value, checked.value),
+    way.value === "type" ? typeEntries(facts.value) : topicEntries(facts.value, checked.value),
   );
-  const found = computed(() => matches(all.value, text.value));
+  const results = computed(() => matches(all.value, text.value));
   const input = textField("Search", { class: "wv-field wv-search", placeholder: "Search" });
   const list = new OptionList(input, "Displays", ({ id: row }, event) => {
-    const { id, pick } = found.value.find((one) => one.id === row) ?? {};
+    const { id, pick } = results.value.find((one) => one.id === row) ?? {};
     if (!id || !pick) return;
     if (way.value === "type") return close([pick]);
     const isToggled = event.type === "click" && event.detail < 2;
@@ -80,8 +80,8 @@ function chooser(way, checked, close) {
   });
   // After that of the list, which then begins with the best match.
   input.addEventListener("input", () => (text.value = input.value));
-  effect(() => list.show(found.value.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row)));
-  const note = () => remark({ ...known.value, way: way.value }, all.value, found.value.length);
+  effect(() => list.show(results.value.slice(0, MAX_SHOWN).map(({ pick: _, ...row }) => row)));
+  const note = () => remark({ ...facts.value, way: way.value }, all.value, results.value.length);
   const tabs = Object.entries(WAYS).map(([name, label]) =>
     el(
       "button",
@@ -105,28 +105,28 @@ function chooser(way, checked, close) {
     list.element,
     el("p", { class: "wv-quiet wv-nothing", hidden: () => !note() }, note),
   ];
-  const taken = () => {
+  const choices = () => {
     if (checked.value.size) return [...checked.value.values()];
-    const active = found.value.find(({ id, disabled }) => !disabled && id === list.active());
+    const active = results.value.find(({ id, disabled }) => !disabled && id === list.active());
     return active?.pick ? [active.pick] : null;
   };
-  return { content, taken };
+  return { content, choices };
 }
 
 /**
  * Everything there is to choose from, null before it is known.
  *
- * @returns {Known}
+ * @returns {StoreContents}
  */
 function knownNow() {
   const [types, topics, traffic] = [store("types"), store("topics"), store("traffic")];
   const displays = store("displays");
-  const shown = [...displays.all().values()].flatMap((display) => display.topics ?? []);
+  const names = [...displays.all().values()].flatMap((display) => display.topics ?? []);
   return {
     types: types.isThere() ? [...types.all()] : null,
     topics: topics.isThere() ? [...topics.all()].sort(([a], [b]) => (a < b ? -1 : 1)) : null,
     traffic: traffic.isThere() ? traffic.all() : null,
-    shown: displays.isThere() ? new Set(shown.map(absolute)) : null,
+    displayedTopics: displays.isThere() ? new Set(names.map(absolute)) : null,
   };
 }
 
@@ -144,7 +144,7 @@ const matches = (entries, text) =>
   });
 
 /**
- * @param {Pick<Known, "types">} known
+ * @param {Pick<StoreContents, "types">} known
  * @returns {Entry[]}
  */
 function typeEntries({ types }) {
@@ -168,7 +168,7 @@ function typeEntries({ types }) {
 const absolute = (topic) => (topic.startsWith("/") ? topic : `/${topic}`);
 
 /**
- * @param {Known & {way: string}} known
+ * @param {StoreContents & {way: string}} known
  * @param {Entry[]} all
  * @param {number} count
  */

@@ -39,8 +39,8 @@ export function buildDetails() {
     ondblclick: close,
   });
   const body = el("div", { class: "wv-details-body" }, () => {
-    const shown = JSON.parse(ids.value);
-    return untracked(() => contentOf(shown));
+    const idList = JSON.parse(ids.value);
+    return untracked(() => contentOf(idList));
   });
   effect(() => {
     if (ids.value) body.scrollTop = 0;

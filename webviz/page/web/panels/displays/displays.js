@@ -162,10 +162,10 @@ function commandsOf(tree, isHere) {
   const isOne = () => chosen().length === 1;
   /**
    * @param {string} name
-   * @param {Partial<Command> & {run: () => unknown}} wanted
+   * @param {Partial<Command> & {run: () => unknown}} definition
    */
-  const about = (name, wanted) =>
-    command({ name, group: "Displays", isThere: () => chosen().length > 0, ...wanted });
+  const about = (name, definition) =>
+    command({ name, group: "Displays", isThere: () => chosen().length > 0, ...definition });
   return [
     about("Focus on display", {
       icon: "focus",

@@ -197,11 +197,11 @@ class Dragging {
   release(event) {
     if (event.pointerId !== this.#press?.pointerId) return;
     const { item, isReady, kind } = this.#press;
-    const done = this.#drag;
-    if (done || (kind === "touch" && isReady)) swallowClick();
+    const drag = this.#drag;
+    if (drag || (kind === "touch" && isReady)) swallowClick();
     this.end();
-    if (done) {
-      move(this.#tree.model(), done.ids, done.place);
+    if (drag) {
+      move(this.#tree.model(), drag.ids, drag.place);
       if (!selection.isSelected(item.id)) selection.choose(item.id);
       this.#tree.showActive();
     } else if (kind === "touch" && isReady) {

@@ -182,16 +182,16 @@ export function matches(item, words) {
  */
 function matching(model, words) {
   /** @type {Set<Item>} */
-  const shown = new Set();
+  const result = new Set();
   for (const item of model.items) {
-    const isInShown = item.parent !== null && shown.has(item.parent);
+    const isInShown = item.parent !== null && result.has(item.parent);
     if (!isInShown && !matches(item, words)) continue;
     if (!matches(item, words) && !isInMatch(item, words)) continue;
     /** @type {Item | null} */
     let one = item;
-    for (; one; one = one.parent) shown.add(one);
+    for (; one; one = one.parent) result.add(one);
   }
-  return model.items.filter((item) => shown.has(item));
+  return model.items.filter((item) => result.has(item));
 }
 
 /**

@@ -30,14 +30,14 @@ export function below(model, rows, index, depth, moved, isOpen) {
   const lower = rows.slice(index + 1).find(stays);
   const most = upper ? upper.depth + (upper.isGroup && isOpen(upper) ? 1 : 0) : 0;
   const least = Math.min(lower?.depth ?? 0, most);
-  const wanted = Math.max(least, Math.min(depth, most));
+  const level = Math.max(least, Math.min(depth, most));
   if (!upper) return { group: "", before: model.top.find(stays)?.id ?? "", depth: 0 };
-  if (wanted > upper.depth) {
-    return { group: upper.id, before: upper.children.find(stays)?.id ?? "", depth: wanted };
+  if (level > upper.depth) {
+    return { group: upper.id, before: upper.children.find(stays)?.id ?? "", depth: level };
   }
   let item = upper;
-  while (item.parent && item.depth > wanted) item = item.parent;
-  return { ...behind(model, item, moved), depth: wanted };
+  while (item.parent && item.depth > level) item = item.parent;
+  return { ...behind(model, item, moved), depth: level };
 }
 
 /**

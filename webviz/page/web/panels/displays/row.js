@@ -185,7 +185,7 @@ function noteOf(id, { item, hasRate }, isGlobal) {
  * @param {HTMLElement} row
  */
 function statusOf(display, state, row) {
-  const said = computed(() => {
+  const sentence = computed(() => {
     const { item, isOpen } = state.value;
     // What a group says is said again by what is in it.
     return item.isActive && !(item.isGroup && isOpen) ? sanitized(item.line, MAX_TOOLTIP) : "";
@@ -193,22 +193,22 @@ function statusOf(display, state, row) {
   const finding = computed(() => {
     const { item } = state.value;
     // A group repeats a status of a display in it.
-    return said.value ? explaining(display, item.isGroup ? undefined : item.status) : undefined;
+    return sentence.value ? explaining(display, item.isGroup ? undefined : item.status) : undefined;
   });
   // One that is behind several displays stands above all of them, once.
   const isAbove = () => finding.value !== undefined && isShared(finding.value);
   const cause = () => (finding.value && isSevere(finding.value) ? finding.value.cause : "");
-  const isShown = () => said.value !== "" && !isAbove();
+  const isShown = () => sentence.value !== "" && !isAbove();
   const line = el(
     "div",
     {
       class: "wv-tree-status",
       id: `wv-status-${state.value.item.id}`,
-      "data-tip": () => (cause() ? null : said.value || null),
+      "data-tip": () => (cause() ? null : sentence.value || null),
       "data-cause": () => cause() !== "",
       hidden: () => !isShown(),
     },
-    () => cause() || said.value,
+    () => cause() || sentence.value,
   );
   const remedy = el("div", { class: "wv-tree-remedy", "data-part": "remedy", hidden: true });
   set(row, {

@@ -21,7 +21,7 @@ const awaited = signal(/** @type {string | null} */ (null));
 /** The display that follows those that this page removes. */
 const successor = signal(/** @type {string | null} */ (null));
 /** Displays that were selected when they went, until others are selected. */
-const gone = signal(/** @type {Set<string>} */ (new Set()));
+const formerIds = signal(/** @type {Set<string>} */ (new Set()));
 /** True if each click adds or removes, as with Ctrl: fingers have no keys. */
 const isSeveral = signal(false);
 const place = signal(0); // of the current row, should it go
@@ -42,11 +42,11 @@ export const reveal = (id) => void (awaited.value = id);
 export const added = () => awaited.value;
 
 // The row of what was added is there before the answer, or comes after it.
-channel.on("Done", ({ result }) => result.display && reveal(result.display));
+channel.on("CommandResult", ({ result }) => result.display && reveal(result.display));
 channel.onOpen(() => {
   restored.value = recalled();
   selected.clear();
-  gone.value = new Set();
+  formerIds.value = new Set();
 });
 
 export const ids = () => selected;
@@ -69,7 +69,7 @@ export const activate = (id) => void (current.value = id);
  * @param {string | null} id
  */
 export function choose(id) {
-  gone.value = new Set();
+  formerIds.value = new Set();
   selected.clear();
   if (id !== null) selected.add(id);
   current.value = anchor.value = id;
@@ -81,7 +81,7 @@ export function choose(id) {
  * @param {string} id
  */
 export function toggle(id) {
-  gone.value = new Set();
+  formerIds.value = new Set();
   if (!selected.delete(id)) selected.add(id);
   current.value = anchor.value = id;
 }
@@ -90,9 +90,9 @@ export const severalAtOnce = () => isSeveral.value;
 /**
  * True if each click adds a row, or takes it away.
  *
- * @param {boolean} wanted
+ * @param {boolean} isOn
  */
-export const selectSeveral = (wanted) => void (isSeveral.value = wanted);
+export const selectSeveral = (isOn) => void (isSeveral.value = isOn);
 
 /**
  * Selects from where the selection began to a row.
@@ -101,7 +101,7 @@ export const selectSeveral = (wanted) => void (isSeveral.value = wanted);
  * @param {Item[]} rows
  */
 export function extend(id, rows) {
-  gone.value = new Set();
+  formerIds.value = new Set();
   const order = rows.map((row) => row.id);
   const from = Math.max(order.indexOf(anchor.value ?? ""), 0);
   const to = order.indexOf(id);
@@ -128,7 +128,7 @@ export function follow(items) {
   comeBack(there);
   const went = [...selected].filter((id) => !there.has(id));
   for (const id of went) selected.delete(id);
-  const remembered = gone.value; // `choose` forgets it, which is not meant here
+  const remembered = formerIds.value; // `choose` forgets it, which is not meant here
   const id = awaited.value;
   if (id !== null && there.has(id)) {
     awaited.value = null;
@@ -143,7 +143,7 @@ export function follow(items) {
     successor.value = null;
   }
   const isOther = items.length <= 1; // another config
-  gone.value = new Set(isOther ? [] : [...remembered, ...went]);
+  formerIds.value = new Set(isOther ? [] : [...remembered, ...went]);
   const at = items.findIndex(({ id }) => id === current.value);
   place.value = Math.max(at, 0);
   return null;
@@ -168,7 +168,7 @@ function restore(items) {
  * @param {Map<string, Item>} there
  */
 function comeBack(there) {
-  const back = [...gone.value].filter((id) => there.has(id));
+  const back = [...formerIds.value].filter((id) => there.has(id));
   if (!back.length) return;
   choose(back[0]);
   for (const id of back) selected.add(id);

@@ -12,8 +12,8 @@ import { isHiddenTopic } from "webviz/words.js";
  * @typedef {{words: [title: string, more: string], rows: AddRow[]}} Entry
  * @typedef {{
  *   types: [string, DisplayType][] | null, topics: [string, GraphTopic][] | null,
- *   traffic: ValuesOf<"traffic"> | null, shown: Set<string> | null,
- * }} Known
+ *   traffic: ValuesOf<"traffic"> | null, displayedTopics: Set<string> | null,
+ * }} StoreContents
  * @typedef {{topic: string, offer: GraphTopic, transport: string}[]} Family
  */
 
@@ -26,11 +26,11 @@ const TRANSPORT = /^(.+)\/(compressed|compressedDepth|ffmpeg|theora|zstd|draco)$
  * `types`, `topics` and `traffic` are the stores; `shown` has the topics of all displays, `checked`
  * the ids of rows.
  *
- * @param {Known} stores
+ * @param {StoreContents} stores
  * @param {Map<string, Choice>} checked
  * @returns {Entry[]}
  */
-export function topicEntries({ types, topics, traffic, shown }, checked) {
+export function topicEntries({ types, topics, traffic, displayedTopics }, checked) {
   /** @type {Map<string, string>} */
   const icons = new Map((types ?? []).map(([name, { icon }]) => [name, icon]));
   /** @type {Set<string>} */
@@ -39,7 +39,7 @@ export function topicEntries({ types, topics, traffic, shown }, checked) {
   );
   const entries = families(topics ?? []).map((family) => {
     const show = family.flatMap(({ offer }) => offer.show);
-    const isShown = family.some(({ topic }) => shown?.has(topic));
+    const isShown = family.some(({ topic }) => displayedTopics?.has(topic));
     const isPlain = show.every(([display]) => plain.has(display));
     const isHidden = family.every(({ topic }) => isHiddenTopic(topic));
     const rank = !show.length ? 5 : isHidden ? 4 : Number(isShown) + 2 * Number(isPlain);
@@ -55,25 +55,25 @@ export function topicEntries({ types, topics, traffic, shown }, checked) {
  * @returns {Family[]}
  */
 function families(topics) {
-  const known = new Map(topics);
+  const offers = new Map(topics);
   /** @type {Map<string, Family>} */
-  const made = new Map();
+  const groups = new Map();
   for (const [topic, offer] of topics) {
     const [, base, transport] = TRANSPORT.exec(topic) ?? [];
-    const isPart = offer.show.length && known.get(base)?.show.length;
+    const isPart = offer.show.length && offers.get(base)?.show.length;
     const family = isPart ? base : topic;
-    made.set(family, [
-      ...(made.get(family) ?? []),
+    groups.set(family, [
+      ...(groups.get(family) ?? []),
       { topic, offer, transport: isPart ? transport : "raw" },
     ]);
   }
-  return [...made.values()];
+  return [...groups.values()];
 }
 
 /**
  * @param {Family} family
  * @param {{
- *   traffic: Known["traffic"], icons: Map<string, string>, isShown: boolean, isPlain: boolean,
+ *   traffic: StoreContents["traffic"], icons: Map<string, string>, isShown: boolean, isPlain: boolean,
  *   checked: Map<string, Choice>,
  * }} about
  * @returns {Entry}

@@ -72,7 +72,7 @@ export class DisplayTree {
       keyOf: ({ id }) => id,
       guess,
       make: (item, _, id) => makeRow(id, item, (now) => this.#look(now)),
-      held: selection.active,
+      activeKey: selection.active,
       beyond: () => BEYOND_PX,
     });
     rememberScroll(this.element);

@@ -16,11 +16,11 @@ import * as viser from "webviz/viser_page.js";
  */
 export function lensOf(object) {
   const camera = viser.camera();
-  const seen = camera.matrixWorldInverse.clone().multiply(object.matrixWorld);
+  const modelView = camera.matrixWorldInverse.clone().multiply(object.matrixWorld);
   const { clientWidth: wide, clientHeight: tall } = viser.canvas();
   return {
-    v: seen.elements,
-    m: camera.projectionMatrix.clone().multiply(seen).elements,
+    v: modelView.elements,
+    m: camera.projectionMatrix.clone().multiply(modelView).elements,
     grow: (camera.projectionMatrix.elements[5] * tall) / 2,
     wide,
     tall,

@@ -20,8 +20,8 @@ export function lineAt(lines, [atX, atY], near) {
   /** @type {any} */
   let best = null;
   for (let i = 0, j = 0; j < xyz.length; i++, j += 6) {
-    const from = seen(xyz, j);
-    const to = seen(xyz, j + 3);
+    const from = viewPoint(xyz, j);
+    const to = viewPoint(xyz, j + 3);
     if (!(from.depth > NEAREST || to.depth > NEAREST)) continue;
     if (from.depth < NEAREST) cut(from, to);
     if (to.depth < NEAREST) cut(to, from);
@@ -47,7 +47,7 @@ export function lineAt(lines, [atX, atY], near) {
    * @param {ArrayLike<number>} array
    * @param {number} at
    */
-  function seen(array, at) {
+  function viewPoint(array, at) {
     const [x, y, z] = [array[at], array[at + 1], array[at + 2]];
     return {
       x: m[0] * x + m[4] * y + m[8] * z + m[12],

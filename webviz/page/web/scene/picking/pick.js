@@ -15,7 +15,7 @@ import { isTile, things } from "webviz/scene/picking/things.js";
  * The hit of a thing; `off` is how far beside it, in pixels, `layer` that of a picture.
  *
  * @typedef {{number: number | null, off: number, depth: number, point?: Vector3, layer?: number}} Under
- * @typedef {SceneThing & Under & {rank: number}} Found
+ * @typedef {SceneThing & Under & {rank: number}} Hit
  */
 
 const NEAR_PX = 4; // what the pointer means although it is not quite on it
@@ -37,15 +37,15 @@ const PLANE_PX = 1; // what is as close together in depth lies in one plane
 export function pickAt(xy, isWanted = () => true, reach = NEAR_PX) {
   const at = onCanvasAt(xy);
   const caster = casterAt(xy);
-  /** @type {(Found | null)[]} the nearest of each kind */
+  /** @type {(Hit | null)[]} the nearest of each kind */
   let [on, near, flat] = [null, null, null];
   for (const thing of things()) {
     const hit = isWanted(thing) ? hitOf(thing, at, caster, reach) : null;
     if (!hit) continue;
-    const found = { ...thing, ...hit, rank: rankOf(thing.object) };
-    if (found.layer !== undefined) flat = isOver(found, flat) ? found : flat;
-    else if (found.off === 0) on = isNearer(found, on) ? found : on;
-    else if (!near || found.off < near.off) near = found;
+    const candidate = { ...thing, ...hit, rank: rankOf(thing.object) };
+    if (candidate.layer !== undefined) flat = isOver(candidate, flat) ? candidate : flat;
+    else if (candidate.off === 0) on = isNearer(candidate, on) ? candidate : on;
+    else if (!near || candidate.off < near.off) near = candidate;
   }
   const floor = flat && !(on && on.depth < flat.depth) ? flat : null;
   const best = floor ? (near && near.depth < floor.depth ? near : floor) : (on ?? near);
@@ -90,20 +90,20 @@ function hitOf({ object, name }, at, caster, reach) {
   if (!hit) return null;
   // Not the point of the hit, which is wrong for instanced meshes.
   const point = caster.ray.at(hit.distance, viser.camera().position.clone());
-  const found = { number: hit.instanceId ?? null, off: 0, depth: depthOf(point), point };
-  if (!isTile(name)) return found;
+  const place = { number: hit.instanceId ?? null, off: 0, depth: depthOf(point), point };
+  if (!isTile(name)) return place;
   // Farther than what lies on it.
   return {
-    ...found,
-    depth: found.depth + PLANE_PX * pixelAt(found.depth),
+    ...place,
+    depth: place.depth + PLANE_PX * pixelAt(place.depth),
     layer: object.renderOrder,
   };
 }
 
 // Of what lies in one plane, a point is meant rather than a line, and that rather than a surface.
 /**
- * @param {Found} a
- * @param {Found | null} b
+ * @param {Hit} a
+ * @param {Hit | null} b
  * @returns {boolean}
  */
 function isNearer(a, b) {
@@ -112,8 +112,8 @@ function isNearer(a, b) {
 }
 
 /**
- * @param {Found} a
- * @param {Found} b
+ * @param {Hit} a
+ * @param {Hit} b
  */
 const isLevel = (a, b) => Math.abs(a.depth - b.depth) < PLANE_PX * pixelAt(b.depth);
 
@@ -126,8 +126,8 @@ const rankOf = ({ isText, isPoints, isLineSegments2 }) =>
 
 // Pictures of one plane lie over each other by their layer.
 /**
- * @param {Found} a
- * @param {Found | null} b
+ * @param {Hit} a
+ * @param {Hit | null} b
  * @returns {boolean}
  */
 function isOver(a, b) {
@@ -138,13 +138,13 @@ function isOver(a, b) {
 /**
  * A part of an object as a pick; `number` is that of the object.
  *
- * @param {SceneThing & {number: number | null, depth?: number, point?: Vector3}} found
+ * @param {SceneThing & {number: number | null, depth?: number, point?: Vector3}} target
  * @param {Raycaster} [caster]
  * @returns {Picked}
  */
-export function described(found, caster) {
-  const { object, name, ordinal, number, depth } = found;
-  const { group, key, path, first } = found.node;
+export function described(target, caster) {
+  const { object, name, ordinal, number, depth } = target;
+  const { group, key, path, first } = target.node;
   const thing = { group, key, path, name, ordinal, object, number, color: null };
   const local = anchorOf(object, number);
   if (object.isText) return { ...thing, item: number, at: local, local, point: object.place };
@@ -157,7 +157,7 @@ export function described(found, caster) {
     return { ...thing, ...more, at: local, local, point: inThree(local) };
   }
   const point =
-    found.point ?? (depth !== undefined && caster ? onRay(depth, caster) : inThree(local));
+    target.point ?? (depth !== undefined && caster ? onRay(depth, caster) : inThree(local));
   if (number !== null) return { ...thing, item: number, at: local, local, point };
   // In the coordinates of the node, which has several objects.
   const whole = viser.node(path) ?? object;

@@ -9,7 +9,7 @@ const ROUND = 1000; // above this, the norm of its outline makes a point a squar
 
 // The coordinates of the points that are drawn, which may be the first ones only.
 /** @param {SceneObject} points */
-const drawn = ({ geometry: { attributes, drawRange } }) =>
+const coordinatesOf = ({ geometry: { attributes, drawRange } }) =>
   attributes.position?.array.subarray(
     0,
     3 * Math.min(drawRange.count, attributes.position.count),
@@ -24,13 +24,13 @@ const drawn = ({ geometry: { attributes, drawRange } }) =>
  */
 export function pointAt(points, [atX, atY], near) {
   const { m, v, wide, tall, dpr } = lensOf(points);
-  const xyz = drawn(points);
+  const xyz = coordinatesOf(points);
   const { scale, point_ball_norm: norm } = points.material.uniforms;
   const half = scale.value / 2 / dpr; // times 1 / depth
   const [a, b, c, d] = planeOf(points);
   const isSquare = norm.value > ROUND;
   const [midX, midY] = [wide / 2, tall / 2];
-  let found = -1;
+  let index = -1;
   let off = Infinity;
   let nearest = Infinity;
   for (let i = 0, j = 0; j < xyz.length; i++, j += 3) {
@@ -48,12 +48,12 @@ export function pointAt(points, [atX, atY], near) {
     if (!isOn && beside > near) continue;
     const away = isOn ? 0 : beside;
     if (away < off || (away === off && depth <= nearest)) {
-      found = i;
+      index = i;
       off = away;
       nearest = depth;
     }
   }
-  return found < 0 ? null : { number: found, depth: nearest, off };
+  return index < 0 ? null : { number: index, depth: nearest, off };
 }
 
 /**
@@ -65,7 +65,7 @@ export function pointAt(points, [atX, atY], near) {
  */
 export function pointsIn(points, { left, top, right, bottom }, take) {
   const { m, v, wide, tall } = lensOf(points);
-  const xyz = drawn(points);
+  const xyz = coordinatesOf(points);
   const [midX, midY] = [wide / 2, tall / 2];
   for (let i = 0, j = 0; j < xyz.length; i++, j += 3) {
     const [x, y, z] = [xyz[j], xyz[j + 1], xyz[j + 2]];

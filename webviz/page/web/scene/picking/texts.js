@@ -19,20 +19,20 @@ const TEXT = /^(.*)\/(\d+)$/; // the name of a text: that of its node, and its n
  * @returns {{object: SceneText, name: string}[]}
  */
 export function texts() {
-  const drawn = rectangles();
+  const rects = rectangles();
   /** @type {ReturnType<typeof texts>} */
-  const found = [];
-  for (const name of drawn.size ? Object.keys(viser.nodes()) : []) {
+  const items = [];
+  for (const name of rects.size ? Object.keys(viser.nodes()) : []) {
     const [, outer, number] = TEXT.exec(name) ?? [];
     const local = number && viser.positionOf(name);
     const node = local && viser.node(outer);
     if (!node) continue;
     const place = node.position.clone().fromArray(local).applyMatrix4(node.matrixWorld);
-    const rect = drawn.get(keyOf(place));
+    const rect = rects.get(keyOf(place));
     if (rect)
-      found.push({ object: { isText: true, number: Number(number), local, place, rect }, name });
+      items.push({ object: { isText: true, number: Number(number), local, place, rect }, name });
   }
-  return found;
+  return items;
 }
 
 /** @param {{x: number, y: number, z: number}} place */
@@ -41,7 +41,7 @@ const keyOf = ({ x, y, z }) => [x, y, z].map(Math.fround).join();
 // Of all texts that are shown, by where they are.
 function rectangles() {
   /** @type {Map<string, SceneText["rect"]>} */
-  const found = new Map();
+  const rects = new Map();
   for (const { geometry, material } of boxes()) {
     const { aLabelIndex: index, aRect: rect, aParams } = geometry.attributes;
     const { data } = material.uniforms.uLabelData.value.image;
@@ -51,10 +51,10 @@ function rectangles() {
       const [x, y, z] = data.subarray(at, at + 3);
       const [left, bottom] = [rect.getX(i) * scale, rect.getY(i) * scale];
       const size = [rect.getZ(i) * scale, rect.getW(i) * scale];
-      if (scale) found.set(keyOf({ x, y, z }), [left, bottom, size[0], size[1]]);
+      if (scale) rects.set(keyOf({ x, y, z }), [left, bottom, size[0], size[1]]);
     }
   }
-  return found;
+  return rects;
 }
 
 /**

@@ -18,14 +18,14 @@ export function things() {
   /** @type {Map<string, number>} */
   const counts = new Map();
   /** @type {SceneThing[]} */
-  const found = [];
+  const items = [];
   const root = viser.node(ROOT);
   if (root) visit(root, ROOT);
   for (const text of texts()) {
     const node = nodeNamed(text.name);
-    if (node) found.push({ ...text, node, ordinal: 0 });
+    if (node) items.push({ ...text, node, ordinal: 0 });
   }
-  return found;
+  return items;
 
   /**
    * @param {SceneObject} object
@@ -38,7 +38,7 @@ export function things() {
     if (node) {
       const ordinal = counts.get(name) ?? 0;
       counts.set(name, ordinal + 1);
-      found.push({ object, name, node, ordinal });
+      items.push({ object, name, node, ordinal });
     }
     for (const child of object.children) visit(child, name);
   }

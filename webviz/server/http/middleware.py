@@ -1,4 +1,4 @@
-"""The guard of the server: checks every connection and every message from browsers.
+"""The middleware of the server: checks every connection and every message from browsers.
 
 viser accepts any connection to its port, even from other sites open in the user's browser, and lets
 browsers overwrite the internals of widgets or open a public tunnel. Here connections are checked
@@ -24,7 +24,7 @@ from webviz.server.channel.channel import Channel, objection
 from webviz.server.http.connections import Connection, ConnectionLimits
 from webviz.server.http.listener import Listener
 from webviz.server.http.requests import add_policy
-from webviz.server.http.steps import Reply, Step, Visit, answer_of
+from webviz.server.http.steps import Reply, RequestContext, Step, answer_of
 from webviz.server.http.tunnels import BackListener, hand_over
 from webviz.server.http.viser_messages import MAX_BYTES
 
@@ -79,7 +79,7 @@ Handler = Callable[[websocket.ServerConnection], Awaitable[None]]
 ServeFile = Callable[[Connection, Request], Response | None]
 
 
-class RequestGuard(msgspec.Struct):
+class Middleware(msgspec.Struct):
     """Checks in front of viser's server.
 
     Args:
@@ -106,7 +106,7 @@ class RequestGuard(msgspec.Struct):
     def serve(
         self, serve: Callable[..., Any], handler: Any, host: str, port: int, **options: Any
     ) -> Any:
-        """Open viser's server behind this guard, and any other as it is.
+        """Open viser's server behind these checks, and any other as it is.
 
         Args:
             serve: `websockets.asyncio.server.serve`; the other arguments are those of it.
@@ -144,15 +144,15 @@ class RequestGuard(msgspec.Struct):
         """Answer a request, or let it open a websocket with what is known of its browser."""
         peer = (connection.remote_address or ("",))[0]
         fetch = functools.partial(serve_file, connection)
-        visit = Visit(request, fetch, peer, is_secure=self.tls is not None)
-        reply = answer_of(self.steps, visit)
-        connection.host, connection.is_secure = visit.host, visit.is_secure
-        connection.admit(visit.address, visit.grant)
+        context = RequestContext(request, fetch, peer, is_secure=self.tls is not None)
+        reply = answer_of(self.steps, context)
+        connection.host, connection.is_secure = context.host, context.is_secure
+        connection.admit(context.address, context.grant)
         if reply is not None:
             return _response(connection, reply)
-        if visit.socket:
-            return hand_over(connection, visit)
-        if visit.is_channel:
+        if context.socket:
+            return hand_over(connection, context)
+        if context.is_channel:
             connection.is_channel = True
             connection.objection = objection
         return None

@@ -10,23 +10,23 @@
  * @param {unknown} [owner] of which it is a method
  * @returns {T}
  */
-export function guarded(value, report, owner) {
+export function withErrorBoundary(value, report, owner) {
   /** @type {any} */
-  const given = value;
-  if (typeof given === "function")
+  const target = value;
+  if (typeof target === "function")
     return /** @type {any} */ (
       (/** @type {unknown[]} */ ...args) => {
         try {
-          return guarded(Reflect.apply(given, owner, args), report);
+          return withErrorBoundary(Reflect.apply(target, owner, args), report);
         } catch (error) {
           report(error);
         }
       }
     );
-  if (Object.getPrototypeOf(given ?? 0) !== Object.prototype) return value;
+  if (Object.getPrototypeOf(target ?? 0) !== Object.prototype) return value;
   return /** @type {any} */ (
     Object.fromEntries(
-      Object.entries(given).map(([key, each]) => [key, guarded(each, report, given)]),
+      Object.entries(target).map(([key, each]) => [key, withErrorBoundary(each, report, target)]),
     )
   );
 }

@@ -3,7 +3,7 @@
 import { el } from "webviz/dom.js";
 import { icon } from "webviz/icons.js";
 import { focusCamera, moveCamera } from "webviz/tools/camera_tools.js";
-import { hint, tell } from "webviz/tools/hint.js";
+import { hint, showHint } from "webviz/tools/hint.js";
 import { measure } from "webviz/tools/measure.js";
 import * as registry from "webviz/tools/registry.js";
 import * as preview from "webviz/tools/preview.js";
@@ -69,7 +69,7 @@ export function install() {
     run: preview.send,
     isThere: () => preview.isWaiting() && !document.activeElement?.closest("button"),
   });
-  effect(() => tell("hint", registry.active()?.hint ?? ""));
+  effect(() => showHint("hint", registry.active()?.hint ?? ""));
   for (const name of EVENTS) {
     window.addEventListener(name, onPointer, { capture: true, passive: false });
   }
@@ -93,12 +93,12 @@ export const iconItems = () =>
  * @param {(tool: Tool) => boolean} fits
  */
 function group(label, fits) {
-  const made = each(
+  const buttons = each(
     () => all().filter(fits),
     ({ id }) => id,
     buttonOf,
   );
-  return el("div", { class: "wv-tools", role: "group", "aria-label": label }, made);
+  return el("div", { class: "wv-tools", role: "group", "aria-label": label }, buttons);
 }
 
 /** @param {Signal<Tool>} tool */

@@ -48,7 +48,7 @@ Align = Literal["stamp", "start", "path"]
 Floats = npt.NDArray[np.float64]
 
 
-class Ghost(msgspec.Struct, frozen=True):
+class ComparisonRun(msgspec.Struct, frozen=True):
     """A second run to show beside a bag.
 
     Args:
@@ -63,8 +63,8 @@ class Ghost(msgspec.Struct, frozen=True):
     difference: str = ""
 
 
-class GhostFile(BagFile):
-    """A bag whose topics are in the namespace of the ghost, and whose times are moved.
+class ComparisonFile(BagFile):
+    """A bag whose topics are in the namespace `ghost`, and whose times are moved.
 
     Args:
         path: of the file or folder.
@@ -111,31 +111,33 @@ class GhostFile(BagFile):
         return recorded._replace(cdr=cdr, stamp_ns=recorded.stamp_ns + self._offset_ns)
 
 
-def ghost_files(paths: Sequence[Path], ghost: Ghost) -> list[GhostFile | ComputedFile]:
+def comparison_files(
+    paths: Sequence[Path], comparison: ComparisonRun
+) -> list[ComparisonFile | ComputedFile]:
     """Return the second run as files to merge with a bag, and numbers that compare both.
 
     Args:
         paths: of the bag.
-        ghost: the second run.
+        comparison: the second run.
 
     Raises:
         Error: a bag cannot be read, or the paths of the robots are unknown.
     """
-    with closing(BagFiles(paths)) as own, closing(BagFiles([ghost.path])) as other:
+    with closing(BagFiles(paths)) as own, closing(BagFiles([comparison.path])) as other:
         here, there = Track.of(own), Track.of(other)
-        offset_ns = _offset_ns(own, other, here, there, ghost.align)
+        offset_ns = _offset_ns(own, other, here, there, comparison.align)
         ros_ns = _ros_offset_ns(other) - _ros_offset_ns(own)
         numbers_by_topic: dict[str, tuple[npt.NDArray[np.int64], Floats]] = {}
         if here is not None and there is not None and here.root == there.root:
             distance = np.hypot(*(here.xy - there.at(here.times - offset_ns)).T)
             _add(numbers_by_topic, DISTANCE, here.times, distance)
-        if ghost.difference:
-            times, values = _numbers(own, ghost.difference)
-            ghost_times, ghost_values = _numbers(other, ghost.difference)
-            there_values = _interpolated(times - offset_ns, ghost_times, ghost_values)
+        if comparison.difference:
+            times, values = _numbers(own, comparison.difference)
+            other_times, other_values = _numbers(other, comparison.difference)
+            there_values = _interpolated(times - offset_ns, other_times, other_values)
             _add(numbers_by_topic, DIFFERENCE, times, values - there_values)
     numbers = [_numbers_file(numbers_by_topic)] if numbers_by_topic else []
-    return [GhostFile(ghost.path, offset_ns, offset_ns + ros_ns), *numbers]
+    return [ComparisonFile(comparison.path, offset_ns, offset_ns + ros_ns), *numbers]
 
 
 class Track(msgspec.Struct, frozen=True):
@@ -227,30 +229,30 @@ def _offset_ns(
 def _closest(here: Track, there: Track) -> float:
     """Seconds that the second path begins after the first where both are closest."""
     a, b = here.times[0], there.times[0]
-    times, ghost_times = (here.times - a) / 1e9, (there.times - b) / 1e9
-    lengths = times[-1], ghost_times[-1]
+    times, other_times = (here.times - a) / 1e9, (there.times - b) / 1e9
+    lengths = times[-1], other_times[-1]
     step = max(STEP_S, (lengths[0] + lengths[1]) / MAX_STEPS)
     thin = max(1, len(times) // 2000)
     times, xy = times[::thin], here.xy[::thin]
     coarse = np.arange(-lengths[1], lengths[0] + step, step)
-    best = _best(coarse, times, xy, ghost_times, there.xy, min(lengths))
+    best = _best(coarse, times, xy, other_times, there.xy, min(lengths))
     fine = best + np.arange(-step, step + SAMPLE_S / 2, SAMPLE_S)
-    return _best(fine, times, xy, ghost_times, there.xy, min(lengths))
+    return _best(fine, times, xy, other_times, there.xy, min(lengths))
 
 
 def _best(
-    offsets: Floats, times: Floats, xy: Floats, ghost_times: Floats, ghost_xy: Floats, least: float
+    offsets: Floats, times: Floats, xy: Floats, other_times: Floats, other_xy: Floats, least: float
 ) -> float:
     """Return the offset with the least mean distance, of those with enough overlap."""
     best, least_m = 0.0, math.inf
     needed = max(2, round(OVERLAP * least / max(1e-9, times[-1]) * len(times)))
     for offset in offsets:
         at = times - offset
-        inside = (at >= 0) & (at <= ghost_times[-1])
+        inside = (at >= 0) & (at <= other_times[-1])
         if inside.sum() < needed:
             continue
         dx, dy = (
-            np.interp(at[inside], ghost_times, ghost_xy[:, n]) - xy[inside, n] for n in (0, 1)
+            np.interp(at[inside], other_times, other_xy[:, n]) - xy[inside, n] for n in (0, 1)
         )
         mean = float(np.hypot(dx, dy).mean())
         # Of equal ones, such as while both stand, the one next to the start.
@@ -301,7 +303,7 @@ def _interpolated(
 
 
 def _add(
-    found: dict[str, tuple[npt.NDArray[np.int64], Floats]],
+    series: dict[str, tuple[npt.NDArray[np.int64], Floats]],
     topic: str,
     times: npt.NDArray[np.int64],
     values: Floats,
@@ -309,10 +311,10 @@ def _add(
     """Add the numbers that are known, if any."""
     is_finite = np.isfinite(values)
     if is_finite.any():
-        found[topic] = times[is_finite], values[is_finite]
+        series[topic] = times[is_finite], values[is_finite]
 
 
-def _numbers_file(found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> ComputedFile:
+def _numbers_file(series: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> ComputedFile:
     """Return times of recording and numbers by topic as a file of a bag."""
 
     def serialized(values: Floats) -> Callable[[int], bytes]:
@@ -321,7 +323,7 @@ def _numbers_file(found: dict[str, tuple[npt.NDArray[np.int64], Floats]]) -> Com
     return ComputedFile(
         {
             _number_channel(topic): (times, serialized(values))
-            for topic, (times, values) in found.items()
+            for topic, (times, values) in series.items()
         }
     )
 

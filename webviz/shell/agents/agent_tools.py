@@ -19,7 +19,7 @@ from webviz.page.dispatcher import command_of
 from webviz.server.access import rules
 from webviz.shell.agents import texts
 from webviz.shell.agents.caller import AgentCaller
-from webviz.shell.app.picture_controls import Wanted
+from webviz.shell.app.picture_controls import ViewChoice
 from webviz.shell.app.viewer import Viewer
 from webviz.shell.pictures.browser import Pixels
 
@@ -72,7 +72,7 @@ class AgentTools:
         return texts.bounded(texts.explanation(self._viewer, display))
 
     def see(
-        self, caller: AgentCaller, views: Sequence[Wanted], width: int, height: int
+        self, caller: AgentCaller, views: Sequence[ViewChoice], width: int, height: int
     ) -> list[Pixels]:
         """Pictures of the scene with the images beside it, uint8 (height, width, 3) each.
 
@@ -87,7 +87,7 @@ class AgentTools:
         return self._viewer.screenshots(views_or_none, size=(width, height))
 
     def select(
-        self, caller: AgentCaller, x: int, y: int, view: Wanted, width: int, height: int
+        self, caller: AgentCaller, x: int, y: int, view: ViewChoice, width: int, height: int
     ) -> str:
         """Values of what a picture of this view and size has at a pixel.
 
@@ -148,8 +148,8 @@ class AgentTools:
             with contextlib.suppress(InvalidStateError):  # a tool may report more than once
                 reply.set_result(status)
 
-        if command not in known():
-            raise Error(f"Unknown command `{command}`: {nearest(command, sorted(known()))}")
+        if command not in command_names():
+            raise Error(f"Unknown command `{command}`: {nearest(command, sorted(command_names()))}")
         try:
             built = command_of(command, dict(fields), report=report)
         except ValueError as error:
@@ -189,6 +189,6 @@ class AgentTools:
         return any(LOADING in row.statuses for row in self._viewer.rows)
 
 
-def known() -> set[str]:
+def command_names() -> set[str]:
     """Return the names of the commands that agents may give, as far as their role allows."""
     return {each.__name__ for each in rules.commands() if issubclass(each, Command)}

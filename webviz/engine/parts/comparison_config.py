@@ -17,7 +17,7 @@ from webviz.data.messages.message_paths import MessagePath
 from webviz.data.transforms.tree import root_of
 from webviz.files.config import Branch, Config, Item
 from webviz.files.config.model import Settings
-from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
+from webviz.sources.bag.comparison import DIFFERENCE, DISTANCE, NAMESPACE, ROOT
 from webviz.sources.bag.history import BagHistory
 
 TINT = (90, 150, 255)
@@ -29,12 +29,12 @@ NAME = "Ghost"
 """Name of the group of displays, and of the panel."""
 
 
-def with_ghost(config: Config, bag: BagHistory) -> Config:
+def with_comparison(config: Config, bag: BagHistory) -> Config:
     """Return a config that shows the second run of a bag, too.
 
     Args:
         config: for the first run; changed.
-        bag: has a ghost.
+        bag: has a comparison run.
     """
     copies: list[Item] = list(filter(None, map(_copy, _displays(config.displays))))
     config.displays = [*config.displays, Branch(make(DisplayGroup, {"name": NAME}), copies)]
@@ -52,7 +52,7 @@ def with_ghost(config: Config, bag: BagHistory) -> Config:
     return config
 
 
-def without_ghost(settings: Settings) -> Settings:
+def without_comparison(settings: Settings) -> Settings:
     """Return settings without the robot of the second run."""
     robots = tuple(
         robot
@@ -64,9 +64,9 @@ def without_ghost(settings: Settings) -> Settings:
 
 def _unit(bag: BagHistory) -> str:
     """Return the unit of the number whose difference is plotted, "" if it is unknown."""
-    if bag.ghost is None or not bag.ghost.difference:
+    if bag.comparison is None or not bag.comparison.difference:
         return ""
-    path = MessagePath(bag.ghost.difference)
+    path = MessagePath(bag.comparison.difference)
     channels = (each for each in bag.files.channels if each.topic == path.topic)
     return next((path.unit(each.type, each.types) for each in channels), "")
 

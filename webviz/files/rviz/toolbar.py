@@ -10,7 +10,7 @@ from webviz.api.tool import Tool
 from webviz.files.config import Location, ToolItem, all_tools
 from webviz.files.rviz import values
 from webviz.files.rviz.classes import counterpart
-from webviz.files.rviz.displays import is_writable, made, note_properties
+from webviz.files.rviz.displays import build, is_writable, note_properties
 from webviz.files.rviz.properties import keys
 from webviz.files.rviz.report import Report
 from webviz.files.rviz.ros1 import modern
@@ -53,13 +53,13 @@ def read_tools(entries: Any, panels: Any, report: Report, place: Location) -> li
 
 
 def write_tools(
-    tools: list[ToolItem], kept: Any, panels: list[Any] | None, report: Report
+    tools: list[ToolItem], originals: Any, panels: list[Any] | None, report: Report
 ) -> list[Any] | None:
     """Tools as RViz's list, None for RViz's own tools.
 
     Args:
         tools: of a config.
-        kept: the list of the file that they come from.
+        originals: the list of the file that they come from.
         panels: of RViz's file; those that do what tools do here get their topics.
         report: receives skipped tools.
     """
@@ -67,12 +67,12 @@ def write_tools(
         if entry := _panel_of(tool, panels):
             entry[TOPIC] = getattr(tool, TOPIC.lower()).name
     waiting = [tool for tool in tools if not _is_added(tool, panels) and is_writable(tool, report)]
-    if not isinstance(kept, list):
+    if not isinstance(originals, list):
         if list(map(_bare, waiting)) == [_bare(tool) for tool in _all() if type(tool).rviz]:
             return None
-        kept = NEW_TOOLS
+        originals = NEW_TOOLS
     written = []
-    for entry in kept:
+    for entry in originals:
         cls = _counterpart(entry)
         if cls is None:
             written.append(entry)
@@ -116,7 +116,7 @@ def _counterpart(entry: Any) -> type[Tool] | None:
 
 def _tool_from(cls: type[Tool], tree: Tree, reading: Reading) -> Tool:
     """Return a tool from RViz's tree of its properties."""
-    return made(cls, reading.struct(cls, modern(tree, keys(cls))), {}, reading)
+    return build(cls, reading.struct(cls, modern(tree, keys(cls))), {}, reading)
 
 
 def _bare(tool: Tool) -> Tree:
@@ -126,13 +126,13 @@ def _bare(tool: Tool) -> Tree:
     return {"Class": type(tool).rviz, **tree}
 
 
-def _write(tool: Tool, kept: Tree) -> Tree:
+def _write(tool: Tool, original: Tree) -> Tree:
     """Return a tool with what was kept of its entry in the file."""
 
     def meaning(tree: Tree) -> dict[str, Any]:
         return _values(_tool_from(type(tool), tree, Reading()))
 
-    return restored(_bare(tool), {**kept, "Class": type(tool).rviz}, _values(tool), meaning)
+    return restored(_bare(tool), {**original, "Class": type(tool).rviz}, _values(tool), meaning)
 
 
 def _values(tool: Tool) -> dict[str, Any]:

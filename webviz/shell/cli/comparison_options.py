@@ -10,10 +10,10 @@ from cyclopts import Group, Parameter
 from webviz.data.words import number_in
 
 if TYPE_CHECKING:
-    from webviz.sources.bag.ghost import Align
+    from webviz.sources.bag.comparison import Align
     from webviz.sources.player import Player
 
-GHOST = Parameter(group=Group("A second bag beside it", sort_key=3))
+COMPARISON = Parameter(group=Group("A second bag beside it", sort_key=3))
 
 
 def align_of(text: str) -> "Align | float":
@@ -37,20 +37,20 @@ def _check_align(type_: object, text: str) -> None:
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class GhostOptions:
+class ComparisonOptions:
     """The second bag, and when it begins."""
 
-    ghost: Annotated[Path | None, GHOST, Parameter(metavar="FILE")] = None
+    ghost: Annotated[Path | None, COMPARISON, Parameter(metavar="FILE")] = None
     """Show a second bag beside it, tinted, with topics in /ghost and transforms of its own."""
     ghost_align: Annotated[
-        str, GHOST, Parameter(metavar="ALIGN", validator=_check_align, show_default=False)
+        str, COMPARISON, Parameter(metavar="ALIGN", validator=_check_align, show_default=False)
     ] = "start"
     """Times of the second bag: start (default), stamp, path (where the robots are closest), or
     seconds after the start."""
-    ghost_difference: Annotated[str, GHOST, Parameter(metavar="PATH", show_default=False)] = ""
+    ghost_difference: Annotated[str, COMPARISON, Parameter(metavar="PATH", show_default=False)] = ""
     """Also plot the difference of this number, such as /odom.twist.twist.linear.x."""
 
-    def check_ghost(self, has_bag: bool) -> None:
+    def check_comparison(self, has_bag: bool) -> None:
         """Raise ValueError for an invalid combination of arguments."""
         if self.ghost is None and (self.ghost_align != "start" or self.ghost_difference):
             raise ValueError("--ghost-align and --ghost-difference need --ghost.")
@@ -64,9 +64,9 @@ class GhostOptions:
             Error: a bag cannot be read.
         """
         from webviz.shell.bag_player import bag_player
-        from webviz.sources.bag.ghost import Ghost
+        from webviz.sources.bag.comparison import ComparisonRun
 
         if self.ghost is None:
             return bag_player(bags, ros_args=ros_args)
-        ghost = Ghost(self.ghost, align_of(self.ghost_align), self.ghost_difference)
-        return bag_player(bags, ros_args=ros_args, ghost=ghost)
+        run = ComparisonRun(self.ghost, align_of(self.ghost_align), self.ghost_difference)
+        return bag_player(bags, ros_args=ros_args, comparison=run)

@@ -1,4 +1,4 @@
-"""Calls whose exceptions must not end the frame loop."""
+"""Calls whose exceptions must not end the frame loop, behind an error boundary."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MAX_CHARACTERS = 500
 """Largest number of characters of the text of an exception."""
 
 
-class Guard:
+class ErrorBoundary:
     """Calls hooks of a display or parts of the viewer; each exception is logged once.
 
     Args:
@@ -78,7 +78,7 @@ class Guard:
         """Log an exception, if it is new, and return its sentence in `crashes`.
 
         Raises:
-            BaseException: the error itself, if the guard is strict.
+            BaseException: the error itself, if the boundary is strict.
         """
         if self._strict:
             raise error

@@ -1,4 +1,4 @@
-"""The only way out of a viewer: everything it publishes, calls and sends passes here."""
+"""The graph that a viewer may use: everything it publishes, calls and sends passes here."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Rights(msgspec.Struct, frozen=True):
         return self.own if self.publish is None else self.publish
 
 
-class Gate:
+class RestrictedGraph:
     """The graph of a source, as far as the rights allow; see `webviz.sources.Graph`.
 
     Args:

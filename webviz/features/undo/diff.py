@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import msgspec
 
 from webviz.api.properties import properties_of
-from webviz.engine.parts.snapshots import Origin, Snapshot
+from webviz.engine.parts.snapshots import ConfigOrigin, Snapshot
 from webviz.files.config import Settings
 
 
-class Moment(msgspec.Struct, frozen=True):
+class UndoSnapshot(msgspec.Struct, frozen=True):
     """All that undo brings back.
 
     Args:
@@ -26,11 +26,11 @@ class Moment(msgspec.Struct, frozen=True):
     displays: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
     tools: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
     panels: Mapping[str, Snapshot] = msgspec.field(default_factory=dict)
-    origin: Origin = Origin()
+    origin: ConfigOrigin = ConfigOrigin()
 
 
-class Difference(msgspec.Struct, frozen=True):
-    """Actions between two moments.
+class ConfigDiff(msgspec.Struct, frozen=True):
+    """Actions between two snapshots.
 
     Args:
         label: in a few words, "" if nothing was.
@@ -44,14 +44,14 @@ class Difference(msgspec.Struct, frozen=True):
     removed: str = ""
 
 
-def difference(before: Moment, after: Moment) -> Difference:
-    """Return the actions between two moments.
+def difference(before: UndoSnapshot, after: UndoSnapshot) -> ConfigDiff:
+    """Return the actions between two snapshots.
 
     An entry that can be shown because its plug-in came is the same one.
     """
     path = after.origin.path
     if before.origin.path != path:
-        return Difference(f"Open {path.name}" if path else "Open another config")
+        return ConfigDiff(f"Open {path.name}" if path else "Open another config")
     lists = (
         (before.displays, after.displays),
         (before.tools, after.tools),
@@ -61,18 +61,18 @@ def difference(before: Moment, after: Moment) -> Difference:
         removed = [entry for id, entry in old.items() if id not in new]
         come = [entry for id, entry in new.items() if id not in old]
         if removed and come:
-            return Difference("Open another config")
+            return ConfigDiff("Open another config")
         if removed:
             name = _outer(old, removed)
-            return Difference(f"Remove {name}", removed=name)
+            return ConfigDiff(f"Remove {name}", removed=name)
         if come:
-            return Difference(f"Add {_outer(new, come)}")
+            return ConfigDiff(f"Add {_outer(new, come)}")
         changes = [(id, name) for id in new for name in _changed(old[id], new[id])]
         if changes:
             return _of_changes(new, changes)
     moved = _moved(before.displays, after.displays)
     if moved:
-        return Difference(f"Move {moved}")
+        return ConfigDiff(f"Move {moved}")
     return _of_settings(before.settings, after.settings)
 
 
@@ -89,20 +89,20 @@ def _changed(old: Snapshot, new: Snapshot) -> list[str]:
     return [name for name in new.values if old.values.get(name) != new.values[name]]
 
 
-def _of_changes(new: Mapping[str, Snapshot], changes: list[tuple[str, str]]) -> Difference:
+def _of_changes(new: Mapping[str, Snapshot], changes: list[tuple[str, str]]) -> ConfigDiff:
     ids = list(dict.fromkeys(id for id, _ in changes))
     if len(ids) > 1:
-        return Difference(f"Change {len(ids)} displays")
+        return ConfigDiff(f"Change {len(ids)} displays")
     entry = new[ids[0]]
     if len(changes) > 1 or entry.class_ is None:
-        return Difference(f"Change {entry.name}")
+        return ConfigDiff(f"Change {entry.name}")
     name = changes[0][1]
     if name == "enabled":
-        return Difference(f"{'Show' if entry.values[name] else 'Hide'} {entry.name}", changes[0])
+        return ConfigDiff(f"{'Show' if entry.values[name] else 'Hide'} {entry.name}", changes[0])
     if name == "name":
-        return Difference(f"Rename to {entry.name}", changes[0])
+        return ConfigDiff(f"Rename to {entry.name}", changes[0])
     labels = {each.path: each.label for each in properties_of(entry.class_)}
-    return Difference(f"Change {labels.get(name, name)} of {entry.name}", changes[0])
+    return ConfigDiff(f"Change {labels.get(name, name)} of {entry.name}", changes[0])
 
 
 def _moved(old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]) -> str:
@@ -121,9 +121,9 @@ def _moved(old: Mapping[str, Snapshot], new: Mapping[str, Snapshot]) -> str:
     return next(new[id].name for id, other in zip(after, before, strict=True) if id != other)
 
 
-def _of_settings(old: Settings, new: Settings) -> Difference:
+def _of_settings(old: Settings, new: Settings) -> ConfigDiff:
     if old.fixed_frame != new.fixed_frame:
-        return Difference(f"Fixed frame {new.fixed_frame}")
+        return ConfigDiff(f"Fixed frame {new.fixed_frame}")
     if old.views != new.views:
         return _of_saved("view", old.views, new.views)
     if old.layouts != new.layouts:
@@ -136,16 +136,16 @@ def _of_settings(old: Settings, new: Settings) -> Difference:
     }
     for name, label in labels.items():
         if getattr(old, name) != getattr(new, name):
-            return Difference(f"Change {label}", ("", name))
-    return Difference("" if old == new else "Change settings")
+            return ConfigDiff(f"Change {label}", ("", name))
+    return ConfigDiff("" if old == new else "Change settings")
 
 
-def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> Difference:
+def _of_saved(kind: str, old: Mapping[str, object], new: Mapping[str, object]) -> ConfigDiff:
     removed, come = old.keys() - new.keys(), new.keys() - old.keys()
     if removed and come:
-        return Difference(f"Rename {kind} {min(removed)}")
+        return ConfigDiff(f"Rename {kind} {min(removed)}")
     if removed:
         name = f"{kind} {min(removed)}"
-        return Difference(f"Remove {name}", removed=name)
+        return ConfigDiff(f"Remove {name}", removed=name)
     changed = come or {name for name in new if new[name] != old[name]}
-    return Difference(f"Save {kind} {min(changed)}")
+    return ConfigDiff(f"Save {kind} {min(changed)}")

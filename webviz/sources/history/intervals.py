@@ -24,7 +24,7 @@ def links_in(cdr: bytes) -> Iterator[tuple[str, str]]:
         yield each.parent.removeprefix("/"), each.child.removeprefix("/")
 
 
-class Runs:
+class ValidityIntervals:
     """The spans of time in which each frame has transforms."""
 
     def __init__(self) -> None:

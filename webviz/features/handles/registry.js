@@ -58,9 +58,9 @@ function partOf({ group, key }) {
  * @param {string} group
  */
 export function groupOf(group) {
-  const found = GROUP.exec(group);
+  const match = GROUP.exec(group);
   return (
-    found && { id: `${group.slice(0, group.indexOf("/"))}/${found[1]}`, suffix: found[2] ?? "" }
+    match && { id: `${group.slice(0, group.indexOf("/"))}/${match[1]}`, suffix: match[2] ?? "" }
   );
 }
 
@@ -73,13 +73,13 @@ export function groupOf(group) {
  */
 export function controlAt(xy) {
   if (!all().size) return null;
-  const found = pickAt(xy, isUsable);
-  if (!found) return null;
+  const hit = pickAt(xy, isUsable);
+  if (!hit) return null;
   // Only now, since it looks at every point of the scene.
   const other = pickAt(xy, (thing) => !isUsable(thing), 0);
-  if (other && depthOf(other.point) < depthOf(found.point)) return null;
-  const part = partOf(found);
-  return part && { ...part, point: found.point };
+  if (other && depthOf(other.point) < depthOf(hit.point)) return null;
+  const part = partOf(hit);
+  return part && { ...part, point: hit.point };
 }
 
 /** @param {SceneThing} thing */
@@ -112,16 +112,16 @@ export function nodesOf(id) {
 /** @param {string[]} names */
 function indexOf(names) {
   /** @type {Map<string, HandleNodes>} */
-  const found = new Map();
+  const nodes = new Map();
   for (const name of names) {
     const node = name.startsWith(`${constants.ROOT}/`) ? nodeNamed(name) : null;
     const place = node && groupOf(node.group);
     if (!place || name !== node.path) continue;
-    const { groups, parts } = found.get(place.id) ?? { groups: new Map(), parts: new Map() };
-    found.set(place.id, { groups, parts });
+    const { groups, parts } = nodes.get(place.id) ?? { groups: new Map(), parts: new Map() };
+    nodes.set(place.id, { groups, parts });
     groups.set(place.suffix, pathOf(node.group));
     const part = PART.exec(node.key)?.[1];
     if (part) parts.set(Number(part), [...(parts.get(Number(part)) ?? []), name]);
   }
-  return found;
+  return nodes;
 }
