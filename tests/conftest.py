@@ -174,5 +174,5 @@ def browser(said_on_consoles: list[str]) -> Iterator[playwright.Browser]:
 def quiet_consoles(said_on_consoles: list[str]) -> Iterator[None]:
     """No test makes a page report an error."""
     yield
-    said, said_on_consoles[:] = tuple(said_on_consoles), ()
-    assert not said
+    lines, said_on_consoles[:] = tuple(said_on_consoles), ()
+    assert not lines

@@ -44,12 +44,12 @@ def commands(program: str) -> list[tuple[str, tuple[str, ...]]]:
 
 
 @pytest.mark.parametrize("block", [b for b in blocks("sh") if b.title], ids=str)
-def test_a_block_that_is_not_run_says_what_it_needs(block: Block) -> None:
+def test_a_block_that_is_not_run_states_its_requirements(block: Block) -> None:
     assert re.search(NEEDS[block.title], block.text)
 
 
 @pytest.mark.parametrize("block", [b for b in blocks("sh") if not b.title], ids=str)
-def test_a_block_without_a_title_has_what_tests_run(block: Block) -> None:
+def test_a_block_without_a_title_has_only_commands_that_tests_run(block: Block) -> None:
     assert {Path(words[0]).name for words in block.commands()} <= {"webviz", "make", "export"}
 
 
@@ -60,8 +60,8 @@ def test_every_option_of_a_command_exists_and_fits_the_config(
     monkeypatch.chdir(tmp_path)
     Path("lab.yaml").write_text(CONFIG.text)
     own, _ = split_ros_arguments(arguments)
-    _, given, _ = app.parse_args(with_openers(own), exit_on_error=False, print_error=False)
-    for options in given.arguments.values():
+    _, binding, _ = app.parse_args(with_openers(own), exit_on_error=False, print_error=False)
+    for options in binding.arguments.values():
         if isinstance(options, ConfigOptions) and options.display_config == Path("lab.yaml"):
             options.read(options.display_config)
 
@@ -112,9 +112,9 @@ def test_a_map_is_a_world(block: Block, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("block", blocks("toml"), ids=str)
 def test_an_entry_point_names_a_group_and_a_class(block: Block) -> None:
-    known = set(re.findall(r'"(webviz\.\w+)": \[', (ROOT / "setup.py").read_text()))
+    declared_groups = set(re.findall(r'"(webviz\.\w+)": \[', (ROOT / "setup.py").read_text()))
     (groups,) = (each["entry-points"] for each in tomllib.loads(block.text).values())
-    assert groups.keys() <= known
+    assert groups.keys() <= declared_groups
     for name, target in [pair for group in groups.values() for pair in group.items()]:
         assert target.rpartition(":")[2] == name
 

@@ -73,7 +73,7 @@ def test_every_name_of_the_api_is_described() -> None:
     assert [name for name, text in headings if len(text) > 10] == sorted(webviz.__all__)
 
 
-def test_there_is_no_page_of_a_display_that_is_gone() -> None:
+def test_there_is_no_page_of_a_removed_display() -> None:
     assert {path.name for path in docs.PAGES.glob("*.md")} == GENERATED.keys()
 
 
@@ -92,8 +92,8 @@ def test_every_link_leads_to_a_file_and_a_heading() -> None:
 
 def test_every_file_that_guides_name_exists() -> None:
     named = re.findall(r"`([\w./-]+)`", "".join(path.read_text("utf-8") for path in GUIDES))
-    known = {each.name for each in docs.ROOT.iterdir() if each.is_dir()}
-    files = [each for each in named if each.split("/")[0] in known and "/" in each]
+    folders = {each.name for each in docs.ROOT.iterdir() if each.is_dir()}
+    files = [each for each in named if each.split("/")[0] in folders and "/" in each]
     assert [each for each in files if not (docs.ROOT / each).exists()] == []
     assert [each for each in named if re.fullmatch(r"webviz(\.\w+)+\.py", each)] == []
 
@@ -107,9 +107,9 @@ def test_every_promise_is_held_by_tests_that_exist() -> None:
     rows = [row.strip("| ").rsplit(" | ", 1) for row in table.splitlines()]
     assert rows
     assert [" ".join(each.split()) for each in bullets] == [promise for promise, _ in rows]
-    for _, held in rows:
-        named = re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", held)
-        assert named, held
+    for _, tests in rows:
+        named = re.findall(r"`(tests/[\w/]+\.py)::(\w+)`", tests)
+        assert named, tests
         for path, test in named:
             source = (docs.ROOT / path).read_text(encoding="utf-8")
             assert f"\ndef {test}(" in source, f"{path}::{test}"
@@ -124,13 +124,13 @@ def test_every_file_that_a_guide_names_exists(path: Path) -> None:
 
 
 def test_every_picture_of_a_display_is_shown() -> None:
-    shown = {link for text in GENERATED.values() for link in links(text)}
+    pictures = {link for text in GENERATED.values() for link in links(text)}
     stories = (docs.PAGES / "stories").glob("*.md")
-    shown |= {link.removeprefix("../") for p in stories for link in links(p.read_text())}
+    pictures |= {link.removeprefix("../") for p in stories for link in links(p.read_text())}
     for folder in docs.PICTURES.iterdir():
         if (docs.PAGES / f"{folder.name}.md").exists() or folder.name == "stories":
             for picture in folder.rglob("*.png"):
-                assert f"../../{picture.relative_to(docs.ROOT).as_posix()}" in shown
+                assert f"../../{picture.relative_to(docs.ROOT).as_posix()}" in pictures
 
 
 @pytest.mark.parametrize("name", DRAWING)
@@ -175,7 +175,7 @@ def test_the_readme_is_short_and_begins_with_the_animation_of_the_demo() -> None
     assert readme.count("\n") < 150
     assert docs.ROOT / links(readme)[0] == demo_picture.PATH
     with PIL.Image.open(demo_picture.PATH) as picture:
-        assert picture.size == demo_picture.SHOWN
+        assert picture.size == demo_picture.SIZE
         assert getattr(picture, "n_frames", 1) == demo_picture.FRAMES
     assert demo_picture.PATH.stat().st_size < 1_500_000
     command = Path(demo_picture.__file__).relative_to(docs.ROOT)

@@ -38,12 +38,12 @@ def test_no_docstring_or_comment_begins_as_a_question(
 ) -> None:
     files = sorted((ROOT / folder).rglob("*.js" if folder == PAGE else "*.py"))
     assert files
-    found = [
+    faults = [
         f"{path.relative_to(ROOT)}: {' '.join(match.group().split())}"
         for path in files
         for match in pattern.finditer(path.read_text(encoding="utf-8"))
     ]
-    assert found == []
+    assert faults == []
 
 
 @functools.cache
@@ -91,9 +91,11 @@ def strange_arguments(path: Path) -> Iterator[str]:
         if not isinstance(node, Function | ast.ClassDef):
             continue
         names = documented(ast.get_docstring(node) or "")
-        known = accepted(node) if names else None
-        if known is not None:
-            yield from (f"{path.name}, {node.name}: {name}" for name in names if name not in known)
+        parameters = accepted(node) if names else None
+        if parameters is not None:
+            yield from (
+                f"{path.name}, {node.name}: {name}" for name in names if name not in parameters
+            )
 
 
 @pytest.mark.parametrize("folder", ROOMS)
@@ -115,10 +117,10 @@ def values(path: Path) -> Iterator[str]:
 
 @pytest.mark.parametrize("folder", [*ROOMS, "tests"])
 def test_docstrings_of_values_begin_with_their_noun(folder: str) -> None:
-    found = [
+    faults = [
         f"{path.name}: {text[:60]}"
         for path in sorted((ROOT / folder).rglob("*.py"))
         for text in values(path)
         if PREPOSITION.match(text)
     ]
-    assert found == []
+    assert faults == []

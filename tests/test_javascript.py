@@ -36,7 +36,7 @@ def test_no_module_of_the_page_has_state_at_its_top() -> None:
     """State belongs to what is mounted, and values that modules share are signals."""
     state = re.compile(r"^(?:export )?(?:let|var) .*", re.MULTILINE)
     modules = [*(ROOT / "webviz").rglob("*.js"), *(ROOT / "displays").rglob("*.js")]
-    found = {
+    variables = {
         path.name: lines for path in modules if (lines := state.findall(path.read_text("utf-8")))
     }
-    assert not found
+    assert not variables

@@ -45,7 +45,7 @@ FOLDERS = {
         "forms",
         "state",
         "commands",
-        "guard",
+        "error_boundary",
         "requests",
         "driving",
         "path_numbers",
@@ -218,7 +218,7 @@ def test_the_folders_of_the_page_import_in_one_direction() -> None:
     assert not wrong
 
 
-def test_no_feature_is_named_outside_its_folder_but_by_what_it_exports() -> None:
+def test_features_are_named_outside_their_folder_only_by_their_exports() -> None:
     wrong = {
         (name, other)
         for name in MODULES
@@ -377,6 +377,23 @@ def test_no_two_classes_share_a_name() -> None:
                 named[node.name].append(module)
     shared = {name: where for name, where in named.items() if len(where) > 1}
     assert not {name: where for name, where in shared.items() if not name.startswith("_")}
+
+
+APART = {"benchmarks"}
+"""Folders of tests with names of their own: programs."""
+
+
+def test_no_two_classes_of_tests_share_a_name() -> None:
+    """Those of one idea are one, in `tests/support` or the `conftest.py` of their folder."""
+    tests = ROOT / "tests"
+    paths = [p for p in tests.rglob("*.py") if p.relative_to(tests).parts[0] not in APART]
+    named = defaultdict[str, list[str]](list)
+    for path in paths:
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.ClassDef):
+                named[node.name].append(str(path.relative_to(tests)))
+    assert len(named) > 100
+    assert not {name: where for name, where in named.items() if len(where) > 1}
 
 
 BESIDE = {

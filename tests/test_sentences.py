@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from webviz.data.words import joined
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 
 ROOT = Path(__file__).parents[1]
 FILES = [
@@ -37,20 +37,20 @@ def test_a_sentence_without_an_end_gets_a_full_stop(texts: tuple[str, ...], whol
 
 
 def test_a_failure_ends_before_its_remedy() -> None:
-    guard = Guard("", strict=False)
-    guard("TF", int, "boom")
-    text = guard.statuses()["TF"].text
+    boundary = ErrorBoundary("", strict=False)
+    boundary("TF", int, "boom")
+    text = boundary.statuses()["TF"].text
     assert "literal for int() with base 10: 'boom'. The log has" in text
 
 
 def test_texts_from_elsewhere_are_joined_by_the_helper() -> None:
-    found = [
+    faults = [
         f"{path.relative_to(ROOT)}:{node.lineno}: {ast.unparse(node)}"
         for path in FILES
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.JoinedStr) and any(_run_together(node))
     ]
-    assert found == []
+    assert faults == []
 
 
 def _run_together(text: ast.JoinedStr) -> Iterator[bool]:

@@ -73,10 +73,10 @@ def test_a_binary_gltf_is_read_with_the_places_of_its_parts() -> None:
     assert box_of(Glb(data)) == ((8, -1, -3), (12, 1, 3))
 
 
-def test_nothing_and_what_is_not_finite_has_no_box() -> None:
+def test_empty_and_non_finite_points_have_no_box() -> None:
     assert bounds(Points(np.zeros((0, 3), np.float32), (0, 0, 0), 1.0)) is None
-    lost = np.array([(math.nan, 0, 0), (math.inf, 0, 0)], np.float32)
-    assert bounds(Points(lost, (0, 0, 0), 1.0)) is None
+    points = np.array([(math.nan, 0, 0), (math.inf, 0, 0)], np.float32)
+    assert bounds(Points(points, (0, 0, 0), 1.0)) is None
     assert union([]) is None
 
 

@@ -49,7 +49,7 @@ def test_plugins_of_two_kinds_may_have_one_name() -> None:
         registry.register("c", {"Bell": Bell})
 
 
-def test_a_title_is_the_name_of_instances_that_have_none() -> None:
+def test_an_instance_without_a_name_is_named_by_its_title() -> None:
     bell = make(Bell, {"name": ""})
     assert bell.name == "Old Bell"
     assert to_values(bell) == {}

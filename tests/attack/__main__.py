@@ -21,11 +21,11 @@ def main() -> int:
     length.add_argument("--hours", type=float)
     parser.add_argument("--only", action="append", default=[], choices=KINDS)
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
-    given = parser.parse_args()
-    seconds = 3600 * given.hours if given.hours else given.seconds
-    print(f"seed {given.seed}, {seconds:g} s", flush=True)
+    options = parser.parse_args()
+    seconds = 3600 * options.hours if options.hours else options.seconds
+    print(f"seed {options.seed}, {seconds:g} s", flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        report = run(given.seed, seconds, Path(folder), given.only, given.first)
+        report = run(options.seed, seconds, Path(folder), options.only, options.first)
     print(report)
     _keep(report)
     return 1 if report.breaches else 0

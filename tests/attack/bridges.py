@@ -5,13 +5,13 @@ from __future__ import annotations
 import base64
 import json
 import struct
-import threading
 import time
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import cbor2
+from serving import serving
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
@@ -126,14 +126,12 @@ def read_bridge(path: Path) -> None:
             return
 
     protocols: Any = [FOXGLOVE] if is_foxglove else None
-    with serve(lie, "127.0.0.1", 0, compression=None, subprotocols=protocols) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving(serve(lie, "127.0.0.1", 0, compression=None, subprotocols=protocols)) as server:
         source = BridgeSource(address(f"ws://127.0.0.1:{server.socket.getsockname()[1]}"))
         try:
             _watch(source, HONEST_S if is_foxglove else WATCHED_S, is_foxglove)
         finally:
             source.close()
-            server.shutdown()
 
 
 def _behave(connection: ServerConnection) -> None:
@@ -142,8 +140,8 @@ def _behave(connection: ServerConnection) -> None:
     honest = {"id": 4_000_000, "topic": "/honest", "encoding": "cdr", **schema}
     connection.send(json.dumps({"op": "advertise", "channels": [honest]}))
     for text in connection:
-        asked = json.loads(text) if isinstance(text, str) else {}
-        for each in asked.get("subscriptions", ()) if asked.get("op") == "subscribe" else ():
+        request = json.loads(text) if isinstance(text, str) else {}
+        for each in request.get("subscriptions", ()) if request.get("op") == "subscribe" else ():
             if each["channelId"] == honest["id"]:
                 head = struct.pack("<BIQ", 1, each["id"], 5)
                 connection.send(head + encode(STRING, {"data": "honest"}))

@@ -63,16 +63,16 @@ def _types(kind: str) -> dict[str, type[Any]]:
 
 @functools.cache
 def _leaves(cls: type[Any]) -> list[Property]:
-    found, waiting = [], list(properties_of(cls))
+    leaves, waiting = [], list(properties_of(cls))
     while waiting:
         each = waiting.pop()
         waiting += each.children
         if not each.children:
-            found.append(each)
-    return sorted(found, key=lambda each: each.path)
+            leaves.append(each)
+    return sorted(leaves, key=lambda each: each.path)
 
 
-def _known(random: Random, field: str, command: str) -> Any:
+def _existing(random: Random, field: str, command: str) -> Any:
     """A name that the viewer may know, None if the field is none of names."""
     match field:
         case "display" | "displays" | "before":
@@ -107,10 +107,10 @@ def _of_type(random: Random, type_: inspect.Type, field: str, command: str = "")
         if isinstance(type_, inspect.CustomType):
             return None
         type_ = type_.type
-    known = _known(random, field.rpartition(".")[2], command)
+    existing = _existing(random, field.rpartition(".")[2], command)
     simple = isinstance(type_, inspect.StrType | inspect.IntType | inspect.FloatType)
-    if simple and known is not None and random.random() < 0.9:
-        return known
+    if simple and existing is not None and random.random() < 0.9:
+        return existing
 
     def inner(part: inspect.Type) -> Any:
         return _of_type(random, part, field, command)

@@ -45,10 +45,10 @@ class Crowds(Attack):
         self._target = target
 
     def draw(self, random: Random) -> Case:
-        sent = random.choice(
+        request = random.choice(
             ("", "G", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nHost: a\r\n", "\x16")
         )
-        crowd = Crowd(random.randrange(1, MAX_CONNECTIONS), sent, random.randrange(40))
+        crowd = Crowd(random.randrange(1, MAX_CONNECTIONS), request, random.randrange(40))
         return Case("crowd.json", msgspec.json.encode(crowd))
 
     def strike(self, case: Case) -> Outcome:

@@ -94,8 +94,8 @@ class Dds(Attack):
         for link in values.get("transforms", ()):
             link["header"] = stamped
         if random.random() < 0.5:
-            known = list(cases(type_name, values))
-            for case in random.sample(known, min(len(known), random.randint(1, 4))):
+            all_cases = list(cases(type_name, values))
+            for case in random.sample(all_cases, min(len(all_cases), random.randint(1, 4))):
                 values = changed(values, case)
             cdr = encode(type_name, values).replace(LAST.encode(), b"\xff")
         else:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import json
-import threading
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import cbor2
+from serving import serving
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection
 from websockets.sync.server import serve as served
@@ -58,8 +58,8 @@ def read(path: Path) -> None:
     if door in ("mcap", "db3", "bag"):
         _play(path)
         return
-    given = json.loads(path.read_text())
-    type_, text, message = given["type"], given["text"], bytes.fromhex(given["message"])
+    record = json.loads(path.read_text())
+    type_, text, message = record["type"], record["text"], bytes.fromhex(record["message"])
     package, _, name = type_.split("/")
     match door:
         case "msg":
@@ -147,14 +147,9 @@ def _bridge(door: str, type_: str, text: str, message: bytes) -> Iterator[str]:
 
     protocols: Any = [SDK] if door == "foxglove" else None
     server = served(answer, "127.0.0.1", 0, subprotocols=protocols, compression=None, max_size=None)
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
-    try:
+    with serving(server):
         yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
         assert len(opened) == 1, "the bridge was connected to again"
-    finally:
-        server.shutdown()
-        thread.join()
 
 
 def _foxglove(connection: ServerConnection, type_: str, text: str, message: bytes) -> None:
@@ -171,9 +166,9 @@ def _foxglove(connection: ServerConnection, type_: str, text: str, message: byte
     connection.send(json.dumps({"op": "advertiseServices", "services": services}))
     connection.send(json.dumps({"op": "advertise", "channels": channels}))
     for frame in connection:
-        given = json.loads(frame)
+        request = json.loads(frame)
         # The hostile message first, so that it is there when the good one is.
-        for line in sorted(given.get("subscriptions", ()), key=lambda each: each["channelId"]):
+        for line in sorted(request.get("subscriptions", ()), key=lambda each: each["channelId"]):
             head = b"\1" + line["id"].to_bytes(4, "little") + (5).to_bytes(8, "little")
             connection.send(head + data[line["channelId"]])
 
@@ -188,13 +183,13 @@ def _rosbridge(connection: ServerConnection, type_: str, text: str, message: byt
         "/rosapi/services_for_type": {"services": []},
     }
     for frame in connection:
-        given = json.loads(frame)
-        if given["op"] == "call_service":
-            answer = {"op": "service_response", "id": given["id"], "result": True}
-            connection.send(json.dumps({**answer, "values": values[given["service"]]}))
-        elif given["op"] == "subscribe":
-            inner = {"secs": 5, "nsecs": 6, "bytes": data[given["topic"]]}
-            connection.send(cbor2.dumps({"op": "publish", "topic": given["topic"], "msg": inner}))
+        request = json.loads(frame)
+        if request["op"] == "call_service":
+            answer = {"op": "service_response", "id": request["id"], "result": True}
+            connection.send(json.dumps({**answer, "values": values[request["service"]]}))
+        elif request["op"] == "subscribe":
+            inner = {"secs": 5, "nsecs": 6, "bytes": data[request["topic"]]}
+            connection.send(cbor2.dumps({"op": "publish", "topic": request["topic"], "msg": inner}))
 
 
 if __name__ == "__main__":

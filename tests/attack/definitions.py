@@ -33,7 +33,7 @@ def draw(random: Random) -> Case:
 
     The names of the files say by which door they come in.
     """
-    maker = random.choice((_known, _known, _plain, _plain, _typed))
+    maker = random.choice((_existing, _existing, _plain, _plain, _typed))
     text = maker(random)
     if random.random() < 0.3:
         text = mutated(random, text.encode()).decode(errors="replace")
@@ -48,7 +48,7 @@ def draw(random: Random) -> Case:
     return Case(f"evil.{door}", _written(door, type_, text, message))
 
 
-def _known(random: Random) -> str:
+def _existing(random: Random) -> str:
     return random.choice([text for text in TEXTS if len(text) < MAX_TEXT])
 
 

@@ -91,11 +91,11 @@ def attacked(file: bytes, how: str, random: Random) -> bytes:
     if how == "cut":
         return file[: random.randrange(len(file) // 2, len(file))]
 
-    def changed(found: re.Match[bytes]) -> bytes:
-        data = base64.b64decode(found[3])
+    def changed(match: re.Match[bytes]) -> bytes:
+        data = base64.b64decode(match[3])
         if how == "bytes":
-            return found[1] + base64.b64encode(mutated(random, data))
-        is_packed = found[2] == b"chunk"
+            return match[1] + base64.b64encode(mutated(random, data))
+        is_packed = match[2] == b"chunk"
         data = gzip.decompress(data) if is_packed else data
         head, body, rest = b"", data, b""
         if is_packed:  # its length, JSON, and buffers
@@ -109,7 +109,7 @@ def attacked(file: bytes, how: str, random: Random) -> bytes:
             data = gzip.compress(head + body + padding + rest)
         else:
             data = body
-        return found[1] + base64.b64encode(data)
+        return match[1] + base64.b64encode(data)
 
     return PART.sub(changed, file)
 
@@ -137,15 +137,15 @@ def _open(browser: playwright.Browser, path: Path, *, is_damaged: bool) -> None:
     context.set_default_timeout(ANSWER_MS)
     try:
         page = context.new_page()
-        asked: list[str] = []
-        page.on("dialog", lambda dialog: asked.append(f"a dialog: {dialog.message}"))
-        page.on("request", lambda request: asked.append(request.url))
+        requests: list[str] = []
+        page.on("dialog", lambda dialog: requests.append(f"a dialog: {dialog.message}"))
+        page.on("request", lambda request: requests.append(request.url))
         page.goto(f"{path.as_uri()}?fixedDpr=0.1", wait_until="load")
         with contextlib.suppress(playwright.TimeoutError):
             page.wait_for_function("() => window.webviz?.hasView()", timeout=3000)
         page.wait_for_timeout(SETTLED_MS)
         assert page.evaluate("window.ran") is None, "markup of a recording ran"
-        others = [url for url in asked if not url.startswith(("blob:", "data:"))]
+        others = [url for url in requests if not url.startswith(("blob:", "data:"))]
         assert len(others) <= 1, f"a recording asked for {others[1:]}"
         if is_damaged:
             assert page.evaluate("document.body.innerText.trim()"), "the page is empty"

@@ -85,7 +85,7 @@ def _timeless(collada: bytes) -> bytes:
     return re.sub(rb"<(created|modified)>[^<]*", rb"<\1>", collada)
 
 
-class Reader:
+class FileReader:
     """A process that reads files, one after another, and is started again if it ends.
 
     Args:
@@ -136,9 +136,9 @@ class Reader:
 
 
 @functools.cache
-def reader_of(module: str) -> Reader:
+def reader_of(module: str) -> FileReader:
     """Return the reader that all attacks with a module share: each takes a second to start."""
-    return Reader(module)
+    return FileReader(module)
 
 
 class FileAttack(Attack):

@@ -61,7 +61,9 @@ class Queues(Attack):
                 watchers.append(self._visitor(Role.WATCHER))
                 for number, command in enumerate(each):
                     arguments = ARGUMENTS.get(command, {})
-                    watchers[-1].send("Do", number=number, command=command, arguments=arguments)
+                    watchers[-1].send(
+                        "CommandRequest", number=number, command=command, arguments=arguments
+                    )
             level, text = owner.do("Save", ANSWER_S, path="flooded.yaml")
         except TimeoutError as error:
             raise Violation(f"the owner's save has no answer within {ANSWER_S:g} s") from error

@@ -149,7 +149,7 @@ def _play(path: Path) -> None:
 
 def _examine(path: Path) -> None:
     """Read a bag as `webviz frames`, `doctor`, `export` and `screenshot` do."""
-    for examine in (_frames, _doctor, _shown):
+    for examine in (_frames, _doctor, _show):
         with contextlib.closing(Player(BagHistory(path))) as source:
             examine(source)
             if source.reached_ns < source.history.end_ns:
@@ -158,25 +158,25 @@ def _examine(path: Path) -> None:
 
 def _report(path: Path) -> None:
     """Check what `webviz frames` and `webviz doctor` write of a bag."""
-    told: list[str] = []
+    lines: list[str] = []
     with contextlib.closing(Player(BagHistory(path))) as source:
         tree = read_bag(source, source.history.end_ns, lambda what, share: None)
-        told += tree.text().split("\n")
+        lines += tree.text().split("\n")
         picture = draw_tree(tree.diagnosis, "frames", tree.notes()).svg
-        told += [each for each in ElementTree.fromstring(picture).itertext() if each.strip()]
+        lines += [each for each in ElementTree.fromstring(picture).itertext() if each.strip()]
         sentences = [*source.warnings, *tree.diagnosis.problems]
     with contextlib.closing(Player(BagHistory(path))) as source:
         config = read_config(None, source)
         report = examine_bag(source, config, "bag", lambda what, share: None)
-    told += to_text(report, is_colored=False).split("\n")
+    lines += to_text(report, is_colored=False).split("\n")
     with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
         say(*sentences)
         warn(*(finding.cause for finding in report.findings))
     count = out.getvalue().count("\n")
     if count != max(1, len(sentences)) + max(1, len(report.findings)):
         raise AssertionError(f"{count} lines of {len(sentences)} and {len(report.findings)} texts")
-    told += out.getvalue().split("\n")
-    for line in told:
+    lines += out.getvalue().split("\n")
+    for line in lines:
         if any(readable(part) != part for part in line.split("\n")):
             raise AssertionError(f"a line commands the terminal: {line!a}")
         if line.startswith("forged"):
@@ -192,7 +192,7 @@ def _doctor(source: Player) -> None:
     examine_bag(source, read_config(None, source), "bag", lambda what, share: None, results)
 
 
-def _shown(source: Player) -> None:
+def _show(source: Player) -> None:
     loop = FrameLoop(read_config(None, source), source, NoScene())
     try:
         loop.turn()

@@ -89,8 +89,8 @@ def outcome(how: str, delay_s: float, path: Path, number: int) -> str:
                 return f"{file.name} is not whole"
         except Exception as error:
             return f"{file.name} cannot be read: {error!r}"
-    left = {each.name for each in path.parent.iterdir()} - {path.name, backup.name}
-    for name in left:
+    remains = {each.name for each in path.parent.iterdir()} - {path.name, backup.name}
+    for name in remains:
         (path.parent / name).unlink(missing_ok=True)
     if how == "kill":
         return "survived"
@@ -98,7 +98,7 @@ def outcome(how: str, delay_s: float, path: Path, number: int) -> str:
         return "a full disk was not reported"
     if path.read_bytes() != before:
         return "a full disk changed the file"
-    return "a full disk leaves a part of a file" if left else "refused"
+    return "a full disk leaves a part of a file" if remains else "refused"
 
 
 def left_behind(delay_s: float, place: Path) -> str:
@@ -115,8 +115,8 @@ def left_behind(delay_s: float, place: Path) -> str:
     with working_folder("left_", place):
         pass
     # One that was killed before its folder had a lock leaves the empty folder.
-    left = [str(path.relative_to(place)) for path in place.rglob("*") if path.is_file()]
-    return f"a killed program leaves {left} for ever" if left else "survived"
+    remains = [str(path.relative_to(place)) for path in place.rglob("*") if path.is_file()]
+    return f"a killed program leaves {remains} for ever" if remains else "survived"
 
 
 def main() -> None:

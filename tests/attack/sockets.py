@@ -19,7 +19,7 @@ from tests.attack.visitor import Visitor
 from webviz.api.roles import Role
 from webviz.server.access import rules
 from webviz.server.access.rules import MESSAGES, SCENE
-from webviz.server.channel.messages import Do
+from webviz.server.channel.messages import CommandRequest
 
 VISER = "viser.msgpack"
 CHANNEL = "channel.json"
@@ -49,7 +49,7 @@ REQUIRED = {class_.__name__: role for class_, role in rules.commands().items()}
 
 SILENT = ("DragHandle", "UseTool")
 """Commands of which only refusals and what tools say are answered."""
-DRAWN = sorted(REQUIRED.keys() - {"Dismiss"})
+COMMANDS = sorted(REQUIRED.keys() - {"Dismiss"})
 """Messages of these that are drawn; an owner would end the other attackers."""
 
 
@@ -112,19 +112,19 @@ class Sockets(Attack):
         assert self._visitor is not None
         self._visitor.say(text)
         try:
-            do = msgspec.json.decode(text, type=Do)
-            is_do = msgspec.json.decode(text, type=_Kind).type == "Do"
+            request = msgspec.json.decode(text, type=CommandRequest)
+            is_request = msgspec.json.decode(text, type=_Kind).type == "CommandRequest"
         except (msgspec.MsgspecError, RecursionError):
             return Outcome.SURVIVED
-        if not is_do:
+        if not is_request:
             return Outcome.SURVIVED
-        required = REQUIRED.get(do.command)
+        required = REQUIRED.get(request.command)
         is_allowed = required is not None and self._role is not None and self._role >= required
-        if is_allowed and do.command in SILENT:
+        if is_allowed and request.command in SILENT:
             return Outcome.SURVIVED
-        level, answer = self._visitor.answer(do.number, ANSWER_S)
+        level, answer = self._visitor.answer(request.number, ANSWER_S)
         if level != "error" and not is_allowed:
-            raise Violation(f"{do.command} was done for one who may not")
+            raise Violation(f"{request.command} was done for one who may not")
         if len(answer) > 1000:
             raise Violation(f"an answer of {len(answer)} characters")
         return Outcome.REFUSED if level == "error" else Outcome.DONE
@@ -134,15 +134,20 @@ class Sockets(Attack):
         for _ in range(random.randrange(4)):
             fields[random.choice(WORDS)] = random.choice(VALUES)
         if random.random() < 0.3:
-            said = {"type": random.choice(FROM_PAGE), **fields}
+            message = {"type": random.choice(FROM_PAGE), **fields}
         else:
-            command = random.choice(DRAWN)
+            command = random.choice(COMMANDS)
             arguments = {**commands.arguments(random, command)}
             if random.random() < 0.25:
                 arguments |= fields
             number = random.randrange(2**40)
-            said = {"type": "Do", "number": number, "command": command, "arguments": arguments}
-        text = msgspec.json.encode(said)
+            message = {
+                "type": "CommandRequest",
+                "number": number,
+                "command": command,
+                "arguments": arguments,
+            }
+        text = msgspec.json.encode(message)
         return mutated(random, text) if random.random() < 0.15 else text
 
     def _throw(self, data: bytes) -> Outcome:

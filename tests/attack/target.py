@@ -102,8 +102,8 @@ class Target:
             with contextlib.closing(connection):
                 typed = {"Sec-Fetch-Site": "none"}
                 connection.request("GET", f"/?{PARAMETERS[role]}={SECRETS[role]}", headers=typed)
-                given = connection.getresponse().headers["Set-Cookie"]
-            self._cookies[role] = given.partition(";")[0]
+                cookie = connection.getresponse().headers["Set-Cookie"]
+            self._cookies[role] = cookie.partition(";")[0]
         return {"Cookie": self._cookies[role]}
 
     def visitor(self, role: Role) -> Visitor:
@@ -157,8 +157,10 @@ class Target:
         for number in range(9):
             # What has not changed is not written again.
             arguments = {"hz": 30.0 + number}
-            visitor.send("Do", number=100, command="SetFrameRate", arguments=arguments)
-            visitor.send("Do", number=101, command="Save", arguments={"path": path.name})
+            visitor.send("CommandRequest", number=100, command="SetFrameRate", arguments=arguments)
+            visitor.send(
+                "CommandRequest", number=101, command="Save", arguments={"path": path.name}
+            )
         time.sleep(delay_s)
         self._program.process.kill()
         self._program.process.wait()

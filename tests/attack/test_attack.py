@@ -32,7 +32,7 @@ def test_a_viewer_withstands_all_attacks(
     assert report.counts[kind_of(Role.OWNER)][Outcome.DONE] > 0
 
 
-def test_the_corpus_says_what_each_case_has_broken() -> None:
+def test_each_case_of_the_corpus_is_documented() -> None:
     text = (CORPUS / "README.md").read_text()
     cases = [path for path in CORPUS.rglob("*__*") if path.is_file()]
     assert cases
@@ -44,7 +44,7 @@ def test_the_corpus_says_what_each_case_has_broken() -> None:
 
 def test_a_seed_gives_the_same_attack_again(tmp_path: Path) -> None:
     first, again, other = (
-        _drawn(tmp_path / name, seed) for name, seed in zip("abc", (7, 7, 8), strict=True)
+        _draw(tmp_path / name, seed) for name, seed in zip("abc", (7, 7, 8), strict=True)
     )
     assert first.keys() == set(KINDS)
     assert first == again
@@ -52,7 +52,7 @@ def test_a_seed_gives_the_same_attack_again(tmp_path: Path) -> None:
         assert cases != other[kind], kind
 
 
-def _drawn(folder: Path, seed: int) -> dict[str, list[Case]]:
+def _draw(folder: Path, seed: int) -> dict[str, list[Case]]:
     folder.mkdir()
     # Cases depend on no viewer.
     nobody = cast(Target, None)
@@ -63,7 +63,7 @@ def _drawn(folder: Path, seed: int) -> dict[str, list[Case]]:
     }
 
 
-def test_what_an_internal_error_leaves_in_the_log_is_noticed() -> None:
+def test_traces_of_internal_errors_in_the_log_are_recognised() -> None:
     assert INTERNAL.search("webviz: ok\nTraceback (most recent call last):\n")
     assert INTERNAL.search("webviz.server: connection handler failed: TypeError: unhashable\n")
     assert not INTERNAL.search("webviz: Ignored a message of a browser: unknown kind.\n")

@@ -19,7 +19,7 @@ def test_each_module_that_reads_bytes_is_behind_a_door() -> None:
     assert not unknown, "add them to DOORS, with an attack"
 
 
-def test_each_door_is_attacked_or_says_why_not() -> None:
+def test_each_door_is_attacked_or_has_a_reason() -> None:
     for name, door in DOORS.items():
         assert set(door.attacks) <= set(KINDS), name
         assert bool(door.attacks) != bool(door.reason), name

@@ -41,11 +41,11 @@ def read_address(path: Path) -> None:
         TileError: the address is refused, or the tile does not exist.
         AssertionError: a server was asked for something outside of the folder.
     """
-    asked: list[tuple[str, str]] = []
+    requests: list[tuple[str, str]] = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
         def do_GET(self) -> None:
-            asked.append((self.path, self.headers.get("Host", "")))
+            requests.append((self.path, self.headers.get("Host", "")))
             self.send_error(404)
 
         def log_message(self, format: str, *args: Any) -> None:
@@ -67,7 +67,7 @@ def read_address(path: Path) -> None:
         finally:
             server.shutdown()
             thread.join()
-            for path_asked, host in asked:
+            for path_asked, host in requests:
                 _check(path_asked, host, place)
 
 

@@ -125,11 +125,11 @@ def read_tiles(path: Path) -> None:
 
 
 def _read_from_server(answer: bytes) -> bytes | None:
-    asked: list[bytes] = []
+    requests: list[bytes] = []
 
     class Handler(socketserver.StreamRequestHandler):
         def handle(self) -> None:
-            asked.append(self.rfile.readline())
+            requests.append(self.rfile.readline())
             while self.rfile.readline().strip():
                 pass
             self.wfile.write(answer)
@@ -148,4 +148,4 @@ def _read_from_server(answer: bytes) -> bytes | None:
         finally:
             server.shutdown()
             thread.join()
-            assert len(asked) <= 1, "a redirection was followed"
+            assert len(requests) <= 1, "a redirection was followed"

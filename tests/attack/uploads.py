@@ -48,7 +48,7 @@ class Uploads(Attack):
         how = random.choice(("one", "one", "one", "many", "endless"))
         command = random.choice(("Load", "Load", "Load", "Save", "Open"))
         arguments = {"text": body, "name": name} if command == "Load" else {"path": name}
-        text = {"type": "Do", "number": 1, "command": command, "arguments": arguments}
+        text = {"type": "CommandRequest", "number": 1, "command": command, "arguments": arguments}
         return Case(f"{how}.json", msgspec.json.encode(text))
 
     def strike(self, case: Case) -> Outcome:

@@ -50,7 +50,7 @@ class Visitor(Connections):
         with contextlib.suppress(websockets.exceptions.ConnectionClosed):
             for text in self.websocket:
                 message = msgspec.json.decode(text)
-                if message["type"] == "Done":
+                if message["type"] == "CommandResult":
                     self._answers.put(message)
         self._answers.put(None)
 
@@ -81,7 +81,7 @@ class Visitor(Connections):
         """
         self._number += 1
         number = self._number
-        self.send("Do", number=number, command=command, arguments=arguments)
+        self.send("CommandRequest", number=number, command=command, arguments=arguments)
         return self.answer(number, seconds)
 
     def answer(self, number: int, seconds: float) -> tuple[str, str]:

@@ -103,6 +103,6 @@ def _aliases(random: Random) -> tuple[list[str], str]:
     for level in range(1, levels + 1):
         aliases = ", ".join([f"*l{level - 1}"] * width)
         pairs = ", ".join(f"k{i}: *l{level - 1}" for i in range(width))
-        made = {"list": f"[{aliases}]", "mapping": f"{{{pairs}}}", "merge": f"{{<<: [{aliases}]}}"}
-        lines.append(f"x{level}: &l{level} {made[kind]}")
+        texts = {"list": f"[{aliases}]", "mapping": f"{{{pairs}}}", "merge": f"{{<<: [{aliases}]}}"}
+        lines.append(f"x{level}: &l{level} {texts[kind]}")
     return lines, f"*l{levels}"

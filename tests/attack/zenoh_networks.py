@@ -32,8 +32,8 @@ NUMBERS = ("0", "-1", "9" * 400, "a", "")
 
 def draw(random: Random) -> Case:
     """Return tokens and messages, some of which are nearly right."""
-    made = [[_token(random), *_message(random)] for _ in range(random.randrange(1, 30))]
-    return Case("a.zenoh", json.dumps(made).encode())
+    batches = [[_token(random), *_message(random)] for _ in range(random.randrange(1, 30))]
+    return Case("a.zenoh", json.dumps(batches).encode())
 
 
 def _token(random: Random) -> str:
@@ -54,11 +54,11 @@ def _token(random: Random) -> str:
 def _message(random: Random) -> tuple[str, str, str]:
     topic = random.choice(("words", "tf", "clock"))
     cdr = encode(STRING, {"data": "x" * random.choice((1, 100_000))})
-    sent = robot_attachment(1, random.choice((0, -1, 2**62)), bytes(16))
+    attachment = robot_attachment(1, random.choice((0, -1, 2**62)), bytes(16))
     if random.random() < 0.7:
-        cdr, sent = mutated(random, cdr), mutated(random, sent)
+        cdr, attachment = mutated(random, cdr), mutated(random, attachment)
     key = f"0/{topic}/std_msgs::msg::dds_::String_/{type_hash(STRING)}"
-    return key, base64.b64encode(cdr).decode(), base64.b64encode(sent).decode()
+    return key, base64.b64encode(cdr).decode(), base64.b64encode(attachment).decode()
 
 
 def read_network(path: Path) -> None:
@@ -91,8 +91,8 @@ def read_network(path: Path) -> None:
                 }
             )
             for _, key, data, attachment in messages:
-                sent = base64.b64decode(attachment)
-                liar.put(key, base64.b64decode(data), attachment=sent)
+                payload, sequence = map(base64.b64decode, (data, attachment))
+                liar.put(key, payload, attachment=sequence)
             publish({"data": "honest"})
             _ = [str(remark) for bridge in source.bridges for remark in bridge.remarks]
             if source.inbox.drain().get("/honest"):

@@ -41,7 +41,7 @@ def timed(action: Callable[[], object]) -> float:
     return 1e3 * (time.perf_counter() - began)
 
 
-def told(name: str, milliseconds: Sequence[float]) -> None:
+def report(name: str, milliseconds: Sequence[float]) -> None:
     """Print the median, the 99th percentile and the longest of some times."""
     ordered = sorted(milliseconds)
     last = ordered[min(len(ordered) - 1, round(0.99 * len(ordered)))]
@@ -58,27 +58,27 @@ def measure(path: Path, count: int) -> None:
     """Print what one bag takes."""
     print(f"\n{path.name}, {path.stat().st_size / 1e9:.1f} GB      median      p99  longest   ms")
     opened: list[BagViewer] = []
-    told("webviz: open", [timed(lambda: opened.append(BagViewer(path)))])
+    report("webviz: open", [timed(lambda: opened.append(BagViewer(path)))])
     with closing(opened[0]) as viewer:
         chance = random.Random(1)
         duration_s = (viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9
-        told("webviz: first seek, with meshes", [timed(lambda: viewer.do(Seek(duration_s / 3)))])
+        report("webviz: first seek, with meshes", [timed(lambda: viewer.do(Seek(duration_s / 3)))])
         times = [chance.uniform(0, duration_s) for _ in range(count)]
         readers = {
             "webviz: seek": lambda at_s: viewer.do(Seek(at_s)),
             **{name: make(path) for name, make in READERS.items()},
         }
-        found: dict[str, list[float]] = {name: [] for name in readers}
+        durations: dict[str, list[float]] = {name: [] for name in readers}
         for at_s in times:
             for name, read in readers.items():
-                found[name].append(timed(lambda read=read, at_s=at_s: read(at_s)))
-        for name, each in found.items():
-            told(name, each)
+                durations[name].append(timed(lambda read=read, at_s=at_s: read(at_s)))
+        for name, each in durations.items():
+            report(name, each)
         at_s, dragged = duration_s / 2, []
         for _ in range(count):
             at_s += chance.uniform(-NEAR_S, NEAR_S)
             dragged.append(timed(lambda: viewer.do(Seek(at_s))))  # noqa: B023
-        told("webviz: seek nearby, as in a drag", dragged)
+        report("webviz: seek nearby, as in a drag", dragged)
         played = timed(lambda: viewer.play_to(at_s + PLAYED_S))
         print(f"webviz plays {PLAYED_S / (played / 1e3):.0f} times as fast as recorded", end=", ")
         print(f"{memory_mb():.0f} MB at most, plain readers included")

@@ -90,13 +90,13 @@ def _stamps_in(type_name: str, data: bytes) -> list[int]:
     """Offsets of the seconds of all stamps that are before the time of recording."""
     if type_name == TF:
         message: TFMessage = decode(TF, data)
-        found, at = [], 4
+        places, at = [], 4
         for each in message.transforms:
             packed = each.stamp_ns // SECOND
             at = data.index(int(packed).to_bytes(4, "little"), at)
-            found.append(at)
+            places.append(at)
             at += 8
-        return found
+        return places
     return [4] if peek_header(type_name, data) else []
 
 

@@ -151,11 +151,11 @@ def _zenoh(way: str) -> dict[str, Callable[[bytes], None]]:
         )
         assert match
         text = match[1].replace("0.0.0.0:7447", f"{ROBOT}:7447")
-    made = zenoh.Config.from_json5(text)
+    zenoh_config = zenoh.Config.from_json5(text)
     for key in ("scouting/multicast/enabled", "transport/shared_memory/enabled"):
-        made.insert_json5(key, "false")
-    made.insert_json5("timestamping/enabled", "true")
-    session = zenoh.open(made)
+        zenoh_config.insert_json5(key, "false")
+    zenoh_config.insert_json5("timestamping/enabled", "true")
+    session = zenoh.open(zenoh_config)
     node = ZenohNode(session, 0, "", "robot")
     _open.extend((session, node))
     return {topic: node.publisher(type, topic).publish for topic, (type, _) in TOPICS.items()}
@@ -180,9 +180,9 @@ def watch(way: str, seconds: float) -> None:
     while (passed_s := time.monotonic() - began_s) < seconds:
         source.inbox.drain()
         time.sleep(0.05)
-        for topic, found in ages.items():
+        for topic, ages_s in ages.items():
             if passed_s > BEGIN_S:
-                found.append(time.time() - newest.get(topic, -math.inf))
+                ages_s.append(time.time() - newest.get(topic, -math.inf))
     figures = {t: [sorted(a)[int(len(a) * q)] for q in (0.5, 0.95)] for t, a in ages.items()}
     print(
         json.dumps({t: [round(age, 2) for age in both] for t, both in figures.items()}), flush=True

@@ -20,7 +20,7 @@ LONGEST_GAP_S = 15.0
 """Every stream comes at least twice a second; the rest is for a machine that is busy otherwise."""
 
 
-def test_everything_at_once_with_a_stalled_client_takes_no_more_memory_and_the_other_sees_it_all(
+def test_a_stalled_client_takes_no_memory_and_delays_no_other(
     tmp_path: Path,
 ) -> None:
     scene = SCENES["G"]

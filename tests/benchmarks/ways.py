@@ -72,8 +72,8 @@ def publishing(way: str, endpoint: str) -> Callable[[str, bytes], object]:
 
         node = ZenohNode(open_session("client", endpoint), 0, "", "bench")
         CHANNELS["node"] = node  # which has the session
-        made: dict[str, Any] = {topic: node.publisher(TYPES[topic], topic) for topic in TYPES}
-        return lambda topic, cdr: made[topic].publish(cdr)
+        publishers: dict[str, Any] = {topic: node.publisher(TYPES[topic], topic) for topic in TYPES}
+        return lambda topic, cdr: publishers[topic].publish(cdr)
     if way == "dds":
         import rclpy
         from rclpy.node import Node
@@ -82,8 +82,8 @@ def publishing(way: str, endpoint: str) -> Callable[[str, bytes], object]:
 
         rclpy.init()
         ros = Node("bench")
-        made = {t: ros.create_publisher(message_class(TYPES[t]), t, 10) for t in TYPES}
-        return lambda topic, cdr: made[topic].publish(cdr)
+        publishers = {t: ros.create_publisher(message_class(TYPES[t]), t, 10) for t in TYPES}
+        return lambda topic, cdr: publishers[topic].publish(cdr)
     import foxglove  # pyright: ignore[reportMissingImports]
 
     server = foxglove.start_server(host="127.0.0.1", port=0)
@@ -101,7 +101,7 @@ CHANNELS: dict[str, Any] = {}
 
 def publish(way: str, endpoint: str) -> None:
     """Publish until standard input closes; then print the processor time."""
-    send, sent = publishing(way, endpoint), messages()
+    send, payloads = publishing(way, endpoint), messages()
     due = dict.fromkeys(TYPES, time.monotonic())
     ended = False
     os.set_blocking(sys.stdin.fileno(), False)
@@ -110,8 +110,8 @@ def publish(way: str, endpoint: str) -> None:
         time.sleep(max(0.0, due[topic] - time.monotonic()))
         due[topic] += 1 / HZ[topic]
         now = time.time_ns()
-        struct.pack_into("<iI", sent[topic], STAMP[topic], now // 10**9, now % 10**9)
-        send(topic, bytes(sent[topic]))
+        struct.pack_into("<iI", payloads[topic], STAMP[topic], now // 10**9, now % 10**9)
+        send(topic, bytes(payloads[topic]))
         ended = sys.stdin.buffer.read(1) == b""
     print(json.dumps({PROCESSOR: time.process_time()}), flush=True)
     os._exit(0)
@@ -122,20 +122,20 @@ def publish_fleet(endpoint: str, robots: int) -> None:
     from webviz_sim.zenoh_wire import ZenohNode, open_session
 
     topics = ("/scan", "/tf")
-    sent = {topic: bytes(data) for topic, data in messages().items()}
-    made = []
+    payloads = {topic: bytes(data) for topic, data in messages().items()}
+    nodes = []
     for number in range(robots):
         space = f"/robot{number}"
         node = ZenohNode(open_session("client", endpoint), 0, space, "base")
-        made.append((node, {t: node.publisher(TYPES[t], t[1:]) for t in topics}))
+        nodes.append((node, {t: node.publisher(TYPES[t], t[1:]) for t in topics}))
     print("ready", flush=True)
     tick = 0
     due = time.monotonic()
     while True:
-        for _, publishers in made:
-            publishers["/tf"].publish(sent["/tf"])
+        for _, publishers in nodes:
+            publishers["/tf"].publish(payloads["/tf"])
             if tick % 5 == 0:
-                publishers["/scan"].publish(sent["/scan"])
+                publishers["/scan"].publish(payloads["/scan"])
         tick, due = tick + 1, due + 1 / HZ["/tf"]
         time.sleep(max(0.0, due - time.monotonic()))
 
@@ -151,7 +151,7 @@ def watch_fleet(address: str, robots: int, seconds: float) -> None:
     topics = ("/scan", "/tf")
     names = [(f"/robot{n}{topic}", TYPES[topic]) for n in range(robots) for topic in topics]
     source.want({name: Subscription(type, Topic(name)) for name, type in names})
-    while len(source.inbox.received()) < len(names):
+    while sum(count > 0 for count, _ in source.inbox.received().values()) < len(names):
         time.sleep(0.05)
         source.inbox.drain()
     before = sum(count for count, _ in source.inbox.received().values())
@@ -246,8 +246,8 @@ def measure(way: str, seconds: float) -> dict[str, Any]:
     result = json.loads(_line(watcher))
     assert publisher.stdin is not None
     publisher.stdin.close()
-    sent = json.loads(_line(publisher))
-    result["publisher"] = 100 * sent[PROCESSOR] / (time.monotonic() - began)
+    report = json.loads(_line(publisher))
+    result["publisher"] = 100 * report[PROCESSOR] / (time.monotonic() - began)
     for process in processes:
         process.kill()
         process.wait()
@@ -265,7 +265,7 @@ def _line(process: subprocess.Popen[str]) -> str:
 def main(seconds: float = 10.0, rounds: int = 3) -> None:
     """Print the table of all ways."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    found = [{way: measure(way, seconds) for way in WAYS} for _ in range(rounds)]
+    results = [{way: measure(way, seconds) for way in WAYS} for _ in range(rounds)]
     print(
         "| | scan p50 / p99 | frames p50 / p99 | 100 000 points p50 / p99 | received | viewer | "
         "publisher |\n|---|---|---|---|---|---|---|"
@@ -273,12 +273,12 @@ def main(seconds: float = 10.0, rounds: int = 3) -> None:
     for way in WAYS:
         cells = []
         for topic in ("/scan", "/tf", "/points"):
-            p50, p99 = (statistics.median(r[way][topic][at] for r in found) for at in (0, 1))
+            p50, p99 = (statistics.median(r[way][topic][at] for r in results) for at in (0, 1))
             cells.append(f"{p50:.1f} / {p99:.1f} ms")
-        shares = [r[way][topic][2] for r in found for topic in TYPES]
+        shares = [r[way][topic][2] for r in results for topic in TYPES]
         cells.append(f"{100 * min(1.0, statistics.mean(shares)):.0f} %")
         for name in (PROCESSOR, "publisher"):
-            cells.append(f"{statistics.median(r[way][name] for r in found):.0f} %")
+            cells.append(f"{statistics.median(r[way][name] for r in results):.0f} %")
         print(f"| {way} | {' | '.join(cells)} |")
 
 

@@ -72,19 +72,25 @@ class Room:
         self.page = Page(browser, viewer.url, 600, 500, resolution=COARSE)
         self.page.wait_for(lambda: viewer.state.views, "the report of its view")
 
-    def found(self) -> Mapping[str, Finding]:
+    def findings(self) -> Mapping[str, Finding]:
         """The newest findings by id and subject."""
         levels = CauseLevel.VIEW, CauseLevel.BROWSER
         all = (each for each in self.viewer.state.findings if each.level in levels)
         return {each.id: each for each in all}
 
     def wait(self, id: str, is_there: bool = True) -> Finding | None:
-        """Wait for a finding, or until it is gone."""
+        """Wait for a finding, or until it is gone; one whose cause comes and goes may be short."""
+        looks: list[Finding | None] = []
+
+        def is_so() -> bool:
+            looks.append(self.findings().get(id))
+            return (looks[-1] is not None) == is_there
+
         try:
-            self.page.wait_for(lambda: (id in self.found()) == is_there, id, PATIENCE_S)
+            self.page.wait_for(is_so, id, PATIENCE_S)
         except TimeoutError:
-            pytest.fail(f"{id}: {self.found()}")
-        return self.found().get(id)
+            pytest.fail(f"{id}: {self.findings()}")
+        return looks[-1]
 
     def look(self, view: View) -> None:
         """Move all cameras."""
@@ -92,9 +98,9 @@ class Room:
 
     def add(self, type: str, **values: Any) -> str:
         """Add a display; its id."""
-        made: list[str] = []
-        self.viewer.do(AddDisplay(type, values, made=made.append))
-        return made[0]
+        ids: list[str] = []
+        self.viewer.do(AddDisplay(type, values, made=ids.append))
+        return ids[0]
 
     def put(self, topic: str, type: str, frame: str, values: Mapping[str, Any]) -> None:
         """Receive a message."""
@@ -124,13 +130,13 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
 
 @pytest.fixture(scope="module")
 def room(viewer: tuple[Running, HandFedSource], browser: playwright.Browser) -> Iterator[Room]:
-    made = Room(*viewer, browser)
-    made.transform("base", 0.0)
-    yield made
-    made.page.close()
+    room = Room(*viewer, browser)
+    room.transform("base", 0.0)
+    yield room
+    room.page.close()
 
 
-def test_what_the_camera_does_not_show(room: Room) -> None:
+def test_displays_outside_the_view(room: Room) -> None:
     away = Orbit(focal_point=(0.0, 5000.0, 0.0), distance=10.0)
     room.look(away)
     finding = room.wait("VIEW004")
@@ -181,7 +187,7 @@ def test_a_browser_without_a_graphics_card(room: Room) -> None:
 
 
 def test_a_page_that_hangs(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "WEB003" not in room.found()
+    assert "WEB003" not in room.findings()
     monkeypatch.setattr(throttled_tab, "FROZEN_S", 6.5)
     dialogs: list[playwright.Dialog] = []
 
@@ -283,12 +289,12 @@ def test_a_slow_link(browser: playwright.Browser) -> None:
 
         def reduced() -> Finding | None:
             publish_points(room, 50_000)
-            return room.found().get("WEB004")
+            return room.findings().get("WEB004")
 
         finding = room.page.wait_for(reduced, "the finding", 2 * PATIENCE_S)
         assert finding is not None
         assert "clouds show every" in finding.cause
-        room.page.wait_for(lambda: "WEB004" not in room.found(), "its end", PATIENCE_S)
+        room.page.wait_for(lambda: "WEB004" not in room.findings(), "its end", PATIENCE_S)
         room.page.close()
 
 

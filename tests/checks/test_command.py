@@ -252,7 +252,7 @@ class Broken(Display):
 """
 
 
-def test_an_error_without_a_cause_is_no_success(
+def test_an_unexplained_error_fails_the_command(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     bag = Bag()

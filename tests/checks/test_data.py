@@ -71,9 +71,9 @@ def test_the_button_of_a_turned_scan_tries_the_yaw_with_which_it_fits(
 ) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), Map(), fixed_frame="map")
     look(stage, Pose2D(HERE.x, HERE.y, 0.3), building.scan(HERE))
-    (found,) = examined(stage).values()
-    assert isinstance(found.button, TryYaw)
-    assert (found.button.frame, found.button.yaw) == ("laser", pytest.approx(-0.3, abs=0.05))
+    (finding,) = examined(stage).values()
+    assert isinstance(finding.button, TryYaw)
+    assert (finding.button.frame, finding.button.yaw) == ("laser", pytest.approx(-0.3, abs=0.05))
 
 
 def test_a_mirrored_scan(webviz_harness: Make) -> None:
@@ -82,9 +82,9 @@ def test_a_mirrored_scan(webviz_harness: Make) -> None:
     measured = building.scan(here)
     upside_down = measured | {"ranges": np.roll(measured["ranges"][::-1], 1)}
     look(stage, here, upside_down)
-    (found,) = examined(stage).values()
-    assert found.id == "DATA002"
-    assert "; mirrored, " in found.proof
+    (finding,) = examined(stage).values()
+    assert finding.id == "DATA002"
+    assert "; mirrored, " in finding.proof
     look(stage, here, upside_down, roll=math.pi)
     assert examined(stage) == {}
 
@@ -157,7 +157,7 @@ def test_a_laser_that_sees_a_post_of_its_robot(webviz_harness: Make) -> None:
         ({}, None),
     ],
 )
-def test_images_that_are_not_what_they_say(
+def test_images_whose_fields_contradict_their_data(
     webviz_harness: Make, changed: dict[str, Any], severity: Severity | None
 ) -> None:
     stage = webviz_harness(Image(name="Camera", topic=Topic("/image")), fixed_frame="map")
@@ -204,7 +204,7 @@ def test_missing_meshes(webviz_harness: Make) -> None:
     assert [*examined(stage)] == ["DATA011 Robot"]
 
 
-def test_displays_that_hide_what_they_show(webviz_harness: Make) -> None:
+def test_displays_hidden_by_their_own_properties(webviz_harness: Make) -> None:
     stage = webviz_harness(
         LaserScan(name="Glass", alpha=0.0),
         LaserScan(name="None", topic=Topic("")),
@@ -335,8 +335,8 @@ def test_a_shift_that_turns_with_the_robot_is_of_its_laser(
     texts: list[str] = []
     for yaw in (0.0, 0.3, 0.6, 0.9):
         way = complex(0.6, 0.3) * (cmath.rect(1.0, yaw) if is_of_laser else 1.0)
-        seen = Pose2D(HERE.x + way.real, HERE.y + way.imag, yaw)
-        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(seen))
+        pose = Pose2D(HERE.x + way.real, HERE.y + way.imag, yaw)
+        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(pose))
         texts = [each.remedy for each in examined(stage).values()]
     assert len(texts) == 1
     assert (texts[0] == "Correct the transform of 'laser'.") == is_of_laser
@@ -354,8 +354,8 @@ def test_a_laser_that_is_a_little_off_fits_now_and_then(
     for step in range(24):  # a busy machine compares in between, too
         yaw = 0.4 * step
         off = cmath.rect(way if next(is_off) else 0.0, yaw)
-        seen = Pose2D(HERE.x + off.real, HERE.y + off.imag, yaw)
-        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(seen))
+        pose = Pose2D(HERE.x + off.real, HERE.y + off.imag, yaw)
+        look(stage, Pose2D(HERE.x, HERE.y, yaw), building.scan(pose))
         stage.clock += 1.1
         stage.source.now += SECOND
         stage.turn()
@@ -395,7 +395,7 @@ def test_data_that_a_display_cannot_draw(webviz_harness: Make) -> None:
             )
 
 
-def test_an_encoding_that_nobody_knows(webviz_harness: Make) -> None:
+def test_an_unknown_encoding(webviz_harness: Make) -> None:
     stage = webviz_harness(Image(name="Camera", topic=Topic("/image")), fixed_frame="map")
     values = {"width": 1, "height": 1, "encoding": "whatever", "step": 3, "data": bytes(3)}
     stage.publish("/image", "sensor_msgs/msg/Image", values, frame="camera")

@@ -66,9 +66,9 @@ def examined(
     return examining.examined(stage, CauseLevel.FRAMES, seconds, publish)
 
 
-def only(found: dict[str, Finding]) -> Finding:
+def only(findings: dict[str, Finding]) -> Finding:
     """The only finding."""
-    (finding,) = found.values()
+    (finding,) = findings.values()
     return finding
 
 

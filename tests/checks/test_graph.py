@@ -153,18 +153,21 @@ def test_topics_of_a_node_that_ended_are_one_finding(
     viewer.wait_for(lambda: causes() == [text], lambda: f"It found {causes()}.")
 
 
-def test_a_goal_that_nobody_has_sent_is_a_note(robot: Node, webviz_viewer: Viewers) -> None:
+def test_a_publisher_without_messages_is_a_note(robot: Node, webviz_viewer: Viewers) -> None:
     robot.create_publisher(PoseStamped, "/goal_pose", 1)
     viewer = webviz_viewer(Pose(topic=webviz.Topic("/goal_pose")))
 
-    def found() -> list[tuple[str, webviz.Severity]]:
+    def findings_on_graph() -> list[tuple[str, webviz.Severity]]:
         return [
             (each.id, each.severity)
             for each in viewer.viewer.snapshot().findings
             if each.level is CauseLevel.GRAPH
         ]
 
-    viewer.wait_for(lambda: found() == [("GRAPH008", webviz.Severity.NOTE)], lambda: f"{found()}")
+    viewer.wait_for(
+        lambda: findings_on_graph() == [("GRAPH008", webviz.Severity.NOTE)],
+        lambda: f"{findings_on_graph()}",
+    )
 
 
 def test_a_silent_publisher_is_blamed_for_no_more_than_is_known(
@@ -203,8 +206,8 @@ def test_tools_of_webviz_are_not_accused(webviz_domain: int, webviz_viewer: View
             return {each.subject for each in findings if each.id == "GRAPH008"}
 
         viewer.wait_for(lambda: silent() == {"/pose"}, lambda: f"{silent()}")
-        shown = live_config(viewer.source.offers()).displays
-        assert [each.topic.name for each in shown if isinstance(each, Pose)] == ["/pose"]
+        displays = live_config(viewer.source.offers()).displays
+        assert [each.topic.name for each in displays if isinstance(each, Pose)] == ["/pose"]
 
 
 def test_topics_that_are_found_late_are_examined_too(robot: Node) -> None:
@@ -273,17 +276,17 @@ def test_messages_above_the_limit(
     message = LaserScan(ranges=[1.0] * 1000)
     message.header.frame_id = "map"
 
-    def found() -> dict[str, webviz.Finding]:
+    def findings_on_graph() -> dict[str, webviz.Finding]:
         publisher.publish(message)  # the first ones may be lost
         return live_findings(viewer, CauseLevel.GRAPH)
 
-    viewer.wait_for(lambda: "GRAPH007 /scan" in found())
-    assert found()["GRAPH007 /scan"].remedy == "Publish smaller messages."
+    viewer.wait_for(lambda: "GRAPH007 /scan" in findings_on_graph())
+    assert findings_on_graph()["GRAPH007 /scan"].remedy == "Publish smaller messages."
     message.ranges = [1.0] * 10
-    viewer.wait_for(lambda: not found())
+    viewer.wait_for(lambda: not findings_on_graph())
 
 
-def test_a_deadline_that_nobody_meets(robot: Node, webviz_viewer: Viewers) -> None:
+def test_a_deadline_that_no_publisher_offers(robot: Node, webviz_viewer: Viewers) -> None:
     slow, quick = (QoSProfile(depth=1, deadline=Duration(seconds=s)) for s in (1.0, 0.1))
     publisher = robot.create_publisher(PoseStamped, "/pose", slow)
     listener = robot.create_subscription(PoseStamped, "/pose", print, quick)
@@ -339,8 +342,8 @@ def test_a_node_whose_qos_does_not_match(
     with node_of(webviz_domain, "student") as student:
         asking = student.create_subscription(LaserScan, "/scan", print, requested)
         wait_for(viewer, "GRAPH016 /scan")
-        asked, given, remedy = words
-        cause = f"/student cannot receive /scan from /robot: requested {asked}, offered {given}."
+        request, offer, remedy = words
+        cause = f"/student cannot receive /scan from /robot: requested {request}, offered {offer}."
         viewer.wait_for(
             lambda: live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"].cause == cause,
             lambda: f"It found {live_findings(viewer, CauseLevel.GRAPH)}.",
@@ -348,7 +351,7 @@ def test_a_node_whose_qos_does_not_match(
         findings = live_findings(viewer, CauseLevel.GRAPH)["GRAPH016 /scan"]
         assert findings.remedy.startswith("Let /student subscribe ")
         assert remedy in findings.remedy
-        assert findings.remedy.endswith(f"or let /robot publish as {asked}.")
+        assert findings.remedy.endswith(f"or let /robot publish as {request}.")
         other = student.create_publisher(LaserScan, "/scan", requested)
         viewer.wait_for(  # which serves the subscription, and not from the other one
             lambda: noted(viewer).get("GRAPH016") is webviz.Severity.NOTE,
@@ -380,9 +383,9 @@ def test_two_viewers_and_one_beside_a_doctor(robot: Node, webviz_viewer: Viewers
     assert "GRAPH015" not in noted(viewer)
     other.create_publisher(PointStamped, "/clicked_point", 1)
     viewer.wait_for(lambda: noted(viewer).get("GRAPH015") is webviz.Severity.NOTE)
-    (found,) = (each for each in viewer.viewer.snapshot().findings if each.id == "GRAPH015")
-    assert found.cause == "2 viewers have the name /webviz."
-    assert "--ros-args -r __ns:=" in found.command
+    (finding,) = (each for each in viewer.viewer.snapshot().findings if each.id == "GRAPH015")
+    assert finding.cause == "2 viewers have the name /webviz."
+    assert "--ros-args -r __ns:=" in finding.command
     other.destroy_node()
     viewer.wait_for(lambda: "GRAPH015" not in noted(viewer))
 
@@ -393,13 +396,13 @@ def test_large_messages_that_are_not_repeated(robot: Node, webviz_viewer: Viewer
     message = LaserScan(ranges=[1.0] * 150_000)
     message.header.frame_id = "map"
 
-    def found() -> dict[str, webviz.Severity]:
+    def findings_on_graph() -> dict[str, webviz.Severity]:
         publisher.publish(message)  # some may be lost
         return {id: severity for id, severity in noted(viewer).items() if id == "NET013"}
 
-    viewer.wait_for(found)
+    viewer.wait_for(findings_on_graph)
     message.ranges = [1.0] * 100
-    viewer.wait_for(lambda: not found())
+    viewer.wait_for(lambda: not findings_on_graph())
 
 
 def noted(viewer: LiveViewer) -> dict[str, webviz.Severity]:
@@ -420,9 +423,9 @@ def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
         stage.publish("/scan", SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
 
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
-    (found,) = examined(stage, CauseLevel.GRAPH).values()
-    assert (found.id, found.subject) == ("GRAPH009", "/scan")
-    assert found.cause == (
+    (finding,) = examined(stage, CauseLevel.GRAPH).values()
+    assert (finding.id, finding.subject) == ("GRAPH009", "/scan")
+    assert finding.cause == (
         "Nothing has arrived on /scan from /lidar for 4.4 s, previously at 5.0 Hz."
     )
     assert examined(stage, CauseLevel.GRAPH, 0.2, publish) == {}
@@ -439,11 +442,11 @@ def test_topics_that_stop_together_are_one_finding(webviz_harness: Callable[...,
             stage.publish(topic, SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
 
     assert examined(stage, CauseLevel.GRAPH, 0.2, partial(publish, "/front", "/rear")) == {}
-    (found,) = [each for each in stage.findings(0.2) if each.level is CauseLevel.GRAPH]
-    assert found.cause.startswith(
+    (finding,) = [each for each in stage.findings(0.2) if each.level is CauseLevel.GRAPH]
+    assert finding.cause.startswith(
         "Nothing has arrived on /front, /rear from /front_lidar, /rear_lidar for "
     )
-    assert len(found.explains) == 2
+    assert len(finding.explains) == 2
 
 
 def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[..., Harness]) -> None:
@@ -454,8 +457,8 @@ def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[...,
     moved = partial(stage.publish, "/amcl_pose", POSE, values, frame="map")
     examined(stage, CauseLevel.GRAPH, 0.2, moved)
     assert examined(stage, CauseLevel.GRAPH) == {}
-    (found,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH009"]
-    assert found.severity is webviz.Severity.NOTE
+    (finding,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH009"]
+    assert finding.severity is webviz.Severity.NOTE
 
 
 def test_a_lifecycle_node_that_is_not_active(webviz_domain: int, webviz_viewer: Viewers) -> None:

@@ -152,7 +152,7 @@ def test_variables(
     assert {*examined()} <= well
 
 
-def test_what_ends_ros_comes_first(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
+def test_faults_that_stop_ros_come_first(monkeypatch: pytest.MonkeyPatch, well: set[str]) -> None:
     monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS>")
     monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")
     assert [id for id in examined() if id not in well] == ["ENV007", "ENV014"]
@@ -284,12 +284,12 @@ def test_namespaces(examiner: subprocess.Popen[str], id: str, faulty: str, cured
     assert id not in in_namespaces(examiner, cured)
 
 
-def test_a_machine_without_a_network_is_not_said_to_lose_multicast(
+def test_a_machine_without_a_network_has_no_finding_of_multicast(
     examiner: subprocess.Popen[str],
 ) -> None:
-    found = in_namespaces(examiner, LO)
-    assert "NET003" in found
-    assert "NET002" not in found
+    findings = in_namespaces(examiner, LO)
+    assert "NET003" in findings
+    assert "NET002" not in findings
 
 
 def test_programs_of_other_domains_are_not_accused(examiner: subprocess.Popen[str]) -> None:

@@ -58,8 +58,8 @@ def test_simulated_data_is_not_blamed_beside_a_clock_that_stands_or_two(
             sec = (stage.source.now - WALL_NS) // SECOND
             stage.publish("/clock", CLOCK, {"clock": {"sec": sec}})
 
-    found = ids(stage, publish, 1)
-    assert {each for each in found if each.startswith("TIME")} == {id}
+    cause_ids = ids(stage, publish, 1)
+    assert {each for each in cause_ids if each.startswith("TIME")} == {id}
 
 
 @pytest.mark.parametrize("is_off", [False, True])
@@ -77,8 +77,8 @@ def test_stamps_of_data_are_not_blamed_beside_transforms_of_the_same_clock(
             stage.publish("/scan", SCAN, three_ranges("map", stamp_ns))
             stage.turn()
 
-    found = ids(stage, publish, 1)
-    assert ("TIME010" in found, "TIME009" in found) == (is_off, not is_off)
+    cause_ids = ids(stage, publish, 1)
+    assert ("TIME010" in cause_ids, "TIME009" in cause_ids) == (is_off, not is_off)
 
 
 def test_odometry_is_not_compared_with_a_transform_of_two_publishers(webviz_harness: Make) -> None:
@@ -96,9 +96,9 @@ def test_odometry_is_not_compared_with_a_transform_of_two_publishers(webviz_harn
         stage.publish("/odom", ODOMETRY, values | pose)
 
     assert "DATA021" in ids(stage, lambda: publish(False), 1)
-    found = ids(stage, lambda: publish(True), 1)
-    assert "DATA021" not in found
-    assert "TF011" in found
+    cause_ids = ids(stage, lambda: publish(True), 1)
+    assert "DATA021" not in cause_ids
+    assert "TF011" in cause_ids
 
 
 @pytest.mark.parametrize("node", ["/wheels", "/filter"])
@@ -114,9 +114,9 @@ def test_silent_odometry_explains_the_transform_of_its_node(
     def publish() -> None:
         stage.publish("/scan", SCAN, three_ranges("laser", stage.source.now))
 
-    found = ids(stage, publish)
-    assert "GRAPH008" in found
-    assert ("TF005" in found) == (node != "/wheels")
+    cause_ids = ids(stage, publish)
+    assert "GRAPH008" in cause_ids
+    assert ("TF005" in cause_ids) == (node != "/wheels")
 
 
 def test_all_transforms_of_another_clock_are_one_finding(webviz_harness: Make) -> None:
@@ -156,7 +156,7 @@ def test_two_publishers_of_a_frame_explain_a_scan_that_does_not_fit(
 
 
 @pytest.mark.parametrize(("frame", "is_found"), [("map", True), ("utm", False)])
-def test_coordinates_of_utm_are_no_fault_in_its_own_frame(
+def test_utm_coordinates_are_valid_in_the_utm_frame(
     webviz_harness: Make, frame: str, is_found: bool
 ) -> None:
     stage = webviz_harness(LaserScan(), fixed_frame=frame)
@@ -165,8 +165,8 @@ def test_coordinates_of_utm_are_no_fault_in_its_own_frame(
     def publish() -> None:
         stage.publish("/scan", SCAN, three_ranges("base_link", stage.source.now))
 
-    found = ids(stage, publish)
-    assert ("TF022" in found) == is_found
+    cause_ids = ids(stage, publish)
+    assert ("TF022" in cause_ids) == is_found
     assert math.hypot(4.5e5, 5.4e6) > 1e5
 
 
@@ -174,7 +174,7 @@ def test_coordinates_of_utm_are_no_fault_in_its_own_frame(
 def test_a_robot_that_ended_as_a_whole_has_left(
     webviz_harness: Make, monkeypatch: pytest.MonkeyPatch, has_begun: bool
 ) -> None:
-    monkeypatch.setattr(Observation, "is_alone", lambda seen: True)
+    monkeypatch.setattr(Observation, "is_alone", lambda observation: True)
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)  # it would be the cause
     stage = webviz_harness(LaserScan(), Map(), fixed_frame="map")
     stage.source.now = WALL_NS

@@ -30,7 +30,7 @@ def finding(
 
 
 @pytest.mark.parametrize(
-    ("found", "first"),
+    ("findings", "first"),
     [
         ([finding("TF002"), finding("ENV003")], "ENV003"),
         ([finding("ENV003", severity=NOTE), finding("WEB001")], "WEB001"),
@@ -48,11 +48,11 @@ def finding(
         *("an error elsewhere", "id", "more symptoms", "most symptoms", "subject"),
     ],
 )
-def test_what_affects_most_comes_first(found: list[Finding], first: str) -> None:
-    for each in (found, found[::-1]):
-        shown = ordered(each)
-        assert len(shown) == 2
-        assert f"{shown[0].id} {shown[0].subject}".strip() == first
+def test_findings_that_affect_most_come_first(findings: list[Finding], first: str) -> None:
+    for each in (findings, findings[::-1]):
+        results = ordered(each)
+        assert len(results) == 2
+        assert f"{results[0].id} {results[0].subject}".strip() == first
 
 
 def test_findings_of_one_check_about_one_subject_are_one() -> None:

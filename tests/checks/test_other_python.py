@@ -30,8 +30,8 @@ def test_the_remedy_is_a_python_that_webviz_runs_on(
         displays=[],
         environment=environment,
     )
-    [found] = OtherPython().find(observation)
-    assert found.cause == f"ROS for Python {version} is sourced, but Python 3.13 runs."
-    assert found.remedy.startswith(remedy)
-    assert found.command.startswith(command)
-    assert bool(found.command) == bool(command)
+    [finding] = OtherPython().find(observation)
+    assert finding.cause == f"ROS for Python {version} is sourced, but Python 3.13 runs."
+    assert finding.remedy.startswith(remedy)
+    assert finding.command.startswith(command)
+    assert bool(finding.command) == bool(command)

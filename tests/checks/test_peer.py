@@ -169,7 +169,7 @@ def test_an_interface_of_the_robot_that_takes_smaller_packets(tmp_path: Path) ->
 
 
 @needs_namespaces
-def test_a_firewall_that_drops_what_the_robot_sends(tmp_path: Path) -> None:
+def test_a_firewall_that_drops_udp_of_the_robot(tmp_path: Path) -> None:
     findings = compared(tmp_path, "there ip rule add ipproto udp prohibit pref 1")
     (finding,) = findings["NET020"]
     assert finding.subject == "robot to viewer"
@@ -233,13 +233,13 @@ def test_the_remedy_for_lost_multicast_works(tmp_path: Path) -> None:
     pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
     (tmp_path / "talker.py").write_text(TALKER)
     (tmp_path / "listener.py").write_text(LISTENER)
-    lost = "; ".join(
+    drop_multicast = "; ".join(
         f"ip link set {each} type bridge_slave mcast_flood off" for each in ("viewer", "robot")
     )
-    (finding,) = compared(tmp_path, lost)["NET021"]
+    (finding,) = compared(tmp_path, drop_multicast)["NET021"]
     in_network(
         tmp_path,
-        f"""{lost}
+        f"""{drop_multicast}
 there env ROS_DOMAIN_ID=5 ROS_STATIC_PEERS=192.0.2.1 $PYTHON {tmp_path}/talker.py &
 {finding.command}
 here env ROS_DOMAIN_ID=5 $PYTHON {tmp_path}/listener.py

@@ -36,6 +36,6 @@ def test_an_optical_frame_of_a_description(
     viewer = webviz_viewer(TF(), simulator={"robot": str(urdf)}, fixed_frame="map")
     viewer.wait_for(lambda: "camera_optical_frame" in viewer.viewer.snapshot().frames)
     doctor = viewer.viewer.doctor
-    known = doctor.rounds
-    viewer.wait_for(lambda: doctor.rounds >= known + ROUNDS)
+    rounds = doctor.rounds
+    viewer.wait_for(lambda: doctor.rounds >= rounds + ROUNDS)
     assert [*live_findings(viewer, CauseLevel.FRAMES)] == ids

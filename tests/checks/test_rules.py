@@ -98,9 +98,9 @@ def test_rules_over_a_bag_are_test_cases(
 ) -> None:
     junit = tmp_path / "report.xml"
     rules = ["LaserScan.rate > 5 for 1min", "LaserScan.status < error", "doctor.errors == 0"]
-    given = [word for rule in rules for word in ("--rule", rule)]
+    options = [word for rule in rules for word in ("--rule", rule)]
     began_s = time.monotonic()
-    assert main(["test", "--bag", str(run), *given, "--junit", str(junit)]) == 0
+    assert main(["test", "--bag", str(run), *options, "--junit", str(junit)]) == 0
     assert time.monotonic() - began_s < 15.0, "a bag of 20 s is played as if it were live"
     assert "3 of 3 rules hold." in capsys.readouterr().out
     suite = ElementTree.parse(junit).getroot()
@@ -108,8 +108,8 @@ def test_rules_over_a_bag_are_test_cases(
     assert (suite.get("failures"), [*suite.iter("failure")]) == ("0", [])
 
     failing = ["/scan.rate > 5 for 1s", "Scan.walls > 0.8"]
-    given = [word for rule in failing for word in ("--rule", rule)]
-    assert main(["test", "--bag", str(run), *given, "--junit", str(junit)]) == 3
+    options = [word for rule in failing for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(run), *options, "--junit", str(junit)]) == 3
     output = capsys.readouterr().out
     assert "FAILED /scan.rate > 5 for 1s\n       /scan.rate is 0." in output
     assert "Scan.walls never had a value. Check the name" in output
@@ -138,8 +138,8 @@ def test_a_rule_is_about_each_number_that_a_message_path_names(
         "/charge.data.@mean(3) > 0.9": True,
         "/charge.date > 0.2": False,
     }
-    given = [word for rule in rules for word in ("--rule", rule)]
-    assert main(["test", "--bag", str(run), *given]) == 3
+    options = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(run), *options]) == 3
     output = capsys.readouterr().out
     for rule, holds in rules.items():
         assert f"{'ok     ' if holds else 'FAILED '}{rule}" in output
@@ -165,8 +165,8 @@ def test_an_idle_display_is_as_good_as_one_that_is_ok(
 @pytest.mark.skipif(not WIDE.exists(), reason="the shared data is absent")
 def test_a_rule_is_about_numbers_beside_a_wide_string(capsys: pytest.CaptureFixture[str]) -> None:
     rules = "/odd.x <= 1", "/odd.x < 0.5", "/odd.w == 1"
-    given = [word for rule in rules for word in ("--rule", rule)]
-    assert main(["test", "--bag", str(WIDE), *given]) == 3
+    options = [word for rule in rules for word in ("--rule", rule)]
+    assert main(["test", "--bag", str(WIDE), *options]) == 3
     output = capsys.readouterr().out
     assert "ok     /odd.x <= 1 (-0." in output
     assert "/odd.x is 0." in output

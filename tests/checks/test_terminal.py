@@ -64,12 +64,12 @@ def test_a_command_writes_lines_that_command_nothing(
     bag: Path, arguments: list[str], place: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     cli([str(bag) if word == "BAG" else word for word in arguments])
-    shown = capfd.readouterr()
-    check(shown.out)
-    check(shown.err)
-    assert place in shown.out + shown.err
+    output = capfd.readouterr()
+    check(output.out)
+    check(output.err)
+    assert place in output.out + output.err
     if "--json" in arguments:
-        assert json.loads(shown.out)["findings"]
+        assert json.loads(output.out)["findings"]
 
 
 def test_a_picture_of_frames_has_names_of_one_line(bag: Path, tmp_path: Path) -> None:
@@ -85,9 +85,9 @@ def test_a_picture_of_frames_has_names_of_one_line(bag: Path, tmp_path: Path) ->
 def test_each_line_is_one_and_a_log_too(capsys: pytest.CaptureFixture[str]) -> None:
     say(HOSTILE, "b")
     warn(HOSTILE)
-    shown = capsys.readouterr()
-    assert shown.out == f"{readable(HOSTILE)}\nb\n"
-    assert shown.err == f"{readable(HOSTILE)}\n"
+    captured = capsys.readouterr()
+    assert captured.out == f"{readable(HOSTILE)}\nb\n"
+    assert captured.err == f"{readable(HOSTILE)}\n"
     say_json(json.dumps({"a": HOSTILE}, ensure_ascii=False, indent=2))
     output = capsys.readouterr().out
     check(output)
@@ -111,7 +111,7 @@ def test_a_program_logs_in_this_format() -> None:
     assert completed.stderr.splitlines()[-1] == f"webviz: {readable(HOSTILE)}"
 
 
-def test_there_is_no_other_door_to_the_terminal() -> None:
+def test_only_one_module_writes_to_the_terminal() -> None:
     """Also `sys.stdout.write`; descriptors are written in `ending` alone, by way of `readable`."""
     doors = {"webviz/shell/cli/terminal.py", *NOT_TEXT}
     # JSON between two machines, and between an agent and the viewer.
@@ -156,7 +156,7 @@ INITIALIZE = {
         (["mcp", "--port", "0", "--no-restore"], True),
     ],
 )
-def test_what_dds_prints_is_kept_apart_from_results(
+def test_output_of_dds_is_kept_apart_from_results(
     webviz_domain: int,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

@@ -127,7 +127,7 @@ def test_a_clock_of_a_paused_simulator(
             parameter = Parameter("use_sim_time", value=True).to_parameter_msg()
             set_parameters.call_async(SetParameters.Request(parameters=[parameter]))
 
-        def found(step: int | None = 0) -> dict[str, str]:
+        def findings_since(step: int | None = 0) -> dict[str, str]:
             """The causes by id, after a message on /clock if `step` is given."""
             nonlocal time_s
             if step is not None:
@@ -137,18 +137,23 @@ def test_a_clock_of_a_paused_simulator(
 
         time_s = 7
         missing = "TIME001" if is_followed else "TIME013"
-        viewer.wait_for(lambda: [*found(None)] == [missing], lambda: f"It found {found(None)}.")
-        assert "othing has arrived on /clock from /gazebo" in found(None)[missing]
+        viewer.wait_for(
+            lambda: [*findings_since(None)] == [missing],
+            lambda: f"It found {findings_since(None)}.",
+        )
+        assert "othing has arrived on /clock from /gazebo" in findings_since(None)[missing]
         still = "Simulated time stands still at 7.0 s (/gazebo), so nodes with use_sim_time wait."
-        viewer.wait_for(lambda: found() == {"TIME013": still}, lambda: f"It found {found()}.")
+        viewer.wait_for(
+            lambda: findings_since() == {"TIME013": still}, lambda: f"It found {findings_since()}."
+        )
         # While time runs, the topic itself is to blame, and what publishes no transforms.
         viewer.wait_for(
-            lambda: [*found(1)][:1] == ["GRAPH008"],
-            lambda: f"It found {found()}.",
+            lambda: [*findings_since(1)][:1] == ["GRAPH008"],
+            lambda: f"It found {findings_since()}.",
         )
 
 
-def test_two_clocks_come_before_what_they_cause(
+def test_two_clocks_come_before_their_consequences(
     webviz_domain: int, webviz_viewer: Callable[..., LiveViewer]
 ) -> None:
     with node_of(webviz_domain, "gazebo") as one, node_of(webviz_domain, "player") as other:
@@ -204,7 +209,9 @@ def test_transforms_of_another_clock(stage: Harness) -> None:
     assert [each.status for each in findings["TIME010"].explains] == ["Clocks"]
 
 
-def test_a_transform_of_another_clock_is_not_said_to_have_stopped(webviz_harness: Make) -> None:
+def test_a_transform_of_another_clock_has_no_finding_of_having_stopped(
+    webviz_harness: Make,
+) -> None:
     stage = webviz_harness(LaserScan(), TF(), fixed_frame="map")
     stage.source.now = WALL_NS
     stage.turn()

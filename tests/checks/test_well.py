@@ -94,7 +94,7 @@ def write(path: Path, namespace: str, prefix: str) -> Path:
 
 
 @pytest.mark.parametrize(("namespace", "prefix"), [("", ""), ("/robot1", "robot1/")])
-def test_nothing_is_found_in_what_robots_normally_do(
+def test_a_healthy_robot_has_no_findings(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], namespace: str, prefix: str
 ) -> None:
     bag = write(tmp_path / "run", namespace, prefix)
@@ -105,7 +105,7 @@ def test_nothing_is_found_in_what_robots_normally_do(
     assert report.displays > len(("Map", "LaserScan", "Odometry", "Imu", "Path"))
 
 
-def test_what_a_bag_lacks_is_one_finding_for_all_displays(
+def test_topics_missing_in_a_bag_are_one_finding_for_all_displays(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     bag = write(tmp_path / "run", "", "")
@@ -115,7 +115,7 @@ def test_what_a_bag_lacks_is_one_finding_for_all_displays(
     config.write_bytes(msgspec.json.encode({"displays": displays}))
     main(["doctor", "--bag", str(bag), "--display-config", str(config), "--json"])
     report = msgspec.json.decode(capsys.readouterr().out, type=DoctorReport)
-    (found,) = [each for each in report.findings if each.id == "GRAPH010"]
-    assert found.cause == "6 displays read topics that this bag lacks."
-    assert found.proof == f"It has no messages on {', '.join(expected[:4])} and 2 more."
-    assert len(found.explains) == 6
+    (finding,) = [each for each in report.findings if each.id == "GRAPH010"]
+    assert finding.cause == "6 displays read topics that this bag lacks."
+    assert finding.proof == f"It has no messages on {', '.join(expected[:4])} and 2 more."
+    assert len(finding.explains) == 6

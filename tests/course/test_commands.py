@@ -22,6 +22,7 @@ from waiting import until
 pytest.importorskip("rclpy", reason="needs rclpy: source a ROS 2 or install ros-webviz[ros]")
 
 from nav_msgs.msg import OccupancyGrid, Odometry
+from nodes import response_of
 from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
@@ -79,11 +80,9 @@ class Terminal(Node):
 
     def call(self, type: Any, name: str, **fields: Any) -> Any:
         client = self.create_client(type, name)
-        self.wait_for(client.service_is_ready)
-        future = client.call_async(type.Request(**fields))
-        self.wait_for(future.done)
+        response = response_of(client, type.Request(**fields), self.loop)
         self.destroy_client(client)
-        return future.result()
+        return response
 
     def echo(self, topics: dict[str, str], counts: dict[str, int]) -> dict[str, list[bytes]]:
         """The first messages of topics as bytes, with the QoS that `ros2 topic echo` chooses."""
@@ -131,8 +130,8 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_topic_list_has_the_topics_of_a_turtlebot(terminal: Terminal) -> None:
-    found = dict(terminal.get_topic_names_and_types())
-    assert {topic: found.get(topic) for topic in TOPICS} == {t: [k] for t, k in TOPICS.items()}
+    types = dict(terminal.get_topic_names_and_types())
+    assert {topic: types.get(topic) for topic in TOPICS} == {t: [k] for t, k in TOPICS.items()}
 
 
 def test_topic_info_names_the_nodes_and_their_qos(terminal: Terminal) -> None:

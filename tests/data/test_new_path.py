@@ -8,13 +8,13 @@ from webviz.data.names import new_path
 
 
 def test_names_of_the_same_second_differ(tmp_path: Path) -> None:
-    made: set[str] = set()
+    names: set[str] = set()
     for _ in range(5):
         path = new_path("webviz_run", ".html", tmp_path)
         path.write_text("")
-        made.add(path.name)
-    assert len(made) == 5
-    assert all(name.endswith(".html") for name in made)
+        names.add(path.name)
+    assert len(names) == 5
+    assert all(name.endswith(".html") for name in names)
 
 
 def test_a_folder_has_a_name_without_a_suffix(tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ SECONDS = 5.0
         "[",
     ],
 )
-def test_what_is_endless_or_not_plain_is_refused_soon_by_a_sentence(text: str) -> None:
+def test_endless_and_tagged_yaml_is_refused_quickly(text: str) -> None:
     start_s = time.process_time()
     with pytest.raises(YamlDocumentError) as error:
         read_plain(text)

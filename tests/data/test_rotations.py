@@ -85,7 +85,7 @@ def test_a_rotation_about_an_axis_is_its_rotation_vector(seed: int, angle: float
     assert (turn * expected.inv()).magnitude() < 1e-9
 
 
-def test_no_axis_is_no_rotation() -> None:
+def test_a_zero_axis_is_the_identity() -> None:
     assert from_axis_angle((0.0, 0.0, 0.0), 1.0) == (1.0, 0.0, 0.0, 0.0)
 
 
@@ -100,7 +100,7 @@ def test_the_angle_between_rotations_does_not_hang_on_their_lengths(
     assert angle == pytest.approx((b.inv() * a).magnitude(), abs=1e-9)
 
 
-def test_what_cannot_be_normalized_becomes_the_identity() -> None:
+def test_quaternions_without_a_direction_become_the_identity() -> None:
     quaternions = [(0, 0, 0, 0), (1e300, 0, 0, 0), (0, 0, 0, 1e-310), (np.nan, 0, 0, 1)]
     unit, ok = normalized([*quaternions, (np.inf, 0, 0, 0), (3, 0, 4, 0)])
     assert ok.tolist() == [False, True, True, False, False, True]

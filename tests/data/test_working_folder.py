@@ -42,13 +42,13 @@ def program(parent: Path) -> Iterator[tuple[subprocess.Popen[str], Path]]:
             process.kill()
 
 
-def test_what_a_killed_program_leaves_goes_with_the_next_folder(tmp_path: Path) -> None:
-    with program(tmp_path) as (killed, left), program(tmp_path) as (_, used):
+def test_the_folder_of_a_killed_program_is_removed_by_the_next(tmp_path: Path) -> None:
+    with program(tmp_path) as (killed, folder), program(tmp_path) as (_, used):
         killed.kill()
         killed.wait()
-        assert (left / "large").exists()
+        assert (folder / "large").exists()
         with working_folder("own_", tmp_path) as own, working_folder("own_", tmp_path) as other:
-            assert not left.exists()
+            assert not folder.exists()
             assert sorted(tmp_path.iterdir()) == sorted((used, own, other))
         assert [*tmp_path.iterdir()] == [used]
         assert {each.name for each in used.iterdir()} == {LOCK, "large"}
@@ -78,7 +78,7 @@ def test_folders_of_other_users_stay(tmp_path: Path) -> None:
         assert foreign.exists()
 
 
-def test_a_folder_that_another_program_takes_for_abandoned_is_made_anew(
+def test_a_folder_removed_as_abandoned_before_its_lock_is_recreated(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lock, taken = module.lock, list[Path]()

@@ -32,18 +32,18 @@ def arm(bench: Callable[..., Any]) -> Any:
 
 
 @pytest.fixture
-def shown(bench: Callable[..., Any]) -> Callable[..., Any]:
+def display_bench(bench: Callable[..., Any]) -> Callable[..., Any]:
     """Make the bench of a display that has drawn messages in the frame odom, 10 m along x."""
-    return partial(_drawn, bench, STRAIGHT)
+    return partial(_display_bench, bench, STRAIGHT)
 
 
 @pytest.fixture
 def turned(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """Make the bench as `shown`, with odom turned left by a quarter."""
-    return partial(_drawn, bench, QUARTER)
+    """Make the bench as `display_bench`, with odom turned left by a quarter."""
+    return partial(_display_bench, bench, QUARTER)
 
 
-def _drawn(
+def _display_bench(
     bench: Callable[..., Any],
     rotation: tuple[float, ...],
     display: Display,
@@ -56,3 +56,17 @@ def _drawn(
         at.turn()
         at.settle()
     return at
+
+
+@pytest.fixture
+def sensed(bench: Callable[..., Any]) -> Callable[..., Any]:
+    """Make the bench of a display that has drawn a message of a sensor at rest, 1 m above map."""
+
+    def make(display: Display, values: Mapping[str, Any]) -> Any:
+        at = bench(display)
+        at.transform("map", "sensor", (0.0, 0.0, 1.0))
+        at.send(inputs(display)[0][1].type, values, frame="sensor")
+        at.turn()
+        return at
+
+    return make

@@ -49,7 +49,7 @@ def test_a_polygon_is_a_closed_line(turned: Benches) -> None:
         ([(1, 0, 0), (NAN, 0, 0)], "ERROR", "Point 1 of 2, (nan, 0, 0), is not finite"),
     ],
 )
-def test_a_polygon_that_cannot_be_drawn_says_why(
+def test_an_invalid_polygon_has_a_status(
     turned: Benches, points: list[Any], level: str, text: str
 ) -> None:
     at = turned(Polygon(), polygon(*points))

@@ -21,8 +21,10 @@ from webviz_displays.autoware.look import FootprintView, LaneView, PointView, Te
 NAN = math.nan
 
 
-def test_the_lane_is_as_wide_as_the_vehicle_and_coloured_by_velocity(shown: Callable) -> None:
-    at = shown(AutowarePath(view_path=LaneView(alpha=0.5)), BOUNDED)
+def test_the_lane_is_as_wide_as_the_vehicle_and_coloured_by_velocity(
+    display_bench: Callable,
+) -> None:
+    at = display_bench(AutowarePath(view_path=LaneView(alpha=0.5)), BOUNDED)
     lane = at.nodes()["lane"]
     np.testing.assert_allclose(at.xyz("lane")[:2], [(10, -0.915, 0), (10, 0.915, 0)], atol=1e-6)
     assert lane.colors[0].tolist() == [63, 46, 227, 128]
@@ -39,15 +41,15 @@ def test_the_lane_is_as_wide_as_the_vehicle_and_coloured_by_velocity(shown: Call
     assert at.nodes()["lane"].colors[2, :3].tolist() == [0, 230, 120]
 
 
-def test_velocities_are_heights_and_backwards_is_below(shown: Callable) -> None:
+def test_velocities_are_heights_and_backwards_is_below(display_bench: Callable) -> None:
     way = planned((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), speeds=(1.0, -3.0))
-    at = shown(AutowarePath(), {"points": way})
+    at = display_bench(AutowarePath(), {"points": way})
     np.testing.assert_allclose(at.xyz("velocity line")[0, :, 2], (0.3, -0.9), atol=1e-6)
     assert at.nodes()["velocity line"].colors[0, 1].tolist() == [0, 230, 120]
 
 
-def test_bounds_footprints_and_points(shown: Callable) -> None:
-    at = shown(
+def test_bounds_footprints_and_points(display_bench: Callable) -> None:
+    at = display_bench(
         AutowarePath(
             view_footprint=FootprintView(
                 value=True,
@@ -67,10 +69,10 @@ def test_bounds_footprints_and_points(shown: Callable) -> None:
     np.testing.assert_allclose(at.xyz("points")[1], (11.5, 0, 0.1), atol=1e-6)
 
 
-def test_numbers_stand_above_their_points(shown: Callable) -> None:
+def test_numbers_stand_above_their_points(display_bench: Callable) -> None:
     names = ("velocity", "slope", "time")
     texts: dict[str, Any] = {f"view_text_{name}": TextView(value=True) for name in names}
-    at = shown(AutowareTrajectory(**texts), TIMED)
+    at = display_bench(AutowareTrajectory(**texts), TIMED)
     nodes = at.nodes()
     assert nodes["velocities"].texts == ("0.00", "1.00", "2.00", "3.00")
     assert nodes["slopes"].texts == ("0.10", "0.20", "0.00", "0.00")
@@ -90,25 +92,25 @@ def test_numbers_stand_above_their_points(shown: Callable) -> None:
     ],
 )
 def test_an_empty_or_invalid_path_is_named(
-    change: dict[str, Any], level: str, sentence: str, shown: Callable
+    change: dict[str, Any], level: str, sentence: str, display_bench: Callable
 ) -> None:
-    at = shown(AutowarePath(), BOUNDED | change)
+    at = display_bench(AutowarePath(), BOUNDED | change)
     assert at.nodes() == {}
     assert at.statuses()["Path"] == (level, sentence)
 
 
-def test_an_invalid_bound_is_named_and_the_path_stays(shown: Callable) -> None:
-    at = shown(AutowarePath(), BOUNDED | {"left_bound": [{"x": NAN}]})
+def test_an_invalid_bound_is_named_and_the_path_stays(display_bench: Callable) -> None:
+    at = display_bench(AutowarePath(), BOUNDED | {"left_bound": [{"x": NAN}]})
     assert set(at.nodes()) == {"lane", "velocity line", "right bound"}
     sentence = "The left bound is not finite. Fix the planner."
     assert at.statuses()["Drivable area"] == ("ERROR", sentence)
 
 
 def test_a_long_path_is_cut_with_a_warning(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    display_bench: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(path, "MAX_POINTS", 2)
-    at = shown(AutowarePath(), {"points": WAY})
+    at = display_bench(AutowarePath(), {"points": WAY})
     assert len(at.nodes()["velocity line"].segments) == 1
     sentence = "Showing the first 2 points, 0.00 to 1.00 m/s; the path has 4."
     assert at.statuses()["Path"] == ("WARN", sentence)

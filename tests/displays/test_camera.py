@@ -63,7 +63,7 @@ def test_the_camera_sees_from_where_it_was_at_the_stamp(bench: Benches) -> None:
     assert not at.nodes()["pane"].camera.is_background
 
 
-def test_a_region_of_interest_is_a_part_of_what_the_camera_sees(bench: Benches) -> None:
+def test_a_region_of_interest_is_a_part_of_the_camera_image(bench: Benches) -> None:
     at = bench(Camera())
     at.transform("map", "camera")
     send(at)
@@ -94,16 +94,16 @@ def test_raw_images_are_undistorted_and_rectified_ones_are_not(bench: Benches) -
         at.turn()
         warp = at.nodes()["pane"].camera.warp
         assert (warp is not None) == is_bent, topic
-        level, told = at.statuses()["Camera Info"]
+        level, text = at.statuses()["Camera Info"]
         assert level == "OK"
-        assert ("undistorted by plumb_bob" in told) == is_bent
+        assert ("undistorted by plumb_bob" in text) == is_bent
         at.send(photos.RAW, photos.raw(big + 1, "mono8"), frame="camera", topic=topic)
         at.turn()
         assert at.nodes()["pane"].camera.warp is warp
 
 
 @pytest.mark.parametrize(
-    ("frame", "changes", "level", "told"),
+    ("frame", "changes", "level", "sentence"),
     [
         ("camera", {"p": [0.0] * 12, "k": [0.0] * 9}, "ERROR", "not calibrated"),
         ("camera", {"p": [float("nan")] * 12}, "ERROR", "invalid"),
@@ -116,7 +116,7 @@ def test_raw_images_are_undistorted_and_rectified_ones_are_not(bench: Benches) -
     ],
 )
 def test_a_camera_that_cannot_be_right_is_named(
-    bench: Benches, frame: str, changes: dict[str, Any], level: str, told: str
+    bench: Benches, frame: str, changes: dict[str, Any], level: str, sentence: str
 ) -> None:
     at = bench(Camera())
     at.transform("map", frame)
@@ -124,7 +124,7 @@ def test_a_camera_that_cannot_be_right_is_named(
     send_info(at, **changes)
     at.turn()
     assert at.statuses()["Camera Info"][0] == level
-    assert told in at.statuses()["Camera Info"][1]
+    assert sentence in at.statuses()["Camera Info"][1]
 
 
 def test_the_camera_info_beside_the_images_is_offered_for_a_wrong_one(bench: Benches) -> None:

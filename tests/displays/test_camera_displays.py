@@ -60,7 +60,7 @@ def test_the_image_lies_at_the_far_end(bench: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("frame", "changes", "level", "told"),
+    ("frame", "changes", "level", "sentence"),
     [
         ("camera", {"p": [0.0] * 12, "k": [0.0] * 9}, "ERROR", "not calibrated"),
         ("camera", {"k": [float("nan")] * 9}, "WARN", "K of the camera info is invalid"),
@@ -69,14 +69,14 @@ def test_the_image_lies_at_the_far_end(bench: Benches) -> None:
     ],
 )
 def test_a_camera_that_cannot_be_right_is_named(
-    bench: Benches, frame: str, changes: dict[str, Any], level: str, told: str
+    bench: Benches, frame: str, changes: dict[str, Any], level: str, sentence: str
 ) -> None:
     at = bench(CameraInfo())
     at.transform("map", frame)
     send_info(at, frame=frame, **changes)
     at.turn()
     assert at.statuses()["Camera Info"][0] == level
-    assert told in at.statuses()["Camera Info"][1]
+    assert sentence in at.statuses()["Camera Info"][1]
 
 
 def cloud(bench: Benches, **values: Any) -> Any:
@@ -146,7 +146,7 @@ def test_points_have_the_colors_of_the_image_of_their_stamp(bench: Benches) -> N
 
 
 @pytest.mark.parametrize(
-    ("depths", "encoding", "told"),
+    ("depths", "encoding", "sentence"),
     [
         (COLORS, "rgb8", "Expected depths as 16UC1 (mm) or 32FC1 (m), got rgb8"),
         (DEPTHS[:6], "32FC1", "has 16 x 6 pixels, the camera info 16 x 12"),
@@ -155,15 +155,15 @@ def test_points_have_the_colors_of_the_image_of_their_stamp(bench: Benches) -> N
         (np.full((12, 16), -1.0, np.float32), "32FC1", "No pixel has a depth"),
     ],
 )
-def test_what_is_no_depth_image_is_named(
-    bench: Benches, depths: Any, encoding: str, told: str
+def test_invalid_depth_images_are_reported(
+    bench: Benches, depths: Any, encoding: str, sentence: str
 ) -> None:
     at = cloud(bench)
     send_info(at, INFO)
     send_depth(at, depths, encoding)
     at.turn()
     at.settle()
-    assert told in at.statuses()["Points"][1]
+    assert sentence in at.statuses()["Points"][1]
 
 
 def test_an_image_that_comes_while_the_first_is_computed_follows_it(bench: Benches) -> None:
@@ -176,16 +176,16 @@ def test_an_image_that_comes_while_the_first_is_computed_follows_it(bench: Bench
     assert at.statuses()["Points"] == ("OK", "192 points of 192 pixels.")
 
 
-def test_a_camera_info_that_changes_nothing_draws_nothing_anew(bench: Benches) -> None:
+def test_an_equal_camera_info_redraws_nothing(bench: Benches) -> None:
     at = cloud(bench)
     send_info(at, INFO)
     send_depth(at, np.full((12, 16), 2.0, np.float32))
     at.turn()
     at.settle()
-    (drawn,) = at.nodes().values()
+    (node,) = at.nodes().values()
     send_info(at, INFO)
     at.turn()
-    assert at.nodes()["points"] is drawn
+    assert at.nodes()["points"] is node
     at.set("color_transformer", "FlatColor")
     assert at.nodes()["points"].colors == (255, 255, 255)
 
@@ -264,8 +264,10 @@ def test_points_hidden_by_nearer_ones_stay_at_half_their_brightness(bench: Bench
     assert len(at.xyz("points")) == 192
 
 
-@pytest.mark.parametrize(("moved", "left"), [(0.009, 193), (0.011, 192)])
-def test_hidden_points_go_when_the_camera_moves(bench: Benches, moved: float, left: int) -> None:
+@pytest.mark.parametrize(("moved", "remaining"), [(0.009, 193), (0.011, 192)])
+def test_hidden_points_go_when_the_camera_moves(
+    bench: Benches, moved: float, remaining: int
+) -> None:
     at = hiding(bench)
     at.transform("map", "camera", (1.0 + moved, 0.0, 0.0), FACING_X)
     near = np.full((12, 16), 4.0, np.float32)
@@ -274,7 +276,7 @@ def test_hidden_points_go_when_the_camera_moves(bench: Benches, moved: float, le
     send_depth(at, near)
     at.turn(0.1)
     at.settle()
-    assert len(at.xyz("points")) == left
+    assert len(at.xyz("points")) == remaining
 
 
 def test_hidden_points_go_after_the_time_out(bench: Benches) -> None:

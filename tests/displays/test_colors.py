@@ -73,13 +73,13 @@ def test_colors_are_in_the_order_of_the_values(
     values: list[float], low: float, high: float, dtype: type
 ) -> None:
     with np.errstate(over="ignore"):
-        known = np.sort(np.array([each for each in values if each == each], dtype))
-    result = greys(known, low, high)
+        finite = np.sort(np.array([each for each in values if each == each], dtype))
+    result = greys(finite, low, high)
     assert result == sorted(result)
     assert all(0 <= each <= 200 for each in greys(values, low, high))
 
 
-def test_bounds_ignore_what_is_not_finite() -> None:
+def test_bounds_ignore_non_finite_values() -> None:
     assert bounds([np.nan, 3.0, -1.0, np.inf]) == (-1.0, 3.0)
     assert bounds([np.nan]) == (0.0, 0.0)
     assert bounds([5.0, 5.0], least_span=0.5) == (5.0, 5.5)

@@ -18,7 +18,7 @@ DISC = np.array([(np.cos(a), np.sin(a), 0.0) for a in AROUND])
 SPHERE = np.concatenate((np.eye(3), -np.eye(3)))
 
 
-def given(*entries: tuple[int, int, float]) -> covariance.Covariances:
+def covariance_of(*entries: tuple[int, int, float]) -> covariance.Covariances:
     matrix = np.zeros((6, 6))
     for row, column, value in entries:
         matrix[row, column] = matrix[column, row] = value
@@ -36,7 +36,7 @@ def extent(points: NDArray[np.float64]) -> list[float]:
 
 
 def test_a_planar_ellipse_has_half_axes_of_one_sigma() -> None:
-    flat = given((0, 0, 4.0), (1, 1, 0.25), (5, 5, 0.1))
+    flat = covariance_of((0, 0, 4.0), (1, 1, 0.25), (5, 5, 0.1))
     placed = covariance.ellipses(flat, HERE, EYE, 1.0)
     assert extent(corners(DISC, placed)) == [2.0, 0.5, 0.001]
     assert extent(corners(DISC, covariance.ellipses(flat, HERE, EYE, 3.0)))[:2] == [6.0, 1.5]
@@ -44,26 +44,26 @@ def test_a_planar_ellipse_has_half_axes_of_one_sigma() -> None:
 
 def test_correlation_turns_the_ellipse() -> None:
     # Eigenvalues 3 along (1, 1) and 1 along (1, -1).
-    flat = given((0, 0, 2.0), (1, 1, 2.0), (0, 1, 1.0))
+    flat = covariance_of((0, 0, 2.0), (1, 1, 2.0), (0, 1, 1.0))
     points = corners(DISC, covariance.ellipses(flat, HERE, EYE, 1.0))
     assert (points[:, :2] @ (np.sqrt(0.5), np.sqrt(0.5))).max() == pytest.approx(np.sqrt(3))
     assert (points[:, :2] @ (np.sqrt(0.5), -np.sqrt(0.5))).max() == pytest.approx(1.0)
 
 
 def test_the_ellipse_turns_with_the_frame_of_the_message() -> None:
-    flat = given((0, 0, 4.0), (1, 1, 0.25))
+    flat = covariance_of((0, 0, 4.0), (1, 1, 0.25))
     assert extent(corners(DISC, covariance.ellipses(flat, HERE, QUARTER, 1.0)))[:2] == [0.5, 2.0]
 
 
 def test_variance_of_z_makes_an_ellipsoid() -> None:
-    full = given((0, 0, 1.0), (1, 1, 4.0), (2, 2, 9.0))
+    full = covariance_of((0, 0, 1.0), (1, 1, 4.0), (2, 2, 9.0))
     assert len(covariance.ellipses(full, HERE, EYE, 1.0).centers) == 0
     points = corners(SPHERE, covariance.ellipsoids(full, HERE, EYE, 0.5))
     assert extent(points) == [0.5, 1.0, 1.5]
 
 
 def test_the_yaw_wedge_is_as_wide_as_the_tangent_of_one_sigma() -> None:
-    flat = given((5, 5, np.deg2rad(45.0) ** 2))
+    flat = covariance_of((5, 5, np.deg2rad(45.0) ** 2))
     points = corners(WEDGE, covariance.wedges(flat, HERE, EYE, 1.0, 2.0))
     np.testing.assert_allclose(points, [(0, 0, 1e-3), (2, -2, 1e-3), (2, 2, 1e-3)], atol=1e-6)
     half = corners(WEDGE, covariance.wedges(flat, HERE, EYE, 0.5, 2.0))
@@ -71,13 +71,13 @@ def test_the_yaw_wedge_is_as_wide_as_the_tangent_of_one_sigma() -> None:
 
 
 def test_the_yaw_wedge_ends_at_89_degrees() -> None:
-    flat = given((5, 5, 100.0))
+    flat = covariance_of((5, 5, 100.0))
     points = corners(WEDGE, covariance.wedges(flat, HERE, EYE, 1.0, 1.0))
     assert points[2, 1] == pytest.approx(np.tan(np.deg2rad(89.0)), rel=1e-5)
 
 
 def test_the_tip_of_x_moves_along_y_by_yaw_and_along_z_by_pitch() -> None:
-    full = given((3, 3, 1.0), (4, 4, 0.1**2), (5, 5, 0.2**2))
+    full = covariance_of((3, 3, 1.0), (4, 4, 0.1**2), (5, 5, 0.2**2))
     points = corners(DISC, covariance.tip_discs(full, HERE, EYE, 1.0, 2.0, 0))
     np.testing.assert_allclose(points[:, 0], 2.0)
     assert extent(points)[1:] == [round(2 * np.tan(0.2), 4), round(2 * np.tan(0.1), 4)]
@@ -85,7 +85,7 @@ def test_the_tip_of_x_moves_along_y_by_yaw_and_along_z_by_pitch() -> None:
 
 def test_a_correlated_rotation_moves_the_tip_by_the_cross_product() -> None:
     # Yaw and pitch always equal: w = (0, s, s), so the tip of x moves along w x e = (0, s, -s).
-    full = given((3, 3, 1.0), (4, 4, 0.01), (5, 5, 0.01), (4, 5, 0.01))
+    full = covariance_of((3, 3, 1.0), (4, 4, 0.01), (5, 5, 0.01), (4, 5, 0.01))
     points = corners(DISC, covariance.tip_discs(full, HERE, EYE, 1.0, 1.0, 0))
     np.testing.assert_allclose(points[:, 1], -points[:, 2], atol=1e-5)
     assert points[:, 1].max() == pytest.approx(np.tan(np.sqrt(0.02)) / np.sqrt(2))
@@ -108,14 +108,14 @@ def test_random_small_rotations_scatter_as_the_discs_say(axis: int) -> None:
 @pytest.mark.parametrize(
     "entry", [(0, 0, -1.0), (5, 5, -0.1), (0, 1, 5.0), (0, 0, np.nan), (3, 4, np.inf)]
 )
-def test_what_is_no_covariance_is_refused(entry: tuple[int, int, float]) -> None:
+def test_invalid_covariances_are_refused(entry: tuple[int, int, float]) -> None:
     matrix = np.diag([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
     matrix[entry[0], entry[1]] = matrix[entry[1], entry[0]] = entry[2]
     _, ok = covariance.read(np.stack((matrix.ravel(), np.zeros(36))))
     assert ok.tolist() == [False, True]
 
 
-def test_rounding_below_zero_is_no_negative_eigenvalue() -> None:
+def test_eigenvalues_rounded_below_zero_are_accepted() -> None:
     third = np.full((3, 3), 1.0 / 3.0)  # singular, its eigenvalues are 1, 0 and 0 plus rounding
     matrix = np.zeros((6, 6))
     matrix[:3, :3] = third

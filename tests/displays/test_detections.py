@@ -45,16 +45,16 @@ MESSAGES = {
 }
 
 
-def test_boxes_lie_in_their_frame_with_their_sizes(shown: Benches) -> None:
-    at = shown(BoundingBox3DArray(), {"boxes": [box(), box(3.0)]})
+def test_boxes_lie_in_their_frame_with_their_sizes(display_bench: Benches) -> None:
+    at = display_bench(BoundingBox3DArray(), {"boxes": [box(), box(3.0)]})
     np.testing.assert_allclose(at.xyz("boxes"), [(10, 0, 0), (13, 0, 0)], atol=1e-6)
     node = at.nodes()["boxes"]
     np.testing.assert_allclose(node.scales, [(2, 1, 1)] * 2)
     assert at.statuses()["Boxes"] == ("OK", "Showing 2 boxes.")
 
 
-def test_edges_are_turned_with_their_box(shown: Benches) -> None:
-    at = shown(BoundingBox3DArray(only_edge=True), {"boxes": [box()]})
+def test_edges_are_turned_with_their_box(display_bench: Benches) -> None:
+    at = display_bench(BoundingBox3DArray(only_edge=True), {"boxes": [box()]})
     edges = at.xyz("edges")
     assert len(edges) == 12
     reach = np.abs(edges - (10.0, 0.0, 0.0)).reshape(-1, 3).max(axis=0)
@@ -62,10 +62,10 @@ def test_edges_are_turned_with_their_box(shown: Benches) -> None:
 
 
 def test_detections_have_the_colour_and_score_of_their_likeliest_class(
-    shown: Benches,
+    display_bench: Benches,
 ) -> None:
     display = Detection3DArray(show_score=True, show_class=True)
-    at = shown(display, MESSAGES[DETECTIONS])
+    at = display_bench(display, MESSAGES[DETECTIONS])
     assert at.nodes()["boxes"].colors.tolist() == [[0, 0, 255], [255, 22, 80]]
     assert at.nodes()["texts"].texts == ("Person 0.50",)
     np.testing.assert_allclose(at.xyz("texts"), [(10.0, 0.0, 0.6)], atol=1e-6)
@@ -94,9 +94,9 @@ def test_a_box_without_a_header_lies_in_the_fixed_frame(bench: Benches) -> None:
     ],
 )
 def test_an_invalid_box_is_counted_and_the_others_shown(
-    shown: Benches, bad: dict[str, Any]
+    display_bench: Benches, bad: dict[str, Any]
 ) -> None:
-    at = shown(BoundingBox3DArray(), {"boxes": [bad, box(1.0)]})
+    at = display_bench(BoundingBox3DArray(), {"boxes": [bad, box(1.0)]})
     assert at.statuses()["Boxes"] == (
         "ERROR",
         "Boxes with an invalid size, position or orientation: 1 of 2. Fix the publisher.",

@@ -37,16 +37,14 @@ def arm(bench: Benches) -> Callable[..., Any]:
     """A bench that knows the arm, and where its links are now."""
 
     def make(display: Effort, prefix: str = "") -> Any:
-        display_bench = bench(display)
-        display_bench.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
-        display_bench.turn()
-        display_bench.settle()
+        at = bench(display)
+        at.send("std_msgs/msg/String", {"data": ARM}, topic="/robot_description")
+        at.turn()
+        at.settle()
         for number, link in enumerate(("upper", "lower", "slider")):
-            stamp_ns = display_bench.now_ns
-            display_bench.transform(
-                "map", f"{prefix}{link}", (float(number), 0.0, 0.0), stamp_ns=stamp_ns
-            )
-        return display_bench
+            stamp_ns = at.now_ns
+            at.transform("map", f"{prefix}{link}", (float(number), 0.0, 0.0), stamp_ns=stamp_ns)
+        return at
 
     return make
 
@@ -103,7 +101,7 @@ def test_a_message_waits_for_its_transforms_and_the_former_rings_stay(arm: Bench
     assert at.statuses()["Joint shoulder"][1].startswith("10 Nm")
 
 
-def test_former_rings_stay_as_many_as_wanted(arm: Benches) -> None:
+def test_previous_rings_are_kept_up_to_the_history_length(arm: Benches) -> None:
     at = arm(Effort(history_length=2))
     for effort in (1.0, 2.0, 3.0):
         measure(at, {"shoulder": effort})
@@ -136,7 +134,7 @@ def test_a_prefix_is_that_of_the_frames(arm: Benches) -> None:
         ({"hip": 1.0}, "WARN", "No joint of the message turns"),
     ],
 )
-def test_what_is_not_drawn_is_said(
+def test_skipped_efforts_are_reported(
     arm: Benches, efforts: Mapping[str, float], level: str, text: str
 ) -> None:
     at = arm(Effort())
@@ -172,7 +170,7 @@ def test_names_and_efforts_of_different_number_are_an_error(arm: Benches) -> Non
     )
 
 
-def test_without_a_description_it_says_what_to_start(bench: Benches) -> None:
+def test_a_missing_description_names_the_node_to_start(bench: Benches) -> None:
     at = bench(Effort())
     measure(at, {"shoulder": 1.0})
     assert at.statuses()["URDF"][1].endswith("Start robot_state_publisher.")

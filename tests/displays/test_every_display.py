@@ -34,7 +34,7 @@ def test_every_display_has_checks_in_its_own_test_file() -> None:
         ("Range", "alpha", "Range"),
     ],
 )
-def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status: str) -> None:
+def test_alpha_0_hides_with_a_warning(bench: Benches, name: str, path: str, status: str) -> None:
     at_work = bench(CHECKS[name].display())
     CHECKS[name].publish(at_work)
     visible = set(at_work.nodes())
@@ -64,7 +64,7 @@ def test_alpha_0_hides_and_says_so(bench: Benches, name: str, path: str, status:
         ("RobotModel", {"visual_enabled": False}, "Shapes"),
     ],
 )
-def test_what_is_switched_off_says_so_and_what_would_help(
+def test_a_part_switched_off_warns_with_a_remedy(
     bench: Benches, name: str, off: dict[str, object], status: str
 ) -> None:
     at_work = bench(CHECKS[name].display())

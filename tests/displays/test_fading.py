@@ -37,8 +37,8 @@ def test_a_frame_that_stopped_while_nothing_was_drawn_is_as_old_as_its_transform
     ages = Ages()
     ages.update(np.array([SECOND]), 2 * SECOND, dict)
     ages.update(np.array([2 * SECOND]), 10 * SECOND, dict)  # noticed late
-    found = ages.update(np.array([2 * SECOND]), 12 * SECOND, lambda: {2 * SECOND: 3 * SECOND})
-    assert found.tolist() == [9.0]
+    ages_s = ages.update(np.array([2 * SECOND]), 12 * SECOND, lambda: {2 * SECOND: 3 * SECOND})
+    assert ages_s.tolist() == [9.0]
 
 
 def test_a_frame_with_a_stamp_in_the_future_is_not_younger_than_new() -> None:

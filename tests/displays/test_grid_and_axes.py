@@ -13,26 +13,28 @@ from webviz_displays.grid import Grid
 
 
 def grid(bench: Benches, **properties: Any) -> Any:
-    display_bench = bench(Grid(**properties))
-    display_bench.turn()
-    return display_bench
+    at = bench(Grid(**properties))
+    at.turn()
+    return at
 
 
 def test_the_default_grid_is_the_one_of_rviz(bench: Benches) -> None:
-    made = grid(bench)
-    node = made.nodes()["grid"]
+    grid_lines = grid(bench)
+    node = grid_lines.nodes()["grid"]
     assert node.segments.shape == (22, 2, 3)  # 11 lines each way
     assert node.segments.min(axis=(0, 1)).tolist() == [-5, -5, 0]
     assert node.segments.max(axis=(0, 1)).tolist() == [5, 5, 0]
     assert (node.colors, node.opacity) == (None, 0.5)  # the grey of the theme
-    assert SCHEMES["dark"]["grid"] == made.display.color == (160, 160, 164)
+    assert SCHEMES["dark"]["grid"] == grid_lines.display.color == (160, 160, 164)
     assert (node.width, node.unit) == (1.0, "px")
-    assert made.statuses()["Grid"][0] == "OK"
+    assert grid_lines.statuses()["Grid"][0] == "OK"
 
 
 def test_a_small_grid_line_by_line(bench: Benches) -> None:
-    made = grid(bench, plane_cell_count=1, cell_size=2.0, offset=(10.0, 0.0, 1.0))
-    lines = {tuple(sorted(map(tuple, ends))) for ends in made.nodes()["grid"].segments.tolist()}
+    grid_lines = grid(bench, plane_cell_count=1, cell_size=2.0, offset=(10.0, 0.0, 1.0))
+    lines = {
+        tuple(sorted(map(tuple, ends))) for ends in grid_lines.nodes()["grid"].segments.tolist()
+    }
     assert lines == {
         ((9, -1, 1), (9, 1, 1)),
         ((11, -1, 1), (11, 1, 1)),
@@ -72,14 +74,14 @@ def test_billboards_have_a_width_in_metres(bench: Benches) -> None:
         (10**400, 10**400, "", 0),
     ],
 )
-def test_of_too_many_lines_those_in_the_middle_are_drawn(
+def test_a_grid_over_the_limit_draws_its_middle(
     bench: Benches, plane: int, normal: int, cells: str, lines: int
 ) -> None:
-    made = grid(bench, plane_cell_count=plane, normal_cell_count=normal, cell_size=0.5)
-    level, text = made.statuses()["Grid"]
+    grid_lines = grid(bench, plane_cell_count=plane, normal_cell_count=normal, cell_size=0.5)
+    level, text = grid_lines.statuses()["Grid"]
     assert level == "WARN"
     assert f"showing the {cells}" in text
-    segments = made.nodes()["grid"].segments
+    segments = grid_lines.nodes()["grid"].segments
     if cells:
         assert len(segments) == lines
     assert 150_000 < len(segments) <= 200_000
@@ -89,9 +91,9 @@ def test_of_too_many_lines_those_in_the_middle_are_drawn(
 
 @pytest.mark.parametrize("far", [{"cell_size": 1e308}, {"offset": (0.0, -1e308, 0.0)}])
 def test_a_grid_that_reaches_too_far_is_not_drawn(bench: Benches, far: Any) -> None:
-    made = grid(bench, **far)
-    assert made.nodes() == {}
-    level, text = made.statuses()["Grid"]
+    grid_lines = grid(bench, **far)
+    assert grid_lines.nodes() == {}
+    level, text = grid_lines.statuses()["Grid"]
     assert (level, text[:16]) == ("ERROR", "The grid reaches")
 
 
@@ -99,19 +101,19 @@ def test_a_grid_that_reaches_too_far_is_not_drawn(bench: Benches, far: Any) -> N
 def test_it_follows_its_frame_at_the_latest_common_time(
     bench: Benches, cls: type, key: str
 ) -> None:
-    display_bench = bench(cls(reference_frame="robot"))
-    display_bench.turn()
-    assert display_bench.nodes() == {}
-    level, text = display_bench.statuses()["Transform"]
+    at = bench(cls(reference_frame="robot"))
+    at.turn()
+    assert at.nodes() == {}
+    level, text = at.statuses()["Transform"]
     assert level == "ERROR"
     assert "robot" in text
-    display_bench.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=display_bench.now_ns)
-    display_bench.turn()
-    assert display_bench.poses()[key].position == (1, 0, 0)
-    display_bench.transform("map", "robot", (2.0, 0.0, 0.0), stamp_ns=display_bench.now_ns + 1)
-    display_bench.turn()
-    assert display_bench.poses()[key].position == (2, 0, 0)
-    assert "Transform" not in display_bench.statuses()
+    at.transform("map", "robot", (1.0, 0.0, 0.0), stamp_ns=at.now_ns)
+    at.turn()
+    assert at.poses()[key].position == (1, 0, 0)
+    at.transform("map", "robot", (2.0, 0.0, 0.0), stamp_ns=at.now_ns + 1)
+    at.turn()
+    assert at.poses()[key].position == (2, 0, 0)
+    assert "Transform" not in at.statuses()
 
 
 @pytest.mark.parametrize(("cls", "key"), [(Grid, "grid"), (Axes, "axes")])
@@ -119,15 +121,15 @@ def test_it_follows_its_frame_at_the_latest_common_time(
 def test_by_default_it_stands_in_the_fixed_frame(
     bench: Benches, cls: type, key: str, name: str
 ) -> None:
-    display_bench = bench(cls(reference_frame=name))
-    display_bench.turn()
-    assert display_bench.poses()[key].position == (0, 0, 0)
+    at = bench(cls(reference_frame=name))
+    at.turn()
+    assert at.poses()[key].position == (0, 0, 0)
 
 
 def test_axes_have_a_length_and_a_radius(bench: Benches) -> None:
-    display_bench = bench(Axes(length=2.0, radius=0.25))
-    display_bench.turn()
-    node = display_bench.nodes()["axes"]
+    at = bench(Axes(length=2.0, radius=0.25))
+    at.turn()
+    node = at.nodes()["axes"]
     assert (node.length, node.radius) == (2.0, 0.25)
     assert node.positions.tolist() == [[0, 0, 0]]
 
@@ -136,11 +138,11 @@ def test_axes_have_a_length_and_a_radius(bench: Benches) -> None:
 def test_a_grid_of_too_many_lines_offers_those_that_are_shown(
     bench: Benches, cells: dict[str, int]
 ) -> None:
-    made = grid(bench, **cells)
-    assert made.statuses()["Grid"][0] == "WARN"
-    before = len(made.nodes()["grid"].segments)
-    made.press("Grid")
-    assert len(made.nodes()["grid"].segments) == before
+    grid_lines = grid(bench, **cells)
+    assert grid_lines.statuses()["Grid"][0] == "WARN"
+    before = len(grid_lines.nodes()["grid"].segments)
+    grid_lines.press("Grid")
+    assert len(grid_lines.nodes()["grid"].segments) == before
 
 
 class TestAxes(BuiltInChecks):

@@ -38,9 +38,11 @@ def slope(x: float, y: float) -> float:
 
 
 @pytest.mark.parametrize("start", [(0, 0), (2, 3), (1, 0)])
-def test_cells_are_where_their_layer_says(shown: Callable, start: tuple[int, int]) -> None:
+def test_cells_have_their_position_and_the_height_of_their_layer(
+    display_bench: Callable, start: tuple[int, int]
+) -> None:
     values = grid_map({"elevation": slope}, (3, 4), 0.5, start, (1.0, 2.0))
-    at = shown(GridMap(), values)
+    at = display_bench(GridMap(), values)
     places = corners(at)
     assert len(places) == 12
     for x, y, z in places:
@@ -52,13 +54,13 @@ def test_cells_are_where_their_layer_says(shown: Callable, start: tuple[int, int
     assert at.statuses()["Layers"] == ("OK", "elevation.")
 
 
-def test_rows_may_be_side_by_side(shown: Callable) -> None:
+def test_rows_may_be_side_by_side(display_bench: Callable) -> None:
     values = grid_map({"elevation": slope})
     matrix = values["data"][0]
     matrix["data"] = np.reshape(matrix["data"], (4, 3)).T.ravel().tolist()
     matrix["layout"]["dim"] = matrix["layout"]["dim"][::-1]
-    assert corners(shown(GridMap(), values)) == corners(
-        shown(GridMap(), grid_map({"elevation": slope}))
+    assert corners(display_bench(GridMap(), values)) == corners(
+        display_bench(GridMap(), grid_map({"elevation": slope}))
     )
 
 
@@ -74,13 +76,13 @@ def test_a_surface_faces_up_and_leaves_holes_open() -> None:
         assert (np.cross(b - a, c - a)[:, 2] > 0).all()
 
 
-def test_cells_without_a_value_are_holes(shown: Callable) -> None:
+def test_cells_without_a_value_are_holes(display_bench: Callable) -> None:
     layers = {
         "elevation": lambda x, y: NAN if x > 0.4 and y > 0.7 else 0.0,
         "variance": lambda x, y: math.inf if x < -0.4 and y < -0.7 else 1.0,
         "color": lambda x, y: NAN,
     }
-    at = shown(GridMap(color_layer="variance"), grid_map(layers))
+    at = display_bench(GridMap(color_layer="variance"), grid_map(layers))
     assert len(corners(at)) == 11
     assert corners(at)[9.5, -0.75, 0.0] == display_module.NO_VALUE
     at.send(GRID_MAP, grid_map(layers, basic=["variance", "no such layer"]), frame="odom")
@@ -92,10 +94,10 @@ def test_cells_without_a_value_are_holes(shown: Callable) -> None:
     assert at.statuses()["Grid map"][0] == "WARN"
 
 
-def test_colors_are_by_a_layer_packed_or_flat(shown: Callable) -> None:
+def test_colors_are_by_a_layer_packed_or_flat(display_bench: Callable) -> None:
     packed = struct.unpack("<f", struct.pack("<I", 0x0A141E))[0]
     layers = {"elevation": lambda x, y: x, "rgb": lambda x, y: packed}
-    at = shown(GridMap(), grid_map(layers))
+    at = display_bench(GridMap(), grid_map(layers))
     low, high = (9.5, -0.75, -0.5), (10.5, -0.75, 0.5)
     assert (corners(at)[low], corners(at)[high]) == ((255, 0, 255), (255, 0, 0))
     at.set("invert_rainbow", True)
@@ -117,23 +119,25 @@ def test_colors_are_by_a_layer_packed_or_flat(shown: Callable) -> None:
     assert at.statuses()["Grid map"][0] == "WARN"
 
 
-def test_lines_follow_rows_and_columns(shown: Callable) -> None:
-    at = shown(GridMap(), grid_map({"elevation": slope}, (5, 6)))
+def test_lines_follow_rows_and_columns(display_bench: Callable) -> None:
+    at = display_bench(GridMap(), grid_map({"elevation": slope}, (5, 6)))
     node = at.nodes()["lines"]
     assert (len(node.segments), node.width, node.unit) == (5 * 5 + 6 * 4, 0.05, "m")
     at.set("grid_cell_decimation", 3)
     assert len(at.nodes()["lines"].segments) == 3 * 5 + 3 * 4
 
 
-def test_former_maps_stay(shown: Callable) -> None:
+def test_former_maps_stay(display_bench: Callable) -> None:
     values = grid_map({"elevation": slope})
-    at = shown(GridMap(history_length=2), values, values, values)
+    at = display_bench(GridMap(history_length=2), values, values, values)
     assert sum(key.startswith("surface") for key, _, _ in at.scene.visible()) == 2
 
 
-def test_a_large_map_is_thinned_out(shown: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_map_is_thinned_out(
+    display_bench: Callable, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(display_module, "MAX_CELLS", 30)
-    at = shown(GridMap(), grid_map({"elevation": slope}, (10, 10)))
+    at = display_bench(GridMap(), grid_map({"elevation": slope}, (10, 10)))
     assert len(corners(at)) == 25
     assert at.statuses()["Grid map"][0] == "WARN"
     for x, y, z in corners(at):
@@ -161,9 +165,9 @@ FAULTS = {
 }
 
 
-def test_a_missing_layer_is_replaced_by_the_most_similar_one(shown: Callable) -> None:
+def test_a_missing_layer_is_replaced_by_the_most_similar_one(display_bench: Callable) -> None:
     layers = {"variance": slope, "elevation_raw": slope}
-    at = shown(GridMap(color_layer="colour"), grid_map(layers))
+    at = display_bench(GridMap(color_layer="colour"), grid_map(layers))
     remedy = at.remedy("Grid map")
     assert (remedy.path, remedy.label) == ("height_layer", "Use elevation_raw")
     at.set(remedy.path, remedy.value)
@@ -173,18 +177,20 @@ def test_a_missing_layer_is_replaced_by_the_most_similar_one(shown: Callable) ->
 
 
 @pytest.mark.parametrize("case", FAULTS)
-def test_a_map_that_cannot_be_drawn_says_why(shown: Callable, case: str) -> None:
+def test_an_invalid_map_has_a_status(display_bench: Callable, case: str) -> None:
     values, reason = FAULTS[case]
-    at = shown(GridMap(), values)
+    at = display_bench(GridMap(), values)
     assert at.nodes() == {}
     level, text = at.statuses()["Grid map"]
     assert level == "ERROR"
     assert reason in text
 
 
-def test_a_layer_of_another_size_says_so(shown: Callable) -> None:
+def test_a_layer_of_another_size_is_an_error(display_bench: Callable) -> None:
     smaller = grid_map({"elevation": slope}, (2, 2))["data"][0]
-    at = shown(GridMap(color_layer="variance"), broken(lambda v: v["data"].__setitem__(1, smaller)))
+    at = display_bench(
+        GridMap(color_layer="variance"), broken(lambda v: v["data"].__setitem__(1, smaller))
+    )
     level, text = at.statuses()["Grid map"]
     assert level == "ERROR"
     assert text.startswith("The layer 'variance' has 2 rows and 2 columns, the first one 3 rows")

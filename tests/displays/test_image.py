@@ -28,7 +28,7 @@ COLORS, DEPTHS = photos.room(16, 12)
 TOPIC = Image().topic.name
 
 
-def shown(at: Any) -> Any:
+def pane_picture(at: Any) -> Any:
     """The picture in the pane."""
     pane = at.nodes()["pane"]
     assert isinstance(pane, Pane)
@@ -39,7 +39,7 @@ def test_a_picture_needs_no_transform(bench: Benches) -> None:
     at = bench(Image())
     at.send(photos.RAW, photos.raw(COLORS, "rgb8"), frame="nowhere")
     at.turn()
-    assert isinstance(shown(at), Pixels)
+    assert isinstance(pane_picture(at), Pixels)
     assert at.statuses()["Image"] == ("OK", "16 x 12, rgb8.")
     assert all(level == "OK" for level, _ in at.statuses().values())
 
@@ -54,7 +54,7 @@ def test_the_publisher_decides_how_a_topic_is_read(bench: Benches) -> None:
         at.send(type_, values, frame="camera")
         at.turn()
         assert at.runner.subscriptions()[TOPIC].type == type_
-        assert isinstance(shown(at), kind)
+        assert isinstance(pane_picture(at), kind)
     assert at.statuses()["Image"][0] == "OK"
 
 
@@ -62,7 +62,7 @@ def test_jpeg_goes_to_the_browser_as_it_is(bench: Benches) -> None:
     at, values = bench(Image()), photos.jpeg(COLORS, "rgb8; jpeg compressed rgb8")
     at.send(photos.COMPRESSED, values, frame="camera")
     at.turn()
-    picture = shown(at)
+    picture = pane_picture(at)
     assert picture.data.tobytes() == values["data"].tobytes()
     assert (picture.mime, picture.size) == ("image/jpeg", (16, 12))
     assert picture.swaps_red_and_blue
@@ -77,7 +77,7 @@ def test_compressed_depths_are_decompressed_beside_the_loop(bench: Benches) -> N
         at.send(photos.COMPRESSED, values, frame="camera")
         at.turn()
     at.settle()
-    assert (shown(at).tone.low, shown(at).tone.high) == (700, 700)
+    assert (pane_picture(at).tone.low, pane_picture(at).tone.high) == (700, 700)
     first = at.nodes()["pane"]
     at.turn()
     assert at.nodes()["pane"] is first
@@ -98,18 +98,18 @@ def test_the_range_is_the_median_of_the_newest_images(bench: Benches) -> None:
         depths = np.array([[low, low + 0.5, np.nan]], np.float32)
         at.send(photos.RAW, photos.raw(depths, "32FC1"), frame="camera")
         at.turn()
-    assert shown(at).tone.low == pytest.approx(0.4)
-    assert shown(at).tone.high == pytest.approx(0.9)
+    assert pane_picture(at).tone.low == pytest.approx(0.4)
+    assert pane_picture(at).tone.high == pytest.approx(0.9)
     at.set("normalize_range", False)
     at.set("max_value", 0.5)
-    assert (shown(at).tone.low, shown(at).tone.high) == (0.0, 0.5)
+    assert (pane_picture(at).tone.low, pane_picture(at).tone.high) == (0.0, 0.5)
     at.set("min_value", 2.0)
     assert "Min Value 2 is not below Max Value 0.5" in at.statuses()["Image"][1]
     at.press("Image")
 
 
 @pytest.mark.parametrize(
-    ("values", "level", "told"),
+    ("values", "level", "sentence"),
     [
         (photos.raw(COLORS, "rgb9"), "ERROR", "did you mean rgb8?"),
         (photos.raw(COLORS, "rgb8") | {"step": 7}, "ERROR", "step is 7 bytes"),
@@ -118,16 +118,16 @@ def test_the_range_is_the_median_of_the_newest_images(bench: Benches) -> None:
         (photos.raw(np.full((2, 2), np.nan, np.float32), "32FC1"), "WARN", "No pixel has a valid"),
     ],
 )
-def test_what_cannot_be_right_is_said(
-    bench: Benches, values: dict[str, Any], level: str, told: str | None
+def test_inconsistent_images_are_reported(
+    bench: Benches, values: dict[str, Any], level: str, sentence: str | None
 ) -> None:
-    if told is None:  # mono8 with the bytes of a colour image, and a step that fits
-        values, told = values | {"step": 16}, "more than 16 x 12 pixels of mono8"
+    if sentence is None:  # mono8 with the bytes of a colour image, and a step that fits
+        values, sentence = values | {"step": 16}, "more than 16 x 12 pixels of mono8"
     at = bench(Image())
     at.send(photos.RAW, values, frame="camera")
     at.turn()
     assert at.statuses()["Image"][0] == level
-    assert told in at.statuses()["Image"][1]
+    assert sentence in at.statuses()["Image"][1]
     assert ("pane" in at.nodes()) == (level != "ERROR")
 
 
@@ -149,7 +149,7 @@ def packet(data: bytes, codec: str = "h264") -> bytes:
     return encode(FOXGLOVE, values)
 
 
-def test_a_video_holds_what_a_browser_needs_that_joins_now(bench: Benches) -> None:
+def test_a_video_keeps_the_packets_since_its_key_frame(bench: Benches) -> None:
     at = bench(Image())
     at.send_bytes(FOXGLOVE, packet(DELTA))
     at.turn()
@@ -158,7 +158,7 @@ def test_a_video_holds_what_a_browser_needs_that_joins_now(bench: Benches) -> No
     for data in (KEY, DELTA, DELTA, KEY, DELTA):
         at.send_bytes(FOXGLOVE, packet(data))
     at.turn()
-    picture = shown(at)
+    picture = pane_picture(at)
     assert isinstance(picture, Video)
     first, second = (each.number for each in picture.packets)
     assert second == first + 1
@@ -189,16 +189,16 @@ def test_packets_of_a_video_count_as_memory_while_they_are_kept(
         True,
     )
     assert send(KEY) == 1000 - len(KEY)
-    assert isinstance(shown(at), Video)
+    assert isinstance(pane_picture(at), Video)
 
 
-def test_packets_of_ffmpeg_say_which_are_keys(bench: Benches) -> None:
+def test_key_frames_of_ffmpeg_packets_are_recognised(bench: Benches) -> None:
     at = bench(Image())
     for flags in (1, 0, 0):
         values = {"encoding": "hevc;yuv420p;bgr8;bgr8", "flags": flags, "data": [1, 2, 3]}
         at.send(FFMPEG, values, frame="camera")
     at.turn()
-    assert (shown(at).codec, len(shown(at).packets)) == ("h265", 3)
+    assert (pane_picture(at).codec, len(pane_picture(at).packets)) == ("h265", 3)
 
 
 @pytest.mark.parametrize("type_", [photos.RAW, photos.COMPRESSED, FOXGLOVE, FFMPEG])

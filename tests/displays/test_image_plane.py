@@ -19,7 +19,9 @@ SECOND = 1_000_000_000
 COLORS, DEPTHS = photos.room(16, 12)
 
 
-def sent(bench: Benches, values: dict[str, Any], type_: str = photos.RAW, **properties: Any) -> Any:
+def bench_with(
+    bench: Benches, values: dict[str, Any], type_: str = photos.RAW, **properties: Any
+) -> Any:
     at = bench(ImagePlane(**properties))
     at.transform("map", "camera", (1.0, 2.0, 3.0))
     at.send(type_, values, frame="camera")
@@ -39,7 +41,7 @@ def sent(bench: Benches, values: dict[str, Any], type_: str = photos.RAW, **prop
 def test_the_centre_is_the_origin_of_the_frame(
     bench: Benches, plane: str, upper_left: Any, lower_right: Any
 ) -> None:
-    at = sent(bench, photos.raw(COLORS, "rgb8"), plane=plane, width=2.0)
+    at = bench_with(bench, photos.raw(COLORS, "rgb8"), plane=plane, width=2.0)
     assert (at.statuses()["Image"][0] == "OK") == ("image" in at.nodes())
     at.settle()
     assert at.statuses()["Image"] == ("OK", "16 x 12, rgb8.")
@@ -55,7 +57,7 @@ def test_the_centre_is_the_origin_of_the_frame(
 
 def test_large_images_are_sent_as_small_textures(bench: Benches) -> None:
     values = photos.jpeg(photos.room(1001, 500)[0])
-    at = sent(bench, values, photos.COMPRESSED, width=2.0, alpha=0.5)
+    at = bench_with(bench, values, photos.COMPRESSED, width=2.0, alpha=0.5)
     at.settle()
     image = at.nodes()["image"]
     assert image.cells.shape == (125, 251, 4)
@@ -65,7 +67,7 @@ def test_large_images_are_sent_as_small_textures(bench: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("type_", "values", "properties", "told"),
+    ("type_", "values", "properties", "sentence"),
     [
         (photos.RAW, photos.raw(COLORS, "rgb9"), {}, "did you mean rgb8?"),
         (
@@ -77,13 +79,13 @@ def test_large_images_are_sent_as_small_textures(bench: Benches) -> None:
         (photos.RAW, photos.raw(COLORS, "rgb8"), {"width": 1e308}, "Reduce its width."),
     ],
 )
-def test_what_cannot_be_shown_is_said(
-    bench: Benches, type_: str, values: Any, properties: dict[str, Any], told: str
+def test_invalid_images_are_reported(
+    bench: Benches, type_: str, values: Any, properties: dict[str, Any], sentence: str
 ) -> None:
-    at = sent(bench, values, type_, **properties)
+    at = bench_with(bench, values, type_, **properties)
     at.settle()
     level, text = at.statuses()["Image"]
-    assert (level, told in text) == ("ERROR", True), text
+    assert (level, sentence in text) == ("ERROR", True), text
     assert at.nodes() == {}
     if properties:
         at.press("Image")

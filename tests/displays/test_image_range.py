@@ -12,9 +12,9 @@ def image(low: float, high: float) -> RawImage:
 
 
 def test_an_image_that_is_drawn_again_counts_once() -> None:
-    seen, window = RunningRange(), 3
-    assert seen.of(1, image(1.0, 2.0), window) == (1.0, 2.0)
+    running, window = RunningRange(), 3
+    assert running.of(1, image(1.0, 2.0), window) == (1.0, 2.0)
     for _ in range(5):
-        assert seen.of(2, image(3.0, 6.0), window) == (2.0, 4.0)
-    assert seen.of(3, image(9.0, 9.0), window) == (3.0, 6.0)
-    assert seen.of(4, image(9.0, 9.0), window) == (9.0, 9.0)  # the first has left
+        assert running.of(2, image(3.0, 6.0), window) == (2.0, 4.0)
+    assert running.of(3, image(9.0, 9.0), window) == (3.0, 6.0)
+    assert running.of(4, image(9.0, 9.0), window) == (9.0, 9.0)  # the first has left

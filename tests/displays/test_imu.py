@@ -82,7 +82,7 @@ def test_the_acceleration_is_turned_by_the_orientation(turned: Callable) -> None
         ({"linear_acceleration": {}}, "Acceleration", "WARN"),
     ],
 )
-def test_what_is_no_measurement_is_told(
+def test_invalid_measurements_are_reported(
     turned: Callable, change: dict[str, Any], key: str, level: str
 ) -> None:
     at = turned(Imu(acceleration_properties=ARROW), MEASURED | change)
@@ -90,7 +90,7 @@ def test_what_is_no_measurement_is_told(
     assert (at.nodes() == {}) == (key == "Orientation" and level == "ERROR")
 
 
-def test_an_imu_with_nothing_enabled_says_so(turned: Callable) -> None:
+def test_an_imu_with_nothing_enabled_has_a_status(turned: Callable) -> None:
     at = turned(Imu(axes_properties=AxesSettings(enable_axes=False)), MEASURED)
     assert at.nodes() == {}
     assert at.statuses()["Imu"][0] == "WARN"
@@ -111,7 +111,7 @@ def test_a_field_is_an_arrow_of_one_length(turned: Callable) -> None:
     ("field", "alpha", "level"),
     [({"x": NAN}, 1.0, "ERROR"), ({"z": 1.0}, 1.0, "WARN"), ({"x": 1.0}, 0.0, "WARN")],
 )
-def test_a_field_without_a_direction_says_so(
+def test_a_field_without_a_direction_has_a_status(
     turned: Callable, field: dict[str, float], alpha: float, level: str
 ) -> None:
     at = turned(Mag(alpha=alpha), {"magnetic_field": field})

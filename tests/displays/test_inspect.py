@@ -8,7 +8,7 @@ from inspecting import Benches
 
 from webviz import Context, Display, Frames
 from webviz.api.nodes import Lines
-from webviz.engine.commands import Picks
+from webviz.engine.commands import NodePicks
 from webviz.shell.testing import check_details
 
 NAN = math.nan
@@ -28,5 +28,5 @@ def test_an_item_of_a_display_that_does_not_know_has_its_number(bench: Benches) 
     at.turn()
     (name,) = at.scene.groups
     assert isinstance(at.nodes()["lines"], Lines)
-    hits = at.runner.find(Picks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
+    hits = at.runner.find(NodePicks(name, "lines", ((1, 1, (0.0, 1.0, 0.0), None),)))
     check_details(at.runner.inspect(hits[1], Frames(at.buffer, "map", 0)), "Line 2", {})

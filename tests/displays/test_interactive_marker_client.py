@@ -52,7 +52,7 @@ MENU, BUTTON, MOVE_AXIS, ROTATE_AXIS = 1, 2, 3, 5
 MARKER = "visualization_msgs/msg/InteractiveMarker"
 
 
-class Server:
+class Replies:
     """Server side of a client: recorded requests and prepared answers."""
 
     clock_s = 0.0
@@ -63,7 +63,7 @@ class Server:
         self.endpoints: frozenset[bytes] = frozenset({b"first"})
         self.is_ready, self.has_gap = True, False
         self.messages: list[bytes] = []
-        self.asked: list[Future[bytes]] = []
+        self.requests: list[Future[bytes]] = []
         self.jobs: list[tuple[Future[Any], Callable[[], Any]]] = []
 
     def listen(self, topic: str, type: str, depth: int) -> ReceivedMessages:
@@ -76,8 +76,8 @@ class Server:
     ) -> Future[bytes]:
         assert (service, type, timeout_s) == ("/arm/get_interactive_markers", SERVICE, ANSWER_S)
         assert request is None
-        self.asked.append(Future())
-        return self.asked[-1]
+        self.requests.append(Future())
+        return self.requests[-1]
 
     def advertise(self, topic: str, type: str, depth: int) -> str:
         return ""
@@ -103,16 +103,16 @@ class Server:
 
     def answer(self, number: int, *names: str) -> None:
         values = {"sequence_number": number, "markers": [{"name": name} for name in names]}
-        self.asked[-1].set_result(encode(f"{SERVICE}_Response", values))
+        self.requests[-1].set_result(encode(f"{SERVICE}_Response", values))
 
 
 @pytest.fixture
-def server() -> Server:
-    return Server()
+def server() -> Replies:
+    return Replies()
 
 
 @pytest.fixture
-def client(server: Server) -> Client:
+def client(server: Replies) -> Client:
     """One that has asked."""
     client = Client("/arm")
     client.step(server)
@@ -130,7 +130,7 @@ def all_of(news: Sequence[News]) -> list[str]:
 
 
 def test_updates_that_the_answer_includes_are_not_applied_again(
-    server: Server, client: Client
+    server: Replies, client: Client
 ) -> None:
     for number in (3, 4, 5, 6):
         server.update(number)
@@ -145,43 +145,43 @@ def test_updates_that_the_answer_includes_are_not_applied_again(
     assert (client.state, client.gaps) == ("searching", 1)
 
 
-def test_a_server_is_asked_once_it_is_heard_and_not_too_often(server: Server) -> None:
+def test_a_server_is_queried_once_it_publishes_and_at_a_limited_rate(server: Replies) -> None:
     client = Client("/arm")
     server.is_ready = False
     client.step(server)
-    assert not server.asked
+    assert not server.requests
     server.is_ready = True
     client.step(server)
     server.answer(4)
     client.step(server)
     server.has_gap = True  # messages were dropped
     client.step(server)
-    assert (client.state, len(server.asked)) == ("searching", 1)
+    assert (client.state, len(server.requests)) == ("searching", 1)
     server.has_gap = False
     server.clock_s += PAUSE_S
     client.step(server)
     server.clock_s += PAUSE_S
-    server.asked[-1].set_exception(Error("It did not answer."))
+    server.requests[-1].set_exception(Error("It did not answer."))
     assert client.step(server) == []
     assert client.status(0).text == "It did not answer."
     for count in (2, 3):
         client.step(server)
-        assert len(server.asked) == count
+        assert len(server.requests) == count
         server.clock_s += PAUSE_S
 
 
 def test_updates_that_wait_are_bounded_by_bytes(
-    server: Server, client: Client, monkeypatch: pytest.MonkeyPatch
+    server: Replies, client: Client, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(protocol, "MAX_WAITING_BYTES", 10_000)
     for number in (1, 2):
         server.update(number, size=5000)
     server.clock_s += PAUSE_S
     client.step(server)
-    assert len(server.asked) == 2
+    assert len(server.requests) == 2
 
 
-def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
+def test_keep_alives_are_not_updates(server: Replies, client: Client) -> None:
     server.answer(4)
     server.update(4, KEEP_ALIVE)
     server.update(5)
@@ -193,7 +193,7 @@ def test_signs_of_life_are_no_updates(server: Server, client: Client) -> None:
     assert (client.state, client.gaps) == ("searching", 1)
 
 
-def test_a_server_that_was_started_again_is_asked_again(server: Server, client: Client) -> None:
+def test_a_restarted_server_is_queried_again(server: Replies, client: Client) -> None:
     server.answer(4, "old")
     client.step(server)
     server.endpoints = frozenset({b"second"})
@@ -211,8 +211,8 @@ def test_a_server_that_was_started_again_is_asked_again(server: Server, client: 
     assert client.step(server) == []
 
 
-def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client: Client) -> None:
-    server.asked[-1].set_result(b"\0\1\0\0\7")
+def test_an_undecodable_answer_is_requested_again(server: Replies, client: Client) -> None:
+    server.requests[-1].set_result(b"\0\1\0\0\7")
     assert client.step(server) == []
     assert client.problem
     server.clock_s += 1.0
@@ -222,7 +222,7 @@ def test_an_answer_that_cannot_be_read_is_asked_for_again(server: Server, client
 
 
 def test_large_messages_are_read_in_a_worker_and_all_others_wait_for_them(
-    server: Server, client: Client
+    server: Replies, client: Client
 ) -> None:
     server.update(3)
     server.update(4, KEEP_ALIVE)
@@ -269,7 +269,7 @@ def test_large_messages_are_read_in_a_worker_and_all_others_wait_for_them(
 
 
 def test_updates_that_cannot_be_read_or_are_too_many_are_reported(
-    server: Server, client: Client
+    server: Replies, client: Client
 ) -> None:
     server.answer(0, "a")
     client.step(server)
@@ -288,13 +288,13 @@ def test_updates_that_cannot_be_read_or_are_too_many_are_reported(
         server.update(number)
     server.clock_s += 1.0
     client.step(server)
-    assert len(server.asked) == 3
+    assert len(server.requests) == 3
     server.answer(MAX_WAITING + 1, "b")
     server.update(MAX_WAITING + 2)
     assert erased(client.step(server)) == [f"at {MAX_WAITING + 2}"]
 
 
-def test_sequences_that_jump_back_or_wrap_are_gaps(server: Server, client: Client) -> None:
+def test_sequences_that_jump_back_or_wrap_are_gaps(server: Replies, client: Client) -> None:
     last = 2**64 - 1
     for before, after in ((7, 3), (last, 0), (7, 7), (0, last)):
         server.answer(before, "a")
@@ -363,11 +363,11 @@ def test_the_contents_of_all_markers_are_bounded(monkeypatch: pytest.MonkeyPatch
     assert marker_server.markers.keys() == {"a", "c"}
 
 
-def test_many_markers_are_drawn_in_turn_while_what_is_drawn_stays(
+def test_many_markers_are_redrawn_over_several_ticks(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(known_server, "DRAWING_S", -1.0)  # one at a time
-    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+    marker_server, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
 
     def box(name: str, x: float) -> dict[str, Any]:
         solid = {"color": {"a": 1.0}}
@@ -379,7 +379,7 @@ def test_many_markers_are_drawn_in_turn_while_what_is_drawn_stays(
     def draw() -> dict[str, float]:
         """Draw; where each box is, by the key of its marker."""
         ctx = Context(around, lambda *_, **__: None, None)
-        known.draw(MarkerLook(titles=False, axes=False, is_transparent=True), ctx)
+        marker_server.draw(MarkerLook(titles=False, axes=False, is_transparent=True), ctx)
         boxes = [group for group in ctx.groups.values() if "box" in " ".join(group.nodes)]
         assert all("line" not in " ".join(group.nodes) for group in boxes)
         return {
@@ -389,43 +389,43 @@ def test_many_markers_are_drawn_in_turn_while_what_is_drawn_stays(
             if key.startswith("c0/")
         }
 
-    known.take([news_of(markers=[box("a", 1.0), box("b", 2.0), box("c", 3.0)])])
-    assert (draw(), known.undrawn) == ({"m1": 1.0}, 2)
-    known.take([news_of(markers=[box("a", 5.0)])])
-    assert (draw(), known.undrawn) == ({"m1": 1.0, "m2": 2.0}, 2)
-    assert (draw(), known.undrawn) == ({"m1": 1.0, "m2": 2.0, "m3": 3.0}, 1)
-    assert (draw(), known.undrawn) == ({"m1": 5.0, "m2": 2.0, "m3": 3.0}, 0)
+    marker_server.take([news_of(markers=[box("a", 1.0), box("b", 2.0), box("c", 3.0)])])
+    assert (draw(), marker_server.undrawn) == ({"m1": 1.0}, 2)
+    marker_server.take([news_of(markers=[box("a", 5.0)])])
+    assert (draw(), marker_server.undrawn) == ({"m1": 1.0, "m2": 2.0}, 2)
+    assert (draw(), marker_server.undrawn) == ({"m1": 1.0, "m2": 2.0, "m3": 3.0}, 1)
+    assert (draw(), marker_server.undrawn) == ({"m1": 5.0, "m2": 2.0, "m3": 3.0}, 0)
 
 
 def test_shapes_in_frames_of_their_own_are_looked_for_when_transforms_come() -> None:
-    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+    marker_server, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
     own = {"type": 1, "header": {"frame_id": "tool"}, "color": {"a": 1.0}}
     values = {"name": "a", "header": {"frame_id": "map"}, "controls": [{"markers": [own]}]}
-    known.take([news_of(markers=[values])])
+    marker_server.take([news_of(markers=[values])])
     look = MarkerLook(titles=False, axes=False, is_transparent=True)
 
     def draw() -> None:
         now = Frames(around.buffer, "map", 0)
-        known.draw(look, Context(now, lambda *_, **__: None, None))
+        marker_server.draw(look, Context(now, lambda *_, **__: None, None))
 
     draw()
-    shown = known.shown["a"]
-    assert known.is_waiting
-    assert "tool" in shown.lost
-    drawn = shown.drawn_in
+    server_marker = marker_server.by_name["a"]
+    assert marker_server.is_waiting
+    assert "tool" in server_marker.lost
+    frame = server_marker.drawn_in
     draw()
-    assert shown.drawn_in == drawn  # nothing is new
+    assert server_marker.drawn_in == frame  # nothing is new
     around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
     draw()
-    assert not shown.lost
-    assert not known.is_waiting
+    assert not server_marker.lost
+    assert not marker_server.is_waiting
 
 
 def tracked(stamp: int) -> Tracked:
     values = {"name": "a", "header": {"frame_id": "hand", "stamp": {"sec": stamp}}}
-    made = completed(decode(MARKER, encode(MARKER, values)))
-    assert isinstance(made, Completed)
-    return Tracked("m1", made)
+    marker = completed(decode(MARKER, encode(MARKER, values)))
+    assert isinstance(marker, Completed)
+    return Tracked("m1", marker)
 
 
 def frames(fixed: str) -> Frames:
@@ -435,7 +435,7 @@ def frames(fixed: str) -> Frames:
     return Frames(buffer, fixed, 0)
 
 
-def test_a_stamped_marker_is_placed_anew_in_another_fixed_frame() -> None:
+def test_a_stamped_marker_moves_with_the_fixed_frame() -> None:
     marker = tracked(stamp=1)
     for fixed, x in (("map", 3.0), ("odom", 2.0), ("map", 3.0)):
         place = marker.place(frames(fixed))
@@ -460,10 +460,10 @@ def test_a_pose_of_the_server_waits_for_the_end_of_a_drag_once() -> None:
     assert (marker.pose.position[0], marker.version) == (2.0, version)
 
 
-def test_only_what_changes_a_marker_is_drawn_and_sent() -> None:
+def test_only_changes_of_a_marker_are_drawn_and_sent() -> None:
     marker, around = tracked(stamp=0), frames("hand")
     marker.press()
-    turned = marker.made.pose
+    turned = marker.content.pose
     assert not marker.drag("x", turned, 0.0, around)
     assert marker.drag("x", turned, 1.0, around)
     assert not marker.drag("x", turned, 1.0, around)
@@ -471,7 +471,7 @@ def test_only_what_changes_a_marker_is_drawn_and_sent() -> None:
     version = marker.version
     marker.put(marker.source)
     assert marker.version == version
-    marker.update(marker.made)  # which has no control x
+    marker.update(marker.content)  # which has no control x
     assert marker.turned == {}
 
 
@@ -480,7 +480,7 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
         return {"event_type": event, "marker_name": marker, "control_name": control, "x": x}
 
     queue = FeedbackQueue()
-    sent = [
+    feedback = [
         message(POSE_UPDATE, "a", "x", 1.0),
         message(POSE_UPDATE, "a", "y", 2.0),
         message(POSE_UPDATE, "b", "y", 3.0),
@@ -488,29 +488,29 @@ def test_only_successive_poses_of_one_control_replace_each_other() -> None:
         message(MOUSE_DOWN, "b", "y", 5.0),
         message(POSE_UPDATE, "b", "y", 6.0),
     ]
-    for each in sent:
+    for each in feedback:
         queue.add(each)
     queue.add(message(POSE_UPDATE, "b", "y", 7.0))
     results = [each["x"] for each in iter(queue.next, None)]
     assert results == [1.0, 2.0, 3.0, 4.0, 5.0, 7.0]
 
 
-class ShownMarker:
+class MarkerBench:
     """A display with one marker of a server, which records what is sent to it."""
 
     def __init__(
-        self, server: Server, display: Mapping[str, Any] | None = None, **values: Any
+        self, server: Replies, display: Mapping[str, Any] | None = None, **values: Any
     ) -> None:
         self.display = InteractiveMarkers(interactive_markers_namespace="/arm", **(display or {}))
         self.state, self.connection, self.around = self.display.new_state(), server, frames("map")
         self.display.communicate(server, self.context())
         cdr = encode(MARKER, {"name": "a", "header": {"frame_id": "odom"}, **values})
-        found = completed(decode(MARKER, cdr))
-        assert isinstance(found, Completed)
-        self.known.take([News(markers={"a": found})])
+        marker = completed(decode(MARKER, cdr))
+        assert isinstance(marker, Completed)
+        self.marker_server.take([News(markers={"a": marker})])
 
     @property
-    def known(self) -> InteractiveMarkerServer:
+    def marker_server(self) -> InteractiveMarkerServer:
         assert self.state.server
         return self.state.server
 
@@ -533,13 +533,13 @@ class ShownMarker:
         """Do it; the events that the server gets, and where the marker is in them."""
         pose = None if x is None else Pose((x, 0.0, 0.0))
         self.display.drag(Drag("m1", 0, kind, pose, **values), self.connection, self.context())
-        outgoing = self.known.outgoing
-        sent = list(iter(outgoing.next, None))
-        return [(each["event_type"], each["pose"]["position"]["x"]) for each in sent]
+        outgoing = self.marker_server.outgoing
+        feedback = list(iter(outgoing.next, None))
+        return [(each["event_type"], each["pose"]["position"]["x"]) for each in feedback]
 
 
-def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> None:
-    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+def test_a_gesture_is_reported_to_the_server_event_by_event(server: Replies) -> None:
+    marker_bench = MarkerBench(server, controls=[{"interaction_mode": MOVE_AXIS}])
     assert marker_bench.drag("move", 5.0) == []  # nobody has pressed
     assert marker_bench.drag("press") == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     assert marker_bench.drag("move", 1.0, turned=0.5) == [(POSE_UPDATE, 1.0)]
@@ -549,25 +549,27 @@ def test_a_gesture_is_reported_to_the_server_event_by_event(server: Server) -> N
     assert marker_bench.drag("release", 2.0) == [(POSE_UPDATE, 2.0), (MOUSE_UP, 2.0)]
     assert marker_bench.drag("hold", 7.0) == [(STAYS, 2.0)]
 
-    button = ShownMarker(server, controls=[{"interaction_mode": BUTTON}])
+    button = MarkerBench(server, controls=[{"interaction_mode": BUTTON}])
     assert button.drag("press", 3.0) == [(POSE_UPDATE, 0.0), (MOUSE_DOWN, 0.0)]
     clicked = [(BUTTON_CLICK, 0.0), (POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
     assert button.drag("release") == clicked
     menu = [{"id": 4, "title": "Go"}, {"id": 5, "title": "rm", "command_type": 1}]
-    chosen = ShownMarker(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
+    chosen = MarkerBench(server, controls=[{"interaction_mode": MENU}], menu_entries=menu)
     assert chosen.drag("choose", entry=4) == [(MENU_SELECT, 0.0)]
     assert chosen.drag("choose", entry=5) == []
-    still = ShownMarker(server, controls=[{"interaction_mode": 0}])
+    still = MarkerBench(server, controls=[{"interaction_mode": 0}])
     assert still.drag("press") == []
 
 
-def test_what_nobody_has_pressed_stays_when_it_is_released(server: Server) -> None:
-    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+def test_a_release_without_a_press_moves_nothing(server: Replies) -> None:
+    marker_bench = MarkerBench(server, controls=[{"interaction_mode": MOVE_AXIS}])
     assert marker_bench.drag("release", 5.0) == [(POSE_UPDATE, 0.0), (MOUSE_UP, 0.0)]
 
 
-def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Server) -> None:
-    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
+def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(
+    server: Replies,
+) -> None:
+    marker_bench = MarkerBench(server, controls=[{"interaction_mode": MOVE_AXIS}])
     drags = (
         Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)),
         Drag("m1", 0, "move", Pose((4.0, 0, 0))),
@@ -576,20 +578,22 @@ def test_the_point_under_the_pointer_is_that_of_presses_and_clicks(server: Serve
         marker_bench.display.drag(
             replace(drag, point=(1.0, 2.0, 3.0)), server, marker_bench.context()
         )
-    messages = list(iter(marker_bench.known.outgoing.next, None))
+    messages = list(iter(marker_bench.marker_server.outgoing.next, None))
     assert [each["mouse_point_valid"] for each in messages] == [False, True, False]
 
 
-def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(server: Server) -> None:
-    marker_bench = ShownMarker(server)
-    known = marker_bench.known
+def test_a_server_is_known_as_long_as_its_namespace_is_that_of_the_display(
+    server: Replies,
+) -> None:
+    marker_bench = MarkerBench(server)
+    before = marker_bench.marker_server
     marker_bench.display.communicate(server, marker_bench.context())
-    assert marker_bench.known is known
+    assert marker_bench.marker_server is before
 
 
-def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
+def test_a_marker_that_is_picked_is_inspected(server: Replies) -> None:
     controls = [{"interaction_mode": MOVE_AXIS, "markers": [{"type": 1, "color": {"a": 1.0}}]}]
-    marker_bench = ShownMarker(server, description="An arm", controls=controls)
+    marker_bench = MarkerBench(server, description="An arm", controls=controls)
     node = marker_bench.groups()["m1"].nodes["c0/m1/box"]
 
     def inspect(key: str) -> Any:
@@ -605,11 +609,13 @@ def test_a_marker_that_is_picked_is_inspected(server: Server) -> None:
     assert inspect("c0/m9/box") is None
 
 
-def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(server: Server) -> None:
+def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(
+    server: Replies,
+) -> None:
     solid = {"type": 1, "color": {"a": 1.0}}
     controls = [{"interaction_mode": BUTTON, "markers": [solid]}]
     nodes = (
-        ShownMarker(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
+        MarkerBench(server, {"show_axes": True}, scale=2.0, controls=controls).groups()["m1"].nodes
     )
     assert "c0/m1/drag" not in nodes
     axes = nodes["axes/m1"]
@@ -618,32 +624,32 @@ def test_axes_are_as_long_as_the_marker_and_only_texts_have_a_ball_to_grip(serve
     assert (axes.positions.tolist(), axes.wxyzs.tolist()) == ([[0, 0, 0]], [[1, 0, 0, 0]])
 
 
-def test_a_title_is_above_its_marker_in_the_size_of_the_marker(server: Server) -> None:
-    marker_bench = ShownMarker(server, {"show_descriptions": True}, scale=2.0, description="An arm")
+def test_a_title_is_above_its_marker_in_the_size_of_the_marker(server: Replies) -> None:
+    marker_bench = MarkerBench(server, {"show_descriptions": True}, scale=2.0, description="An arm")
     title = marker_bench.groups()["m1.title"].nodes["title/m1"]
     assert isinstance(title, Labels)
     assert (title.texts, title.height) == (("An arm",), pytest.approx(0.3))
     np.testing.assert_allclose(title.positions, [(0.0, 0.0, 2.8)])
 
 
-def test_without_transparency_all_that_is_visible_is_opaque(server: Server) -> None:
+def test_without_transparency_all_that_is_visible_is_opaque(server: Replies) -> None:
     shapes = [{"type": 1, "color": {"a": alpha}} for alpha in (0.0, 0.25)]
     controls = [{"interaction_mode": BUTTON, "markers": shapes}]
     for is_transparent, opacity in ((True, 0.25), (False, 1.0)):
         display = {"enable_transparency": is_transparent}
-        nodes = ShownMarker(server, display, controls=controls).groups()["m1"].nodes
+        nodes = MarkerBench(server, display, controls=controls).groups()["m1"].nodes
         (box,) = (node for key, node in nodes.items() if "/box" in key)
         assert isinstance(box, Instances)
         assert len(box.positions) == 1
         assert box.opacity == pytest.approx(opacity, abs=0.01)
 
 
-def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
+def test_a_fixed_control_turns_about_its_own_axis(server: Replies) -> None:
     shapes = [{"type": 1, "color": {"a": 1.0}}]
     control = {"orientation_mode": 1, "interaction_mode": ROTATE_AXIS, "markers": shapes}
     up = {"w": math.sqrt(0.5), "y": -math.sqrt(0.5)}
     for orientation, axis in (({"w": 1.0}, (1.0, 0.0, 0.0)), (up, (0.0, 0.0, 1.0))):
-        marker_bench = ShownMarker(server, controls=[{"orientation": orientation, **control}])
+        marker_bench = MarkerBench(server, controls=[{"orientation": orientation, **control}])
         assert marker_bench.groups()["m1.0"].placement.offset.wxyz == (1.0, 0.0, 0.0, 0.0)
         marker_bench.drag("press")
         marker_bench.drag("move", 0.0, turned=0.5)
@@ -652,18 +658,18 @@ def test_a_fixed_control_turns_about_its_own_axis(server: Server) -> None:
 
 
 def test_a_marker_has_a_handle_once_its_transform_has_come() -> None:
-    known, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
+    marker_server, around = InteractiveMarkerServer("/arm", "webviz"), frames("map")
     header = {"frame_id": "tool", "stamp": {"sec": 1}}
-    known.take([news_of(markers=[{"name": "a", "header": header}])])
-    assert known.handles(around, aids=True, refusal="") == {}
+    marker_server.take([news_of(markers=[{"name": "a", "header": header}])])
+    assert marker_server.handles(around, aids=True, refusal="") == {}
     around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
-    result = known.handles(Frames(around.buffer, "map", 0), aids=True, refusal="")
+    result = marker_server.handles(Frames(around.buffer, "map", 0), aids=True, refusal="")
     assert [(each.name, each.frame) for each in result.values()] == [("a", "map")]
 
 
-def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None:
-    marker_bench = ShownMarker(server, controls=[{"interaction_mode": MOVE_AXIS}])
-    marker_bench.known.markers["a"].put(Place("hand", 5, Pose()))
+def test_handles_are_replaced_only_when_something_changes(server: Replies) -> None:
+    marker_bench = MarkerBench(server, controls=[{"interaction_mode": MOVE_AXIS}])
+    marker_bench.marker_server.markers["a"].put(Place("hand", 5, Pose()))
     first = marker_bench.handle()
     assert marker_bench.display.handles(marker_bench.context()) is marker_bench.display.handles(
         marker_bench.context()
@@ -673,14 +679,14 @@ def test_handles_are_made_anew_only_if_something_changes(server: Server) -> None
     assert marker_bench.handle().refusal == "Read-only."
 
 
-def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
+def test_shapes_turn_with_the_marker_or_apart_from_it(server: Replies) -> None:
     solid = {"type": 1, "color": {"a": 1.0}}
     text = {"type": 9, "text": "four\nno", "scale": {"z": 0.5}, "color": {"a": 1.0}}
     shapes = {"interaction_mode": BUTTON, "markers": [solid, text]}
     across = {"w": math.sqrt(0.5), "z": math.sqrt(0.5)}
     facings = [{"orientation_mode": facing, **shapes} for facing in (0, 1, 2)]
     facings.append({"independent_marker_orientation": True, **facings[2]})
-    marker_bench = ShownMarker(server, controls=facings, pose={"orientation": across})
+    marker_bench = MarkerBench(server, controls=facings, pose={"orientation": across})
     groups = marker_bench.groups()
     assert groups.keys() == {"m1", "m1.1", "m1.2v"}
     turned = {key: group.placement.offset.wxyz[3] for key, group in groups.items()}
@@ -691,25 +697,25 @@ def test_shapes_turn_with_the_marker_or_apart_from_it(server: Server) -> None:
     np.testing.assert_allclose(ball.scales, [(1.0, 1.0, 0.5)])
 
 
-def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
-    server: Server, monkeypatch: pytest.MonkeyPatch
+def test_a_hidden_marker_is_an_error_and_an_incomplete_one_a_warning(
+    server: Replies, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # A busy machine would draw some of them in the next round.
     monkeypatch.setattr("webviz_displays.interactive_markers.server.DRAWING_S", math.inf)
-    marker_bench = ShownMarker(server, controls=[{}])
-    there, lost = {"header": {"frame_id": "map"}}, {"frame_id": "nowhere"}
-    late = {**lost, "stamp": {"sec": 9}}
+    marker_bench = MarkerBench(server, controls=[{}])
+    there, nowhere = {"header": {"frame_id": "map"}}, {"frame_id": "nowhere"}
+    late = {**nowhere, "stamp": {"sec": 9}}
     markers = [
         {"name": "refused", "scale": math.nan},
         {"name": "frameless"},
         {"name": "late", "header": late, "controls": [{}]},
-        {"name": "lost", "header": lost, "controls": [{}]},
+        {"name": "lost", "header": nowhere, "controls": [{}]},
         {"name": "strange", **there, "controls": [{"markers": [{"type": 99}]}]},
         {"name": "odd", **there, "controls": [{}, {"interaction_mode": 10}]},
         {"name": "bare", **there},
         {"name": "fixed", "header": {**late, "frame_id": "odom"}, "controls": [{}]},
     ]
-    marker_bench.known.take([news_of(markers=markers)])
+    marker_bench.marker_server.take([news_of(markers=markers)])
     marker_bench.groups()
     ctx = marker_bench.context()
     marker_bench.display.tick(ctx)
@@ -721,8 +727,8 @@ def test_what_hides_a_marker_is_an_error_and_what_it_lacks_a_warning(
     assert ctx.statuses["fixed"].text == "Position is fixed."
 
 
-def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) -> None:
-    marker_bench = ShownMarker(
+def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Replies) -> None:
+    marker_bench = MarkerBench(
         server, header={"frame_id": "cart"}, controls=[{"interaction_mode": MOVE_AXIS}]
     )
     assert marker_bench.drag("press") == []  # its frame is unknown
@@ -732,18 +738,18 @@ def test_feedback_has_the_newest_stamp_of_the_frame_of_a_marker(server: Server) 
     marker_bench.display.drag(
         Drag("m1", 0, "press", point=(1.0, 2.0, 3.0)), server, marker_bench.context()
     )
-    move, down = iter(marker_bench.known.outgoing.next, None)
+    move, down = iter(marker_bench.marker_server.outgoing.next, None)
     for each in (move, down):
         assert each["header"] == {"stamp": {"sec": 5, "nanosec": 2}, "frame_id": "cart"}
     assert (move["mouse_point_valid"], down["mouse_point_valid"]) == (False, True)
     assert down["mouse_point"] == {"x": 1.0, "y": 2.0, "z": 3.0}
 
 
-def test_feedback_in_the_fixed_frame_has_no_stamp(server: Server) -> None:
-    marker_bench = ShownMarker(
+def test_feedback_in_the_fixed_frame_has_no_stamp(server: Replies) -> None:
+    marker_bench = MarkerBench(
         server, header={"frame_id": "map"}, controls=[{"interaction_mode": MOVE_AXIS}]
     )
     marker_bench.display.drag(Drag("m1", 0, "press"), server, marker_bench.context())
-    for each in iter(marker_bench.known.outgoing.next, None):
+    for each in iter(marker_bench.marker_server.outgoing.next, None):
         assert each["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}
-    assert marker_bench.known.outgoing.next() is None
+    assert marker_bench.marker_server.outgoing.next() is None

@@ -27,13 +27,13 @@ NAN = math.nan
 MENU, MOVE_AXIS, MOVE_PLANE, ROTATE_AXIS, MOVE_ROTATE = 1, 3, 4, 5, 6
 
 
-def made(**values: Any) -> Completed | RefusedMarker:
+def completed_marker(**values: Any) -> Completed | RefusedMarker:
     """A marker as its message is completed."""
     return completed(decode(MARKER, encode(MARKER, values)))
 
 
 def part(**control: Any) -> Any:
-    result = made(scale=2.0, controls=[control])
+    result = completed_marker(scale=2.0, controls=[control])
     assert isinstance(result, Completed)
     return result.parts[0]
 
@@ -81,8 +81,10 @@ def test_controls_without_markers_get_handles_in_the_size_and_colour_of_ros() ->
         assert len(part(interaction_mode=mode).shapes) == 0
 
 
-def test_what_messages_leave_out_is_filled_in() -> None:
-    result = made(controls=[{"orientation": {"w": 0.0}, "markers": [{"type": 1}]}, {}, {}])
+def test_missing_fields_get_their_defaults() -> None:
+    result = completed_marker(
+        controls=[{"orientation": {"w": 0.0}, "markers": [{"type": 1}]}, {}, {}]
+    )
     assert isinstance(result, Completed)
     assert (result.scale, result.parts[0].control.wxyz) == (1.0, (1.0, 0.0, 0.0, 0.0))
     assert [each.control.name for each in result.parts] == ["", "_u0", "_u1"]
@@ -92,13 +94,13 @@ def test_what_messages_leave_out_is_filled_in() -> None:
     assert list(unique_names(["a", "a", "a_u0", "a"])) == ["a", "a_u0", "a_u0_u1", "a_u2"]
 
 
-def test_invalid_markers_and_controls_say_what_is_wrong() -> None:
+def test_invalid_markers_and_controls_name_the_fault() -> None:
     for values in (
         *({"scale": value} for value in (NAN, math.inf, 3e38)),
         *({"pose": {"position": {"x": value}}} for value in (NAN, math.inf, -1e308)),
         *({"pose": {"orientation": {"x": value}}} for value in (NAN, math.inf, 1e308)),
     ):
-        assert made(**values) == RefusedMarker("", FAR)
+        assert completed_marker(**values) == RefusedMarker("", FAR)
     bad = [
         ({"interaction_mode": 10}, "unknown interaction mode, 10"),
         ({"orientation_mode": 3}, "unknown orientation mode, 3"),
@@ -109,18 +111,20 @@ def test_invalid_markers_and_controls_say_what_is_wrong() -> None:
         ({"name": "n" * 1001}, f"Control '{'n' * 59}…' has a name of 1001 characters"),
     ]
     for point in ({"x": NAN}, {"y": 1e308}):
-        result = made(controls=[{"markers": [{}, {"type": 5, "points": [point, {}]}]}])
+        result = completed_marker(controls=[{"markers": [{}, {"type": 5, "points": [point, {}]}]}])
         assert isinstance(result, Completed)
         assert "has 1 marker that cannot be drawn: not finite, or too large" in result.problems[0]
     for control, problem in bad:
-        result = made(controls=[{}, control])
+        result = completed_marker(controls=[{}, control])
         assert isinstance(result, Completed)
         assert len(result.parts) == 1
         assert problem in result.problems[0]
 
 
-def test_names_titles_and_frames_are_kept_or_said_to_be_too_long() -> None:
-    result = made(name="a", description="t" * 1001, controls=[{"name": "b"}, {"name": "c"}])
+def test_overlong_names_titles_and_frames_are_reported() -> None:
+    result = completed_marker(
+        name="a", description="t" * 1001, controls=[{"name": "b"}, {"name": "c"}]
+    )
     assert isinstance(result, Completed)
     assert (result.name, len(result.description)) == ("a", 1000)
     assert [each.control.name for each in result.parts] == ["b", "c"]
@@ -129,7 +133,7 @@ def test_names_titles_and_frames_are_kept_or_said_to_be_too_long() -> None:
         ({"name": "n" * 1001}, "name"),
         ({"header": {"frame_id": "f" * 1001}}, ""),
     ):
-        refused = made(**values)
+        refused = completed_marker(**values)
         assert isinstance(refused, RefusedMarker)
         assert f"{what or 'frame id'} has 1001 characters; the limit is 1000" in refused.reason
 
@@ -138,12 +142,12 @@ def test_names_titles_and_frames_are_kept_or_said_to_be_too_long() -> None:
     ("count", "problems"), [(200, ()), (201, ("Only 200 of 201 controls are shown.",))]
 )
 def test_a_marker_has_at_most_200_controls(count: int, problems: tuple[str, ...]) -> None:
-    result = made(controls=[{}] * count)
+    result = completed_marker(controls=[{}] * count)
     assert isinstance(result, Completed)
     assert (len(result.parts), result.problems) == (200, problems)
 
 
-def test_a_name_that_is_given_twice_is_said() -> None:
+def test_duplicate_names_are_reported() -> None:
     update = {"type": 1, "markers": [{"name": "a"}, {"name": "a", "scale": 3.0}, {"name": "b"}]}
     news = read_update(encode(UPDATE, update)).news
     assert news

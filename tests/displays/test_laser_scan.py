@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from built_in_checks import BuiltInChecks
 from display_scenes import scans
-from inspecting import Benches
+from inspecting import Benches, check_empty, colors
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.shell.testing import check_details
@@ -29,17 +29,9 @@ def scan(ranges: list[float], **values: Any) -> dict[str, Any]:
 
 
 @pytest.fixture
-def lab(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn one scan from a laser at rest, 1 m above the map."""
-
-    def make(values: dict[str, Any], **properties: Any) -> Any:
-        display_bench = bench(LaserScan(**properties))
-        display_bench.transform("map", "laser", (0.0, 0.0, 1.0))
-        display_bench.send(SCAN, values, frame="laser")
-        display_bench.turn()
-        return display_bench
-
-    return make
+def lab(sensed: Benches) -> Callable[..., Any]:
+    """Make a bench that has drawn one scan."""
+    return lambda values, **properties: sensed(LaserScan(**properties), values)
 
 
 def test_beams_become_points_in_the_frame_of_the_laser(lab: Benches) -> None:
@@ -81,14 +73,11 @@ def test_a_range_counts_from_range_min_to_just_below_range_max(lab: Benches) -> 
         (scan([-INF], range_min=-INF), "WARN", "1 infinite"),
     ],
 )
-def test_a_scan_without_points_says_why(
+def test_a_scan_without_points_has_a_status(
     lab: Benches, values: dict[str, Any], level: str, words: str
 ) -> None:
     bench = lab(values)
-    statuses = bench.statuses()["Points"]
-    assert statuses[0] == level
-    assert words in statuses[1]
-    assert not any(len(node.xyz) for node in bench.nodes().values())
+    check_empty(bench, level, words)
 
 
 def test_beams_on_one_line_are_shown_with_a_warning(lab: Benches) -> None:
@@ -98,18 +87,14 @@ def test_beams_on_one_line_are_shown_with_a_warning(lab: Benches) -> None:
 
 
 def test_a_scan_without_frame_is_refused_by_name(bench: Benches) -> None:
-    display_bench = bench(LaserScan())
-    display_bench.send(SCAN, scan([1.0]), frame="")
-    display_bench.turn()
-    assert not display_bench.nodes()
-    assert {level for level, _ in display_bench.statuses().values()} & {"WARN", "ERROR"}
+    at = bench(LaserScan())
+    at.send(SCAN, scan([1.0]), frame="")
+    at.turn()
+    assert not at.nodes()
+    assert {level for level, _ in at.statuses().values()} & {"WARN", "ERROR"}
 
 
 # Colours
-
-
-def colors(bench: Any) -> list[list[int]]:
-    return bench.nodes()["points"].colors.tolist()
 
 
 RED, GREEN, MAGENTA = [255, 0, 0], [0, 255, 0], [255, 0, 255]
@@ -151,7 +136,7 @@ def test_a_signalling_nan_is_a_beam_without_range_and_no_warning(lab: Benches) -
     assert len(lab(scan([]) | {"ranges": ranges}).xyz("points")) == 1
 
 
-def test_without_intensities_colours_show_the_range_and_a_status_says_so(lab: Benches) -> None:
+def test_without_intensities_colours_show_the_range_with_a_status(lab: Benches) -> None:
     bench = lab(scan([1, 1.8, 3]))
     assert colors(bench) == [RED, GREEN, MAGENTA]
     assert "colouring by range" in bench.statuses()["Intensity"][1]
@@ -166,19 +151,17 @@ def test_intensities_of_another_number_are_not_used_and_named(lab: Benches) -> N
 
 
 def test_axis_colour_is_of_the_fixed_frame_or_of_the_laser(bench: Benches) -> None:
-    display_bench = bench(LaserScan(color_transformer="AxisColor", axis="Z"))
+    at = bench(LaserScan(color_transformer="AxisColor", axis="Z"))
     # The laser lies on its side: its y points up.
-    display_bench.transform("map", "laser", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
-    display_bench.send(SCAN, scan([1, 1, 1, 1]), frame="laser")
-    display_bench.turn()
-    assert colors(display_bench)[1] == MAGENTA
-    assert colors(display_bench)[3] == RED
-    display_bench.set("use_fixed_frame", False)  # all z are 0 there, up to rounding
-    assert colors(display_bench) == [RED] * 4
-    display_bench.set(
-        "autocompute_value_bounds", {"value": False, "min_value": -10.0, "max_value": 15.0}
-    )
-    assert colors(display_bench) == [GREEN] * 4
+    at.transform("map", "laser", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    at.send(SCAN, scan([1, 1, 1, 1]), frame="laser")
+    at.turn()
+    assert colors(at)[1] == MAGENTA
+    assert colors(at)[3] == RED
+    at.set("use_fixed_frame", False)  # all z are 0 there, up to rounding
+    assert colors(at) == [RED] * 4
+    at.set("autocompute_value_bounds", {"value": False, "min_value": -10.0, "max_value": 15.0})
+    assert colors(at) == [GREEN] * 4
 
 
 def test_flat_points_are_really_transparent(lab: Benches) -> None:
@@ -212,7 +195,7 @@ def test_spheres_boxes_and_tiles_are_really_transparent(
     assert node.colors == (1, 2, 3)
 
 
-def test_of_more_beams_than_any_laser_has_some_are_drawn_and_the_rest_counted(
+def test_beams_over_the_limit_are_dropped_and_counted(
     lab: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.laser_scan.beams.MAX_BEAMS", 3)
@@ -222,16 +205,14 @@ def test_of_more_beams_than_any_laser_has_some_are_drawn_and_the_rest_counted(
 
 
 def test_boxes_stand_upright_in_the_fixed_frame_however_the_laser_is_tilted(bench: Benches) -> None:
-    display_bench = bench(LaserScan(style="Boxes"))
-    display_bench.transform("map", "laser", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
-    display_bench.send(SCAN, scan([1, 1]), frame="laser")
-    display_bench.turn()
-    np.testing.assert_allclose(
-        np.abs(display_bench.nodes()["solids"].wxyzs), [(1, 0, 0, 0)] * 2, atol=1e-6
-    )
+    at = bench(LaserScan(style="Boxes"))
+    at.transform("map", "laser", (1.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5))
+    at.send(SCAN, scan([1, 1]), frame="laser")
+    at.turn()
+    np.testing.assert_allclose(np.abs(at.nodes()["solids"].wxyzs), [(1, 0, 0, 0)] * 2, atol=1e-6)
 
 
-def test_points_are_as_wide_on_the_screen_as_asked(lab: Benches) -> None:
+def test_points_have_their_size_in_pixels(lab: Benches) -> None:
     node = lab(scan([1, 2]), style="Points", size_pixels=5.0).nodes()["points"]
     assert isinstance(node, Lines)
     assert (node.width, node.unit) == (5.0, "px")
@@ -250,76 +231,74 @@ def test_a_style_that_viser_has_not_is_named(lab: Benches) -> None:
 
 def moving(bench: Benches, **properties: Any) -> Any:
     """A bench whose laser moves along y by 1 m each second."""
-    display_bench = bench(LaserScan(**properties))
-    start = display_bench.now_ns
+    at = bench(LaserScan(**properties))
+    start = at.now_ns
     for tenth in range(11):
         stamp_ns = start + tenth * SECOND // 10
-        display_bench.transform("map", "laser", (0.0, tenth / 10, 0.0), stamp_ns=stamp_ns)
-    return display_bench
+        at.transform("map", "laser", (0.0, tenth / 10, 0.0), stamp_ns=stamp_ns)
+    return at
 
 
 FIVE_TO_THE_FRONT = scan([2.0] * 5, angle_increment=1e-9, time_increment=0.125)
 
 
 def test_each_beam_is_placed_where_the_laser_was_at_its_time(bench: Benches) -> None:
-    made = moving(bench)
-    stamp_ns = made.now_ns + SECOND // 2
-    made.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
-    made.turn()
+    cloud = moving(bench)
+    stamp_ns = cloud.now_ns + SECOND // 2
+    cloud.send(SCAN, FIVE_TO_THE_FRONT, frame="laser", stamp_ns=stamp_ns)
+    cloud.turn()
     expected = [(2, 0.5, 0), (2, 0.625, 0), (2, 0.75, 0), (2, 0.875, 0), (2, 1, 0)]
-    np.testing.assert_allclose(made.xyz("points"), expected, atol=1e-6)
-    made.set("deskew", "As measured")
-    np.testing.assert_allclose(made.xyz("points"), [(2, 0.5, 0)] * 5, atol=1e-6)
+    np.testing.assert_allclose(cloud.xyz("points"), expected, atol=1e-6)
+    cloud.set("deskew", "As measured")
+    np.testing.assert_allclose(cloud.xyz("points"), [(2, 0.5, 0)] * 5, atol=1e-6)
 
 
 def test_a_turning_laser_straightens_a_wall(bench: Benches) -> None:
-    display_bench = bench(LaserScan())
+    at = bench(LaserScan())
     for i in range(11):  # it turns by 0.5 rad in 1 s
         turn = (0.0, 0.0, np.sin(0.025 * i), np.cos(0.025 * i))
-        stamp_ns = display_bench.now_ns + i * SECOND // 10
-        display_bench.transform("map", "laser", (0, 0, 0), turn, stamp_ns=stamp_ns)
+        stamp_ns = at.now_ns + i * SECOND // 10
+        at.transform("map", "laser", (0, 0, 0), turn, stamp_ns=stamp_ns)
     angles = np.linspace(-0.5, 0.5, 21)
     apart = 3 / 64  # seconds between beams, exact in float32
     facing = angles + 0.5 * np.arange(21) * apart  # of each beam in the map
     ranges = (3 / np.cos(facing)).tolist()
     values = scan(ranges, angle_min=-0.5, angle_increment=0.05, time_increment=apart)
-    display_bench.send(SCAN, values, frame="laser")
-    display_bench.turn()
-    np.testing.assert_allclose(display_bench.xyz("points")[:, 0], 3.0, atol=1e-5)
-    display_bench.set("deskew", "As measured")
-    assert np.ptp(display_bench.xyz("points")[:, 0]) > 0.5
+    at.send(SCAN, values, frame="laser")
+    at.turn()
+    np.testing.assert_allclose(at.xyz("points")[:, 0], 3.0, atol=1e-5)
+    at.set("deskew", "As measured")
+    assert np.ptp(at.xyz("points")[:, 0]) > 0.5
 
 
 @pytest.mark.parametrize("time_increment", [0.125, 0.5], ids=["half a second", "two seconds"])
 def test_a_scan_waits_for_the_transform_of_its_last_beam(
     bench: Benches, time_increment: float
 ) -> None:
-    display_bench = bench(LaserScan())
-    start = display_bench.now_ns
+    at = bench(LaserScan())
+    start = at.now_ns
     lasts_ns = round(4 * time_increment * SECOND)
-    display_bench.transform("map", "laser", (0.0, 0.0, 0.0), stamp_ns=start)
-    display_bench.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns - 1)
+    at.transform("map", "laser", (0.0, 0.0, 0.0), stamp_ns=start)
+    at.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns - 1)
     values = scan([2.0] * 5, angle_increment=1e-9, time_increment=time_increment)
-    display_bench.send(SCAN, values, frame="laser", stamp_ns=start)
-    display_bench.turn()
-    assert not display_bench.nodes()
-    display_bench.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns)
-    display_bench.turn()
-    np.testing.assert_allclose(
-        display_bench.xyz("points")[:, 1], [0, 0.25, 0.5, 0.75, 1], atol=1e-6
-    )
-    assert "De-skew" not in display_bench.statuses()
+    at.send(SCAN, values, frame="laser", stamp_ns=start)
+    at.turn()
+    assert not at.nodes()
+    at.transform("map", "laser", (0.0, 1.0, 0.0), stamp_ns=start + lasts_ns)
+    at.turn()
+    np.testing.assert_allclose(at.xyz("points")[:, 1], [0, 0.25, 0.5, 0.75, 1], atol=1e-6)
+    assert "De-skew" not in at.statuses()
 
 
 def test_beams_of_an_endless_scan_without_a_transform_are_counted(bench: Benches) -> None:
-    made = moving(bench)
-    stamp_ns = made.now_ns + 3 * SECOND // 4
+    cloud = moving(bench)
+    stamp_ns = cloud.now_ns + 3 * SECOND // 4
     values = scan([2.0] * 101, angle_increment=1e-9, time_increment=0.125)
-    made.send(SCAN, values, frame="laser", stamp_ns=stamp_ns)
-    made.turn()
+    cloud.send(SCAN, values, frame="laser", stamp_ns=stamp_ns)
+    cloud.turn()
     expected = [0.75, 0.875] + [1.0] * 99
-    np.testing.assert_allclose(made.xyz("points")[:, 1], expected, atol=1e-6)
-    level, text = made.statuses()["De-skew"]
+    np.testing.assert_allclose(cloud.xyz("points")[:, 1], expected, atol=1e-6)
+    level, text = cloud.statuses()["De-skew"]
     assert level == "WARN"
     assert text.startswith("98 of 101 beams")
 
@@ -328,12 +307,12 @@ def test_beams_of_an_endless_scan_without_a_transform_are_counted(bench: Benches
 def test_a_time_increment_without_sense_counts_as_zero(
     bench: Benches, time_increment: float
 ) -> None:
-    made = moving(bench)
+    cloud = moving(bench)
     values = {**FIVE_TO_THE_FRONT, "time_increment": time_increment}
-    made.send(SCAN, values, frame="laser")
-    made.turn()
-    np.testing.assert_allclose(made.xyz("points")[:, 1], 0, atol=1e-6)
-    assert made.statuses()["Scan Time"][0] == "WARN"
+    cloud.send(SCAN, values, frame="laser")
+    cloud.turn()
+    np.testing.assert_allclose(cloud.xyz("points")[:, 1], 0, atol=1e-6)
+    assert cloud.statuses()["Scan Time"][0] == "WARN"
 
 
 def test_a_scan_that_takes_long_is_doubted(lab: Benches) -> None:
@@ -342,16 +321,16 @@ def test_a_scan_that_takes_long_is_doubted(lab: Benches) -> None:
 
 
 def test_scans_decay_by_the_time_they_arrived(bench: Benches) -> None:
-    display_bench = bench(LaserScan(decay_time=1.0))
-    display_bench.transform("map", "laser")
+    at = bench(LaserScan(decay_time=1.0))
+    at.transform("map", "laser")
     for _ in range(4):
-        display_bench.send(SCAN, scan([1, 2]), frame="laser")
-        display_bench.turn(0.4)
-    assert len(display_bench.nodes()) == 2
-    display_bench.set("decay_time", 0.0)
-    assert len(display_bench.nodes()) == 1
-    display_bench.turn(100.0)
-    assert len(display_bench.nodes()) == 1
+        at.send(SCAN, scan([1, 2]), frame="laser")
+        at.turn(0.4)
+    assert len(at.nodes()) == 2
+    at.set("decay_time", 0.0)
+    assert len(at.nodes()) == 1
+    at.turn(100.0)
+    assert len(at.nodes()) == 1
 
 
 class TestLaserScan(BuiltInChecks):

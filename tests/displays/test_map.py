@@ -105,7 +105,7 @@ def test_no_tile_is_larger_than_allowed_and_together_they_are_the_map(bench) -> 
 
 
 @pytest.mark.parametrize("shape", [(1, 1_000_000), (1_000_000, 1), (3, 400_000), (9000, 9000)])
-def test_a_map_of_whatever_shape_is_a_bounded_number_of_pictures(bench, shape) -> None:
+def test_a_map_of_any_shape_is_a_bounded_number_of_images(bench, shape) -> None:
     at = bench(Map(alpha=1.0))
     cells = np.zeros(shape, np.int8)
     cells[-1, -1] = 100
@@ -197,7 +197,7 @@ def test_a_map_in_a_new_fixed_frame_needs_no_new_message(at) -> None:
     assert at.poses()["tile 0 0"].position == pytest.approx((4.0, 0.0, 0.0))
 
 
-def test_an_update_changes_its_cells_and_makes_only_its_tiles_anew(bench) -> None:
+def test_an_update_replaces_only_its_tiles(bench) -> None:
     at = bench(Map(alpha=1.0))
     cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
@@ -211,7 +211,7 @@ def test_an_update_changes_its_cells_and_makes_only_its_tiles_anew(bench) -> Non
     assert at.statuses()["Update"] == ("OK", "1 update since the last whole map.")
 
 
-def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(at) -> None:
+def test_one_changed_cell_replaces_one_tile(at) -> None:
     cells = np.zeros((TILE + 44, TILE + 44), np.int8)
     send_map(at, cells)
     before = at.nodes()
@@ -221,7 +221,7 @@ def test_a_map_that_comes_again_with_one_other_cell_makes_one_tile_anew(at) -> N
     assert {key for key in after if after[key] is not before[key]} == {f"tile {TILE} {TILE}"}
 
 
-def test_an_origin_whose_rotation_is_all_zeros_is_drawn_and_said(at) -> None:
+def test_an_origin_with_a_zero_rotation_is_drawn_and_reported(at) -> None:
     send_map(at, [[0]])
     assert "Orientation" not in at.statuses()
     send_map(at, [[0]], xyzw=(0.0, 0.0, 0.0, 0.0))
@@ -239,7 +239,7 @@ def test_a_smaller_map_leaves_no_tile_of_the_larger_one(at) -> None:
 
 
 @pytest.mark.parametrize(("x", "y"), [(-1, 0), (0, -1), (3, 0), (0, 2)])
-def test_an_update_outside_of_the_map_is_refused_and_said(at, x, y) -> None:
+def test_an_update_outside_of_the_map_is_refused(at, x, y) -> None:
     send_map(at, np.zeros((3, 4)))
     before = at.nodes()["tile 0 0"]
     send_update(at, x, y, [[100, 100], [100, 100]])
@@ -249,7 +249,7 @@ def test_an_update_outside_of_the_map_is_refused_and_said(at, x, y) -> None:
     assert f"2 x 2 cells at ({x}, {y}) reaches outside of the map of 4 x 3" in text
 
 
-def test_an_update_with_too_little_data_is_refused_and_said(at) -> None:
+def test_an_update_with_too_little_data_is_refused(at) -> None:
     send_map(at, np.zeros((3, 4)))
     values = update_values(0, 0, [[100, 100]]) | {"height": 2}
     at.send(UPDATE, values, frame="map", topic="/map_updates")
@@ -260,7 +260,7 @@ def test_an_update_with_too_little_data_is_refused_and_said(at) -> None:
     )
 
 
-def test_an_update_in_another_frame_is_refused_and_said(at) -> None:
+def test_an_update_in_another_frame_is_refused(at) -> None:
     at.transform("map", "odom")
     send_map(at, [[0]])
     at.send(UPDATE, update_values(0, 0, [[100]]), frame="odom", topic="/map_updates")
@@ -276,7 +276,7 @@ def test_updates_come_from_the_topic_beside_the_map(bench) -> None:
     }
 
 
-def test_a_map_that_nobody_updates_is_ok(at) -> None:
+def test_a_map_without_updates_is_ok(at) -> None:
     send_map(at, [[0]])
     assert {level for level, _ in at.statuses().values()} == {"OK"}
 
@@ -300,7 +300,7 @@ def test_updates_before_the_map_are_ignored(at) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "sentence"),
     [
         ({"info": {"width": 0, "height": 3}}, "size is 0 x 3"),
         ({"info": {"width": 2, "height": 2}}, "2 x 2 = 4 cells, but its data has 6"),
@@ -315,14 +315,14 @@ def test_updates_before_the_map_are_ignored(at) -> None:
         ({"info": {"origin": {"orientation": {"w": math.inf}}}}, "origin is not finite"),
     ],
 )
-def test_a_map_that_cannot_be_drawn_says_why(at, change, said) -> None:
+def test_an_invalid_map_has_a_status(at, change, sentence) -> None:
     values = grid_values(np.zeros((2, 3)))
     values["info"] = values["info"] | change["info"]
     at.send(GRID, values, frame="map", topic="/map")
     at.turn()
     level, text = at.statuses()["Map"]
     assert level == "ERROR"
-    assert said in text
+    assert sentence in text
     assert at.nodes() == {}
 
 

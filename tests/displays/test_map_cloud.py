@@ -34,17 +34,15 @@ HERE = {1: (0.0, 0.0)}
 
 
 @pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
+def cloud_bench(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn messages in the frame odom, 10 m along x."""
 
     def make(*messages: dict[str, Any], **properties: Any) -> Any:
-        display_bench = bench(
-            MapCloud(**({"cloud_decimation": 1, "cloud_voxel_size": 0.0} | properties))
-        )
-        display_bench.transform("map", "odom", (10.0, 0.0, 0.0))
+        at = bench(MapCloud(**({"cloud_decimation": 1, "cloud_voxel_size": 0.0} | properties)))
+        at.transform("map", "odom", (10.0, 0.0, 0.0))
         for values in messages:
-            publish(display_bench, values)
-        return display_bench
+            publish(at, values)
+        return at
 
     return make
 
@@ -61,8 +59,8 @@ def points(at: Any) -> np.ndarray:
 
 
 @pytest.mark.parametrize("pack", [millimetres, float_png])
-def test_pixels_are_ahead_of_the_camera_of_their_node(shown: Callable, pack: Any) -> None:
-    at = shown(map_data({1: (1.0, 0.0)}, {1: rgbd(RED, FAR, pack)}))
+def test_pixels_are_ahead_of_the_camera_of_their_node(cloud_bench: Callable, pack: Any) -> None:
+    at = cloud_bench(map_data({1: (1.0, 0.0)}, {1: rgbd(RED, FAR, pack)}))
     xyz = points(at)
     np.testing.assert_allclose(xyz[:, 0], 13.0, atol=1e-5)
     np.testing.assert_allclose([xyz[:, 1].min(), xyz[:, 1].max()], (-0.875, 0.875), atol=1e-5)
@@ -72,7 +70,7 @@ def test_pixels_are_ahead_of_the_camera_of_their_node(shown: Callable, pack: Any
     assert at.statuses()["Points"] == ("OK", "48 points of 1 node.")
 
 
-def test_images_of_several_cameras_are_beside_each_other(shown: Callable) -> None:
+def test_images_of_several_cameras_are_beside_each_other(cloud_bench: Callable) -> None:
     aside = {"translation": {"y": 5.0}, "rotation": {"w": 1.0}}
     one = rgbd(RED, FAR)
     both = {
@@ -81,14 +79,14 @@ def test_images_of_several_cameras_are_beside_each_other(shown: Callable) -> Non
         "left_camera_info": 2 * one["left_camera_info"],
         "local_transform": [*one["local_transform"], aside],
     }
-    at = shown(map_data(HERE, {1: both}))
+    at = cloud_bench(map_data(HERE, {1: both}))
     (node,) = at.nodes().values()
     np.testing.assert_allclose(points(at)[48:, 2], 4.0, atol=1e-5)
     assert node.colors[:48, 0].min() > 150 > 100 > node.colors[48:, 0].max()
 
 
-def test_a_new_graph_moves_the_clouds_without_sending_them_again(shown: Callable) -> None:
-    at = shown(map_data(HERE, {1: rgbd(RED, FAR)}))
+def test_a_new_graph_moves_the_clouds_without_sending_them_again(cloud_bench: Callable) -> None:
+    at = cloud_bench(map_data(HERE, {1: rgbd(RED, FAR)}))
     (before,) = at.nodes().values()
     publish(at, map_data({1: (0.0, 7.0)}, {}))
     (after,) = at.nodes().values()
@@ -98,8 +96,8 @@ def test_a_new_graph_moves_the_clouds_without_sending_them_again(shown: Callable
     assert at.nodes() == {}, "the node has left the graph"
 
 
-def test_scans_have_colours_of_their_intensities(shown: Callable) -> None:
-    at = shown(map_data(HERE, {1: scanned(*SCAN)}), cloud_from_scan=True)
+def test_scans_have_colours_of_their_intensities(cloud_bench: Callable) -> None:
+    at = cloud_bench(map_data(HERE, {1: scanned(*SCAN)}), cloud_from_scan=True)
     np.testing.assert_allclose(points(at)[1], (12.0, 1.0, 1.0), atol=1e-6)
     (node,) = at.nodes().values()
     assert node.colors[:2].tolist() == [[255, 0, 0], [255, 0, 255]]
@@ -121,17 +119,17 @@ def test_scans_have_colours_of_their_intensities(shown: Callable) -> None:
     ],
 )
 def test_points_are_filtered_as_they_arrive(
-    properties: dict[str, Any], count: int, shown: Callable
+    properties: dict[str, Any], count: int, cloud_bench: Callable
 ) -> None:
     depths = FAR.copy()
     depths[:3] = 1.0
-    at = shown(map_data(HERE, {1: rgbd(RED, depths)}), **properties)
+    at = cloud_bench(map_data(HERE, {1: rgbd(RED, depths)}), **properties)
     assert len(points(at)) == count
 
 
-def test_near_nodes_that_look_the_same_way_are_filtered(shown: Callable) -> None:
+def test_near_nodes_that_look_the_same_way_are_filtered(cloud_bench: Callable) -> None:
     places = {1: (0.0, 0.0), 2: (0.5, 0.0), 3: (3.0, 0.0)}
-    at = shown(map_data(places, dict.fromkeys(places, rgbd(RED, FAR))))
+    at = cloud_bench(map_data(places, dict.fromkeys(places, rgbd(RED, FAR))))
     assert len(points(at)) == 3 * 48
     at.set("node_filtering_radius", 1.0)
     assert sorted({round(x) for x in points(at)[:, 0]}) == [12, 15], "the newer one stays"
@@ -139,9 +137,9 @@ def test_near_nodes_that_look_the_same_way_are_filtered(shown: Callable) -> None
     assert len(points(at)) == 3 * 48
 
 
-def test_data_that_came_before_is_asked_for_until_it_comes(shown: Callable) -> None:
+def test_earlier_data_is_requested_until_it_arrives(cloud_bench: Callable) -> None:
     places = {-4: (0.0, 0.0), 1: (0.0, 0.0), 2: (1.0, 0.0)}
-    at = shown(map_data(places, {2: BOTH}), download_namespace="/rtabmap")
+    at = cloud_bench(map_data(places, {2: BOTH}), download_namespace="/rtabmap")
     at.turn()
     ((advertisement, message),) = at.graph.published
     assert advertisement.topic == "/rtabmap/republish_node_data"
@@ -166,10 +164,10 @@ def test_data_that_came_before_is_asked_for_until_it_comes(shown: Callable) -> N
     ],
 )
 def test_a_node_with_invalid_data_is_named_and_the_others_stay(
-    data: dict[str, Any], reason: str, shown: Callable
+    data: dict[str, Any], reason: str, cloud_bench: Callable
 ) -> None:
     good = rgbd(RED, FAR)
-    at = shown(map_data({7: (0.0, 0.0), 8: (1.0, 0.0)}, {7: good | data, 8: good}))
+    at = cloud_bench(map_data({7: (0.0, 0.0), 8: (1.0, 0.0)}, {7: good | data, 8: good}))
     assert len(points(at)) == 48
     level, text = at.statuses()["Nodes"]
     assert (level, text.startswith("Node 7 is left out: ")) == ("WARN", True)
@@ -190,31 +188,33 @@ def test_a_node_with_invalid_data_is_named_and_the_others_stay(
         },
     ],
 )
-def test_an_invalid_scan_is_named(scan: dict[str, Any], shown: Callable) -> None:
-    at = shown(map_data(HERE, {1: scanned(*SCAN) | scan}), cloud_from_scan=True)
+def test_an_invalid_scan_is_named(scan: dict[str, Any], cloud_bench: Callable) -> None:
+    at = cloud_bench(map_data(HERE, {1: scanned(*SCAN) | scan}), cloud_from_scan=True)
     assert at.nodes() == {}
     assert at.statuses()["Nodes"][1].startswith("Node 1 is left out: ")
 
 
-def test_colours_that_the_data_lack_are_chosen_by_the_data(shown: Callable) -> None:
-    at = shown(map_data(HERE, {1: rgbd(RED, FAR)}), color_transformer="Intensity")
+def test_colours_that_the_data_lack_are_chosen_by_the_data(cloud_bench: Callable) -> None:
+    at = cloud_bench(map_data(HERE, {1: rgbd(RED, FAR)}), color_transformer="Intensity")
     assert at.statuses()["Colors"][0] == "WARN"
     at.press("Colors")
-    at = shown(map_data(HERE, {1: scanned(*SCAN)}), cloud_from_scan=True, color_transformer="RGB8")
+    at = cloud_bench(
+        map_data(HERE, {1: scanned(*SCAN)}), cloud_from_scan=True, color_transformer="RGB8"
+    )
     assert at.statuses()["Colors"][0] == "WARN"
     at.press("Colors")
 
 
-def test_nodes_without_the_wanted_data_are_named(shown: Callable) -> None:
-    at = shown(map_data(HERE, {1: rgbd(RED, FAR)}), cloud_from_scan=True)
+def test_nodes_without_the_selected_data_are_named(cloud_bench: Callable) -> None:
+    at = cloud_bench(map_data(HERE, {1: rgbd(RED, FAR)}), cloud_from_scan=True)
     sentence = "The nodes have no laser scans. Change Cloud from scan."
     assert at.statuses()["Points"] == ("WARN", sentence)
 
 
 def test_too_many_points_are_dropped_or_thinned_with_a_word(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    cloud_bench: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    at = shown(MAPPED, style="Boxes")
+    at = cloud_bench(MAPPED, style="Boxes")
     total = len(points(at))
     monkeypatch.setattr("webviz_displays.map_cloud.DOTS_LIMIT", total // 3)
     at.set("style", "Points")
@@ -224,7 +224,7 @@ def test_too_many_points_are_dropped_or_thinned_with_a_word(
         "1 node left out: the map has too many points. "
         "Increase Cloud Decimation or Cloud Voxel Size."
     )
-    assert shown(MAPPED).statuses()["Nodes"] == ("WARN", sentence)
+    assert cloud_bench(MAPPED).statuses()["Nodes"] == ("WARN", sentence)
 
 
 class TestMapCloud(BuiltInChecks):

@@ -16,8 +16,8 @@ from webviz.shell.testing import check_details
 from webviz_displays.map_graph import MapGraph
 
 
-def test_links_have_the_colours_of_their_types(shown: Callable) -> None:
-    at = shown(MapGraph(), GRAPH)
+def test_links_have_the_colours_of_their_types(display_bench: Callable) -> None:
+    at = display_bench(MapGraph(), GRAPH)
     np.testing.assert_allclose(at.xyz("links")[0], [(10, 0, 0), (11, 0, 0)], atol=1e-6)
     display = MapGraph()
     expected = [
@@ -44,15 +44,15 @@ def test_links_have_the_colours_of_their_types(shown: Callable) -> None:
         ),
     ],
 )
-def test_what_is_not_drawn_is_said(
-    change: dict[str, Any], level: str, sentence: str, shown: Callable
+def test_skipped_nodes_and_links_are_reported(
+    change: dict[str, Any], level: str, sentence: str, display_bench: Callable
 ) -> None:
-    at = shown(MapGraph(), GRAPH | change)
+    at = display_bench(MapGraph(), GRAPH | change)
     assert at.statuses()["Graph"] == (level, sentence)
 
 
-def test_alpha_0_hides_and_types_of_later_versions_are_drawn(shown: Callable) -> None:
-    at = shown(MapGraph(), {**GRAPH, "links": [{"from_id": 1, "to_id": 2, "type": 99}]})
+def test_alpha_0_hides_and_types_of_later_versions_are_drawn(display_bench: Callable) -> None:
+    at = display_bench(MapGraph(), {**GRAPH, "links": [{"from_id": 1, "to_id": 2, "type": 99}]})
     assert at.nodes()["links"].colors[0, 0].tolist() == [255, 0, 0]
     at.set("alpha", 0.0)
     assert at.nodes() == {}

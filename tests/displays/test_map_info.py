@@ -26,7 +26,7 @@ def test_loops_are_counted_and_statistics_are_statuses(bench: Benches) -> None:
     assert {level for level, _ in statuses.values()} == {"OK"}
 
 
-def test_statistics_without_values_are_said(bench: Benches) -> None:
+def test_statistics_without_values_are_an_error(bench: Benches) -> None:
     at = bench(MapInfo())
     at.send(INFO, {"ref_id": 4, "stats_keys": ["a", "b"], "stats_values": [1.0]}, frame="map")
     at.turn()

@@ -44,15 +44,15 @@ def cube(id: int = 0, x: float = 0.0, frame: str = "map", **more: Any) -> dict[s
 
 
 @pytest.fixture
-def shown(bench: Benches) -> Callable[..., Any]:
+def marker_bench(bench: Benches) -> Callable[..., Any]:
     """A bench that has drawn arrays of markers."""
 
     def make(*arrays: list[dict[str, Any]], **properties: Any) -> Any:
-        display_bench = bench(MarkerArray(**properties))
-        display_bench.transform("map", "base", (10.0, 0.0, 0.0))
+        at = bench(MarkerArray(**properties))
+        at.transform("map", "base", (10.0, 0.0, 0.0))
         for markers in arrays:
-            send(display_bench, *markers)
-        return display_bench
+            send(at, *markers)
+        return at
 
     return make
 
@@ -72,15 +72,15 @@ def xs(bench: Any) -> list[float]:
 # Actions
 
 
-def test_markers_are_added_changed_and_deleted_in_order(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 2.0)], [cube(2, 3.0), cube(3, 4.0)])
+def test_markers_are_added_changed_and_deleted_in_order(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0)], [cube(2, 3.0), cube(3, 4.0)])
     assert xs(bench) == [1.0, 3.0, 4.0]
     send(bench, cube(1, action=DELETE), cube(9, action=DELETE))
     assert xs(bench) == [3.0, 4.0]
 
 
-def test_no_message_of_a_turn_is_lost(shown: Benches) -> None:
-    bench = shown()
+def test_no_message_of_a_turn_is_lost(marker_bench: Benches) -> None:
+    bench = marker_bench()
     for index in range(50):
         bench.send(ARRAY, {"markers": [cube(index, float(index))]})
     bench.turn()
@@ -88,10 +88,10 @@ def test_no_message_of_a_turn_is_lost(shown: Benches) -> None:
 
 
 def test_very_many_markers_are_taken_turn_by_turn_and_shown_together(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    marker_bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(store, "AT_ONCE", 2)
-    bench = shown([cube(1, 1.0), cube(2, 2.0)])
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0)])
     anew = [cube(id, 10.0 + id, ns="b") for id in range(5)]
     bench.send(ARRAY, {"markers": [cube(0, action=DELETEALL, ns=""), *anew]})
     for _ in range(3):  # each of which takes two
@@ -102,10 +102,10 @@ def test_very_many_markers_are_taken_turn_by_turn_and_shown_together(
 
 
 def test_a_message_after_very_many_markers_is_taken_after_all_of_them(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    marker_bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(store, "AT_ONCE", 2)
-    bench = shown()
+    bench = marker_bench()
     bench.send(ARRAY, {"markers": [cube(id, 1.0 + id) for id in range(5)]})
     bench.turn()
     assert xs(bench) == []
@@ -113,35 +113,35 @@ def test_a_message_after_very_many_markers_is_taken_after_all_of_them(
     assert xs(bench) == [1.0, 2.0, 3.0, 4.0, 9.0]
 
 
-def test_delete_all_spares_what_comes_after_it(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")])
+def test_delete_all_spares_what_comes_after_it(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0, ns="b")])
     send(bench, cube(0, action=DELETEALL, ns=""), cube(0, 5.0))
     assert xs(bench) == [5.0]
     assert "Duplicates" not in bench.statuses()
 
 
-def test_namespaces_are_offered_as_switches_with_their_counts(shown: Benches) -> None:
-    bench = shown([cube(1), cube(2), cube(3, ns="b")], namespaces={"a": False})
+def test_namespaces_are_offered_as_switches_with_their_counts(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1), cube(2), cube(3, ns="b")], namespaces={"a": False})
     assert bench.runner.report().offered == {"namespaces": {"a": 2, "b": 1}}
     send(bench, cube(3, action=DELETE, ns="b"), cube(4, ns=""))
     assert bench.runner.report().offered == {"namespaces": {"a": 2, "": 1}}
 
 
-def test_delete_all_of_a_namespace_spares_the_others(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")], [cube(0, action=DELETEALL, ns="b")])
+def test_delete_all_of_a_namespace_spares_the_others(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0, ns="b")], [cube(0, action=DELETEALL, ns="b")])
     assert xs(bench) == [1.0]
 
 
-def test_the_last_of_several_actions_on_one_marker_counts(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(1, action=DELETE), cube(1, 2.0)])
+def test_the_last_of_several_actions_on_one_marker_counts(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(1, action=DELETE), cube(1, 2.0)])
     assert xs(bench) == [2.0]
     assert "Duplicates" not in bench.statuses()
     send(bench, cube(1, 3.0), cube(1, action=DELETE))
     assert xs(bench) == []
 
 
-def test_a_marker_that_is_there_twice_is_reported(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(1, 2.0)])
+def test_a_marker_that_is_there_twice_is_reported(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(1, 2.0)])
     assert xs(bench) == [2.0]
     level, text = bench.statuses()["Duplicates"]
     assert (level, "a/1" in text) == ("WARN", True)
@@ -149,8 +149,10 @@ def test_a_marker_that_is_there_twice_is_reported(shown: Benches) -> None:
     assert "Duplicates" not in bench.statuses()
 
 
-def test_numbers_that_are_not_finite_refuse_one_version_but_no_deletion(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 2.0)], [cube(1, NAN), cube(2, 3.0)])
+def test_numbers_that_are_not_finite_refuse_one_version_but_no_deletion(
+    marker_bench: Benches,
+) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0)], [cube(1, NAN), cube(2, 3.0)])
     assert xs(bench) == [1.0, 3.0]
     assert bench.statuses()["Marker a/1"][0] == "ERROR"
     send(bench, cube(2, NAN, action=DELETE))
@@ -160,8 +162,8 @@ def test_numbers_that_are_not_finite_refuse_one_version_but_no_deletion(shown: B
     assert "Marker a/1" not in bench.statuses()
 
 
-def test_unknown_actions_and_types_are_reported(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0, action=1), cube(2, 2.0, type=42), cube(3, 3.0)])
+def test_unknown_actions_and_types_are_reported(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0, action=1), cube(2, 2.0, type=42), cube(3, 3.0)])
     statuses = bench.statuses()
     assert "Unknown action 1" in statuses["Action"][1]
     assert "type 42 is unknown" in statuses["Marker a/2"][1]
@@ -171,8 +173,8 @@ def test_unknown_actions_and_types_are_reported(shown: Benches) -> None:
 # Lifetimes
 
 
-def test_a_marker_expires_its_lifetime_after_it_arrived(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0, lifetime={"sec": 2}), cube(2, 2.0)])
+def test_a_marker_expires_its_lifetime_after_it_arrived(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0, lifetime={"sec": 2}), cube(2, 2.0)])
     bench.turn(1.9)
     assert xs(bench) == [1.0, 2.0]
     send(bench, cube(1, 1.0, lifetime={"sec": 2}))
@@ -182,14 +184,16 @@ def test_a_marker_expires_its_lifetime_after_it_arrived(shown: Benches) -> None:
     assert xs(bench) == [2.0]
 
 
-def test_tiny_and_negative_lifetimes_mean_for_ever(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0, lifetime={"nanosec": 100_000}), cube(2, 2.0, lifetime={"sec": -1})])
+def test_tiny_and_negative_lifetimes_mean_for_ever(marker_bench: Benches) -> None:
+    bench = marker_bench(
+        [cube(1, 1.0, lifetime={"nanosec": 100_000}), cube(2, 2.0, lifetime={"sec": -1})]
+    )
     bench.turn(1000.0)
     assert xs(bench) == [1.0, 2.0]
 
 
-def test_what_has_expired_is_said_with_its_age(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0, lifetime={"sec": 1})])
+def test_expired_markers_are_reported_with_their_age(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0, lifetime={"sec": 1})])
     bench.turn(4.0)
     level, text = bench.statuses()["Markers"]
     assert level == "WARN"
@@ -204,13 +208,15 @@ def test_what_has_expired_is_said_with_its_age(shown: Benches) -> None:
 # Transforms
 
 
-def test_each_marker_is_placed_by_its_own_header(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 1.0, "base"), cube(3, 1.0, "/base")])
+def test_each_marker_is_placed_by_its_own_header(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 1.0, "base"), cube(3, 1.0, "/base")])
     assert xs(bench) == [1.0, 11.0, 11.0]
 
 
-def test_a_marker_waits_for_its_transform_and_the_former_version_stays(shown: Benches) -> None:
-    bench = shown()
+def test_a_marker_waits_for_its_transform_and_the_former_version_stays(
+    marker_bench: Benches,
+) -> None:
+    bench = marker_bench()
     bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
     send(bench, cube(1, 1.0, "odom", stamp_ns=SECOND), cube(2, 2.0))
     assert xs(bench) == [2.0, 101.0]
@@ -230,8 +236,8 @@ def test_a_marker_waits_for_its_transform_and_the_former_version_stays(shown: Be
     assert "Transform" not in bench.statuses()
 
 
-def test_a_marker_that_is_deleted_while_it_waits_is_not_drawn_later(shown: Benches) -> None:
-    bench = shown()
+def test_a_marker_that_is_deleted_while_it_waits_is_not_drawn_later(marker_bench: Benches) -> None:
+    bench = marker_bench()
     bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
     send(bench, cube(1, 1.0, "odom", stamp_ns=2 * SECOND), cube(2, 2.0))
     send(bench, {**cube(1), "action": 2})
@@ -242,8 +248,8 @@ def test_a_marker_that_is_deleted_while_it_waits_is_not_drawn_later(shown: Bench
     assert "Transform" not in bench.statuses()
 
 
-def test_a_marker_stays_where_its_frame_was_unless_it_is_locked(shown: Benches) -> None:
-    bench = shown()
+def test_a_marker_stays_where_its_frame_was_unless_it_is_locked(marker_bench: Benches) -> None:
+    bench = marker_bench()
     bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
     send(bench, cube(1, 1.0, "odom"), cube(2, 2.0, "odom", frame_locked=True))
     bench.transform("map", "odom", (200.0, 0.0, 0.0), stamp_ns=2 * SECOND)
@@ -251,8 +257,8 @@ def test_a_marker_stays_where_its_frame_was_unless_it_is_locked(shown: Benches) 
     assert xs(bench) == [101.0, 202.0]
 
 
-def test_markers_move_with_the_fixed_frame(shown: Benches) -> None:
-    bench = shown()
+def test_markers_move_with_the_fixed_frame(marker_bench: Benches) -> None:
+    bench = marker_bench()
     bench.transform("map", "odom", (100.0, 0.0, 0.0), stamp_ns=SECOND)
     send(bench, cube(1, 1.0, "odom", stamp_ns=SECOND), cube(2, 2.0), cube(3, 0.0, "base"))
     bench.fixed_frame = "base"
@@ -260,10 +266,10 @@ def test_markers_move_with_the_fixed_frame(shown: Benches) -> None:
     assert xs(bench) == [-8.0, 0.0, 91.0]
 
 
-def test_zero_and_long_quaternions_are_normalised_and_reported(shown: Benches) -> None:
+def test_zero_and_long_quaternions_are_normalised_and_reported(marker_bench: Benches) -> None:
     zero = cube(1, pose={"position": {}, "orientation": {"w": 0.0}}, scale={"x": 4, "y": 2, "z": 1})
     long = cube(2, pose={"position": {}, "orientation": {"z": 5.0, "w": 5.0}})
-    bench = shown([zero, long])
+    bench = marker_bench([zero, long])
     (node,) = bench.nodes().values()
     turns = sorted(np.abs(node.wxyzs).tolist())
     np.testing.assert_allclose(turns, [(np.sqrt(0.5), 0, 0, np.sqrt(0.5)), (1, 0, 0, 0)], atol=1e-6)
@@ -275,8 +281,8 @@ def test_zero_and_long_quaternions_are_normalised_and_reported(shown: Benches) -
 # Namespaces
 
 
-def test_a_namespace_that_is_off_keeps_its_markers(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0), cube(2, 2.0, ns="b")], namespaces={"b": False})
+def test_a_namespace_that_is_off_keeps_its_markers(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0), cube(2, 2.0, ns="b")], namespaces={"b": False})
     assert xs(bench) == [1.0]
     send(bench, cube(2, 3.0, ns="b"))
     bench.set("namespaces", {})
@@ -288,8 +294,8 @@ def test_a_namespace_that_is_off_keeps_its_markers(shown: Benches) -> None:
     assert bench.nodes()
 
 
-def test_namespaces_say_how_many_markers_they_have(shown: Benches) -> None:
-    bench = shown([cube(1), cube(2), cube(3, ns="")])
+def test_namespaces_say_how_many_markers_they_have(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1), cube(2), cube(3, ns="")])
     bench.turn(1.5)
     statuses = bench.statuses()
     assert statuses["Namespace 'a'"] == ("OK", "2 markers, the newest 1.5 s ago.")
@@ -300,7 +306,7 @@ def test_namespaces_say_how_many_markers_they_have(shown: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("marker", "said"),
+    ("marker", "sentence"),
     [
         (cube(color={"r": 1.0}), "alpha"),
         (cube(scale={"x": 1.0, "z": 1.0}), "scale is 0 in y"),
@@ -314,14 +320,16 @@ def test_namespaces_say_how_many_markers_they_have(shown: Benches) -> None:
         (cube(type=8, points=[{}], colors=[{"r": 1.0}]), "every color"),
     ],
 )
-def test_an_invisible_marker_says_why(shown: Benches, marker: dict[str, Any], said: str) -> None:
-    bench = shown([marker])
-    assert said in bench.statuses()["Marker a/0"][1]
+def test_an_invisible_marker_has_a_status(
+    marker_bench: Benches, marker: dict[str, Any], sentence: str
+) -> None:
+    bench = marker_bench([marker])
+    assert sentence in bench.statuses()["Marker a/0"][1]
     assert bench.statuses()["Markers"][0] == "WARN"
 
 
-def test_statuses_are_bounded(shown: Benches) -> None:
-    bench = shown([cube(i, color={}, ns=f"n{i}") for i in range(100)])
+def test_statuses_are_bounded(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(i, color={}, ns=f"n{i}") for i in range(100)])
     statuses = bench.statuses()
     assert sum(key.startswith("Marker ") for key in statuses) == 10
     assert statuses["Other markers"] == ("WARN", "90 more are invalid or invisible.")
@@ -331,25 +339,25 @@ def test_statuses_are_bounded(shown: Benches) -> None:
 # Cost
 
 
-def test_a_marker_that_changes_renews_the_nodes_of_its_block_only(shown: Benches) -> None:
-    bench = shown([cube(i, 0.1 * i) for i in range(3 * BLOCK)])
+def test_a_marker_that_changes_renews_the_nodes_of_its_block_only(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(i, 0.1 * i) for i in range(3 * BLOCK)])
     before = bench.nodes()
     send(bench, cube(BLOCK, -1.0))
     after = bench.nodes()
     assert [key for key in after if after[key] is not before[key]] == ["box in 1"]
 
 
-def test_nothing_is_drawn_anew_if_a_message_says_the_same(shown: Benches) -> None:
+def test_an_equal_message_redraws_nothing(marker_bench: Benches) -> None:
     texts = [cube(i, type=TEXT, text=f"t{i}") for i in range(9)]
-    bench = shown([*texts, cube(10, type=5, points=[{}, {"x": 1.0}])])
+    bench = marker_bench([*texts, cube(10, type=5, points=[{}, {"x": 1.0}])])
     before = bench.nodes()
     send(bench, *texts, cube(10, type=5, points=[{}, {"x": 1.0}]))
     after = bench.nodes()
     assert all(after[key] is before[key] for key in before)
 
 
-def test_rows_and_nodes_are_used_again(shown: Benches) -> None:
-    bench = shown()
+def test_rows_and_nodes_are_used_again(marker_bench: Benches) -> None:
+    bench = marker_bench()
     for step in range(60):
         send(bench, *(cube(i, 1.0 * i) for i in range(100 * step, 100 * step + 100)))
         send(bench, *(cube(i, action=DELETE) for i in range(100 * step, 100 * step + 100)))
@@ -358,8 +366,8 @@ def test_rows_and_nodes_are_used_again(shown: Benches) -> None:
     assert len(bench.nodes()) == 1
 
 
-def test_markers_far_away_keep_their_precision(shown: Benches) -> None:
-    bench = shown([cube(1, 500_000.0), cube(2, 500_000.001)])
+def test_markers_far_away_keep_their_precision(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 500_000.0), cube(2, 500_000.001)])
     a, b = (
         (bench.xyz(key) for key in bench.nodes() for key in [key])
         if len(bench.nodes()) == 2
@@ -369,10 +377,10 @@ def test_markers_far_away_keep_their_precision(shown: Benches) -> None:
 
 
 def test_markers_in_very_many_places_are_limited_and_the_rest_comes_when_there_is_room(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    marker_bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.markers.blocks.MAX_PLACES", 2)
-    bench = shown([cube(number, 1e5 * number) for number in range(4)])
+    bench = marker_bench([cube(number, 1e5 * number) for number in range(4)])
     assert len(bench.nodes()) == 2
     assert bench.statuses()["Places"][1].startswith("2 markers left out")
     assert bench.statuses()["Markers"][1].startswith("2 of 4 markers shown")
@@ -388,39 +396,39 @@ def test_markers_in_very_many_places_are_limited_and_the_rest_comes_when_there_i
 
 
 def test_marker_does_not_miss_single_ones_while_arrays_come(bench: Benches) -> None:
-    display_bench = bench(Marker())
-    display_bench.turn()
-    assert "No publisher" in display_bench.statuses()["Topic"][1]
-    display_bench.send(ARRAY, {"markers": [cube()]}, topic="/visualization_marker_array")
-    display_bench.turn()
-    assert {level for level, _ in display_bench.statuses().values()} == {"OK"}
-    display_bench.send(MARKER, cube(1), topic="/visualization_marker")
-    display_bench.turn()
-    assert display_bench.statuses()["Topic"][1].startswith("1 message")
+    at = bench(Marker())
+    at.turn()
+    assert "No publisher" in at.statuses()["Topic"][1]
+    at.send(ARRAY, {"markers": [cube()]}, topic="/visualization_marker_array")
+    at.turn()
+    assert {level for level, _ in at.statuses().values()} == {"OK"}
+    at.send(MARKER, cube(1), topic="/visualization_marker")
+    at.turn()
+    assert at.statuses()["Topic"][1].startswith("1 message")
 
 
 def test_marker_takes_single_ones_and_arrays_of_the_topic_beside_it(bench: Benches) -> None:
-    display_bench = bench(Marker())
-    display_bench.send(MARKER, cube(1, 1.0), topic="/visualization_marker")
-    display_bench.send(ARRAY, {"markers": [cube(2, 2.0)]}, topic="/visualization_marker_array")
-    display_bench.turn()
-    assert xs(display_bench) == [1.0, 2.0]
+    at = bench(Marker())
+    at.send(MARKER, cube(1, 1.0), topic="/visualization_marker")
+    at.send(ARRAY, {"markers": [cube(2, 2.0)]}, topic="/visualization_marker_array")
+    at.turn()
+    assert xs(at) == [1.0, 2.0]
 
 
 def test_a_latched_message_that_comes_again_renews_lifetimes(bench: Benches) -> None:
-    display_bench = bench(MarkerArray())
+    at = bench(MarkerArray())
     for _ in range(2):
-        display_bench.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
-        offer = display_bench.offers["/visualization_marker_array"]
-        display_bench.offers["/visualization_marker_array"] = type(offer)(
+        at.send(ARRAY, {"markers": [cube(1, 1.0, lifetime={"sec": 2})]})
+        offer = at.offers["/visualization_marker_array"]
+        at.offers["/visualization_marker_array"] = type(offer)(
             offer.publishers, ("reliable", "transient_local")
         )
-        display_bench.turn(1.5)
-    assert xs(display_bench) == [1.0]
+        at.turn(1.5)
+    assert xs(at) == [1.0]
 
 
-def test_a_reset_forgets_all_markers(shown: Benches) -> None:
-    bench = shown([cube(1)])
+def test_a_reset_forgets_all_markers(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1)])
     bench.runner.reset()
     bench.turn()
     assert xs(bench) == []
@@ -432,11 +440,11 @@ POINTS = [{}, {"x": 1.0}, {"y": 1.0}]
 
 def extremes(type_: int) -> list[dict[str, Any]]:
     """Markers of a type of which each has one number that no program should send."""
-    made = []
+    variants = []
     for value in EXTREMES:
         short = float(np.float32(np.clip(value, -3e38, 3e38))) if math.isfinite(value) else value
         point, color = {"x": value}, {"r": short, "a": 1.0}
-        made += [
+        variants += [
             {"pose": {"position": point, "orientation": {"w": 1.0}}},
             {"pose": {"orientation": {"z": value, "w": 1.0}}},
             {"scale": {"x": value, "y": 1.0, "z": value}},
@@ -447,17 +455,17 @@ def extremes(type_: int) -> list[dict[str, Any]]:
             {"uv_coordinates": [{"u": short}] * 3, "texture_resource": "embedded://a"},
         ]
     lifetimes = [{"sec": sec, "nanosec": 0xFFFF_FFFF} for sec in (-(2**31), 2**31 - 1)]
-    made += [{"lifetime": each} for each in lifetimes]
-    made += [{"stamp_ns": 2**31 * SECOND - 1}, {"frame": "/nowhere"}, {"frame": ""}]
+    variants += [{"lifetime": each} for each in lifetimes]
+    variants += [{"stamp_ns": 2**31 * SECOND - 1}, {"frame": "/nowhere"}, {"frame": ""}]
     filled = {"type": type_, "points": POINTS, "text": "a", "mesh_resource": "package://no/a.stl"}
-    return [cube(**(filled | each), id=i) for i, each in enumerate(made)]
+    return [cube(**(filled | each), id=i) for i, each in enumerate(variants)]
 
 
 @pytest.mark.parametrize("is_locked", [False, True])
-def test_no_number_draws_what_is_not_finite_or_stops_the_rest(
-    shown: Benches, is_locked: bool
+def test_extreme_numbers_draw_nothing_non_finite_and_leave_the_rest(
+    marker_bench: Benches, is_locked: bool
 ) -> None:
-    bench = shown([cube(7, 1.0, ns="good")])
+    bench = marker_bench([cube(7, 1.0, ns="good")])
     for type_ in range(14):
         named = [each | {"ns": f"{type_}", "frame_locked": is_locked} for each in extremes(type_)]
         send(bench, *named)
@@ -473,12 +481,12 @@ def test_no_number_draws_what_is_not_finite_or_stops_the_rest(
 
 
 def test_very_many_markers_and_very_long_texts_are_limited(
-    shown: Benches, monkeypatch: pytest.MonkeyPatch
+    marker_bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.markers.store.MAX_MARKERS", 300)
     monkeypatch.setattr("webviz_displays.markers.report.MAX_TEXTS", 3)
     long = cube(1, type=TEXT, text="ab\n" * 3_000_000)
-    bench = shown([long, cube(2, 1.0)], [cube(i, ns="b") for i in range(400)])
+    bench = marker_bench([long, cube(2, 1.0)], [cube(i, ns="b") for i in range(400)])
     assert len(xs(bench)) == 300
     statuses = bench.statuses()
     assert "101 markers refused" in statuses["Limit"][1]
@@ -487,8 +495,8 @@ def test_very_many_markers_and_very_long_texts_are_limited(
     assert "show 3 of all texts; these are 4" in bench.statuses()["Texts"][1]
 
 
-def test_raw_bytes_that_are_no_markers_leave_the_others(shown: Benches) -> None:
-    bench = shown([cube(1, 1.0)])
+def test_undecodable_bytes_leave_the_other_markers(marker_bench: Benches) -> None:
+    bench = marker_bench([cube(1, 1.0)])
     bench.send_bytes(ARRAY, b"\0\1\0\0\xff\xff\xff\xff", "/visualization_marker_array")
     bench.turn()
     assert xs(bench) == [1.0]
@@ -521,72 +529,46 @@ def marker(
     at.send("visualization_msgs/msg/MarkerArray", {"markers": markers})
     at.turn()
     at.settle()
-    (found,) = (name for name in at.nodes() if name.startswith(key))
-    return at.pick(found, number, point)
-
-
-def test_selecting_shape_of_a_marker(bench: Benches) -> None:
-    check_details(
-        marker(bench, "box", 1, type=1),
-        "Marker a/1",
-        {"Namespace": "a", "Id": "1", "Type": "CUBE", "Frame": "odom"},
-    )
-
-
-def test_selecting_point_of_a_marker(bench: Benches) -> None:
-    check_details(
-        marker(bench, "points", 4, type=8, points=np.arange(9.0).reshape(3, 3)),
-        "Marker a/1",
-        {"Type": "POINTS", "Points": "3"},
-    )
-
-
-def test_selecting_line_of_a_marker(bench: Benches) -> None:
-    check_details(
-        marker(bench, "lines", 3, type=4, points=np.arange(9.0).reshape(3, 3)),
-        "Marker a/1",
-        {"Type": "LINE_STRIP", "Age": "0.0 s"},
-    )
+    (node,) = (name for name in at.nodes() if name.startswith(key))
+    return at.pick(node, number, point)
 
 
 TRIANGLES = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1), (0, 0, 2)], np.float64)
+COLORFUL = {"points": TRIANGLES, "colors": np.array([(1, 0, 0, 1)] * 6, np.float32)}
+CORNERS = {"points": np.arange(9.0).reshape(3, 3)}
 
 
-def test_selecting_triangle_of_a_marker(bench: Benches) -> None:
-    """One of two that are one mesh; they have a triangle without an area too."""
-    check_details(
-        marker(bench, "triangles", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES),
-        "Marker a/1",
-        {"Type": "TRIANGLE_LIST", "Points": "6"},
-    )
-
-
-def test_selecting_triangle_of_a_colorful_marker(bench: Benches) -> None:
-    colors = np.array([(1, 0, 0, 1)] * 6, np.float32)
-    more = {"type": 11, "points": TRIANGLES, "colors": colors}
-    check_details(
-        marker(bench, "colorful", None, (10.2, 0.3, 0.0), **more),
-        "Marker a/1",
-        {"Type": "TRIANGLE_LIST"},
-    )
-
-
-def test_selecting_texture_of_a_marker(bench: Benches) -> None:
+def textured() -> dict[str, Any]:
+    """Fields of triangles with a picture."""
     png = io.BytesIO()
     PIL.Image.new("RGB", (2, 2)).save(png, "png")
     texture = {"format": "png", "data": png.getvalue()}
     uvs = np.zeros((6, 2), np.float32)
     more = {"texture_resource": "embedded://a.png", "texture": texture, "uv_coordinates": uvs}
-    check_details(
-        marker(bench, "triangles 2", None, (10.2, 0.3, 0.0), type=11, points=TRIANGLES, **more),
-        "Marker a/1",
-        {"Type": "TRIANGLE_LIST"},
-    )
+    return {"points": TRIANGLES, **more}
 
 
-def test_selecting_text_of_a_marker(bench: Benches) -> None:
-    check_details(
-        marker(bench, "texts", 1, type=9, text="Dock"),
-        "Marker a/1",
-        {"Type": "TEXT_VIEW_FACING", "Text": "Dock"},
-    )
+@pytest.mark.parametrize(
+    ("kind", "key", "number", "fields", "values"),
+    [
+        (1, "box", 1, {}, {"Namespace": "a", "Id": "1", "Type": "CUBE", "Frame": "odom"}),
+        (8, "points", 4, CORNERS, {"Type": "POINTS", "Points": "3"}),
+        (4, "lines", 3, CORNERS, {"Type": "LINE_STRIP", "Age": "0.0 s"}),
+        (11, "triangles", None, {"points": TRIANGLES}, {"Type": "TRIANGLE_LIST", "Points": "6"}),
+        (11, "colorful", None, COLORFUL, {"Type": "TRIANGLE_LIST"}),
+        (11, "triangles 2", None, textured(), {"Type": "TRIANGLE_LIST"}),
+        (9, "texts", 1, {"text": "Dock"}, {"Type": "TEXT_VIEW_FACING", "Text": "Dock"}),
+    ],
+    ids=["shape", "point", "line", "triangle", "colorful triangle", "texture", "text"],
+)
+def test_selecting_item_of_a_marker(
+    bench: Benches,
+    kind: int,
+    key: str,
+    number: int | None,
+    fields: dict[str, Any],
+    values: dict[str, str],
+) -> None:
+    """Of two markers whose triangles are one mesh; they have one without an area, too."""
+    point = (10.2, 0.3, 0.0) if number is None else None
+    check_details(marker(bench, key, number, point, type=kind, **fields), "Marker a/1", values)

@@ -34,7 +34,7 @@ PAINTED = MeshPart(CORNERS, FACE, colors=np.full((3, 4), 255, np.uint8))
 NO_TINT = (1.0, 1.0, 1.0, 1.0)
 
 
-def drawn(
+def mesh_nodes(
     *markers: tuple[tuple[float, ...], bool], part: MeshPart = GREEN, scale: float = 1.0
 ) -> dict[str, Any]:
     """The nodes of markers with a colour, and whether they keep the materials of one file."""
@@ -53,7 +53,7 @@ def drawn(
 
 
 def test_meshes_of_one_file_are_one_node_with_a_colour_each() -> None:
-    (node,) = drawn(((1, 0, 0, 1), False), ((0, 0, 1, 1), False)).values()
+    (node,) = mesh_nodes(((1, 0, 0, 1), False), ((0, 0, 1, 1), False)).values()
     assert isinstance(node, Instances)
     np.testing.assert_array_equal(node.colors, [(255, 0, 0), (0, 0, 255)])
     np.testing.assert_array_equal(node.shape.vertices, CORNERS)  # pyright: ignore[reportAttributeAccessIssue]
@@ -61,7 +61,7 @@ def test_meshes_of_one_file_are_one_node_with_a_colour_each() -> None:
 
 def test_a_mesh_without_materials_is_white_unless_the_marker_has_a_colour() -> None:
     part = MeshPart(CORNERS, FACE)
-    (node,) = drawn(((0, 0, 0, 0), True), ((1, 0, 0, 1), True), part=part).values()
+    (node,) = mesh_nodes(((0, 0, 0, 0), True), ((1, 0, 0, 1), True), part=part).values()
     np.testing.assert_array_equal(node.colors, [(255, 255, 255), (255, 0, 0)])
     assert node.opacity == 1.0
 
@@ -70,7 +70,7 @@ def test_a_mesh_without_materials_is_white_unless_the_marker_has_a_colour() -> N
     ("rgba", "own", "is_seen"),
     [((0, 0, 0, 0), True, True), ((0, 0, 0, 0), False, False), ((1, 0, 0, 0), True, False)],
 )
-def test_a_mesh_that_its_alpha_makes_invisible_says_so(
+def test_a_mesh_with_zero_alpha_has_a_status(
     rgba: tuple[float, ...], own: bool, is_seen: bool
 ) -> None:
     marker = Marker(
@@ -96,18 +96,18 @@ def test_a_mesh_that_its_alpha_makes_invisible_says_so(
 def test_a_colour_multiplies_the_materials_of_the_file(
     rgba: tuple[float, ...], color: tuple[int, int, int], opacity: float
 ) -> None:
-    (node,) = drawn((rgba, True)).values()
+    (node,) = mesh_nodes((rgba, True)).values()
     assert (node.colors, node.opacity) == (color, opacity)
 
 
-def test_what_has_no_material_has_the_colour_of_the_marker() -> None:
+def test_a_mesh_without_a_material_has_the_colour_of_the_marker() -> None:
     part = MeshPart(CORNERS, FACE)
-    (node,) = drawn(((0.2, 0, 1, 1), True), part=part).values()
+    (node,) = mesh_nodes(((0.2, 0, 1, 1), True), part=part).values()
     assert node.colors == (51, 0, 255)
 
 
 def test_a_mirrored_mesh_still_has_its_outside_outside() -> None:
-    (node,) = drawn(((1, 0, 0, 1), False), scale=-2.0).values()
+    (node,) = mesh_nodes(((1, 0, 0, 1), False), scale=-2.0).values()
     a, b, c = (node.shape.vertices * node.scales[0])[node.shape.faces[0]]
     assert np.cross(b - a, c - a)[2] > 0.0
     assert {tuple(row) for row in (node.shape.vertices * node.scales[0]).tolist()} == {
@@ -119,7 +119,7 @@ def test_a_mirrored_mesh_still_has_its_outside_outside() -> None:
 
 def test_copies_of_a_painted_mesh_are_one_node_for_each_tint() -> None:
     white, red = (1.0, 1.0, 1.0, 1.0), (1.0, 0.0, 0.0, 1.0)
-    nodes = drawn((white, True), (red, True), (white, True), part=PAINTED)
+    nodes = mesh_nodes((white, True), (red, True), (white, True), part=PAINTED)
     assert all(isinstance(node, Models) for node in nodes.values())
     assert sorted(len(node.positions) for node in nodes.values()) == [1, 2]
 
@@ -132,8 +132,8 @@ def test_models_of_ever_new_colours_are_not_kept_for_ever(monkeypatch: pytest.Mo
     tints = [(shade / 100, 1.0, 1.0, 1.0) for shade in range(1, 100)]
     models = [(tint, mesh.model(0, tint)) for tint in tints]
     # The newest are kept; to ask for one that is not would make it anew, and lose another.
-    kept = takewhile(lambda made: mesh.model(0, made[0]) is made[1], reversed(models))
-    assert 0 < sum(len(model) for _, model in kept) <= meshes.MAX_MODELS
+    cached = takewhile(lambda entry: mesh.model(0, entry[0]) is entry[1], reversed(models))
+    assert 0 < sum(len(model) for _, model in cached) <= meshes.MAX_MODELS
     assert mesh.model(0, NO_TINT) is not first
 
 
@@ -165,16 +165,16 @@ def test_meshes_and_pictures_in_a_message_are_drawn_and_broken_ones_named(bench:
         marker(id=6, type=10, mesh_resource="http://example.org/a.stl"),
         marker(id=7, **(triangle | {"uv_coordinates": []})),
     ]
-    display_bench = bench(MarkerArray())
-    display_bench.send(ARRAY, {"markers": markers})
-    display_bench.turn()
-    display_bench.settle()
-    nodes = display_bench.nodes()
+    at = bench(MarkerArray())
+    at.send(ARRAY, {"markers": markers})
+    at.turn()
+    at.settle()
+    nodes = at.nodes()
     (ball,) = (node for node in nodes.values() if isinstance(node, Instances))
     assert len(ball.shape.faces) == 12  # pyright: ignore[reportAttributeAccessIssue]
     assert sum(isinstance(node, Glb) for node in nodes.values()) == 1
-    statuses = display_bench.statuses()
-    for id, said in (
+    statuses = at.statuses()
+    for id, sentence in (
         (3, "b.stl"),
         (4, "mesh_file.data is empty"),
         (5, "red.png"),
@@ -182,7 +182,7 @@ def test_meshes_and_pictures_in_a_message_are_drawn_and_broken_ones_named(bench:
         (7, "0 for 3 points"),
     ):
         level, text = statuses[f"Marker /{id}"]
-        assert (level, said in text) == ("ERROR", True), text
+        assert (level, sentence in text) == ("ERROR", True), text
     assert "Marker /1" not in statuses
     assert "Marker /2" not in statuses
 
@@ -193,20 +193,20 @@ def test_a_file_that_failed_to_load_is_tried_again(
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     package = tmp_path / "share" / "late"
     package.mkdir(parents=True)
-    display_bench = bench(MarkerArray())
+    at = bench(MarkerArray())
     mesh = marker(id=1, type=10, mesh_resource="package://late/late.stl")
-    display_bench.send(ARRAY, {"markers": [mesh]})
+    at.send(ARRAY, {"markers": [mesh]})
     with monkeypatch.context() as patch:
         patch.setattr(assets, "RETRY_S", 0.0)
-        display_bench.turn()
-        display_bench.settle()
-    assert "late.stl" in display_bench.statuses()["Marker /1"][1]
+        at.turn()
+        at.settle()
+    assert "late.stl" in at.statuses()["Marker /1"][1]
     trimesh.creation.box().export(package / "late.stl")
-    display_bench.turn()
-    assert "Loading" not in display_bench.statuses()
-    display_bench.settle()
-    assert "Marker /1" not in display_bench.statuses()
-    assert len(display_bench.nodes()) == 1
+    at.turn()
+    assert "Loading" not in at.statuses()
+    at.settle()
+    assert "Marker /1" not in at.statuses()
+    assert len(at.nodes()) == 1
 
 
 def loaded_meshes() -> int:
@@ -215,15 +215,15 @@ def loaded_meshes() -> int:
     return sum(type(each) is LoadedMesh for each in gc.get_objects())
 
 
-def test_what_came_in_a_message_is_forgotten_with_it(bench: Benches) -> None:
-    display_bench = bench(MarkerArray())
+def test_an_embedded_mesh_is_freed_with_its_message(bench: Benches) -> None:
+    at = bench(MarkerArray())
     before = loaded_meshes()
     for edge in range(1, 6):
         stl = trimesh.creation.box((edge, 1.0, 1.0)).export(file_type="stl")
         file = {"filename": "a.stl", "data": stl}
         one = marker(id=1, type=10, mesh_resource="embedded://a.stl", mesh_file=file)
-        display_bench.send(ARRAY, {"markers": [one]})
-        display_bench.turn()
-        display_bench.settle()
-        display_bench.turn()
+        at.send(ARRAY, {"markers": [one]})
+        at.turn()
+        at.settle()
+        at.turn()
     assert 1 <= loaded_meshes() - before <= 2

@@ -28,8 +28,8 @@ def block(x: int, part: dict[str, Any], **fields: Any) -> dict[str, Any]:
     return {**MESH, "block_indices": [{"x": x}], "blocks": [part], **fields}
 
 
-def test_surfaces_have_the_colours_of_their_corners(shown: Callable) -> None:
-    at = shown(NvbloxMesh(), MESH)
+def test_surfaces_have_the_colours_of_their_corners(display_bench: Callable) -> None:
+    at = display_bench(NvbloxMesh(), MESH)
     near, far = at.nodes()[NEAR], at.nodes()[FAR]
     assert near.faces.tolist() == [[0, 1, 2], [3, 4, 5]]
     np.testing.assert_allclose(at.xyz(NEAR)[1], (10.8, 0.0, 0.1), atol=1e-6)
@@ -38,8 +38,8 @@ def test_surfaces_have_the_colours_of_their_corners(shown: Callable) -> None:
     assert at.statuses()["Blocks"] == ("OK", "3 triangles in 3 blocks of 0.8 m.")
 
 
-def test_voxels_are_boxes_of_their_size(shown: Callable) -> None:
-    at = shown(NvbloxVoxelBlockLayer(), VOXELS)
+def test_voxels_are_boxes_of_their_size(display_bench: Callable) -> None:
+    at = display_bench(NvbloxVoxelBlockLayer(), VOXELS)
     node = at.nodes()[NEAR]
     np.testing.assert_allclose(at.xyz(NEAR)[1], (10.8, 0.0, 0.1), atol=1e-6)
     np.testing.assert_allclose(node.scales, 0.1)
@@ -47,9 +47,9 @@ def test_voxels_are_boxes_of_their_size(shown: Callable) -> None:
     assert at.statuses()["Blocks"] == ("OK", "9 voxels in 3 blocks of 0.8 m.")
 
 
-def test_a_message_changes_its_own_blocks_only(shown: Callable) -> None:
+def test_a_message_changes_its_own_blocks_only(display_bench: Callable) -> None:
     triangle, mesh = MESH["blocks"][0], TYPES[NvbloxMesh]
-    at = shown(NvbloxMesh(), MESH)
+    at = display_bench(NvbloxMesh(), MESH)
     far = at.nodes()[FAR]
 
     def publish(values: dict[str, Any]) -> dict[str, Any]:
@@ -67,8 +67,10 @@ def test_a_message_changes_its_own_blocks_only(shown: Callable) -> None:
 
 
 @pytest.mark.parametrize(("cls", "values"), [(NvbloxMesh, MESH), (NvbloxVoxelBlockLayer, VOXELS)])
-def test_the_ceiling_is_cut_by_blocks(cls: Any, values: dict[str, Any], shown: Callable) -> None:
-    at = shown(cls(cut_ceiling=True), values)
+def test_the_ceiling_is_cut_by_blocks(
+    cls: Any, values: dict[str, Any], display_bench: Callable
+) -> None:
+    at = display_bench(cls(cut_ceiling=True), values)
     assert set(at.nodes()) == {NEAR}
     at.set("ceiling_height", 1.7)
     assert set(at.nodes()) == {NEAR, FAR}
@@ -91,30 +93,30 @@ def test_the_ceiling_is_cut_by_blocks(cls: Any, values: dict[str, Any], shown: C
     ],
 )
 def test_an_invalid_block_is_named_and_the_others_stay(
-    part: dict[str, Any], reason: str, shown: Callable
+    part: dict[str, Any], reason: str, display_bench: Callable
 ) -> None:
     bad = {**MESH["blocks"][0], **part}
-    at = shown(NvbloxMesh(), {**MESH, "blocks": [bad, *MESH["blocks"][1:]]})
+    at = display_bench(NvbloxMesh(), {**MESH, "blocks": [bad, *MESH["blocks"][1:]]})
     assert len(at.nodes()[NEAR].faces) == 1
     sentence = f"Block 0 0 0 is left out: {reason}. Fix the publisher."
     assert at.statuses()["Blocks"] == ("WARN", sentence)
 
 
-def test_sizes_that_are_none_are_refused(shown: Callable) -> None:
-    at = shown(NvbloxVoxelBlockLayer(), {**VOXELS, "voxel_size_m": float("nan")})
+def test_invalid_voxel_sizes_are_refused(display_bench: Callable) -> None:
+    at = display_bench(NvbloxVoxelBlockLayer(), {**VOXELS, "voxel_size_m": float("nan")})
     assert at.nodes() == {}
     assert at.statuses()["Blocks"] == ("ERROR", "voxel_size_m is nan. Fix the publisher.")
 
 
 def test_too_large_maps_are_cut_with_a_warning(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    display_bench: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(NvbloxVoxelBlockLayer, "most", 6)
-    at = shown(NvbloxVoxelBlockLayer(), VOXELS)
+    at = display_bench(NvbloxVoxelBlockLayer(), VOXELS)
     assert set(at.nodes()) == {NEAR}
     assert at.statuses()["Blocks"] == ("WARN", "Showing 6 of 9 voxels.")
     monkeypatch.setattr(nvblox, "MAX_POINTS", 6)
-    at = shown(NvbloxVoxelBlockLayer(), VOXELS)
+    at = display_bench(NvbloxVoxelBlockLayer(), VOXELS)
     sentence = "1 block left out: the map is too large. Send it with clear set."
     assert at.statuses()["Blocks"] == ("WARN", sentence)
 

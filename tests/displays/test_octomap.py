@@ -16,7 +16,7 @@ import pytest
 from built_in_checks import BuiltInChecks
 from inspecting import Benches
 from mapping_scenes import hill, seen_from_above
-from octrees import OCTOMAP, Key, Node, binary, full, octree, signed
+from octrees import OCTOMAP, Key, OctreeNode, binary, full, octree, signed
 from plain_scenes import in_moving_frame
 
 from webviz.data.memory import DECODING, MemoryBudget
@@ -65,13 +65,13 @@ def test_a_leaf_above_the_last_level_is_a_large_voxel(form: Form) -> None:
     root.place((1, -1, 0), depth=14, log_odds=-2.0)
     tree = read(form(root, 0.5))
     voxels = voxels_of(tree, 16)
-    found = dict(zip(voxels.sizes.tolist(), map(tuple, voxels.centers.tolist()), strict=True))
-    assert found == {0.5: (0.25, 0.25, 0.25), 2.0: (3.0, -1.0, 1.0)}
+    centers = dict(zip(voxels.sizes.tolist(), map(tuple, voxels.centers.tolist()), strict=True))
+    assert centers == {0.5: (0.25, 0.25, 0.25), 2.0: (3.0, -1.0, 1.0)}
     assert sorted(tree.log_odds[voxels.nodes].tolist()) == [-2.0, 3.5]
 
 
 @FORMS
-def test_a_tree_that_is_cut_off_is_as_occupied_as_anything_below(form: Form) -> None:
+def test_a_truncated_node_is_as_occupied_as_its_most_occupied_child(form: Form) -> None:
     root = octree([(0, 0, 0), (5, 5, 5)], -2.0)
     root.place((1, 0, 0), log_odds=3.5)
     tree = read(form(root, 1.0))
@@ -122,7 +122,7 @@ def test_occupied_voxels_are_boxes_in_the_frame_of_the_tree(turned: Callable, fo
     assert len(at.nodes()["voxels"].positions) == 57
 
 
-def test_depth_and_heights_limit_what_is_drawn(turned: Callable) -> None:
+def test_depth_and_heights_limit_the_voxels(turned: Callable) -> None:
     at = turned(OccupancyGrid(max_octree_depth=15), full(octree(CUBE), 1.0))
     assert at.nodes()["voxels"].scales.tolist() == [[2.0] * 3] * 8
     at.set("max_octree_depth", 0)
@@ -137,7 +137,7 @@ def test_depth_and_heights_limit_what_is_drawn(turned: Callable) -> None:
 
 
 def test_colors_are_by_height_probability_or_of_the_cells(turned: Callable) -> None:
-    root = Node()
+    root = OctreeNode()
     root.place((0, 0, 0), log_odds=0.0, color=(1, 2, 3))
     root.place((0, 0, 1), log_odds=100.0, color=(4, 5, 6))
     at = turned(ColorOccupancyGrid(voxel_coloring="Cell Color"), full(root, 1.0, "ColorOcTree"))
@@ -161,7 +161,7 @@ def test_colors_are_by_height_probability_or_of_the_cells(turned: Callable) -> N
 def test_the_button_of_voxels_that_are_not_shown_shows_some(
     turned: Callable, properties: dict[str, Any]
 ) -> None:
-    root = Node()
+    root = OctreeNode()
     root.place((0, 0, 0), log_odds=1.0)
     at = turned(OccupancyGrid(**properties), full(root, 1.0))
     assert at.nodes() == {}
@@ -196,17 +196,17 @@ def test_a_map_of_too_many_cells_offers_the_depth_that_fits(
 
 def chain(length: int) -> dict[str, Any]:
     """A full tree that is as deep as it is long."""
-    node = Node()
+    node = OctreeNode()
     for _ in range(length):
-        node = Node(children={0: node})
+        node = OctreeNode(children={0: node})
     return full(node)
 
 
 WHOLE = full(octree(CUBE))
 FAULTS = {
     "nothing": ({**WHOLE, "data": []}, "The tree is empty: the message"),
-    "a root": (full(Node()), "The tree is empty: it has no node"),
-    "a binary root": (binary(Node()), "The tree is empty: it has no node"),
+    "a root": (full(OctreeNode()), "The tree is empty: it has no node"),
+    "a binary root": (binary(OctreeNode()), "The tree is empty: it has no node"),
     "half": ({**WHOLE, "data": WHOLE["data"][:-1]}, "ends inside"),
     "binary half": ({**binary(octree(CUBE)), "data": [-1, -1] * 10}, "ends inside"),
     "deep": (chain(17), "deeper than 16"),
@@ -219,7 +219,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("case", FAULTS)
-def test_a_tree_that_cannot_be_read_says_why(turned: Callable, case: str) -> None:
+def test_an_undecodable_tree_has_a_status(turned: Callable, case: str) -> None:
     values, reason = FAULTS[case]
     at = turned(OccupancyGrid(), values)
     assert at.nodes() == {}
@@ -289,7 +289,7 @@ def cells(at: Any) -> list[list[int]]:
 
 
 def test_an_octree_from_above_is_occupied_where_any_voxel_is(bench: Benches) -> None:
-    root = Node()
+    root = OctreeNode()
     root.place((2, 1, 0), depth=15, log_odds=-2.0)  # two cells wide, from 4, 2
     root.place((4, 2, 7), log_odds=3.5)
     root.place((4, 4, -9), log_odds=3.5)

@@ -105,7 +105,7 @@ def test_a_pose_is_added_once_the_robot_moved_or_turned_enough(turned: Benches) 
     assert tails(bench) == [[10, 0, 0], [10, 0.5, 0], [10, 0.875, 0]]
 
 
-def test_the_sign_of_a_quaternion_is_no_turn(turned: Benches) -> None:
+def test_the_sign_of_a_quaternion_is_ignored(turned: Benches) -> None:
     assert len(tails(turned(Odometry(), odometry(), odometry(turn=(0, 0, 0, -1))))) == 1
 
 
@@ -216,7 +216,7 @@ def test_covariances_are_drawn_for_the_newest_poses_only(turned: Benches) -> Non
     assert bench.statuses()["Covariance"][1].endswith(f"{MAX_COVARIANCES} of {count} covariances.")
 
 
-def test_a_covariance_that_is_none_is_left_out_and_named(turned: Benches) -> None:
+def test_an_invalid_covariance_is_skipped_and_reported(turned: Benches) -> None:
     bad = odometry(1, covariance=np.full(36, NAN))
     bench = turned(Odometry(), odometry(0), bad, odometry(2, covariance=-np.eye(6)))
     assert len(tails(bench)) == 3
@@ -283,15 +283,12 @@ def test_only_bad_poses_draw_nothing(turned: Benches) -> None:
 
 
 def test_far_from_the_origin_a_trail_keeps_its_millimetres(bench: Benches) -> None:
-    display_bench = bench(Odometry(), fixed_frame="odom")
-    display_bench.transform("utm", "odom")
+    at = bench(Odometry(), fixed_frame="odom")
+    at.transform("utm", "odom")
     for x in (448_262.123, 448_262.373):
-        display_bench.send(ODOMETRY, odometry(x, 5_411_932.456), frame="odom")
-    display_bench.turn()
-    xyz = (
-        display_bench.nodes()["poses"].segments[:, 0].astype(float)
-        + display_bench.poses()["poses"].position
-    )
+        at.send(ODOMETRY, odometry(x, 5_411_932.456), frame="odom")
+    at.turn()
+    xyz = at.nodes()["poses"].segments[:, 0].astype(float) + at.poses()["poses"].position
     expected = [(448_262.123, 5_411_932.456, 0), (448_262.373, 5_411_932.456, 0)]
     np.testing.assert_allclose(xyz, expected, atol=1e-4, rtol=0)
 

@@ -40,7 +40,7 @@ def drive(seed: int, count: int) -> list[Message]:
 
 
 @dataclass
-class Reader:
+class CountedPast:
     """Counts the messages that are read of a past."""
 
     past: Sequence[Message]
@@ -72,7 +72,7 @@ def test_the_trail_after_a_seek_is_that_of_playing(seed: int) -> None:
     read: list[int] = []
     for _ in range(8):
         past = drives[: chance.randrange(1, len(drives))]
-        reader = Reader(past)
+        reader = CountedPast(past)
         chosen = sorted(chooses(reader.newest()), reverse=True)
         assert trail(display, [past[-1 - number] for number in chosen]) == trail(display, past)
         read.append(reader.count)
@@ -84,7 +84,7 @@ def test_a_robot_that_rests_for_hours_is_not_read_to_the_end() -> None:
     display = Odometry(keep=KEEP)
     chooses = display.lookback("topic").chooses
     assert chooses is not None
-    reader = Reader([message] * 100_000)
+    reader = CountedPast([message] * 100_000)
     assert list(chooses(reader.newest())) == [2999]
     assert reader.count == 3000
 

@@ -61,7 +61,7 @@ def loaded(at: Any) -> Any:
 
 
 @pytest.fixture
-def shown(bench: Benches, tmp_path: Path) -> Callable[..., Any]:
+def map_bench(bench: Benches, tmp_path: Path) -> Callable[..., Any]:
     """A bench with tiles around a receiver that stands 10 m east of the origin of map."""
 
     def make(message: Mapping[str, Any] | None = None, **properties: Any) -> Any:
@@ -75,8 +75,8 @@ def shown(bench: Benches, tmp_path: Path) -> Callable[..., Any]:
     return make
 
 
-def test_tiles_lie_where_their_places_are(shown: Benches) -> None:
-    at = loaded(shown())
+def test_tiles_lie_where_their_places_are(map_bench: Benches) -> None:
+    at = loaded(map_bench())
     assert at.statuses()["Tiles"] == ("OK", "Showing 9 tiles.")
     poses = {key: pose for key, pose, _ in at.scene.visible()}
     plane = TilePlane(HERE, ZOOM)
@@ -89,8 +89,8 @@ def test_tiles_lie_where_their_places_are(shown: Benches) -> None:
     assert node.cells[0, 0].tolist() == [90, 90, 90, round(255 * 0.7)]
 
 
-def test_a_new_fix_moves_the_map_and_sends_no_tile_again(shown: Benches) -> None:
-    at = loaded(shown())
+def test_a_new_fix_moves_the_map_and_sends_no_tile_again(map_bench: Benches) -> None:
+    at = loaded(map_bench())
     before = at.nodes()
     poses = {key: pose.position for key, pose, _ in at.scene.visible()}
     moved = (HERE.latitude + 1e-5, HERE.longitude + 2e-5)
@@ -117,13 +117,13 @@ def test_a_new_fix_moves_the_map_and_sends_no_tile_again(shown: Benches) -> None
     ],
 )
 def test_statuses_say_why_no_map_is_shown(
-    shown: Benches,
+    map_bench: Benches,
     message: Any,
     properties: dict[str, Any],
     key: str,
     expected: tuple[str, str],
 ) -> None:
-    at = shown(message, **properties)
+    at = map_bench(message, **properties)
     at.turn()
     if "Tiles" in at.statuses():
         loaded(at)
@@ -131,16 +131,18 @@ def test_statuses_say_why_no_map_is_shown(
     assert (level, text[: len(expected[1])]) == expected
 
 
-def test_a_map_lies_behind_others_on_request(shown: Benches) -> None:
+def test_a_map_lies_behind_others_on_request(map_bench: Benches) -> None:
     layers = [
-        {node.layer for node in loaded(shown(draw_behind=behind)).nodes().values()}
+        {node.layer for node in loaded(map_bench(draw_behind=behind)).nodes().values()}
         for behind in (False, True)
     ]
     assert layers == [{0}, {-100_000}]
 
 
-def test_damaged_tiles_are_reported_and_the_others_shown(shown: Benches, tmp_path: Path) -> None:
-    at = shown()
+def test_damaged_tiles_are_reported_and_the_others_shown(
+    map_bench: Benches, tmp_path: Path
+) -> None:
+    at = map_bench()
     x, y = TilePlane(HERE, ZOOM).around(1)[3]
     (tmp_path / f"tiles/{ZOOM}/{x}/{y}.png").write_bytes(b"vectors")
     loaded(at)
@@ -149,8 +151,8 @@ def test_damaged_tiles_are_reported_and_the_others_shown(shown: Benches, tmp_pat
     assert text.startswith("Showing 8 of 9 tiles. A tile cannot be shown.")
 
 
-def test_a_tile_that_is_selected_names_place_and_utm(shown: Benches) -> None:
-    at = loaded(shown())
+def test_a_tile_that_is_selected_names_place_and_utm(map_bench: Benches) -> None:
+    at = loaded(map_bench())
     key = "/".join(map(str, (ZOOM, *TilePlane(HERE, ZOOM).around(0)[0])))
     check_details(
         at.pick(key, None, (0.0, 0.0, 0.0)),
@@ -172,7 +174,7 @@ def test_a_path_of_places_lies_around_the_fix(bench: Benches) -> None:
     np.testing.assert_allclose(at.xyz("line")[:, 1], np.add(flat, (10.0, 0.0, 2.0)), atol=1e-3)
 
 
-def test_places_that_are_none_are_counted(bench: Benches) -> None:
+def test_invalid_places_are_counted(bench: Benches) -> None:
     at = bench(GeoPath())
     at.transform("map", "gps")
     at.send(FIX, fix(), frame="gps", topic="/gps/fix")
@@ -198,15 +200,25 @@ def test_fixes_are_drawn_where_they_were(bench: Benches) -> None:
 
 
 def test_files_of_rviz_satellite_open_and_stay(tmp_path: Path) -> None:
-    known = {"Object URI": "https://tiles.example/{z}/{x}/{y}.png", "Zoom": 18, "Draw Behind": True}
+    properties = {
+        "Object URI": "https://tiles.example/{z}/{x}/{y}.png",
+        "Zoom": 18,
+        "Draw Behind": True,
+    }
     topic = {"Topic": {"Value": "/fix"}}
-    item = {"Class": "rviz_satellite/AerialMap", "Name": "Air", "Enabled": True, **known, **topic}
+    item = {
+        "Class": "rviz_satellite/AerialMap",
+        "Name": "Air",
+        "Enabled": True,
+        **properties,
+        **topic,
+    }
     path = tmp_path / "air.rviz"
     path.write_text(json.dumps({"Visualization Manager": {"Displays": [item]}}))
     config = opening.load(path)
     display = config.displays[0]
     assert isinstance(display, AerialMap)
-    assert (display.object_uri, display.zoom, display.draw_behind) == tuple(known.values())
+    assert (display.object_uri, display.zoom, display.draw_behind) == tuple(properties.values())
     assert display.topic.name == "/fix"
     assert not config.report
 

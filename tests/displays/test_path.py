@@ -50,7 +50,7 @@ def test_billboards_have_a_width_in_metres(turned: Benches) -> None:
     assert (node.width, node.unit) == (0.03, "m")
 
 
-def test_colour_and_alpha_change_what_is_drawn_already(turned: Benches) -> None:
+def test_colour_and_alpha_change_the_present_line(turned: Benches) -> None:
     bench = turned(Path(), path((0, 0, 0), (1, 0, 0)))
     bench.set("color", (248, 48, 48))
     assert bench.nodes()["line"].colors == (248, 48, 48)
@@ -58,7 +58,7 @@ def test_colour_and_alpha_change_what_is_drawn_already(turned: Benches) -> None:
     assert bench.nodes()["line"].opacity == 0.5
 
 
-def test_of_a_path_of_very_many_poses_some_are_drawn_and_it_is_said(
+def test_a_path_over_the_limit_is_thinned_with_a_warning(
     turned: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.path.MAX_POSES", 3)
@@ -116,7 +116,7 @@ def test_an_empty_path_is_named(turned: Benches) -> None:
     assert bench.statuses()["Path"] == ("WARN", "The path is empty. Check the planner's log.")
 
 
-def test_a_single_pose_is_no_line(turned: Benches) -> None:
+def test_a_single_pose_draws_no_line(turned: Benches) -> None:
     bench = turned(Path(), path((0, 0, 0)))
     assert bench.statuses()["Path"][0] == "WARN"
     bench.set("pose_style", "Axes")

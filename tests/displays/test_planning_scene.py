@@ -45,15 +45,15 @@ def scene(*objects: dict[str, Any], **more: Any) -> dict[str, Any]:
 
 def state(frame: str = "map", *attached: dict[str, Any], **positions: float) -> dict[str, Any]:
     joints = {"name": list(positions), "position": list(positions.values())}
-    held = list(attached)
+    objects = list(attached)
     return {
         "joint_state": joints | {"header": {"frame_id": frame}},
-        "attached_collision_objects": held,
+        "attached_collision_objects": objects,
         "is_diff": True,
     }
 
 
-def held(link: str, thing: dict[str, Any]) -> dict[str, Any]:
+def attachment(link: str, thing: dict[str, Any]) -> dict[str, Any]:
     return {"link_name": link, "object": thing}
 
 
@@ -166,16 +166,16 @@ def test_the_robot_follows_the_state_of_the_scene(arm: Any) -> None:
     assert (level, "no joint 'elbow'" in text) == ("WARN", True)
 
 
-def test_what_the_robot_holds_moves_with_its_link(arm: Any) -> None:
+def test_attached_objects_move_with_their_link(arm: Any) -> None:
     tell(arm, scene(box("cup", 4.0), is_diff=True))
     cup = box("cup", frame="tool", pose=at(0.0, 0.0, 1.0))
-    tell(arm, {"is_diff": True, "robot_state": state("map", held("tool", cup), wrist=np.pi)})
+    tell(arm, {"is_diff": True, "robot_state": state("map", attachment("tool", cup), wrist=np.pi)})
     assert boxes(arm) == []
     [node] = [node for key, node in arm.nodes().items() if key.startswith("attached")]
     np.testing.assert_allclose(node.positions, [(0, 0, -1)], atol=1e-6)
     assert node.colors == (150, 50, 150)
     assert arm.statuses()["Scene"][1] == "'cell': 0 objects, 1 attached."
-    gone = held("tool", {"id": "cup", "operation": REMOVE})
+    gone = attachment("tool", {"id": "cup", "operation": REMOVE})
     tell(arm, {"is_diff": True, "robot_state": state("map", gone, wrist=np.pi)})
     assert boxes(arm) == [0.0]
 
@@ -194,7 +194,7 @@ def test_objects_are_placed_by_frames_of_links_objects_and_transforms(arm: Any) 
     assert "Object frames" not in arm.statuses()
 
 
-def test_a_scene_without_transform_or_robot_says_so(world: Any) -> None:
+def test_a_scene_without_transform_or_robot_has_a_status(world: Any) -> None:
     world.turn()
     assert world.statuses()["Scene"][1].startswith(f"No planning scene received on {TOPIC}.")
     tell(world, scene(box("a", frame="world"), robot_state=state("world")))
@@ -205,7 +205,7 @@ def test_a_scene_without_transform_or_robot_says_so(world: Any) -> None:
     assert boxes(world) == [1.0]
 
 
-def test_move_group_is_asked_for_what_was_before(world: Any) -> None:
+def test_the_earlier_scene_is_requested_from_move_group(world: Any) -> None:
     tell(world, scene(box("b", 1.0), box("old", operation=REMOVE), is_diff=True))
     service = "moveit_msgs/srv/GetPlanningScene"
     whole = scene(box("a"), box("b", 9.0), box("old", 7.0), name="cell")
@@ -241,7 +241,7 @@ def test_move_group_is_asked_for_what_was_before(world: Any) -> None:
         ({"id": "x" * 1_000_000}, "has 1000000 characters"),
     ],
 )
-def test_what_is_invalid_is_named_and_the_rest_is_drawn(
+def test_invalid_objects_are_reported_and_the_rest_drawn(
     world: Any, thing: dict[str, Any], why: str
 ) -> None:
     tell(world, scene(box("good", 1.0), {**box("bad", 2.0), **thing}))
@@ -334,7 +334,7 @@ def test_a_hand_holds_a_limited_number_of_objects(
     world: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz_displays.moveit.scene.MAX_HELD", 3)
-    things = [held("base", box(str(number), frame="base")) for number in range(4)]
+    things = [attachment("base", box(str(number), frame="base")) for number in range(4)]
     tell(world, {"robot_state": state("map", *things)})
     text = world.statuses()["Objects"][1]
     assert text == "Only the first 3 attached objects are kept."

@@ -72,7 +72,7 @@ def test_markers_are_those_of_the_part_or_of_all(planned: Any) -> None:
     assert markers(planned) == []
 
 
-def test_a_chosen_solution_is_asked_from_its_task(planned: Any) -> None:
+def test_a_chosen_solution_is_requested_from_its_task(planned: Any) -> None:
     planned.set("solution", 8)
     planned.settle()
     assert planned.statuses()["Solution"] == ("OK", "Solution 7: 1 part, cost 1.5.")
@@ -110,7 +110,7 @@ def test_stages_that_name_each_other_or_nothing_are_listed_at_most_once(bench: B
     assert {key for key in at.statuses() if key[:1].isdigit()} == {"1 c", "2 d"}
 
 
-def test_an_answer_without_a_solution_is_said(planned: Any) -> None:
+def test_an_answer_without_a_solution_is_a_warning(planned: Any) -> None:
     service = "moveit_task_constructor_msgs/srv/GetSolution"
     planned.serve("/get_solution_robot_1", service, {"solution": SOLUTION | {"task_id": ""}})
     planned.set("solution", 5)

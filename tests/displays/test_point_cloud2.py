@@ -11,7 +11,7 @@ from clouds import CLOUD, FLOAT32, UINT32, XYZ, cloud, xyz_cloud
 from display_scenes import clouds
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from inspecting import QUARTER, Benches
+from inspecting import QUARTER, Benches, check_empty, colors
 
 from webviz.api.nodes import Instances, Lines, Points
 from webviz.data.messages import encode
@@ -29,21 +29,9 @@ THREE = [(1.0, 0.0, 0.0), (2.0, 0.0, 5.0), (3.0, 0.0, 10.0)]
 
 
 @pytest.fixture
-def lab(bench: Benches) -> Callable[..., Any]:
-    """A bench that has drawn one cloud of a sensor at rest, 1 m above the map."""
-
-    def make(values: dict[str, Any], **properties: Any) -> Any:
-        display_bench = bench(PointCloud2(**properties))
-        display_bench.transform("map", "lidar", (0.0, 0.0, 1.0))
-        display_bench.send(CLOUD, values, frame="lidar")
-        display_bench.turn()
-        return display_bench
-
-    return make
-
-
-def colors(bench: Any) -> list[list[int]]:
-    return bench.nodes()["points"].colors.tolist()
+def lab(sensed: Benches) -> Callable[..., Any]:
+    """Make a bench that has drawn one cloud."""
+    return lambda values, **properties: sensed(PointCloud2(**properties), values)
 
 
 def rgb(*numbers: int) -> list[float]:
@@ -61,9 +49,7 @@ def test_points_lie_in_the_frame_of_the_sensor(lab: Benches) -> None:
 
 
 @pytest.mark.parametrize("is_dense", [False, True])
-def test_what_is_not_finite_is_left_out_whatever_is_dense_says(
-    lab: Benches, is_dense: bool
-) -> None:
+def test_non_finite_points_are_dropped_regardless_of_is_dense(lab: Benches, is_dense: bool) -> None:
     points = [(1, 2, 3), (NAN, 0, 0), (0, INF, 0), (4, 5, 6), (0, 0, 1e12)]
     values = xyz_cloud(points, {"intensity": [10, 0, 0, 20, 0]}) | {"is_dense": is_dense}
     bench = lab(values)
@@ -85,14 +71,11 @@ def test_what_is_not_finite_is_left_out_whatever_is_dense_says(
         (xyz_cloud(THREE) | {"fields": []}, "ERROR", "no field 'x'; its fields are: none"),
     ],
 )
-def test_a_cloud_without_points_says_why(
+def test_a_cloud_without_points_has_a_status(
     lab: Benches, values: dict[str, Any], level: str, words: str
 ) -> None:
     bench = lab(values)
-    statuses = bench.statuses()["Points"]
-    assert statuses[0] == level
-    assert words in statuses[1]
-    assert not any(len(node.xyz) for node in bench.nodes().values())
+    check_empty(bench, level, words)
 
 
 @pytest.mark.parametrize("byte", [1, 255])
@@ -100,7 +83,7 @@ def test_a_little_endian_cloud_that_claims_to_be_big_endian_is_refused(
     lab: Benches, byte: int
 ) -> None:
     bench = lab(xyz_cloud([(0.0, 0.0, 0.0)]), decay_time=1.0)
-    values = {**xyz_cloud(THREE), "header": header("lidar", bench.now_ns)}
+    values = {**xyz_cloud(THREE), "header": header("sensor", bench.now_ns)}
     little, big = (encode(CLOUD, {**values, "is_bigendian": flag}) for flag in (False, True))
     (place,) = (i for i in range(len(big)) if big[i] != little[i])
     bench.send_bytes(CLOUD, big[:place] + bytes([byte]) + big[place + 1 :])
@@ -127,37 +110,35 @@ def test_an_organised_cloud_with_padded_rows_is_drawn_whole(lab: Benches) -> Non
 
 
 def test_far_clouds_keep_their_millimetres(bench: Benches) -> None:
-    display_bench = bench(PointCloud2(), fixed_frame="utm")
+    at = bench(PointCloud2(), fixed_frame="utm")
     fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
     places = [(500_000.001 + i / 1000, 5_400_000.002, 100.0) for i in range(5)]
     points = [{"x": [x], "y": [y], "z": [z]} for x, y, z in places]
-    display_bench.transform("utm", "survey", (3.0, 0.0, 0.0))
-    display_bench.send(CLOUD, cloud(fields, points), frame="survey")
-    display_bench.turn()
-    np.testing.assert_allclose(
-        display_bench.xyz("points"), np.add(places, (3, 0, 0)), rtol=0, atol=1e-4
-    )
-    assert np.abs(display_bench.nodes()["points"].xyz).max() < 2000
+    at.transform("utm", "survey", (3.0, 0.0, 0.0))
+    at.send(CLOUD, cloud(fields, points), frame="survey")
+    at.turn()
+    np.testing.assert_allclose(at.xyz("points"), np.add(places, (3, 0, 0)), rtol=0, atol=1e-4)
+    assert np.abs(at.nodes()["points"].xyz).max() < 2000
 
 
 def test_far_clouds_follow_a_new_fixed_frame(bench: Benches) -> None:
-    display_bench = bench(PointCloud2(), fixed_frame="utm")
-    display_bench.transform("utm", "site", (500_000.0, 0.0, 0.0))
+    at = bench(PointCloud2(), fixed_frame="utm")
+    at.transform("utm", "site", (500_000.0, 0.0, 0.0))
     fields = [("x", 0, 8, 1), ("y", 8, 8, 1), ("z", 16, 8, 1)]
-    display_bench.send(CLOUD, cloud(fields, [{"x": [500_007.5], "y": [0], "z": [0]}]), frame="utm")
-    display_bench.turn()
-    display_bench.fixed_frame = "site"
-    display_bench.turn()
-    np.testing.assert_allclose(display_bench.xyz("points"), [(7.5, 0, 0)], atol=1e-4)
+    at.send(CLOUD, cloud(fields, [{"x": [500_007.5], "y": [0], "z": [0]}]), frame="utm")
+    at.turn()
+    at.fixed_frame = "site"
+    at.turn()
+    np.testing.assert_allclose(at.xyz("points"), [(7.5, 0, 0)], atol=1e-4)
 
 
-def test_more_points_than_the_limit_are_picked_evenly_and_it_is_said(lab: Benches) -> None:
+def test_points_over_the_limit_are_thinned_evenly_and_reported(lab: Benches) -> None:
     points = np.stack((np.arange(1000), np.zeros(1000), np.zeros(1000)), axis=1)
     bench = lab(xyz_cloud(points.tolist(), {"intensity": [float(i) for i in range(1000)]}))
     bench.set("max_points", 100)
-    shown = bench.xyz("points")[:, 0]
-    assert len(shown) == 100
-    assert (np.floor(shown / 10) == np.arange(100)).all()
+    xs = bench.xyz("points")[:, 0]
+    assert len(xs) == 100
+    assert (np.floor(xs / 10) == np.arange(100)).all()
     assert len(colors(bench)) == 100
     assert bench.statuses()["Points"] == (
         "OK",
@@ -179,18 +160,18 @@ def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(la
         "second."
     )
     bench.turn(3.5)
-    (shown,) = bench.nodes().values()
-    assert shown.thins, "every browser draws as many of them as it holds"
-    assert sorted(shown.ids) == list(range(1000))
-    expected = np.add(points, (0, 0, 1))[shown.ids]
+    (points_node,) = bench.nodes().values()
+    assert points_node.thins, "every browser draws as many of them as it holds"
+    assert sorted(points_node.ids) == list(range(1000))
+    expected = np.add(points, (0, 0, 1))[points_node.ids]
     np.testing.assert_allclose(bench.xyz("blocks"), expected, atol=1e-6)
     assert bench.statuses()["Points"][1] == (
         "Showing 1 000 of 1 000 points; browsers thin out distant ones to keep 20 frames a second."
     )
     bench.scene.held = 400
     bench.turn(1.0)
-    assert bench.nodes() == {"blocks": shown}, "is not sent again"
-    bench.send(CLOUD, xyz_cloud(points.tolist()), frame="lidar")
+    assert bench.nodes() == {"blocks": points_node}, "is not sent again"
+    bench.send(CLOUD, xyz_cloud(points.tolist()), frame="sensor")
     bench.turn()
     bench.turn()
     assert {key: len(node.xyz) for key, node in bench.nodes().items()} == {"points": 400}
@@ -198,7 +179,7 @@ def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(la
     assert len(bench.xyz("points")) == 1000, "whatever browsers hold"
 
 
-def test_one_point_of_each_voxel_is_shown_and_it_is_said(lab: Benches) -> None:
+def test_one_point_per_voxel_is_shown_and_reported(lab: Benches) -> None:
     points = [(0.01, 0, 0), (0.02, 0, 0), (-0.01, 0, 0), (NAN, 0, 0), (0.11, 0, 0)]
     bench = lab(xyz_cloud(points), voxel_size=0.1)
     np.testing.assert_allclose(bench.xyz("points")[:, 0], [0.01, -0.01, 0.11], atol=1e-6)
@@ -246,7 +227,7 @@ def test_numbers_are_written_with_spaces() -> None:
 # Colours
 
 
-def test_a_colour_in_the_cloud_is_shown_without_being_asked_for(lab: Benches) -> None:
+def test_a_colour_in_the_cloud_is_shown_by_default(lab: Benches) -> None:
     packed = rgb(0xFF102030, 0x00FFFEFD, 0x7F000001)
     bench = lab(xyz_cloud(THREE, {"intensity": [1, 2, 3], "rgb": packed}))
     assert colors(bench) == [[16, 32, 48], [255, 254, 253], [0, 0, 1]]
@@ -279,8 +260,10 @@ def test_the_alpha_of_rgba_fades_points_and_hides_those_of_0(lab: Benches) -> No
     packed = rgb(0xFFF83000, 0x00FFFFFF, 0x80F83000)
     bench = lab(xyz_cloud(THREE, {"rgba": packed}))
     nodes = bench.nodes()
-    found = {node.opacity: (node.xyz[:, 0].tolist(), node.ids.tolist()) for node in nodes.values()}
-    assert found == {1.0: ([1], [0]), 128 / 255: ([3], [2])}
+    by_opacity = {
+        node.opacity: (node.xyz[:, 0].tolist(), node.ids.tolist()) for node in nodes.values()
+    }
+    assert by_opacity == {1.0: ([1], [0]), 128 / 255: ([3], [2])}
     assert {tuple(color) for node in nodes.values() for color in node.colors} == {(248, 48, 0)}
     level, text = bench.statuses()["Points"]
     assert level == "OK"
@@ -300,7 +283,7 @@ def test_any_field_can_be_coloured(lab: Benches, channel: str) -> None:
     assert colors(bench) == [RED, MIDDLE, MAGENTA]
 
 
-def test_of_a_field_with_several_elements_the_first_is_coloured(lab: Benches) -> None:
+def test_a_field_with_several_elements_is_coloured_by_its_first(lab: Benches) -> None:
     fields = [*XYZ, ("normal", 12, FLOAT32, 3)]
     points = [{"x": [i], "y": [0], "z": [0], "normal": [i, 99 - i, 5]} for i in range(3)]
     bench = lab(cloud(fields, points), color_transformer="Intensity", channel_name="normal")
@@ -331,7 +314,7 @@ def test_without_the_field_points_are_white_and_the_fields_there_are_are_named(
     bench.press("Colors")
 
 
-def test_of_very_many_fields_the_first_are_named(lab: Benches) -> None:
+def test_a_status_names_only_the_first_of_many_fields(lab: Benches) -> None:
     bench = lab(
         cloud([(f"{number:04}".ljust(50, "f"), 0, FLOAT32, 1) for number in range(5000)], [])
     )
@@ -348,14 +331,14 @@ def test_a_colour_that_is_not_of_four_bytes_is_refused_in_words(lab: Benches) ->
 
 
 def test_axis_colours_are_of_the_fixed_frame_or_of_the_sensor(bench: Benches) -> None:
-    display_bench = bench(PointCloud2(color_transformer="AxisColor"))
+    at = bench(PointCloud2(color_transformer="AxisColor"))
     # The sensor lies on its side: its y points up.
-    display_bench.transform("map", "lidar", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
-    display_bench.send(CLOUD, xyz_cloud([(0, -1, 3), (0, 0, 2), (0, 1, 1)]), frame="lidar")
-    display_bench.turn()
-    assert colors(display_bench) == [RED, MIDDLE, MAGENTA]
-    display_bench.set("use_fixed_frame", False)
-    assert colors(display_bench) == [MAGENTA, MIDDLE, RED]
+    at.transform("map", "sensor", (0, 0, 0), (np.sqrt(0.5), 0, 0, np.sqrt(0.5)))
+    at.send(CLOUD, xyz_cloud([(0, -1, 3), (0, 0, 2), (0, 1, 1)]), frame="sensor")
+    at.turn()
+    assert colors(at) == [RED, MIDDLE, MAGENTA]
+    at.set("use_fixed_frame", False)
+    assert colors(at) == [MAGENTA, MIDDLE, RED]
 
 
 def test_axis_bounds_hold_far_from_the_origin_too(lab: Benches) -> None:
@@ -380,19 +363,19 @@ def test_solids_are_lit(lab: Benches) -> None:
 
 
 def test_boxes_turn_with_the_frame_of_the_cloud(bench: Benches) -> None:
-    display_bench = bench(PointCloud2(style="Boxes"))
+    at = bench(PointCloud2(style="Boxes"))
     tilt = (0.5, 0.5, 0.5, 0.5)
-    display_bench.transform("map", "lidar", (1.0, 0.0, 0.0), tilt)
-    display_bench.send(CLOUD, xyz_cloud(THREE), frame="lidar")
-    display_bench.turn()
-    np.testing.assert_allclose(display_bench.nodes()["solids"].wxyzs, [tilt] * 3, atol=1e-6)
+    at.transform("map", "sensor", (1.0, 0.0, 0.0), tilt)
+    at.send(CLOUD, xyz_cloud(THREE), frame="sensor")
+    at.turn()
+    np.testing.assert_allclose(at.nodes()["solids"].wxyzs, [tilt] * 3, atol=1e-6)
 
 
 @pytest.mark.parametrize(
     ("style", "outline", "words"),
     [("Boxes", "square", "squares that face"), ("Spheres", "circle", "discs that face")],
 )
-def test_more_solids_than_a_browser_can_light_are_drawn_flat_and_it_is_said(
+def test_solids_over_the_limit_are_drawn_flat_with_a_warning(
     lab: Benches, monkeypatch: pytest.MonkeyPatch, style: str, outline: str, words: str
 ) -> None:
     monkeypatch.setattr(points_display, "SOLIDS_LIMIT", 2)
@@ -419,7 +402,7 @@ def test_dots_are_so_many_pixels_wide_and_limited(
 def test_clouds_stay_for_the_decay_time(lab: Benches) -> None:
     bench = lab(xyz_cloud(THREE), decay_time=2.0)
     bench.turn(1.5)
-    bench.send(CLOUD, xyz_cloud(THREE[:1]), frame="lidar")
+    bench.send(CLOUD, xyz_cloud(THREE[:1]), frame="sensor")
     bench.turn()
     assert sorted(len(node.xyz) for node in bench.nodes().values()) == [1, 3]
     bench.turn(1.0)
@@ -429,19 +412,19 @@ def test_clouds_stay_for_the_decay_time(lab: Benches) -> None:
 def test_clouds_of_the_decay_time_share_the_limit_of_points(lab: Benches) -> None:
     cloud = xyz_cloud(np.random.default_rng(0).random((1000, 3)).tolist())
     bench = lab(cloud, decay_time=10.0, max_points=800)
-    shown = []
+    counts = []
     for _ in range(7):
         bench.turn(0.1)
-        bench.send(CLOUD, cloud, frame="lidar")
+        bench.send(CLOUD, cloud, frame="sensor")
         bench.turn()
-        shown.append(sum(len(node.xyz) for node in bench.nodes().values()))
-    assert max(shown) <= 800
+        counts.append(sum(len(node.xyz) for node in bench.nodes().values()))
+    assert max(counts) <= 800
     assert [len(node.xyz) for node in bench.nodes().values()] == [100] * 8
     assert bench.statuses()["Points"][1] == (
         "Showing 100 of 1 000 points; dropped: 900 over max_points of 800 for 8 clouds."
     )
     bench.turn(10.05)
-    bench.send(CLOUD, cloud, frame="lidar")
+    bench.send(CLOUD, cloud, frame="sensor")
     bench.turn()
     bench.set("decay_time", 0.0)
     bench.turn()
@@ -449,14 +432,14 @@ def test_clouds_of_the_decay_time_share_the_limit_of_points(lab: Benches) -> Non
 
 
 def test_a_cloud_waits_for_its_transform(bench: Benches) -> None:
-    display_bench = bench(PointCloud2())
-    display_bench.transform("map", "lidar", (0.0, 0.0, 0.0), stamp_ns=display_bench.now_ns - SECOND)
-    display_bench.send(CLOUD, xyz_cloud(THREE), frame="lidar")
-    display_bench.turn()
-    assert not display_bench.nodes()
-    display_bench.transform("map", "lidar", (0.0, 0.0, 5.0), stamp_ns=display_bench.now_ns)
-    display_bench.turn()
-    np.testing.assert_allclose(display_bench.xyz("points")[0], (1, 0, 5))
+    at = bench(PointCloud2())
+    at.transform("map", "sensor", (0.0, 0.0, 0.0), stamp_ns=at.now_ns - SECOND)
+    at.send(CLOUD, xyz_cloud(THREE), frame="sensor")
+    at.turn()
+    assert not at.nodes()
+    at.transform("map", "sensor", (0.0, 0.0, 5.0), stamp_ns=at.now_ns)
+    at.turn()
+    np.testing.assert_allclose(at.xyz("points")[0], (1, 0, 5))
 
 
 def test_voxels_have_a_least_size() -> None:
@@ -489,8 +472,8 @@ def test_selecting_point_of_a_cloud(bench: Benches) -> None:
         for i, place in enumerate(places)
     ]
     at = bench(PointCloud2())
-    at.transform("map", "lidar", (0.0, 0.0, 2.0), QUARTER)
-    at.send(CLOUD, cloud(names, points, height=2, row_padding=5), frame="lidar")
+    at.transform("map", "sensor", (0.0, 0.0, 2.0), QUARTER)
+    at.send(CLOUD, cloud(names, points, height=2, row_padding=5), frame="sensor")
     at.turn()
     check_details(
         at.pick("points", 2),
@@ -501,7 +484,7 @@ def test_selecting_point_of_a_cloud(bench: Benches) -> None:
             "ring": "5, 10",
             "Row": "1",
             "Column": "2",
-            "Position in lidar": {"fields": {"x": "7.0", "y": "8.0", "z": "0.1"}},
+            "Position in sensor": {"fields": {"x": "7.0", "y": "8.0", "z": "0.1"}},
         },
     )
 
@@ -509,8 +492,8 @@ def test_selecting_point_of_a_cloud(bench: Benches) -> None:
 def test_selecting_point_of_a_thinned_cloud(bench: Benches) -> None:
     points = [{"x": [float(i)], "y": [0.0], "z": [0.0], "i": [i]} for i in range(100)]
     at = bench(PointCloud2(max_points=10, style="Boxes", color_transformer="FlatColor"))
-    at.transform("map", "lidar")
-    at.send(CLOUD, cloud([*XYZ, ("i", 12, UINT32, 1)], points), frame="lidar")
+    at.transform("map", "sensor")
+    at.send(CLOUD, cloud([*XYZ, ("i", 12, UINT32, 1)], points), frame="sensor")
     at.turn()
     details = at.pick("solids", 4)
     number = details.values["i"]
@@ -526,7 +509,7 @@ def test_selecting_invisible_points_do_not_count(bench: Benches) -> None:
         {"x": [2.0], "y": [0.0], "z": [0.0], "rgba": [0xFF00FF00]},
     ]
     at = bench(PointCloud2())
-    at.transform("map", "lidar")
-    at.send(CLOUD, cloud(names, points), frame="lidar")
+    at.transform("map", "sensor")
+    at.send(CLOUD, cloud(names, points), frame="sensor")
     at.turn()
     check_details(at.pick("points", 0), "Point 1", {"rgba": "r 0, g 255, b 0, a 255"})

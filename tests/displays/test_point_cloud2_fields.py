@@ -52,7 +52,7 @@ def layouts(draw: st.DrawFn) -> tuple[dict[str, Any], list[dict[str, list[Any]]]
             usual = numbers(kind, NEAR if name in "xyz" else FLOATS)
             point[name] = draw(st.lists(usual, min_size=count, max_size=count))
         points.append(point)
-    made = cloud(
+    message = cloud(
         fields,
         points,
         height=height,
@@ -60,15 +60,15 @@ def layouts(draw: st.DrawFn) -> tuple[dict[str, Any], list[dict[str, list[Any]]]
         row_padding=draw(st.integers(0, 9)),
         is_bigendian=draw(st.booleans()),
     )
-    return made, points
+    return message, points
 
 
 @settings(deadline=None)
 @given(layouts())
 def test_any_layout_is_read_as_a_slow_reader_reads_it(
-    drawn: tuple[dict[str, Any], list[dict[str, list[Any]]]],
+    layout: tuple[dict[str, Any], list[dict[str, list[Any]]]],
 ) -> None:
-    values, points = drawn
+    values, points = layout
     read = Cloud(decoded(values))
     xyz, origin = read.positions()
     expected = [[point[name][0] for name in "xyz"] for point in points]
@@ -91,7 +91,7 @@ def test_points_are_drawn_if_every_coordinate_is_a_number_within_reach(
 
 @settings(deadline=None)
 @given(st.binary(min_size=32, max_size=32), st.booleans())
-def test_bytes_that_mean_nothing_do_no_harm(data: bytes, is_bigendian: bool) -> None:
+def test_arbitrary_bytes_are_read_or_refused(data: bytes, is_bigendian: bool) -> None:
     """Any bits may come, signalling NaNs among them."""
     values = xyz_cloud([(0, 0, 0)] * 2, {"rgb": [0, 0]})
     values |= {"data": np.frombuffer(data, np.uint8), "is_bigendian": is_bigendian}
@@ -157,7 +157,7 @@ def test_reading_the_usual_layout_copies_nothing_but_the_points() -> None:
         ({"fields": []}, "The cloud has no field 'x'; its fields are: none."),
     ],
 )
-def test_sizes_that_do_not_fit_are_told_with_both_numbers(
+def test_inconsistent_sizes_are_reported_with_both_numbers(
     changes: dict[str, Any], sentence: str
 ) -> None:
     with pytest.raises(CloudError, match="^" + sentence.replace("'", ".").replace(".", "[.']?")):
@@ -180,7 +180,7 @@ def test_an_unknown_datatype_is_named() -> None:
 
 
 @pytest.mark.parametrize("row_step", [0, 5])
-def test_rows_with_a_senseless_row_step_are_read_as_dense_and_it_is_said(row_step: int) -> None:
+def test_an_invalid_row_step_is_read_as_dense_with_a_remark(row_step: int) -> None:
     points = [{"x": [i], "y": [0], "z": [0]} for i in range(4)]
     read = Cloud(decoded(cloud(XYZ, points, height=2, row_step=row_step)))
     assert read.positions()[0][:, 0].tolist() == [0, 1, 2, 3]
@@ -188,7 +188,7 @@ def test_rows_with_a_senseless_row_step_are_read_as_dense_and_it_is_said(row_ste
 
 
 @pytest.mark.parametrize("row_step", [48, 36, 2**32 - 1])
-def test_rows_without_gaps_are_drawn_whatever_row_step_says(row_step: int) -> None:
+def test_rows_without_gaps_are_drawn_with_any_row_step(row_step: int) -> None:
     points = [{"x": [i], "y": [0], "z": [0]} for i in range(4)]
     read = Cloud(decoded(cloud(XYZ, points, height=2) | {"row_step": row_step}))
     assert read.positions()[0][:, 0].tolist() == [0, 1, 2, 3]
@@ -197,7 +197,7 @@ def test_rows_without_gaps_are_drawn_whatever_row_step_says(row_step: int) -> No
     )
 
 
-def test_bytes_behind_the_points_are_ignored_and_it_is_said() -> None:
+def test_bytes_after_the_points_are_ignored_with_a_remark() -> None:
     values = xyz_cloud([(1, 2, 3)])
     read = Cloud(decoded(values | {"data": np.append(values["data"], np.zeros(2, np.uint8))}))
     assert read.positions()[0].tolist() == [[1, 2, 3]]

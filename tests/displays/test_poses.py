@@ -52,16 +52,16 @@ def test_former_poses_stay_where_their_frame_was(bench: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("turn", "said"),
+    ("turn", "sentence"),
     [((0, 0, 0, 0), "all zeros"), ((0, 0, 0, 7), "not normalised"), ((0, 0, 0, 1e200), "not norm")],
 )
-def test_a_quaternion_that_is_no_rotation_is_drawn_as_the_nearest_one(
-    turned: Benches, turn: tuple[float, ...], said: str
+def test_an_unnormalised_quaternion_is_drawn_as_the_nearest_rotation(
+    turned: Benches, turn: tuple[float, ...], sentence: str
 ) -> None:
     at = turned(Pose(), {"pose": pose(0.0, turn=turn)})
     np.testing.assert_allclose(at.xyz("poses")[0, 1], (10, 1.3, 0), atol=1e-6)
     level, text = at.statuses()["Orientation"]
-    assert (level, said in text) == ("WARN", True)
+    assert (level, sentence in text) == ("WARN", True)
 
 
 def test_an_invalid_pose_is_named_and_the_former_ones_stay(turned: Benches) -> None:
@@ -119,7 +119,7 @@ def test_poses_that_are_not_finite_are_left_out_and_counted(turned: Benches) -> 
     assert at.statuses()["Poses"][0] == "WARN"
 
 
-def test_of_too_many_poses_some_are_picked(
+def test_poses_over_the_limit_are_thinned_evenly(
     turned: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(pose_sets, "MAX_POSES", 10)
@@ -164,7 +164,7 @@ def test_lengths_that_are_swapped_are_put_right(turned: Benches) -> None:
     at.press("Length")
 
 
-def test_weights_that_are_not_finite_count_as_none(turned: Benches) -> None:
+def test_non_finite_weights_count_as_zero(turned: Benches) -> None:
     at = turned(ParticleCloud(), particles(NAN, 1.0))
     assert at.xyz("poses")[0, 1] == pytest.approx((10, 0.02, 0), abs=1e-6)
     assert at.statuses()["Weight"][0] == "WARN"

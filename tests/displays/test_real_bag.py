@@ -3,42 +3,22 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import PIL.Image
-import pytest
 from inspecting import Benches
 from numpy.typing import NDArray
-from rosbags.highlevel import AnyReader
-from rosbags.typesys import Stores, get_typestore
 from scipy.ndimage import distance_transform_edt
+from turtlebot import MAP, ORIGIN, RESOLUTION, START, messages, needs_bag, needs_map
 
 from webviz.data.messages import decode
 from webviz_displays.laser_scan import LaserScan
 from webviz_displays.odometry import Odometry
 
-DATA = Path(__file__).parents[3] / "shared/data"
-BAG = DATA / "bags/macfirst_floor_take_2"
-MAP = DATA / "maps/mac_1st_floor_final.pgm"
-RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
-"""Resolution and origin as its .yaml says, in metres."""
 BLACK = 90
 """Largest brightness of the cells above its occupied_thresh of 0.65."""
-START = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
-"""Pose in the map at which the odometry began, found by fitting the first scan to the walls."""
-
-pytestmark = pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
-
-
-def messages(*topics: str) -> Iterator[tuple[str, str, int, bytes]]:
-    """Topic, type, time of arrival and bytes of what the bag holds."""
-    with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
-        connections = [c for c in reader.connections if c.topic in topics]
-        for connection, time_ns, data in reader.messages(connections):
-            yield connection.topic, connection.msgtype, time_ns, bytes(data)
+pytestmark = needs_bag
 
 
 def load_transforms(bench: Any) -> None:
@@ -52,18 +32,18 @@ def load_transforms(bench: Any) -> None:
             )
 
 
-@pytest.mark.skipif(not MAP.exists(), reason="the map of the corridor is not here")
+@needs_map
 def test_the_scans_lie_on_the_walls_of_the_map(bench: Benches) -> None:
-    display_bench = bench(LaserScan())
-    load_transforms(display_bench)
-    display_bench.transform("map", "odom", *START)
+    at = bench(LaserScan())
+    load_transforms(at)
+    at.transform("map", "odom", *START)
     points = []
     for _, type_name, time_ns, data in itertools.islice(messages("/scan"), 60):
-        display_bench.now_ns = time_ns
-        display_bench.send_bytes(type_name, data)
-        display_bench.turn()
-        if "points" in display_bench.nodes():
-            points.append(display_bench.xyz("points")[:, :2])
+        at.now_ns = time_ns
+        at.send_bytes(type_name, data)
+        at.turn()
+        if "points" in at.nodes():
+            points.append(at.xyz("points")[:, :2])
     assert len(points) > 50
     hits = np.concatenate(points)
     assert share_on_walls(hits) > 0.85
@@ -79,14 +59,14 @@ def share_on_walls(hits: NDArray[np.float64]) -> float:
 
 
 def test_odometry_and_its_covariances_are_drawn_without_complaint(bench: Benches) -> None:
-    display_bench = bench(Odometry(keep=0), fixed_frame="odom")
-    load_transforms(display_bench)
+    at = bench(Odometry(keep=0), fixed_frame="odom")
+    load_transforms(at)
     for _, type_name, time_ns, data in messages("/odom"):
-        display_bench.now_ns = time_ns
-        display_bench.send_bytes(type_name, data)
-    display_bench.turn()
-    trail = display_bench.xyz("poses")[:, 0]
+        at.now_ns = time_ns
+        at.send_bytes(type_name, data)
+    at.turn()
+    trail = at.xyz("poses")[:, 0]
     steps = np.linalg.norm(np.diff(trail, axis=0), axis=1)
-    assert {level for level, _ in display_bench.statuses().values()} == {"OK"}
+    assert {level for level, _ in at.statuses().values()} == {"OK"}
     assert len(trail) > 50
     assert steps.max() < 0.2  # the robot is slow and the tolerance is 0.1 m

@@ -36,23 +36,23 @@ def street() -> dict[str, Any]:
 def test_every_point_of_a_real_cloud_is_where_it_was_measured(
     bench: Benches, street: dict[str, Any]
 ) -> None:
-    display_bench = bench(PointCloud2())
-    display_bench.transform("map", "lidar", (0.0, 0.0, 2.0))
-    display_bench.send(CLOUD, street, frame="lidar")
-    display_bench.turn()
+    at = bench(PointCloud2())
+    at.transform("map", "lidar", (0.0, 0.0, 2.0))
+    at.send(CLOUD, street, frame="lidar")
+    at.turn()
     values = street["data"].view("<f4").reshape(-1, 4)
-    node = display_bench.nodes()["points"]
-    np.testing.assert_allclose(display_bench.xyz("points"), values[:, :3] + (0, 0, 2), atol=1e-4)
-    assert display_bench.statuses()["Points"] == ("OK", "Showing 69 088 of 69 088 points.")
+    node = at.nodes()["points"]
+    np.testing.assert_allclose(at.xyz("points"), values[:, :3] + (0, 0, 2), atol=1e-4)
+    assert at.statuses()["Points"] == ("OK", "Showing 69 088 of 69 088 points.")
     dim, bright = node.colors[values[:, 3].argmin()], node.colors[values[:, 3].argmax()]
     assert (dim.tolist(), bright.tolist()) == ([255, 0, 0], [255, 0, 255])
 
 
 def test_voxels_thin_near_the_lidar_most(bench: Benches, street: dict[str, Any]) -> None:
-    display_bench = bench(PointCloud2(voxel_size=0.5))
-    display_bench.transform("map", "lidar")
-    display_bench.send(CLOUD, street, frame="lidar")
-    display_bench.turn()
+    at = bench(PointCloud2(voxel_size=0.5))
+    at.transform("map", "lidar")
+    at.send(CLOUD, street, frame="lidar")
+    at.turn()
     before = np.linalg.norm(street["data"].view("<f4").reshape(-1, 4)[:, :3], axis=1)
-    after = np.linalg.norm(display_bench.xyz("points"), axis=1)
+    after = np.linalg.norm(at.xyz("points"), axis=1)
     assert (after < 10).sum() / (before < 10).sum() < 0.5 * (after > 30).sum() / (before > 30).sum()

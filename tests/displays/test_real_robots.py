@@ -47,7 +47,7 @@ def drawn_visuals(bench: Any) -> int:
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_every_visual_of_a_robot_is_drawn_or_said_to_be_missing(bench: Benches, file: str) -> None:
+def test_every_visual_of_a_robot_is_drawn_or_reported_as_missing(bench: Benches, file: str) -> None:
     path = robots_folder() / file
     declared = ElementTree.parse(path).getroot()
     at = bench(RobotModel(description_source="File", description_file=str(path)))
@@ -85,10 +85,10 @@ def test_the_links_of_panda_stand_where_its_joints_put_them(bench: Benches) -> N
 def test_a_recorded_turtlebot_is_placed_by_its_own_transforms(bench: Benches) -> None:
     at = bench(RobotModel(), fixed_frame="odom")
     at.buffer.cache_time_ns = 10**12
-    wanted = ("/tf", "/tf_static", "/robot_description")
+    topics = ("/tf", "/tf_static", "/robot_description")
     descriptions = []
     with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
-        connections = [c for c in reader.connections if c.topic in wanted]
+        connections = [c for c in reader.connections if c.topic in topics]
         for connection, time_ns, data in reader.messages(connections):
             at.now_ns = time_ns
             if connection.topic == "/robot_description":

@@ -56,7 +56,7 @@ def test_the_prefix_names_the_frames_of_one_robot_of_several(bench) -> None:
     assert at.poses()["base visual visual_0"].position == pytest.approx((9.0, 0.0, 0.0))
 
 
-def test_lost_links_are_counted_and_each_reason_is_told_once(bench) -> None:
+def test_links_without_a_transform_are_counted_with_one_reason_each(bench) -> None:
     links = "".join(f'<link name="l{n}"/>' for n in range(20))
     joints = "".join(
         f'<joint name="j{n}" type="{"fixed" if n < 9 else "continuous"}"><parent link="l0"/>'
@@ -78,7 +78,7 @@ def test_lost_links_are_counted_and_each_reason_is_told_once(bench) -> None:
     assert "l5 and 14 more" in statuses["Links"][1]
 
 
-def test_a_fixed_frame_that_does_not_exist_is_told_once_for_all_links(bench) -> None:
+def test_a_missing_fixed_frame_is_reported_once_for_all_links(bench) -> None:
     at = bench(RobotModel())
     place_arm(at)
     at.fixed_frame = "earth"
@@ -117,7 +117,7 @@ def test_a_trail_is_the_last_two_metres_of_a_links_way(bench) -> None:
     assert "tool trail" not in at.nodes()
 
 
-def test_a_link_whose_axes_are_shown_says_where_it_is_and_a_joint_how_it_moves(bench) -> None:
+def test_statuses_of_shown_axes_give_poses_of_links_and_motions_of_joints(bench) -> None:
     at = bench(RobotModel(links={"tool": LinkSettings(show_axes=True)}))
     place_arm(at)
     describe(at, ARM)
@@ -142,7 +142,7 @@ def test_settings_for_links_and_joints_that_the_robot_does_not_have_are_named(be
     assert statuses["Joint settings"] == ("WARN", "The robot has no joint named wirst.")
 
 
-def test_a_tick_without_news_makes_no_node_anew(bench) -> None:
+def test_a_tick_without_changes_keeps_all_nodes(bench) -> None:
     at = bench(RobotModel(alpha=0.5))
     place_arm(at)
     describe(at, ARM)
@@ -161,7 +161,7 @@ class TestRobotState(BuiltInChecks):
     values: ClassVar = {"links": OTHER_LINKS}
 
 
-def test_selecting_what_a_robot_holds(bench: Benches) -> None:
+def test_selecting_an_attached_object(bench: Benches) -> None:
     at = bench(RobotState())
     moveit(at)
     check_details(

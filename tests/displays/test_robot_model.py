@@ -103,11 +103,17 @@ def test_until_a_description_comes_the_topic_is_named(bench) -> None:
     )
 
 
-def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, slow_arm) -> None:
+def slow_bench(bench, slow_arm):
+    """The bench of a robot whose tool is still loading."""
     at = bench(RobotModel())
     place_arm(at)
     at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
     wait(at, lambda: "tool" in at.statuses()["Loading"][1])
+    return at
+
+
+def test_a_robot_is_loaded_beside_the_frame_loop_with_a_status(bench, slow_arm) -> None:
+    at = slow_bench(bench, slow_arm)
     assert at.statuses()["Loading"] == ("IDLE", "Loading: 1 of 2 shapes, at link 'tool'.")
     assert at.nodes() == {}
     wait(at, lambda: is_loaded(at))
@@ -115,10 +121,7 @@ def test_a_robot_is_loaded_beside_the_frame_loop_and_says_so(bench, slow_arm) ->
 
 
 def test_the_newest_description_wins_though_one_hangs(bench, slow_arm) -> None:
-    at = bench(RobotModel())
-    place_arm(at)
-    at.send("std_msgs/msg/String", {"data": slow_arm}, topic="/robot_description")
-    wait(at, lambda: "tool" in at.statuses()["Loading"][1])
+    at = slow_bench(bench, slow_arm)
     hanging = [child for child, line in command_lines().items() if "loader" in line]
     send(signal.SIGSTOP, hanging)
     describe(at, ARM)
@@ -158,7 +161,7 @@ def test_a_new_description_replaces_the_robot_and_the_old_one_stays_till_then(ar
 @pytest.mark.parametrize(
     "text", ["", "no robot", "<robot name='r'><link name='a'/><link name='b'/></robot>"]
 )
-def test_a_description_that_is_no_robot_says_so_and_shows_nothing(arm, text) -> None:
+def test_an_invalid_description_is_an_error_and_draws_nothing(arm, text) -> None:
     arm.send("std_msgs/msg/String", {"data": text}, topic="/robot_description")
     wait(arm, lambda: arm.statuses().get("URDF", ("",))[0] == "ERROR")
     assert arm.nodes() == {}
@@ -176,7 +179,7 @@ def test_missing_meshes_are_listed_while_the_rest_is_drawn(bench) -> None:
     assert text.startswith("1 shape missing. Link 'base': Package 'nowhere'")
 
 
-def test_collision_shapes_are_read_only_when_they_are_wanted(arm) -> None:
+def test_collision_shapes_are_read_only_when_enabled(arm) -> None:
     arm.set("collision_enabled", True)
     wait(arm, lambda: "base collision collision_0" in arm.nodes())
     assert "base visual visual_0" in arm.nodes()
@@ -187,13 +190,13 @@ def test_collision_shapes_are_read_only_when_they_are_wanted(arm) -> None:
     assert arm.statuses()["Shapes"][0] == "WARN"
 
 
-def test_collision_shapes_that_are_no_longer_wanted_are_no_longer_waited_for(arm) -> None:
+def test_disabled_collision_shapes_are_not_waited_for(arm) -> None:
     arm.set("collision_enabled", True)
     arm.set("collision_enabled", False)
     assert "Loading" not in arm.statuses()
 
 
-def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None:
+def test_missing_collision_meshes_count_only_when_enabled(bench) -> None:
     at = bench(RobotModel(collision_enabled=True), fixed_frame="base")
     at.transform("base", "other")
     describe(at, MESHES)
@@ -202,13 +205,19 @@ def test_missing_collision_meshes_count_only_when_they_are_wanted(bench) -> None
     assert "1 shape missing" in at.statuses()["Meshes"][1]
 
 
-def test_a_file_is_drawn_without_any_topic(bench, tmp_path) -> None:
+@pytest.fixture
+def of_file(bench, tmp_path):
+    """The bench of an arm that is described by a file."""
     path = tmp_path / "arm.urdf"
     path.write_text(ARM)
     at = bench(RobotModel(description_source="File", description_file=str(path)))
     place_arm(at)
     wait(at, lambda: is_loaded(at))
-    assert set(at.nodes()) == {"base visual visual_0", "tool visual grip"}
+    return at
+
+
+def test_a_file_is_drawn_without_any_topic(of_file) -> None:
+    assert set(of_file.nodes()) == {"base visual visual_0", "tool visual grip"}
 
 
 @pytest.mark.parametrize("path", ["/tmp/a\0b.urdf", "~nobody there/a.urdf", "~\0/a", "/proc/kmsg"])
@@ -220,16 +229,11 @@ def test_a_path_of_no_file_is_refused_by_a_sentence(bench, path) -> None:
     assert "is not a usable path" in text or "cannot be read: " in text
 
 
-def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(bench, tmp_path) -> None:
-    path = tmp_path / "arm.urdf"
-    path.write_text(ARM)
-    at = bench(RobotModel(description_source="File", description_file=str(path)))
-    place_arm(at)
-    wait(at, lambda: is_loaded(at))
-    assert at.runner.subscriptions() == {}
-    assert not [key for key in at.statuses() if key.startswith("Topic")]
-    at.set("description_source", "Topic")
-    assert set(at.runner.subscriptions()) == {"/robot_description"}
+def test_with_a_file_the_topic_is_not_subscribed_and_not_missed(of_file) -> None:
+    assert of_file.runner.subscriptions() == {}
+    assert not [key for key in of_file.statuses() if key.startswith("Topic")]
+    of_file.set("description_source", "Topic")
+    assert set(of_file.runner.subscriptions()) == {"/robot_description"}
 
 
 def test_description_files_that_never_respond_leave_the_disk_to_others(monkeypatch) -> None:
@@ -275,15 +279,15 @@ def test_the_frame_loop_does_not_wait_for_the_disk_of_a_description_file(bench, 
 
 
 @pytest.mark.parametrize(
-    ("path", "level", "said"),
+    ("path", "level", "sentence"),
     [("", "WARN", "No description file"), ("gone.urdf", "ERROR", "gone.urdf")],
 )
-def test_a_file_that_is_not_there_is_said(bench, tmp_path, path, level, said) -> None:
+def test_a_missing_file_is_reported(bench, tmp_path, path, level, sentence) -> None:
     path = path and str(tmp_path / path)
     at = bench(RobotModel(description_source="File", description_file=path))
     wait(at, lambda: "URDF" in at.statuses())
     assert at.statuses()["URDF"][0] == level
-    assert said in at.statuses()["URDF"][1]
+    assert sentence in at.statuses()["URDF"][1]
 
 
 def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_them(bench) -> None:
@@ -297,7 +301,7 @@ def test_a_robot_that_was_loaded_before_its_transforms_came_is_not_grey_with_the
     assert at.nodes()["tool visual grip"].color == (0, 0, 255)
 
 
-def test_what_reads_meshes_is_imported_by_the_process_that_loads_robots_only() -> None:
+def test_mesh_readers_are_imported_only_by_the_process_that_loads_robots() -> None:
     """It takes longer than all other imports of a viewer."""
     script = (
         "import sys, webviz_displays.robot_model; "

@@ -86,7 +86,7 @@ def test_alpha_of_robot_and_link_multiply() -> None:
     assert half["base visual visual_0"].opacity == pytest.approx(0.5)
 
 
-def test_what_is_wholly_transparent_is_not_drawn() -> None:
+def test_transparent_parts_are_not_drawn() -> None:
     assert nodes(alpha=0.0) == {}
     assert set(nodes(links={"base": LinkSettings(alpha=0.0)})) == {"tool visual grip"}
 
@@ -97,7 +97,7 @@ def test_a_link_goes_by_its_own_switch_if_it_has_one() -> None:
     assert set(nodes(all_links=False, links={"tool": LinkSettings()})) == {"tool visual grip"}
 
 
-def test_a_link_shows_its_axes_when_wanted() -> None:
+def test_a_link_shows_its_axes_when_enabled() -> None:
     axes = nodes(links={"tool": LinkSettings(show_axes=True)})["tool axes"]
     assert isinstance(axes, Axes)
     assert (axes.length, axes.radius) == (0.1, 0.005)
@@ -116,7 +116,7 @@ def test_a_joint_shows_its_axes_and_its_axis_in_the_frame_of_its_parent() -> Non
     assert arrow.colors == (0, 204, 0)
 
 
-def test_a_joint_that_has_no_axis_or_is_not_there_shows_none() -> None:
+def test_fixed_and_missing_joints_show_no_axis() -> None:
     both = JointSettings(show_joint_axis=True)
     assert nodes(visual=False, joints={"glue": both, "nonsense": both}) == {}
 
@@ -142,7 +142,7 @@ def test_a_model_with_materials_of_its_own_is_painted_too(glb: Glb) -> None:
     assert paint(glb, color=GREY) == Glb(glb_with(glb.data, 1.0, GREY))
 
 
-def test_paint_is_mixed_once_and_dropped_when_it_is_no_longer_used(glb: Glb) -> None:
+def test_paint_is_mixed_once_and_dropped_when_unused(glb: Glb) -> None:
     paint = Paint()
     first = paint(glb, 0.5)
     paint.begin()

@@ -26,6 +26,6 @@ def test_a_rod_straight_down_is_turned_by_half() -> None:
     assert matrices(wxyz)[:, 2] == pytest.approx((0, 0, -1))
 
 
-def test_rods_may_have_diameters_of_their_own_and_there_may_be_none() -> None:
+def test_each_rod_may_have_its_own_diameter() -> None:
     assert rods(np.zeros((2, 3)), np.ones((2, 3)), [0.1, 0.2]).scales[:, 0].tolist() == [0.1, 0.2]
     assert rods(np.zeros((0, 3)), np.zeros((0, 3)), 0.1).wxyzs.shape == (0, 4)

@@ -81,7 +81,7 @@ def test_former_ranges_stay(turned: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("display", "field", "value", "color", "said"),
+    ("display", "field", "value", "color", "status"),
     [
         (Temperature, "temperature", 0.0, (255, 0, 255), "0 °C"),
         (Temperature, "temperature", 100.0, (255, 0, 0), "100 °C"),
@@ -91,12 +91,12 @@ def test_former_ranges_stay(turned: Benches) -> None:
     ],
 )
 def test_a_measurement_colours_a_point_at_its_sensor(
-    turned: Benches, display: type, field: str, value: float, color: tuple[int, ...], said: str
+    turned: Benches, display: type, field: str, value: float, color: tuple[int, ...], status: str
 ) -> None:
     at = turned(display(), {field: value})
     np.testing.assert_allclose(at.xyz("points"), [(10, 0, 0)], atol=1e-6)
     assert at.nodes()["points"].colors.tolist() == [list(color)]
-    assert at.statuses()["Value"] == ("OK", said)
+    assert at.statuses()["Value"] == ("OK", status)
     scale = at.runner.report().color_scale
     assert (scale.low, scale.high) == (display().min_intensity, display().max_intensity)
 

@@ -47,10 +47,10 @@ def send(at: Any, type_: str, values: dict[str, Any], **options: Any) -> None:
 def test_a_message_of_any_type_is_read_out(at: Any) -> None:
     values = {"voltage": 12.3456789, "cell_voltage": np.linspace(3, 4, 30), "present": True}
     send(at, BATTERY, values, frame="nowhere", stamp_ns=1_700_000_000_250_000_000)
-    shown = text(at)
-    assert shown["header"]["fields"]["stamp"] == "2023-11-14 22:13:20.250 UTC"
-    assert (shown["voltage"], shown["present"]) == ("12.3457", "True")
-    assert (shown["cell_voltage"]["length"], len(shown["cell_voltage"]["items"])) == (30, 20)
+    printout = text(at)
+    assert printout["header"]["fields"]["stamp"] == "2023-11-14 22:13:20.250 UTC"
+    assert (printout["voltage"], printout["present"]) == ("12.3457", "True")
+    assert (printout["cell_voltage"]["length"], len(printout["cell_voltage"]["items"])) == (30, 20)
     assert readout(at).topic == "/any"
     assert at.statuses()["Fields"] == ("OK", f"All fields of {BATTERY}.")
     assert at.runner.subscriptions()["/any"].type == BATTERY
@@ -95,7 +95,7 @@ def test_a_topic_that_another_display_reads_is_read_as_the_same_type(at: Any) ->
     assert at.runner.subscriptions()["/any"].type == STRING
 
 
-def test_bytes_that_do_not_decode_and_types_that_nobody_knows_say_so(at: Any) -> None:
+def test_undecodable_bytes_and_unknown_types_are_errors(at: Any) -> None:
     at.send_bytes(STRING, b"\0\1\0\0\xff\xff\xff\xff")
     at.turn()
     level, sentence = at.statuses()["Message"]
@@ -106,7 +106,7 @@ def test_bytes_that_do_not_decode_and_types_that_nobody_knows_say_so(at: Any) ->
     assert at.statuses()["Message"] == ("ERROR", sentence)
 
 
-def test_without_a_topic_or_a_publisher_nothing_is_subscribed_and_the_reason_is_said(
+def test_without_a_topic_or_publisher_nothing_is_subscribed_with_the_reason(
     bench: Benches,
 ) -> None:
     for topic, reason in ((Topic(), "No topic."), (Topic("/any"), "No publisher on /any.")):
@@ -117,7 +117,7 @@ def test_without_a_topic_or_a_publisher_nothing_is_subscribed_and_the_reason_is_
 
 
 def test_the_newest_message_is_shown_but_not_too_often(at: Any) -> None:
-    for seconds, word, shown in (
+    for seconds, word, expected in (
         (0.0, "one", "one"),
         (0.05, "two", "one"),
         (0.06, "three", "three"),
@@ -125,7 +125,7 @@ def test_the_newest_message_is_shown_but_not_too_often(at: Any) -> None:
     ):
         at.turn(seconds)
         send(at, STRING, {"data": word})
-        assert text(at) == {"data": repr(shown)}
+        assert text(at) == {"data": repr(expected)}
     at.turn(0.01)
     send(at, STRING, {"data": "last"})
     at.turn(0.1)

@@ -87,7 +87,7 @@ def test_an_arrow_shorter_than_a_head_has_a_flat_head_and_stays_between_its_fram
     assert np.sort(ends(at, "shafts")[:, 0, 2]) == pytest.approx((0.01, 0.05, 0.5), abs=1e-6)
 
 
-def test_names_are_drawn_only_when_wanted_and_below_their_frames(bench) -> None:
+def test_names_are_drawn_below_their_frames_when_enabled(bench) -> None:
     at = bench(TF(marker_scale=2.0))
     at.transform("map", "odom", (1.0, 0.0, 3.0))
     at.turn()
@@ -178,7 +178,7 @@ def test_static_frames_never_age(bench) -> None:
 
 
 @pytest.mark.parametrize(
-    ("properties", "shown"),
+    ("properties", "names"),
     [
         ({}, {"map", "left_wheel", "right_wheel"}),
         ({"filter_whitelist": "wheel$"}, {"left_wheel", "right_wheel"}),
@@ -188,12 +188,12 @@ def test_static_frames_never_age(bench) -> None:
         ({"all_enabled": False, "frames": {"map": True}}, {"map"}),
     ],
 )
-def test_filters_and_switches_choose_the_frames(bench, properties, shown) -> None:
+def test_filters_and_switches_choose_the_frames(bench, properties, names) -> None:
     at = bench(TF(show_names=True, **properties))
     at.transform("map", "left_wheel", (0.0, 1.0, 0.0))
     at.transform("map", "right_wheel", (0.0, -1.0, 0.0))
     at.turn()
-    assert set(at.nodes()["names"].texts) == shown
+    assert set(at.nodes()["names"].texts) == names
 
 
 def test_a_frame_that_appears_later_goes_through_the_filters_too(bench) -> None:
@@ -240,7 +240,7 @@ def test_between_updates_the_picture_stays(bench) -> None:
     assert at.nodes()["axes"] != before
 
 
-def test_a_new_fixed_frame_places_all_frames_anew_without_making_them_young(bench) -> None:
+def test_a_new_fixed_frame_moves_all_frames_and_keeps_their_age(bench) -> None:
     at = bench(TF(show_names=True))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 1.0, 0.0), stamp_ns=at.now_ns)

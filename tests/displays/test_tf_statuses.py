@@ -15,7 +15,7 @@ def at(bench):
     return bench(TF())
 
 
-def test_a_bad_regular_expression_is_said_and_ignored(bench) -> None:
+def test_an_invalid_regular_expression_is_reported_and_ignored(bench) -> None:
     at = bench(TF(filter_whitelist="(", filter_blacklist="map"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -35,7 +35,7 @@ def test_expressions_that_others_match_for_hours_are_answered_at_once(bench, tex
     assert at.nodes() == {}
 
 
-def test_an_expression_beyond_linear_time_is_said_and_ignored(bench) -> None:
+def test_an_expression_beyond_linear_time_is_reported_and_ignored(bench) -> None:
     at = bench(TF(filter_whitelist="(?=odom)"))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.turn()
@@ -86,7 +86,7 @@ def test_frames_of_another_tree_are_named_and_not_drawn(at) -> None:
     assert at.fixed_frame_remedy("camera") == OtherFixedFrame("camera")
 
 
-def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(at) -> None:
+def test_frames_without_a_transform_are_counted_with_a_few_reasons(at) -> None:
     at.transform("map", "odom")
     for number in range(20):
         at.transform(f"elsewhere_{number // 2}", f"lost_{number}")
@@ -96,7 +96,7 @@ def test_lost_frames_are_counted_and_a_few_reasons_told_once_each(at) -> None:
     assert "30 have no transform" in statuses["Frames"][1]
 
 
-def test_a_fixed_frame_that_does_not_exist_is_told_once(at) -> None:
+def test_a_missing_fixed_frame_is_reported_once(at) -> None:
     for number in range(20):
         at.transform("odom", f"frame_{number}")
     at.turn()
@@ -107,7 +107,7 @@ def test_a_fixed_frame_that_does_not_exist_is_told_once(at) -> None:
     ]
 
 
-def test_the_tree_of_frames_is_told(at) -> None:
+def test_the_tree_of_frames_is_a_status(at) -> None:
     for parent, child in (("map", "odom"), ("odom", "base"), ("base", "wheel"), ("base", "laser")):
         at.transform(parent, child)
     at.transform("lab", "shelf")
@@ -118,7 +118,7 @@ def test_the_tree_of_frames_is_told(at) -> None:
     assert at.statuses()["Tree"] == ("OK", "lab, map (odom (base (laser, wheel), shelf)).")
 
 
-def test_of_a_large_tree_only_a_part_is_told(at) -> None:
+def test_the_status_of_a_large_tree_is_shortened(at) -> None:
     for number in range(500):
         at.transform(f"f{number}", f"f{number + 1}")
     at.turn()
@@ -127,7 +127,7 @@ def test_of_a_large_tree_only_a_part_is_told(at) -> None:
     assert text.endswith("f39" + ")" * 39 + " and 461 more.")
 
 
-def test_a_frame_that_is_switched_on_says_where_it_is(bench) -> None:
+def test_the_status_of_an_enabled_frame_gives_its_position(bench) -> None:
     at = bench(TF(frames={"odom": True, "robot": True, "map": True}))
     at.transform("map", "odom", (1.0, 0.0, 0.0))
     at.transform("odom", "robot", (0.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8), stamp_ns=at.now_ns)

@@ -47,7 +47,7 @@ def maps_with_updates(draw):
 
 
 @given(maps_with_updates())
-def test_folding_updates_gives_the_tiles_of_the_whole_map_drawn_anew(case) -> None:
+def test_folding_updates_gives_the_tiles_of_the_whole_map(case) -> None:
     cells, updates = case
     grid = tiled(map_message(cells), "map")
     whole = cells.copy()

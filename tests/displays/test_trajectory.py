@@ -57,7 +57,7 @@ def joints(**positions: float) -> dict[str, Any]:
     return {"joint_state": names | {"header": {"frame_id": "map"}}}
 
 
-def made(bench: Benches, display: Any) -> Any:
+def bench_of(bench: Benches, display: Any) -> Any:
     at = bench(display)
     at.transform("map", "base")
     describe(at, RAIL)
@@ -76,10 +76,10 @@ def cart(at: Any, prefix: str = "path ") -> float:
 @pytest.fixture
 def rail(bench: Benches) -> Any:
     """Animated by the clock of the test."""
-    return made(bench, Trajectory(robot_description=URDF, use_sim_time=True))
+    return bench_of(bench, Trajectory(robot_description=URDF, use_sim_time=True))
 
 
-def test_a_path_is_played_at_the_speed_that_is_asked_for(rail: Any) -> None:
+def test_a_path_is_played_at_the_chosen_speed(rail: Any) -> None:
     tell(rail, path(2.0, 3.0, 4.0, 5.0))
     assert cart(rail) == 2.0
     rail.turn(0.4)
@@ -187,7 +187,7 @@ def test_models_of_several_materials_are_repeated_part_by_part() -> None:
         ),
     ],
 )
-def test_what_is_odd_about_a_path_is_said(
+def test_odd_trajectories_are_reported(
     rail: Any, message: dict[str, Any], key: str, why: str
 ) -> None:
     tell(rail, message)
@@ -206,7 +206,7 @@ def test_an_invalid_speed_is_named(rail: Any) -> None:
 
 
 def test_a_floating_robot_moves_with_its_joint(bench: Benches) -> None:
-    at = made(bench, Trajectory(robot_description=URDF, paused=True, position=1.0))
+    at = bench_of(bench, Trajectory(robot_description=URDF, paused=True, position=1.0))
     several = {
         "joint_names": ["world_joint"],
         "points": [
@@ -219,7 +219,7 @@ def test_a_floating_robot_moves_with_its_joint(bench: Benches) -> None:
 
 @pytest.fixture
 def state(bench: Benches) -> Any:
-    return made(bench, RobotState(robot_description=URDF, robot_state_topic=Topic(STATES)))
+    return bench_of(bench, RobotState(robot_description=URDF, robot_state_topic=Topic(STATES)))
 
 
 def test_a_state_is_shown_with_the_colors_of_its_links(state: Any) -> None:
@@ -240,7 +240,7 @@ def test_a_state_is_shown_with_the_colors_of_its_links(state: Any) -> None:
 def test_both_ends_of_a_plan_are_shown(bench: Benches) -> None:
     request = PlanningRequest(query_start_state=True, goal_state_alpha=0.5)
     playing = PlannedPath(paused=True, position=0.0)
-    at = made(
+    at = bench_of(
         bench,
         MotionPlanning(robot_description=URDF, planning_request=request, planned_path=playing),
     )

@@ -98,19 +98,19 @@ def test_former_vectors_stay_where_their_frame_was(bench: Benches) -> None:
 
 
 @pytest.mark.parametrize(
-    ("display", "message", "said"),
+    ("display", "message", "status"),
     [
         (TwistStamped, "twist", "Linear 0.2 m/s; angular 0.3 rad/s."),
         (AccelStamped, "accel", "Linear 0.2 m/s²; angular 0.3 rad/s²."),
     ],
 )
 def test_the_first_motion_is_drawn_at_once_unless_it_is_to_be_hidden(
-    turned: Benches, display: type, message: str, said: str
+    turned: Benches, display: type, message: str, status: str
 ) -> None:
     values = {message: {"linear": vector(x=0.2), "angular": vector(z=0.3)}}
     at = turned(display(), values)
     assert {"linear shafts", "angular shafts", "angular circles"} <= at.nodes().keys()
-    assert at.statuses()["Vectors"] == ("OK", said)
+    assert at.statuses()["Vectors"] == ("OK", status)
     at.set("hide_small_values", True)  # 0.4 m and 0.6 m, of a width of 0.5 m
     assert not any(key.startswith("linear") for key in at.nodes())
     assert "angular shafts" in at.nodes()

@@ -95,7 +95,7 @@ def test_too_many_voxels_are_thinned_out(turned: Callable, monkeypatch: pytest.M
         ({"origin": {"x": math.inf}}, "The origin is not finite"),
     ],
 )
-def test_a_grid_that_cannot_be_drawn_says_why(
+def test_an_invalid_grid_has_a_status(
     turned: Callable, fields: dict[str, Any], reason: str
 ) -> None:
     at = turned(VoxelGrid(), voxel_grid((3, 2, 4), {(0, 0, 0)}, **fields))

@@ -22,9 +22,9 @@ def scene(*objects: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_boxes_have_the_colours_of_their_numbers_and_corners_those_of_tracking(
-    shown: Callable,
+    display_bench: Callable,
 ) -> None:
-    at = shown(ZedOdDisplay(), ZED_SCENE)
+    at = display_bench(ZedOdDisplay(), ZED_SCENE)
     boxes, corners = at.nodes()["boxes"], at.nodes()["corners"]
     assert len(boxes.segments) == 2 * 12
     np.testing.assert_allclose(
@@ -43,9 +43,9 @@ def test_boxes_have_the_colours_of_their_numbers_and_corners_those_of_tracking(
 
 
 def test_skeletons_have_the_joints_of_their_format_without_those_that_are_not_seen(
-    shown: Callable,
+    display_bench: Callable,
 ) -> None:
-    at = shown(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
+    at = display_bench(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
     joints, bones = at.nodes()["joints"], at.nodes()["bones"]
     assert len(joints.positions) == 17, "the left ear is not seen, and 52 are not in the format"
     assert len(bones.segments) == len(BODIES[0].bones) - 1 == 18
@@ -81,15 +81,15 @@ def test_every_bone_is_between_joints_of_its_format() -> None:
         ),
     ],
 )
-def test_what_is_not_drawn_is_said(
-    objects: list[Any], properties: dict[str, Any], sentence: str, shown: Callable
+def test_skipped_objects_are_reported(
+    objects: list[Any], properties: dict[str, Any], sentence: str, display_bench: Callable
 ) -> None:
-    at = shown(ZedOdDisplay(**properties), scene(*objects))
+    at = display_bench(ZedOdDisplay(**properties), scene(*objects))
     assert at.statuses()["Objects"] == ("WARN", sentence)
 
 
-def test_objects_out_of_sight_are_left_out_without_a_warning(shown: Callable) -> None:
-    at = shown(
+def test_objects_out_of_sight_are_left_out_without_a_warning(display_bench: Callable) -> None:
+    at = display_bench(
         ZedOdDisplay(),
         scene(ZED_PERSON, ZED_CAR | {"tracking_state": 3}, ZED_CAR | {"label_id": -1}),
     )
@@ -97,9 +97,9 @@ def test_objects_out_of_sight_are_left_out_without_a_warning(shown: Callable) ->
     assert at.statuses()["Objects"] == ("OK", "1 of 3 objects shown: 2 not tracked.")
 
 
-def test_boxes_without_corners_and_unknown_skeletons_are_named(shown: Callable) -> None:
+def test_boxes_without_corners_and_unknown_skeletons_are_named(display_bench: Callable) -> None:
     corners = [{"kp": (NAN, NAN, NAN)}] * 8
-    at = shown(
+    at = display_bench(
         ZedOdDisplay(),
         scene(ZED_CAR, ZED_PERSON | {"bounding_box_3d": {"corners": corners}, "body_format": 9}),
     )
@@ -110,10 +110,10 @@ def test_boxes_without_corners_and_unknown_skeletons_are_named(shown: Callable) 
 
 
 def test_too_many_objects_are_cut_with_a_warning(
-    shown: Callable, monkeypatch: pytest.MonkeyPatch
+    display_bench: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(zed, "MAX_OBJECTS", 1)
-    at = shown(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
+    at = display_bench(ZedOdDisplay(), scene(ZED_CAR, ZED_PERSON))
     assert at.nodes()["labels"].texts == ("3-Vehicle [Car]",)
     assert at.statuses()["Objects"] == ("WARN", "1 of 2 objects shown: 1 too many.")
 

@@ -55,11 +55,11 @@ def main() -> None:
     print("| fault | finding | result |\n|---|---|---|", flush=True)
     named = 0
     with ThreadPoolExecutor(options.jobs) as pool:
-        for each, said in zip(chosen, pool.map(report_of, chosen), strict=True):
-            problem = problem_of(each, said)
+        for each, report in zip(chosen, pool.map(report_of, chosen), strict=True):
+            problem = problem_of(each, report)
             if options.reports:
                 options.reports.mkdir(parents=True, exist_ok=True)
-                (options.reports / f"{each.name}.json".replace("/", "-")).write_text(said)
+                (options.reports / f"{each.name}.json".replace("/", "-")).write_text(report)
             named += not problem
             print(f"| {each.name} | {each.id or 'none'} | {problem or 'first'} |", flush=True)
     alarms = [] if options.names else [*well.demo(options.minutes * 60), *well.bags(options.bags)]
@@ -69,12 +69,12 @@ def main() -> None:
     sys.exit(named < len(chosen) or bool(alarms))
 
 
-def problem_of(fault: Provocation, said: str) -> str:
+def problem_of(fault: Provocation, report: str) -> str:
     """Return why a report, as JSON, does not name the fault, "" if it does."""
     try:
-        return fault.problem(msgspec.json.decode(said, type=DoctorReport))
+        return fault.problem(msgspec.json.decode(report, type=DoctorReport))
     except msgspec.DecodeError:
-        return f"no report: {said.strip()[-200:]}"
+        return f"no report: {report.strip()[-200:]}"
 
 
 def report_of(fault: Provocation) -> str:

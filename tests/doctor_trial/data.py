@@ -10,12 +10,12 @@ import building
 import numpy as np
 
 from tests.doctor_trial.provocation import Provocation
-from tests.doctor_trial.robot import START, URDF, Robot, Stream, Values, laser, pose
+from tests.doctor_trial.robot import START, URDF, Stream, TrialRobot, Values, laser, pose
 from webviz.shell.testing.messages import header
 from webviz_sim.pose import Pose2D
 
 IMAGE = "sensor_msgs/msg/Image"
-Change = Callable[[Robot], object]
+Change = Callable[[TrialRobot], object]
 
 
 def _then(name: str, change: Callable[[Values, float], object]) -> Change:
@@ -66,7 +66,7 @@ def _own_tf(values: Values, at_s: float) -> None:
     place.update(x=at.x + 0.5 * at_s, y=at.y)
 
 
-def _image(robot: Robot, **fields: Any) -> None:
+def _image(robot: TrialRobot, **fields: Any) -> None:
     width, height = 32, 24
     robot.streams["image"] = Stream(
         "camera",
@@ -111,7 +111,7 @@ def _hall() -> Any:
     return cells.ravel()
 
 
-def _clean(robot: Robot) -> None:
+def _clean(robot: TrialRobot) -> None:
     robot["map"].then(lambda v, _: v.update(data=np.full_like(v["data"], -1)))
 
 

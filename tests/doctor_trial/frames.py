@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from tests.doctor_trial.provocation import Provocation
-from tests.doctor_trial.robot import Robot, Values
+from tests.doctor_trial.provocation import Provocation, changed
+from tests.doctor_trial.robot import TrialRobot, Values
 
 
 def _transform(values: Values) -> Any:
@@ -20,34 +20,15 @@ def _renamed(name: str, parent: str) -> Any:
     )
 
 
-def _rotated(name: str, **rotation: float) -> Any:
-    def change(robot: Robot) -> None:
-        robot[name].then(
-            lambda values, _: _transform(values)["transform"]["rotation"].update(rotation)
-        )
-
-    return change
-
-
-def _moved(name: str, **translation: float) -> Any:
-    def change(robot: Robot) -> None:
-        robot[name].then(
-            lambda values, _: _transform(values)["transform"]["translation"].update(translation)
-        )
-
-    return change
+def _placed(name: str, part: str, **values: float) -> Any:
+    """Return what changes the translation or rotation of a stream's transform."""
+    return lambda robot: robot[name].then(
+        lambda message, _: _transform(message)["transform"][part].update(values)
+    )
 
 
 def _framed(name: str, frame: str) -> Any:
     return lambda robot: robot[name].then(lambda values, _: values["header"].update(frame_id=frame))
-
-
-def _changed(name: str, **changes: Any) -> Any:
-    def change(robot: Robot) -> None:
-        for key, value in changes.items():
-            setattr(robot[name], key, value)
-
-    return change
 
 
 def _jumping(name: str) -> Any:
@@ -60,22 +41,22 @@ def _jumping(name: str) -> Any:
     return lambda robot: robot[name].then(jump)
 
 
-def _loop(robot: Robot) -> None:
+def _loop(robot: TrialRobot) -> None:
     robot.link("arm", "hand")
     robot.link("hand", "arm")
 
 
-def _two_static(robot: Robot) -> None:
+def _two_static(robot: TrialRobot) -> None:
     robot.add("again", "mount", node="other").then(
         lambda values, _: _transform(values)["transform"]["translation"].update(x=0.4)
     )
 
 
-def _static_too(robot: Robot) -> None:
+def _static_too(robot: TrialRobot) -> None:
     robot.add("again", "mount", node="other", topic="/tf", rate_hz=10.0, is_latched=False)
 
 
-def _unlocalised(robot: Robot) -> None:
+def _unlocalised(robot: TrialRobot) -> None:
     robot.remove("localisation")
 
 
@@ -120,27 +101,40 @@ ALL = [
         "--child-frame-id lidar_top",
         _framed(LASER, "lidar_top"),
     ),
-    Provocation("odometry stops", "TF018", "", _changed(ODOM, ends_s=4.0), seconds=20.0),
+    Provocation("odometry stops", "TF018", "", changed(ODOM, ends_s=4.0), seconds=20.0),
     Provocation(
         "localisation every 3 s",
         "TF019",
         "rate",
-        _changed("localisation", rate_hz=1 / 3, ahead_s=0.0),
+        changed("localisation", rate_hz=1 / 3, ahead_s=0.0),
         seconds=20.0,
     ),
     Provocation(
-        "odometry transform at 1 Hz", "TF019", "rate", _changed(ODOM, rate_hz=1.0), seconds=12.0
+        "odometry transform at 1 Hz", "TF019", "rate", changed(ODOM, rate_hz=1.0), seconds=12.0
     ),
-    Provocation("base at UTM coordinates", "TF022", "", _moved("localisation", x=4.5e5, y=5.4e6)),
-    Provocation("zeros as the laser's quaternion", "TF023", "", _rotated("mount", **NULL)),
-    Provocation("zeros as the odometry's quaternion", "TF023", "", _rotated(ODOM, **NULL)),
-    Provocation("NaN as the odometry's quaternion", "TF023", "", _rotated(ODOM, w=math.nan)),
-    Provocation("NaN as the odometry's position", "TF023", "", _moved(ODOM, x=math.nan)),
-    Provocation("quaternion that is not normalised", "TF023", "", _rotated(ODOM, w=3.0)),
+    Provocation(
+        "base at UTM coordinates",
+        "TF022",
+        "",
+        _placed("localisation", "translation", x=4.5e5, y=5.4e6),
+    ),
+    Provocation(
+        "zeros as the laser's quaternion", "TF023", "", _placed("mount", "rotation", **NULL)
+    ),
+    Provocation(
+        "zeros as the odometry's quaternion", "TF023", "", _placed(ODOM, "rotation", **NULL)
+    ),
+    Provocation(
+        "NaN as the odometry's quaternion", "TF023", "", _placed(ODOM, "rotation", w=math.nan)
+    ),
+    Provocation(
+        "NaN as the odometry's position", "TF023", "", _placed(ODOM, "translation", x=math.nan)
+    ),
+    Provocation("quaternion that is not normalised", "TF023", "", _placed(ODOM, "rotation", w=3.0)),
     Provocation("laser without a parent", "TF023", "", _renamed("mount", parent="")),
     Provocation("base as its own parent", "TF023", "", _renamed(ODOM, parent="base_link")),
     Provocation(
-        "static transform that is volatile", "TF024", "", _changed("mount", is_latched=False)
+        "static transform that is volatile", "TF024", "", changed("mount", is_latched=False)
     ),
     Provocation("localisation that jumps", "TF026", "", _jumping("localisation")),
     Provocation("odometry transform that jumps", "TF026", "", _jumping(ODOM)),

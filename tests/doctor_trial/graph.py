@@ -9,48 +9,40 @@ from typing import Any
 
 import numpy as np
 
-from tests.doctor_trial.provocation import Provocation
-from tests.doctor_trial.robot import SCAN, STRING, Reader, Robot, Stream
+from tests.doctor_trial.provocation import Provocation, changed
+from tests.doctor_trial.robot import SCAN, STRING, Stream, TrialRobot, TrialSubscription
 from webviz.shell.testing.messages import header
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
 
 
-def _reading(**how: Any) -> Callable[[Robot], object]:
-    return lambda robot: robot.readers.append(Reader("student", "/scan", SCAN, **how))
+def _reading(**how: Any) -> Callable[[TrialRobot], object]:
+    return lambda robot: robot.readers.append(TrialSubscription("student", "/scan", SCAN, **how))
 
 
-def _set(name: str, **changes: Any) -> Callable[[Robot], None]:
-    def change(robot: Robot) -> None:
-        for key, value in changes.items():
-            setattr(robot[name], key, value)
-
-    return change
-
-
-def _twice(robot: Robot) -> None:
+def _twice(robot: TrialRobot) -> None:
     robot.add("again", "scan", node="lidar#2")
 
 
-def _viewers(robot: Robot) -> None:
+def _viewers(robot: TrialRobot) -> None:
     for node in ("webviz", "webviz#2"):
         robot.streams[node] = Stream(
             node, "/clicked_point", "geometry_msgs/msg/PointStamped", lambda *_: {}, rate_hz=1e-3
         )
 
 
-def _killed(at_s: float) -> Callable[[Robot], object]:
+def _killed(at_s: float) -> Callable[[TrialRobot], object]:
     return lambda robot: robot.actions.append((at_s, lambda: os.kill(os.getpid(), signal.SIGKILL)))
 
 
-def _of_type(type_: str, make: Any) -> Callable[[Robot], None]:
-    def change(robot: Robot) -> None:
+def _of_type(type_: str, make: Any) -> Callable[[TrialRobot], None]:
+    def change(robot: TrialRobot) -> None:
         robot.streams["other"] = Stream("other", "/other", type_, make)
 
     return change
 
 
-def _huge(robot: Robot) -> None:
+def _huge(robot: TrialRobot) -> None:
     fields = [{"name": n, "offset": 4 * i, "datatype": 7, "count": 1} for i, n in enumerate("xyz")]
     points = np.random.default_rng(0).random(3_000_000 // 4, dtype=np.float32)
     robot.streams["cloud"] = Stream(
@@ -71,7 +63,7 @@ def _huge(robot: Robot) -> None:
     )
 
 
-def shown(*displays: str, frame: str = "map") -> dict[str, Any]:
+def displays_of(*displays: str, frame: str = "map") -> dict[str, Any]:
     """Return options and file of a config of these displays."""
     text = f"fixed_frame: {frame}\ndisplays: [{', '.join(displays)}]"
     return {"options": ("-d", "c.yaml"), "files": {"c.yaml": text}}
@@ -100,25 +92,25 @@ ALL = [
         "display that asks for reliable",
         "GRAPH005",
         "",
-        **shown(QOS.format("reliability: reliable")),
+        **displays_of(QOS.format("reliability: reliable")),
     ),
     Provocation(
         "display that asks for transient local",
         "GRAPH006",
         "",
-        **shown(QOS.format("durability: transient_local")),
+        **displays_of(QOS.format("durability: transient_local")),
     ),
     Provocation(
-        "map that is volatile", "GRAPH008", "transient local", _set("map", is_latched=False)
+        "map that is volatile", "GRAPH008", "transient local", changed("map", is_latched=False)
     ),
-    Provocation("lidar that is silent", "GRAPH008", "sensor", _set("scan", ends_s=0.0)),
+    Provocation("lidar that is silent", "GRAPH008", "sensor", changed("scan", ends_s=0.0)),
     Provocation(
         "wheels that are silent",
         "GRAPH008",
         "",
-        lambda r: (_set("odometry", ends_s=0.0)(r), _set("odom", ends_s=0.0)(r)),
+        lambda r: (changed("odometry", ends_s=0.0)(r), changed("odom", ends_s=0.0)(r)),
     ),
-    Provocation("lidar that stops", "GRAPH009", "", _set("scan", ends_s=4.0), seconds=20.0),
+    Provocation("lidar that stops", "GRAPH009", "", changed("scan", ends_s=4.0), seconds=20.0),
     Provocation("robot that is killed", "GRAPH009", "", _killed(4.0), seconds=20.0),
     Provocation(
         "lidar that ends",
@@ -133,27 +125,29 @@ ALL = [
         "lidar that is not activated", "GRAPH012", "lifecycle", lambda r: r.lifecycle.add("lidar")
     ),
     Provocation(
-        "topic that is misspelt", "GRAPH002", "", **shown("{type: LaserScan, topic: /scn}")
+        "topic that is misspelt", "GRAPH002", "", **displays_of("{type: LaserScan, topic: /scn}")
     ),
     Provocation(
         "topic in another namespace",
         "GRAPH003",
         "/scan",
-        **shown("{type: LaserScan, topic: /front/scan}"),
+        **displays_of("{type: LaserScan, topic: /front/scan}"),
     ),
-    Provocation("display of another type", "GRAPH004", "", **shown("{type: Path, topic: /scan}")),
+    Provocation(
+        "display of another type", "GRAPH004", "", **displays_of("{type: Path, topic: /scan}")
+    ),
     Provocation(
         "topic without a publisher",
         "GRAPH010",
         "",
-        **shown("{type: PointCloud2, topic: /velodyne_points}"),
+        **displays_of("{type: PointCloud2, topic: /velodyne_points}"),
     ),
     Provocation(
         "robot in a namespace",
         "GRAPH003",
         "namespace",
         lambda r: r.into("robot1"),
-        **shown(
+        **displays_of(
             "{type: LaserScan, topic: /scan}",
             "{type: Odometry, topic: /odom}",
             "{type: Map, topic: /map}",
@@ -175,7 +169,7 @@ ALL = [
             setattr(r["other"], "topic", "/scan"),
             r.remove("scan"),
         ),
-        **shown("{type: LaserScan, topic: /scan}"),
+        **displays_of("{type: LaserScan, topic: /scan}"),
     ),
     Provocation("large clouds as best effort", "NET013", "reliably", _huge),
 ]

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
-from tests.doctor_trial.robot import Robot
+from tests.doctor_trial.robot import TrialRobot
 from webviz.shell.doctor.report import DoctorReport, ReportedFinding
+
+
+def changed(name: str, **changes: Any) -> Callable[[TrialRobot], None]:
+    """Return what changes fields of a stream."""
+
+    def change(robot: TrialRobot) -> None:
+        robot.streams[name] = replace(robot[name], **changes)
+
+    return change
 
 
 @dataclass(frozen=True)
@@ -32,7 +42,7 @@ class Provocation:
     name: str
     id: str
     remedy: str
-    change: Callable[[Robot], object] | None = None
+    change: Callable[[TrialRobot], object] | None = None
     is_recorded: bool = False
     here: Mapping[str, str] = field(default_factory=dict)
     there: Mapping[str, str] = field(default_factory=dict)
@@ -43,9 +53,9 @@ class Provocation:
     is_alone: bool = False
     files: Mapping[str, str] = field(default_factory=dict)
 
-    def robot(self) -> Robot:
+    def robot(self) -> TrialRobot:
         """Return the faulty robot."""
-        robot = Robot()
+        robot = TrialRobot()
         if self.change is not None:
             self.change(robot)
         return robot

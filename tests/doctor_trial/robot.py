@@ -84,7 +84,7 @@ class Stream:
 
 
 @dataclass
-class Reader:
+class TrialSubscription:
     """A subscription of a node."""
 
     node: str
@@ -96,11 +96,11 @@ class Reader:
 
 
 @dataclass
-class Robot:
+class TrialRobot:
     """A robot with a lidar that drives in a circle through the simulator's building."""
 
     streams: dict[str, Stream] = field(default_factory=lambda: dict(_streams()))
-    readers: list[Reader] = field(default_factory=list)
+    readers: list[TrialSubscription] = field(default_factory=list)
     actions: list[tuple[float, Callable[[], object]]] = field(default_factory=list)
     """Times of actions in seconds since webviz subscribed."""
     time_ns: Callable[[float], int] | None = None
@@ -174,11 +174,11 @@ class Robot:
         nodes: dict[str, Node] = {}
         for name in names:
             kind = LifecycleNode if name in self.lifecycle else Node
-            given = [
+            parameters = [
                 Parameter(key, value=value) for key, value in self.parameters.get(name, {}).items()
             ]
             nodes[name] = kind(
-                name.partition("#")[0], namespace=self.namespace, parameter_overrides=given
+                name.partition("#")[0], namespace=self.namespace, parameter_overrides=parameters
             )
             executor.add_node(nodes[name])
         for each in self.readers:
@@ -195,7 +195,7 @@ class Robot:
                 publishers[key] = nodes[each.node].create_publisher(
                     message_class(each.type), each.topic, qos(each.is_reliable, each.is_latched)
                 )
-        began, sent = time.monotonic(), dict.fromkeys(self.streams, 0)
+        began, counts = time.monotonic(), dict.fromkeys(self.streams, 0)
         found_s = math.inf
         while True:
             at_s = time.monotonic() - began
@@ -206,9 +206,9 @@ class Robot:
             for name, each in self.streams.items():
                 if each.node in self.lifecycle or each.node not in nodes:
                     continue
-                if watched_s >= each.ends_s or not _is_due(each, at_s, sent[name]):
+                if watched_s >= each.ends_s or not _is_due(each, at_s, counts[name]):
                     continue
-                sent[name] += 1
+                counts[name] += 1
                 values = each.make(at_s, now_ns + round(each.ahead_s * 1e9))
                 publishers[each.node, each.topic, each.type].publish(encode(each.type, values))
             started.touch()
@@ -236,10 +236,12 @@ class Robot:
         return bag.write_file(path)
 
 
-def _is_due(stream: Stream, at_s: float, sent: int) -> bool:
+def _is_due(stream: Stream, at_s: float, counts: int) -> bool:
     if at_s < stream.begins_s:
         return False
-    return sent == 0 if not stream.rate_hz else (at_s - stream.begins_s) * stream.rate_hz >= sent
+    return (
+        counts == 0 if not stream.rate_hz else (at_s - stream.begins_s) * stream.rate_hz >= counts
+    )
 
 
 def pose(at_s: float) -> Pose2D:

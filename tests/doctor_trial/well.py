@@ -24,7 +24,7 @@ def demo(seconds: float) -> Iterator[str]:
     until_s = time.monotonic() + seconds
     while time.monotonic() < until_s:
         command = f"{DEMO}; {' '.join(DOCTOR)} --seconds 60"
-        yield from _found(
+        yield from _findings(
             "demo", ["unshare", "-rnmpf", "--mount-proc", "--kill-child", "sh", "-c", command]
         )
 
@@ -32,10 +32,10 @@ def demo(seconds: float) -> Iterator[str]:
 def bags(paths: Iterable[Path]) -> Iterator[str]:
     """Yield what is found in bags."""
     for path in paths:
-        yield from _found(path.name, [*DOCTOR, "--bag", str(path)])
+        yield from _findings(path.name, [*DOCTOR, "--bag", str(path)])
 
 
-def _found(name: str, command: list[str]) -> Iterator[str]:
+def _findings(name: str, command: list[str]) -> Iterator[str]:
     completed = subprocess.run(command, capture_output=True, text=True, check=False)
     report = msgspec.json.decode(completed.stdout, type=DoctorReport)
     for each in report.findings:

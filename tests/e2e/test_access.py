@@ -53,14 +53,14 @@ def test_tokens_from_first_start_to_revocation(
     file = tmp_path / "webviz" / "tokens.json"
     assert file.stat().st_mode & 0o777 == 0o600
     assert ask(url).status == 403
-    made = token("make", "Ada", "--role", "operator", "--days", "1", "--url", url)
-    assert "▀" in made  # the QR code
+    output = token("make", "Ada", "--role", "operator", "--days", "1", "--url", url)
+    assert "▀" in output  # the QR code
     listed = token("list", "--links")
     assert set(re.findall(r"http://[^/]+", listed)) == {url}
     secrets = re.findall(r"\?\w+=(\S+)", listed)
     assert len(secrets) == 4
     assert not [secret for secret in secrets if secret in token("list")]
-    (path,) = re.findall(r"/\?operate=\S+", made)
+    (path,) = re.findall(r"/\?operate=\S+", output)
 
     def enter() -> http.client.HTTPResponse:
         deadline = time.monotonic() + 60.0

@@ -42,7 +42,7 @@ def refused(*arguments: str, status: int = 1) -> str:
 
 
 @pytest.mark.parametrize(
-    ("given", "meant"),
+    ("arguments", "meant"),
     [
         ("lab.rviz", "--display-config lab.rviz"),
         ("Run.MCAP lab.yaml --port 0", "--bag Run.MCAP --display-config lab.yaml --port 0"),
@@ -57,12 +57,12 @@ def refused(*arguments: str, status: int = 1) -> str:
     ],
 )
 def test_files_are_opened_without_options(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: str, meant: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: str, meant: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     for folder in ("run", "demo"):
         (tmp_path / folder).mkdir()
-    assert with_openers(given.split()) == meant.split()
+    assert with_openers(arguments.split()) == meant.split()
 
 
 def test_help_lists_every_command_and_option() -> None:
@@ -94,7 +94,7 @@ def test_help_lists_every_command_and_option() -> None:
         (["convert"], "`webviz convert` needs SOURCE."),
     ],
 )
-def test_a_mistyped_argument_is_named_with_what_was_meant(
+def test_a_mistyped_argument_suggests_the_nearest(
     arguments: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert cli(arguments) == 2
@@ -119,7 +119,7 @@ def test_an_address_that_cannot_be_served_is_an_error() -> None:
 
 
 @pytest.mark.skipif("rclpy" in os.environ.get("PYTHONPATH", ""), reason="a sourced ROS")
-def test_without_ros_one_sentence_says_how_to_get_it(tmp_path: Path) -> None:
+def test_a_missing_ros_is_explained_in_one_sentence(tmp_path: Path) -> None:
     folder = tmp_path / "venv"
     venv.create(folder, system_site_packages=False)
     # The packages of this environment, but not its rclpy.
@@ -166,7 +166,7 @@ def test_a_demo_with_an_unknown_fault_does_not_start(capsys: pytest.CaptureFixtu
     assert "Unknown fault 'foo'. Choose one of laser_yaw" in capsys.readouterr().err
 
 
-def test_installing_brings_what_pictures_need_and_says_if_a_browser_is_missing() -> None:
+def test_installation_includes_pictures_and_reports_a_missing_browser() -> None:
     plan = subprocess.run(
         ["make", "--dry-run", "--always-make", "install"],
         cwd=ROOT,
@@ -201,17 +201,17 @@ def test_a_pipe_that_is_closed_ends_a_command_quietly(tmp_path: Path) -> None:
     )
     assert command.stdout is not None
     command.stdout.close()
-    _, said = command.communicate()
-    assert (command.returncode, said) == (1, b"")
+    _, output = command.communicate()
+    assert (command.returncode, output) == (1, b"")
 
 
 @pytest.mark.parametrize(
-    ("closed", "said"), [(">&-", ""), ("2>&-", "complete"), ("<&- >&- 2>&-", "")]
+    ("closed", "output"), [(">&-", ""), ("2>&-", "complete"), ("<&- >&- 2>&-", "")]
 )
-def test_streams_that_are_closed_lead_nowhere(tmp_path: Path, closed: str, said: str) -> None:
+def test_streams_that_are_closed_lead_nowhere(tmp_path: Path, closed: str, output: str) -> None:
     (tmp_path / "a.rviz").write_text("Visualization Manager: {Displays: []}")
     line = f'exec "{sys.executable}" -m webviz convert --check a.rviz {closed}'
     result = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
-    assert said in result.stdout
+    assert output in result.stdout
     assert "Error" not in result.stderr

@@ -180,19 +180,19 @@ def choose_fixed_frame(page: Page, frame: str) -> None:
 
 
 def settled(page: Page) -> PictureContent:
-    """Return the positions seen once everything is drawn and the robot stands."""
+    """Return the positions in the picture once everything is drawn and the robot stands."""
     before: list[PictureContent] = []
 
     def at_rest() -> PictureContent | None:
-        seen = look(page)
-        is_complete = len(seen.scan) > 50 and len(seen.walls) > 500
-        stands = bool(before) and np.linalg.norm(seen.robot - before.pop().robot) < 0.005
-        before.append(seen)
-        return seen if is_complete and stands else None
+        content = look(page)
+        is_complete = len(content.scan) > 50 and len(content.walls) > 500
+        stands = bool(before) and np.linalg.norm(content.robot - before.pop().robot) < 0.005
+        before.append(content)
+        return content if is_complete and stands else None
 
-    seen = page.wait_for(at_rest, "robot, scan and map in the picture", 60)
-    assert seen is not None
-    return seen
+    resting = page.wait_for(at_rest, "robot, scan and map in the picture", 60)
+    assert resting is not None
+    return resting
 
 
 def check_drive_in_map(page: Page, driver: Driver) -> None:
@@ -206,8 +206,8 @@ def check_drive_in_map(page: Page, driver: Driver) -> None:
     assert after.robot - before.robot == pytest.approx(driven, abs=0.06)
     # Walls that were black are black or under points of the scan.
     assert share_on_walls(before.walls, np.vstack([after.walls, after.scan]), 0.06) > 0.95
-    for seen in (before, after):
-        assert share_on_walls(seen.scan, seen.walls) > 0.9
+    for content in (before, after):
+        assert share_on_walls(content.scan, content.walls) > 0.9
     # The scan is another one than before: what the robot passed is seen from elsewhere.
     assert share_on_walls(after.scan, before.scan, 0.03) < 0.95
 
@@ -218,8 +218,8 @@ def check_drive_in_base(page: Page, driver: Driver) -> None:
     walls = before.walls + (start - driver.where())
     inside = np.abs(walls).max(axis=1) < 2.5
 
-    def are_where_they_should_be(seen: PictureContent) -> bool:
-        now = np.vstack([seen.walls, seen.scan])
+    def are_where_they_should_be(content: PictureContent) -> bool:
+        now = np.vstack([content.walls, content.scan])
         return share_on_walls(walls[inside], now, 0.06) > 0.95
 
     page.wait_for(lambda: are_where_they_should_be(look(page)), "the map has moved")
@@ -254,8 +254,8 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> N
     card = tab.get_by_role("region", name="What if")
 
     def fit() -> int:
-        found = re.search(r"(\d+)% of \d+ points on walls of /map", card.inner_text())
-        return int(found[1]) if found else -1
+        match = re.search(r"(\d+)% of \d+ points on walls of /map", card.inner_text())
+        return int(match[1]) if match else -1
 
     page.wait_for(lambda: fit() > 90, "the fit of the scan", 60)
 
@@ -264,7 +264,7 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> N
         return page.evaluate(
             """async (point) => {
               const { frameNode, projectionOf } = await import("webviz/scene/projection.js");
-              const { all } = await import("webviz/features/handles/known.js");
+              const { all } = await import("webviz/features/handles/registry.js");
               const [handle] = all().values();
               return projectionOf(frameNode(handle.frame)).project(point);
             }""",
@@ -287,7 +287,7 @@ def test_a_laser_that_is_moved_on_the_page_alone_is_found_again(page: Page) -> N
     tab.get_by_role("tab", name="Displays", exact=True).click()
 
 
-def test_a_dead_scan_publisher_fails_the_check_and_the_page_says_so(
+def test_a_dead_scan_publisher_fails_the_check_and_is_shown_on_the_page(
     page: Page, simulator: Program, driver: Driver
 ) -> None:
     choose_fixed_frame(page, "map")

@@ -88,7 +88,9 @@ assert {path.name for path in Path("pictures").iterdir()} == {"scan.png", "costs
 """Runs the tests of a package that are in `TEXT`."""
 
 
-def outcome(work: tuple[str, ...] | str, made: Path, folder: Path) -> tuple[int | None, str]:
+def outcome(
+    work: tuple[str, ...] | str, example_folder: Path, folder: Path
+) -> tuple[int | None, str]:
     """Run a command or a program beside the files that pages name; Ctrl-C ends what would run on.
 
     Returns:
@@ -98,7 +100,7 @@ def outcome(work: tuple[str, ...] | str, made: Path, folder: Path) -> tuple[int 
     here.mkdir()
     words = () if isinstance(work, str) else work
     written = {after for before, after in itertools.pairwise(words) if before == "-o"}
-    for path in made.iterdir():
+    for path in example_folder.iterdir():
         if path.name not in written:
             (here / path.name).symlink_to(path)
     log = folder / "output.txt"
@@ -137,7 +139,7 @@ def on_this_machine(words: tuple[str, ...]) -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def example_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the files that the pages name."""
     folder = tmp_path_factory.mktemp("made")
     bag = drive(DRIVE_S)
@@ -173,9 +175,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def program_of(block: Block) -> str:
     """A program that says when Ctrl-C may come; the default port may be taken, the run is long."""
-    shown = block.text.replace('Viewer("lab.yaml"', 'Viewer("lab.yaml", port=0')
-    shown = shown.replace('bag="run.mcap"', 'bag="long"')
-    return TELLING + shown.replace("viewer.wait()", "tell(viewer)\n    viewer.wait()")
+    program = block.text.replace('Viewer("lab.yaml"', 'Viewer("lab.yaml", port=0')
+    program = program.replace('bag="run.mcap"', 'bag="long"')
+    return TELLING + program.replace("viewer.wait()", "tell(viewer)\n    viewer.wait()")
 
 
 def package_of(block: Block) -> str:
@@ -192,16 +194,16 @@ WORK = {
 
 @pytest.fixture(scope="module")
 def outcomes(
-    made: Path, ros_env: dict[str, str], tmp_path_factory: pytest.TempPathFactory
+    example_folder: Path, ros_env: dict[str, str], tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Mapping[tuple[str, ...] | str, Future[tuple[int | None, str]]]]:
     """Of all commands and programs, several of which run at once, beside a simulated robot."""
     multiprocessing.set_forkserver_preload(["warm"])
-    robot = Program([sys.executable, "-m", "webviz_sim"], ros_env, made / "robot.txt")
+    robot = Program([sys.executable, "-m", "webviz_sim"], ros_env, example_folder / "robot.txt")
     try:
         with pytest.MonkeyPatch.context() as patch, ThreadPoolExecutor(AT_ONCE) as pool:
             patch.setenv("PYTHONPATH", str(ROOT / "tests/support"))
             yield {
-                work: pool.submit(outcome, work, made, tmp_path_factory.mktemp("work"))
+                work: pool.submit(outcome, work, example_folder, tmp_path_factory.mktemp("work"))
                 for work in WORK
             }
     finally:

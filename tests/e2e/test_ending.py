@@ -35,8 +35,8 @@ def has_handlers(program: Program) -> bool:
 def signals(program: Program, name: str) -> int:
     """A set of signals of a program, see proc(5)."""
     status = Path(f"/proc/{program.process.pid}/status").read_text()
-    (found,) = re.findall(rf"{name}:\s*(\w+)", status)
-    return int(found, 16)
+    (mask,) = re.findall(rf"{name}:\s*(\w+)", status)
+    return int(mask, 16)
 
 
 def has_simulator(program: Program) -> bool:
@@ -166,9 +166,9 @@ def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> Non
     if pid == 0:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which nohup ignores for the tests, too
         os.execve(sys.executable, command, ros_env)
-    shown = b""
-    while b"http" not in shown:
-        shown += os.read(terminal, 1000)
+    output = b""
+    while b"http" not in output:
+        output += os.read(terminal, 1000)
     family = psutil.Process(pid).children(recursive=True)
     os.close(terminal)
     _, status = os.waitpid(pid, 0)
@@ -176,9 +176,27 @@ def test_a_closed_terminal_ends_the_demo_cleanly(ros_env: dict[str, str]) -> Non
     check_nothing_is_left(family)
 
 
-def test_a_closed_terminal_does_not_end_what_nohup_started(
-    ros_env: dict[str, str], tmp_path: Path
-) -> None:
+def test_a_terminal_that_closes_while_something_is_written_is_not_an_error() -> None:
+    code = """
+import signal, time
+from webviz.shell.cli.ending import finish, piped
+signal.signal(signal.SIGHUP, signal.SIG_IGN)
+def work():
+    while True:
+        print("at work")
+        time.sleep(0.01)
+finish(piped(work))
+"""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.execv(sys.executable, [sys.executable, "-c", code])
+    assert b"at work" in os.read(terminal, 1000)
+    os.close(terminal)
+    _, status = os.waitpid(pid, 0)
+    assert os.waitstatus_to_exitcode(status) == 0
+
+
+def test_nohup_survives_the_end_of_its_terminal(ros_env: dict[str, str], tmp_path: Path) -> None:
     command = ["nohup", sys.executable, "-m", "webviz", "--port", "0"]
     program = Program(command, ros_env, tmp_path / "log.txt")
     program.url()
@@ -243,7 +261,7 @@ def test_ctrl_c_ends_a_viewer_whose_frame_loop_never_returns(
     check_nothing_is_left(family)
 
 
-def test_a_reader_that_goes_early_is_no_error() -> None:
+def test_a_closed_pipe_is_not_an_error() -> None:
     command = f"{sys.executable} -m webviz schema | head -n 1"
     result = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
     assert result.stdout == "{\n"

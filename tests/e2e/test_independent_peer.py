@@ -123,7 +123,7 @@ def test_a_program_without_a_node_that_sends_nothing(
     wait_until(False)
 
 
-def test_what_either_side_sends_reaches_the_other(
+def test_messages_reach_an_independent_peer_and_come_back(
     peer: Callable[..., Program],
     viewer: webviz.Viewer,
     open_page: Callable[..., Page],

@@ -63,7 +63,7 @@ def pages(
 ) -> Iterator[list[Page]]:
     with open_pages(browser, viewer.url, 900, 700, resolution=RESOLUTION) as opened:
         for page in opened:
-            page.wait_for(lambda page=page: len(known(page)) == 13, "all markers", 60)
+            page.wait_for(lambda page=page: len(markers_on_page(page)) == 13, "all markers", 60)
             page.tab.evaluate("document.body.classList.add('wv-folded')")
         yield opened
 
@@ -77,11 +77,11 @@ def page(pages: list[Page], server: MarkerServer) -> Page:
     return pages[0]
 
 
-def known(page: Page) -> dict[str, Any]:
+def markers_on_page(page: Page) -> dict[str, Any]:
     """The handles that a page knows, by the name of their marker."""
     return page.tab.evaluate(
         """async () => {
-          const { all } = await import("webviz/features/handles/known.js");
+          const { all } = await import("webviz/features/handles/registry.js");
           return Object.fromEntries([...all()].map(([id, each]) => [each.name, { id, ...each }]));
         }"""
     )
@@ -91,7 +91,7 @@ def pose(page: Page, name: str) -> tuple[list[float], list[float]]:
     """Return where a page shows a marker in its frame: position and orientation, w first."""
     value = page.tab.evaluate(
         """async (id) => (await import("webviz/features/handles/poses.js")).poseOf(id)""",
-        known(page)[name]["id"],
+        markers_on_page(page)[name]["id"],
     )
     return value["position"], value["wxyz"]
 
@@ -235,7 +235,7 @@ def test_a_marker_stays_where_its_server_leaves_it_drag_after_drag(
         server.feedback.clear()
         drag(page, (x, y, 0.2), (x + 0.4, y - 0.3, 0.2))
         wait_for(page, server, UP)
-        page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
+        page.wait_for(lambda: markers_on_page(page)["simple_2"]["holder"] is None, "the release")
         at = server.markers["simple_2"].pose.position
         assert (at.x, at.y) == pytest.approx((x + 0.4, y - 0.3), abs=0.02)
         for _ in range(6):
@@ -250,7 +250,7 @@ def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
     chess.menu_entries = [MenuEntry(id=1, title="Castle")]
     server.insert(chess)
     server.apply()
-    page.wait_for(lambda: len(known(page)["chess_piece"]["menu"]) == 1, "the menu")
+    page.wait_for(lambda: len(markers_on_page(page)["chess_piece"]["menu"]) == 1, "the menu")
     x, y = pose(page, "chess_piece")[0][:2]
     look_at(page, viewer, x, y)
     place = on_screen(page, (x, y, 0.2))
@@ -317,7 +317,7 @@ def test_one_browser_drags_and_others_see_who(
     page.tab.mouse.move(*on_screen(page, (0.5, -6.0, 0.2)))
     page.tab.mouse.down()
     page.tab.mouse.move(*on_screen(page, (0.9, -6.0, 0.2)), steps=4)
-    other.wait_for(lambda: known(other)["moving"]["holder"] == number, "the holder")
+    other.wait_for(lambda: markers_on_page(other)["moving"]["holder"] == number, "the holder")
     other.wait_for(
         lambda: pose(other, "moving")[0][0] == pytest.approx(0.4, abs=0.03), "the drag elsewhere"
     )
@@ -335,7 +335,7 @@ def test_one_browser_drags_and_others_see_who(
     assert feedback[-1].header.frame_id == "moving_frame"
     assert feedback[-1].pose.position.x == pytest.approx(0.4, abs=0.03)
     assert feedback[-1].mouse_point.x == pytest.approx(0.4, abs=0.03)
-    other.wait_for(lambda: known(other)["moving"]["holder"] is None, "the release")
+    other.wait_for(lambda: markers_on_page(other)["moving"]["holder"] is None, "the release")
 
 
 def test_controls_are_lit_under_the_pointer_and_hidden_from_other_tools(
@@ -371,11 +371,11 @@ def around(page: Page, place: tuple[float, float]) -> list[Any]:
 def is_visible(page: Page, name: str, control: int) -> bool:
     return page.tab.evaluate(
         """async ([id, control]) => {
-          const { nodesOf } = await import("webviz/features/handles/known.js");
+          const { nodesOf } = await import("webviz/features/handles/registry.js");
           const { node } = await import("webviz/viser_page.js");
           return nodesOf(id).parts.get(control).every((path) => node(path).visible);
         }""",
-        [known(page)[name]["id"], control],
+        [markers_on_page(page)[name]["id"], control],
     )
 
 
@@ -383,13 +383,13 @@ def test_controls_that_face_the_camera_do_so_in_every_view(
     page: Page, viewer: webviz.Viewer
 ) -> None:
     """The ring around the x axis of its control is seen from the front: as wide as it is tall."""
-    marker = known(page)["view_facing"]["id"]
+    marker = markers_on_page(page)["view_facing"]["id"]
     ahead, left, up = [0.0, 0.0, -1.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]
 
     def axes() -> Any:
         return page.tab.evaluate(
             """async (id) => {
-              const { nodesOf } = await import("webviz/features/handles/known.js");
+              const { nodesOf } = await import("webviz/features/handles/registry.js");
               const { node, camera } = await import("webviz/viser_page.js");
               const group = node(nodesOf(id).groups.get("0v"));
               const seen = camera().matrixWorldInverse.clone().multiply(group.matrixWorld);
@@ -415,7 +415,7 @@ def test_a_browser_that_leaves_during_a_drag_lets_go(
     other.tab.mouse.move(*on_screen(other, (x, y, 0.2)))
     other.tab.mouse.down()
     other.tab.mouse.move(*on_screen(other, (x - 0.5, y, 0.2)), steps=4)
-    page.wait_for(lambda: known(page)["simple_2"]["holder"] is not None, "the holder")
+    page.wait_for(lambda: markers_on_page(page)["simple_2"]["holder"] is not None, "the holder")
     other.close()
-    page.wait_for(lambda: known(page)["simple_2"]["holder"] is None, "the release")
+    page.wait_for(lambda: markers_on_page(page)["simple_2"]["holder"] is None, "the release")
     assert wait_for(page, server, UP)[-1].marker_name == "simple_2"

@@ -204,10 +204,10 @@ def test_numbers_of_the_robot_are_plotted_and_read(page: Page, viewer: webviz.Vi
     page.tab.keyboard.press("Escape")
     value = page.tab.locator(".wv-chart-value")
     page.wait_for(lambda: value.all_inner_texts() == ["0 m/s"], "the value of the curve")
-    shown = viewer.add("Text", topic="/odom", fields=["child_frame_id"])
+    display = viewer.add("Text", topic="/odom", fields=["child_frame_id"])
     pane = page.tab.get_by_label("Text /odom", exact=True)
     page.wait_for(lambda: pane.count() and "'base_link'" in pane.inner_text(), "the text")
-    shown.remove()
+    display.remove()
     page.wait_for(lambda: not pane.count(), "room for the scene")
     button(page, "Remove panel").click()
 

@@ -62,7 +62,7 @@ def publish(ros_env: dict[str, str]) -> Iterator[Callable[..., None]]:
     talker.close()
 
 
-def test_what_is_added_and_saved_comes_back_and_what_a_kill_left_unsaved_is_restored(
+def test_saved_displays_return_and_unsaved_changes_survive_a_kill(
     start: Callable[..., Program],
     open_page: Callable[..., Page],
     publish: Callable[..., None],

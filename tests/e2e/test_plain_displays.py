@@ -69,12 +69,12 @@ MESSAGES = (
 )
 
 
-def test_each_display_draws_what_is_published_and_says_ok(
+def test_each_display_draws_published_messages_and_is_ok(
     webviz_viewer: Callable[..., LiveViewer],
 ) -> None:
     """Types without a package, such as nav2's, are composed."""
-    shown = [cls() for cls in CLASSES]
-    viewer = webviz_viewer(*shown, Twist(reference_frame="sensor"))
+    displays = [cls() for cls in CLASSES]
+    viewer = webviz_viewer(*displays, Twist(reference_frame="sensor"))
     viewer.transform("map", "sensor")
     viewer.transform("map", "rider")
     text = "std_msgs/msg/String"
@@ -82,7 +82,7 @@ def test_each_display_draws_what_is_published_and_says_ok(
     viewer.publish("/cmd_vel", "geometry_msgs/msg/Twist", PLAIN_MESSAGES["geometry_msgs/msg/Twist"])
     types = {
         inputs(display)[0][2].name: next(iter(inputs_of(type(display)).values())).type
-        for display in shown
+        for display in displays
     }
     for topic, type_name in types.items():  # a second each, one after another
         viewer.advertise(topic, type_name)
@@ -95,12 +95,12 @@ def test_each_display_draws_what_is_published_and_says_ok(
 
 
 def test_types_of_moveit_need_no_package(webviz_viewer: Callable[..., LiveViewer]) -> None:
-    shown = PlanningScene(), Trajectory(), RobotState()
-    viewer = webviz_viewer(*shown)
+    displays = PlanningScene(), Trajectory(), RobotState()
+    viewer = webviz_viewer(*displays)
     viewer.transform("map", "base")
     text = "std_msgs/msg/String"
     viewer.publish_bytes("/robot_description", text, encode(text, {"data": URDF}), latched=True)
-    for display in shown:
+    for display in displays:
         name, spec = next(iter(inputs_of(type(display)).items()))
         topic = f"/{getattr(display, name).name.removeprefix('/')}"
         viewer.publish(topic, spec.type, MOVEIT_MESSAGES[spec.type])
@@ -133,11 +133,11 @@ def test_markers_come_go_wait_and_expire(webviz_viewer: Callable[..., LiveViewer
             rows = viewer.viewer.snapshot().rows
             return str({key: each.text for key, each in rows[display].statuses.items()})
 
-        def said() -> str:
+        def status_text() -> str:
             status = viewer.viewer.snapshot().rows[display].statuses.get(key)
             return status.text if status else ""
 
-        viewer.wait_for(lambda: text in said(), statuses)
+        viewer.wait_for(lambda: text in status_text(), statuses)
 
     viewer.publish("/visualization_marker", "visualization_msgs/msg/Marker", cube(1))
     says("1 marker in 1 namespace.")

@@ -100,7 +100,9 @@ def test_a_stamp_ahead_of_the_newest_transform_names_the_link_that_lags(
     wait_until_ok(page, "83 ms")
 
 
-def test_a_stamp_older_than_the_cache_says_by_how_much(robot: Robot, page: Page) -> None:
+def test_the_status_of_a_stamp_older_than_the_cache_gives_the_difference(
+    robot: Robot, page: Page
+) -> None:
     now_ns = time.time_ns()
     history = [("map", "beacon", now_ns - i * SECOND, 1.0) for i in range(12, 0, -1)]
     robot.publish("/tf", TF, transforms(*history))
@@ -136,7 +138,9 @@ def test_an_empty_frame_id_is_named(robot: Robot, page: Page) -> None:
     wait_until_ok(page, "frame_id is empty")
 
 
-def test_a_queue_that_overflows_says_which_size_would_do(robot: Robot, page: Page) -> None:
+def test_the_status_of_a_queue_that_overflows_gives_a_sufficient_size(
+    robot: Robot, page: Page
+) -> None:
     robot.links["base_link", "camera"] = -0.9
     robot.scans["/queue"] = Scan("camera")
     select(page, "Queue")
@@ -162,6 +166,7 @@ def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, 
     links = [("map", "far", stamp_ns, 1e308), ("far", "out", stamp_ns, 1e308)]
     robot.publish("/tf", TF, transforms(*links))
     robot.scans["/far"] = Scan("out", stamp_ns=stamp_ns)
+    robot.scans["/slash"] = Scan("/base_link")
     wait_for(
         page,
         '"out" is more than 1e+12 m from "map", too far to draw. The longest link on the way '

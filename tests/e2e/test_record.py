@@ -46,7 +46,7 @@ def wait_for_topics(program: Program, path: Path, topics: set[str]) -> None:
     raise AssertionError(f"{topics_of(path)}: {program.output()}")
 
 
-def test_all_topics_are_recorded_with_what_is_latched(
+def test_all_topics_are_recorded_with_latched_messages(
     start: Callable[..., Program], tmp_path: Path
 ) -> None:
     path = tmp_path / "run"
@@ -54,16 +54,16 @@ def test_all_topics_are_recorded_with_what_is_latched(
     expected = {"/map", "/robot_description", "/tf", "/tf_static", "/odom", "/scan"}
     wait_for_topics(program, path, expected)
     assert program.end() == 0
-    said = program.wait_for(r"recorded (\d+) messages of (\d+) topics in \d+ s, [\d.]+ MB\.")
+    match = program.wait_for(r"recorded (\d+) messages of (\d+) topics in \d+ s, [\d.]+ MB\.")
     with Reader(path) as bag:
-        assert bag.message_count == int(said[1])
-        assert len(bag.connections) == int(said[2])
+        assert bag.message_count == int(match[1])
+        assert len(bag.connections) == int(match[2])
         assert sum(1 for _ in bag.messages()) == bag.message_count
         assert expected <= set(bag.topics)
         assert not any("/_" in topic for topic in bag.topics)
 
 
-def test_a_killed_recording_keeps_what_was_flushed_and_is_recovered(
+def test_a_killed_recording_keeps_flushed_messages_and_is_recovered(
     start: Callable[..., Program], tmp_path: Path
 ) -> None:
     path = tmp_path / "run"

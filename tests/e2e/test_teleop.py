@@ -14,6 +14,7 @@ import pytest
 from pages import COARSE, open_pages
 from processes import command_lines, send
 from program import Program
+from waiting import until
 from websockets.asyncio.server import ServerConnection
 
 pytest.importorskip("rclpy", reason="needs rclpy")
@@ -36,11 +37,11 @@ FULL = 0.5
 """The highest speed of the tool in m/s."""
 
 
-class Robot:
+class VelocityListener:
     """Hears /cmd_vel in a thread of its own."""
 
     def __init__(self) -> None:
-        self.heard: list[tuple[float, Twist]] = []
+        self.commands: list[tuple[float, Twist]] = []
         """Each command and when it came."""
         self._context = Context()
         rclpy.init(context=self._context)
@@ -52,7 +53,7 @@ class Robot:
         self._thread.start()
 
     def _hear(self, twist: Twist) -> None:
-        self.heard.append((time.monotonic(), twist))
+        self.commands.append((time.monotonic(), twist))
 
     def close(self) -> None:
         self._executor.shutdown()
@@ -64,7 +65,7 @@ class Robot:
         return self._node.count_publishers("/cmd_vel")
 
     def speeds(self) -> list[float]:
-        return [twist.linear.x for _, twist in self.heard]
+        return [twist.linear.x for _, twist in self.commands]
 
     def has_stopped(self) -> bool:
         """Return whether a drive ended with a zero; of several, waiting ones make way in turn."""
@@ -72,15 +73,15 @@ class Robot:
 
 
 @pytest.fixture(scope="module")
-def robot(ros_env: dict[str, str]) -> Iterator[Robot]:
-    robot = Robot()
+def robot(ros_env: dict[str, str]) -> Iterator[VelocityListener]:
+    robot = VelocityListener()
     yield robot
     robot.close()
 
 
 @pytest.fixture(autouse=True)
-def nothing_heard(robot: Robot) -> None:
-    robot.heard.clear()
+def nothing_heard(robot: VelocityListener) -> None:
+    robot.commands.clear()
 
 
 def empty(*_: object) -> Config:
@@ -103,7 +104,7 @@ def channels() -> Iterator[list[ServerConnection]]:
 
 
 @pytest.fixture(scope="module")
-def viewer(robot: Robot, channels: list[ServerConnection]) -> Iterator[webviz.Viewer]:
+def viewer(robot: VelocityListener, channels: list[ServerConnection]) -> Iterator[webviz.Viewer]:
     with webviz.Viewer(port=0, read=empty) as viewer:
         yield viewer
 
@@ -115,7 +116,7 @@ def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[P
 
 
 @pytest.fixture
-def page(pages: list[Page], robot: Robot) -> Iterator[Page]:
+def page(pages: list[Page], robot: VelocityListener) -> Iterator[Page]:
     """A page that may drive, and nobody else."""
     choose(pages[0], robot)
     yield pages[0]
@@ -124,7 +125,7 @@ def page(pages: list[Page], robot: Robot) -> Iterator[Page]:
         each.tab.keyboard.press("Escape")
 
 
-def choose(page: Page, robot: Robot) -> None:
+def choose(page: Page, robot: VelocityListener) -> None:
     """Select the tool, and wait until nobody drives."""
     page.wait_for(lambda: page.tab.get_by_role("button", name="Teleop").count() == 1, "the tool")
     if page.tab.locator(".wv-teleop").count() == 0:
@@ -139,13 +140,13 @@ DRIVER_OF = """async () => {
 }"""
 
 
-def hold(page: Page, robot: Robot) -> None:
+def hold(page: Page, robot: VelocityListener) -> None:
     """Hold a key until the robot is at full speed."""
     page.tab.keyboard.down("w")
     page.wait_for(lambda: robot.speeds()[-1:] == [FULL], "full speed", PATIENCE_S)
 
 
-def wait_until_stopped(page: Page, robot: Robot) -> None:
+def wait_until_stopped(page: Page, robot: VelocityListener) -> None:
     page.wait_for(robot.has_stopped, "zeros", PATIENCE_S)
 
 
@@ -167,7 +168,7 @@ def blocked(viewer: webviz.Viewer) -> Iterator[None]:
 
 
 def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_stands_still(
-    page: Page, robot: Robot, viewer: webviz.Viewer
+    page: Page, robot: VelocityListener, viewer: webviz.Viewer
 ) -> None:
     with blocked(viewer):
         pressed = time.monotonic()
@@ -178,10 +179,10 @@ def test_a_held_key_drives_and_letting_go_ends_in_silence_while_the_frame_loop_s
         page.tab.wait_for_timeout(100)
         speeds = robot.speeds()
         # 1 m/s² from the first step of 50 ms on; a busy machine leaves out commands.
-        assert all(twist.linear.x <= at - pressed + 0.05 for at, twist in robot.heard)
+        assert all(twist.linear.x <= at - pressed + 0.05 for at, twist in robot.commands)
         page.tab.wait_for_timeout(300)
         assert robot.speeds() == speeds
-        assert {(twist.linear.y, twist.angular.z) for _, twist in robot.heard} == {(0.0, 0.0)}
+        assert {(twist.linear.y, twist.angular.z) for _, twist in robot.commands} == {(0.0, 0.0)}
 
 
 def cut(page: Page, channels: list[ServerConnection]) -> None:
@@ -225,7 +226,7 @@ def leave(page: Page, channels: list[ServerConnection]) -> None:
 @pytest.mark.parametrize("cause", [cut, freeze, hide, blur, leave])
 def test_the_robot_stops_although_the_key_is_still_held(
     page: Page,
-    robot: Robot,
+    robot: VelocityListener,
     viewer: webviz.Viewer,
     channels: list[ServerConnection],
     cause: Callable[[Page, list[ServerConnection]], Callable[[], object] | None],
@@ -241,7 +242,7 @@ def test_the_robot_stops_although_the_key_is_still_held(
 
 
 def test_the_robot_stops_while_the_page_sends_but_receives_nothing(
-    page: Page, robot: Robot, channels: list[ServerConnection]
+    page: Page, robot: VelocityListener, channels: list[ServerConnection]
 ) -> None:
     hold(page, robot)
     with stalled(channels):
@@ -252,8 +253,8 @@ def test_the_robot_stops_while_the_page_sends_but_receives_nothing(
     page.wait_for(lambda: robot.speeds()[-1:] == [FULL], "full speed", PATIENCE_S)
 
 
-def test_the_first_of_two_drivers_keeps_control_and_the_second_learns_who_has_it(
-    page: Page, pages: list[Page], robot: Robot
+def test_the_first_of_two_drivers_keeps_control_and_the_second_sees_its_number(
+    page: Page, pages: list[Page], robot: VelocityListener
 ) -> None:
     other = pages[1]
     choose(other, robot)
@@ -272,8 +273,8 @@ def test_the_first_of_two_drivers_keeps_control_and_the_second_learns_who_has_it
     wait_until_stopped(other, robot)
 
 
-def test_zeros_are_the_last_after_the_viewer_was_told_to_end_and_after_a_browser_was_killed(
-    start: Callable[..., Program], browser: playwright.Browser, robot: Robot
+def test_zeros_come_last_after_the_viewer_ends_and_after_a_browser_is_killed(
+    start: Callable[..., Program], browser: playwright.Browser, robot: VelocityListener
 ) -> None:
     """The page of the viewer that ends finds the next one on its port."""
     program = start("webviz", "--port", "0")
@@ -286,16 +287,9 @@ def test_zeros_are_the_last_after_the_viewer_was_told_to_end_and_after_a_browser
     until(lambda: robot.publishers() == 0)
     assert robot.speeds()[-1] == 0.0
     page.tab.keyboard.up("w")
-    robot.heard.clear()
+    robot.commands.clear()
     with webviz.Viewer(port=int(url.rpartition(":")[2]), read=empty):
         choose(page, robot)
         hold(page, robot)
         send(signal.SIGKILL, {*command_lines()} - before)
         until(robot.has_stopped)
-
-
-def until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)

@@ -66,7 +66,7 @@ def page(lasting: Page) -> Page:
     return lasting
 
 
-class Bag:
+class DrivenBag:
     """A bag played by hand: a robot that drives along x at 1 m/s, seen by a scan and on a map."""
 
     def __init__(self, robot: Robot, first_s: int, *, with_clock: bool) -> None:
@@ -116,7 +116,7 @@ def wait_for(page: Page, *words: str, seconds: float = 60.0) -> None:
 def test_a_bag_that_loops_without_a_clock_is_reset_by_itself(
     make_robot: Callable[..., Robot], page: Page
 ) -> None:
-    bag = Bag(make_robot("player"), 1_700_000_000, with_clock=False)
+    bag = DrivenBag(make_robot("player"), 1_700_000_000, with_clock=False)
     page.wait_for(lambda: has_map(page), "the map")
     bag.play(0.0, 4.0, 2.0)
     page.wait_for(lambda: 3.5 < scan_at(page) < 4.1, "the scan at the end of the bag")
@@ -194,7 +194,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     Side(page).select(GLOBAL_OPTIONS)
     wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
     player = make_robot("player")
-    bag = Bag(player, 100, with_clock=True)
+    bag = DrivenBag(player, 100, with_clock=True)
     bag.play(0.0, 1.0)
     topics = ("/clock", "/tf", "/scan")
     page.wait_for(lambda: all(map(player.node.count_subscribers, topics)), "the viewer listens")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from bench import Benches, benches
+from bench import Bench, Benches, benches
+from dots import PoseDot
 
 
 @pytest.fixture
@@ -13,3 +14,9 @@ def bench() -> Iterator[Benches]:
     """Make a viewer of displays."""
     with benches() as make:
         yield make
+
+
+@pytest.fixture
+def b(bench: Benches) -> Bench:
+    """A viewer of one dot."""
+    return bench(PoseDot(name="Dot"))

@@ -56,8 +56,8 @@ def test_axes_are_turned(pose: Pose, inner: Pose) -> None:
     assert isinstance(moved, Axes)
     outer = Rotation.from_quat(np.roll(pose.wxyz, -1))
     expected = outer * Rotation.from_quat(np.roll(inner.wxyz, -1))
-    found = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
-    assert (expected.inv() * found).magnitude() < 1e-5
+    rotation = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
+    assert (expected.inv() * rotation).magnitude() < 1e-5
 
 
 @given(poses(), poses())
@@ -96,8 +96,8 @@ def test_far_out_the_origin_comes_along_so_that_millimetres_survive() -> None:
     xyz = np.array([[0.001, 0.002, 0.003]], np.float32)
     node = baked(Points(xyz, (1, 2, 3), 0.1), Pose(far), origin)
     assert isinstance(node, Points)
-    found = node.xyz.astype(float) + origin - np.array(far)
-    np.testing.assert_allclose(found, xyz, atol=1e-4)
+    positions = node.xyz.astype(float) + origin - np.array(far)
+    np.testing.assert_allclose(positions, xyz, atol=1e-4)
 
 
 def test_the_origin_stays_while_data_is_near() -> None:

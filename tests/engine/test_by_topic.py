@@ -24,7 +24,7 @@ class Outline(Display):
     source: Annotated[Topic, Input(GRID)] = Topic()
 
 
-class Robot(Display):
+class Description(Display):
     urdf: Annotated[Topic, Input("std_msgs/msg/String", offered_for="description")] = Topic()
 
 
@@ -33,14 +33,14 @@ class Handles(Display):
     offered_for = Namespace("of", "a/msg/Update", "/update")
 
 
-class Text(Display):
+class Anything(Display):
     topic: Annotated[Topic, Input(ANY)] = Topic()
 
 
 DISPLAYS = {"Outline": Outline, "Map": Map}
 
 
-def test_every_display_that_fits_is_offered_and_topics_nobody_shows_are_not() -> None:
+def test_every_fitting_display_is_offered_and_unsupported_topics_are_not() -> None:
     topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
     assert picks(topics, DISPLAYS) == [
         Pick("/map", "Map", "topic", GRID),
@@ -54,22 +54,22 @@ def test_a_topic_of_two_types_is_offered_for_the_one_that_can_be_shown() -> None
     ]
 
 
-def test_a_display_of_any_type_is_offered_for_what_no_other_one_shows() -> None:
+def test_a_display_of_any_type_is_offered_for_unsupported_topics() -> None:
     topics = {"/map": (GRID,), "/chatter": ("std_msgs/msg/String",), "/map_updates": (UPDATE,)}
-    result = picks(topics, {**DISPLAYS, "Text": Text})
-    assert [(pick.topic, pick.display) for pick in result if pick.display == "Text"] == [
-        ("/chatter", "Text"),
-        ("/map_updates", "Text"),
+    result = picks(topics, {**DISPLAYS, "Anything": Anything})
+    assert [(pick.topic, pick.display) for pick in result if pick.display == "Anything"] == [
+        ("/chatter", "Anything"),
+        ("/map_updates", "Anything"),
     ]
 
 
 def test_a_display_of_topics_of_one_name_leaves_the_others_to_those_of_any_type() -> None:
     text = ("std_msgs/msg/String",)
     topics = {"/arm/robot_description": text, "/chatter": text}
-    result = picks(topics, {"Robot": Robot, "Text": Text})
+    result = picks(topics, {"Description": Description, "Anything": Anything})
     assert [(pick.topic, pick.display, pick.input) for pick in result] == [
-        ("/arm/robot_description", "Robot", "urdf"),
-        ("/chatter", "Text", "topic"),
+        ("/arm/robot_description", "Description", "urdf"),
+        ("/chatter", "Anything", "topic"),
     ]
 
 
@@ -84,7 +84,7 @@ def test_a_display_of_a_namespace_is_offered_for_its_topic() -> None:
     assert (pick.display, pick.values) == ("Handles", {"of": "/a/b"})
 
 
-def test_a_topic_without_a_display_says_why() -> None:
+def test_an_unsupported_topic_has_a_reason() -> None:
     assert no_display(("sensor_msgs/msg/Imu",)) == "No display for sensor_msgs/msg/Imu."
     assert no_display(("a/msg/B", "c/msg/D")) == "No display for a/msg/B or c/msg/D."
 
@@ -93,6 +93,6 @@ def test_no_display_is_offered_twice_for_a_topic() -> None:
     displays = display_types()
     specs = [spec for cls in displays.values() for spec in inputs_of(cls).values()]
     types = {type_ for spec in specs for type_ in spec.types if type_ != ANY}
-    found = picks({f"/{type_}": (type_,) for type_ in types}, displays)
-    offers = [(pick.topic, pick.display) for pick in found]
+    offered = picks({f"/{type_}": (type_,) for type_ in types}, displays)
+    offers = [(pick.topic, pick.display) for pick in offered]
     assert sorted(offers) == sorted(set(offers))

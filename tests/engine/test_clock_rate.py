@@ -21,14 +21,14 @@ def paces(rate: float, tick_s: float = 0.01) -> list[ClockRate]:
 
 
 @pytest.mark.parametrize("rate", [1.0, 0.5, 3.0])
-def test_a_steady_time_is_told_once_its_rate_is_known(rate: float) -> None:
+def test_a_steady_clock_is_reported_once_its_rate_is_known(rate: float) -> None:
     result = paces(rate)
     assert len(set(result)) <= 4
     assert result[-1].rate == pytest.approx(rate, abs=0.1)
     assert abs(result[-1].at(WALL + 9.8) - round((100 + 9.8 * rate) * 1e9)) < 0.15e9
 
 
-def test_steps_of_a_slow_clock_are_no_changes() -> None:
+def test_steps_of_a_slow_clock_are_not_changes_of_rate() -> None:
     assert len(set(paces(1.0, tick_s=0.1))) <= 2
 
 
@@ -44,7 +44,7 @@ def test_a_time_that_jumps_back_goes_on_at_1_until_its_rate_is_known_again() -> 
     assert meter.step(round(50e9), WALL + 2.0) == ClockRate(round(50e9), WALL + 2.0, 1.0)
 
 
-def test_a_time_that_stands_still_is_told_and_one_that_goes_on_too() -> None:
+def test_a_paused_clock_and_its_continuation_are_reported() -> None:
     meter = ClockRateMeter()
     for i in range(10):
         meter.step(round((100 + i * 0.2) * 1e9), WALL + i * 0.2)

@@ -18,25 +18,25 @@ WORDS = "/words"
 @pytest.fixture
 def connected() -> DisplayConnection:
     """A connection by which a display listens to a topic."""
-    gate = cast(Any, SimpleNamespace(refusal=lambda name: ""))
+    restricted_graph = cast(Any, SimpleNamespace(refusal=lambda name: ""))
     services = cast(Any, SimpleNamespace(resolve=lambda name: name, workers=Workers(lambda: None)))
-    made = DisplayConnection(services, gate)
-    listen(made)
-    return made
+    connection = DisplayConnection(services, restricted_graph)
+    listen(connection)
+    return connection
 
 
-def listen(made: DisplayConnection) -> tuple[list[int], bool]:
+def listen(connection: DisplayConnection) -> tuple[list[int], bool]:
     """Sizes of the messages since the last call, and whether others were missed before them."""
-    result = made.listen(WORDS, "std_msgs/msg/String", 10)
+    result = connection.listen(WORDS, "std_msgs/msg/String", 10)
     return [len(each) for each in result.messages], result.has_gap
 
 
-def take(made: DisplayConnection, *sizes: int) -> None:
-    made.take({WORDS: [Raw(bytes(size), 0) for size in sizes]}, {})
+def take(connection: DisplayConnection, *sizes: int) -> None:
+    connection.take({WORDS: [Raw(bytes(size), 0) for size in sizes]}, {})
 
 
 @pytest.mark.parametrize(("limit", "number"), [("LIMIT", 3), ("MAX_BYTES", 100)])
-def test_what_waits_for_a_display_is_bounded_and_the_gap_is_said(
+def test_messages_waiting_for_a_display_are_bounded_and_a_gap_is_reported(
     connected: DisplayConnection, monkeypatch: pytest.MonkeyPatch, limit: str, number: int
 ) -> None:
     monkeypatch.setattr(connection, limit, number)
@@ -58,7 +58,7 @@ def test_one_message_is_kept_however_large(
     assert listen(connected) == ([1000], False)
 
 
-def test_what_a_display_names_no_longer_is_given_up(connected: DisplayConnection) -> None:
+def test_topics_a_display_no_longer_names_are_released(connected: DisplayConnection) -> None:
     connected.advertise("/answers", "std_msgs/msg/String", 7)
     connected.forget_unnamed()
     assert (connected.topics(), [each.depth for each in connected.advertisements()]) == (

@@ -40,7 +40,7 @@ def look(b: Bench, scan: dict[str, Any] | None = None) -> None:
     b.clock += 1.1
 
 
-def told(b: Bench, row: int = SCAN, key: str = "Map") -> str:
+def match_status(b: Bench, row: int = SCAN, key: str = "Map") -> str:
     level, text = b.statuses(row).get(key, ("", ""))
     return f"{level} {text}".strip()
 
@@ -52,21 +52,21 @@ def test_a_laser_upside_down_is_named(bench: Benches) -> None:
     upside_down = measured | {"ranges": np.roll(measured["ranges"][::-1], 1)}
     place(b, here)
     look(b, upside_down)
-    assert "The laser is upside down: give 'laser' a roll of 180°" in told(b)
+    assert "The laser is upside down: give 'laser' a roll of 180°" in match_status(b)
     place(b, here, roll=math.pi)
     look(b, upside_down)
-    assert told(b).startswith("OK 100%")
+    assert match_status(b).startswith("OK 100%")
 
 
 def test_a_scan_that_fits_nowhere_is_of_another_place(bench: Benches) -> None:
     b = bench(LaserScan(), Map())
     place(b, HERE)
     look(b, building.scan(HERE) | {"ranges": np.full(360, 2.0, np.float32)})
-    assert told(b).startswith("WARN Only ")
-    assert told(b).endswith("this is the map of another place.")
+    assert match_status(b).startswith("WARN Only ")
+    assert match_status(b).endswith("this is the map of another place.")
 
 
-def test_a_second_scan_that_does_not_fit_is_no_sign_of_a_misplaced_robot(bench: Benches) -> None:
+def test_a_second_scan_that_does_not_match_does_not_mean_a_misplaced_robot(bench: Benches) -> None:
     b = bench(LaserScan(), Map(), LaserScan(topic=Topic("/computed")))
     place(b, HERE)
 
@@ -75,15 +75,15 @@ def test_a_second_scan_that_does_not_fit_is_no_sign_of_a_misplaced_robot(bench: 
         stamped = {"header": header("laser", S)} | computed
         b.publish("/computed", "sensor_msgs/msg/LaserScan", stamped)
         look(b)
-        return told(b, row=2)
+        return match_status(b, row=2)
 
-    said = look_twice(np.full(360, 2.0, np.float32))
-    assert told(b).startswith("OK 100%")
-    assert said.startswith("OK Only ")
-    assert said.endswith("Another scan fits, so the robot is in place.")
-    said = look_twice(building.scan(Pose2D(HERE.x + 0.6, HERE.y))["ranges"])
-    assert said.startswith("WARN Only ")
-    assert said.endswith("so the robot is in place: check the transform of 'laser'.")
+    status = look_twice(np.full(360, 2.0, np.float32))
+    assert match_status(b).startswith("OK 100%")
+    assert status.startswith("OK Only ")
+    assert status.endswith("Another scan fits, so the robot is in place.")
+    status = look_twice(building.scan(Pose2D(HERE.x + 0.6, HERE.y))["ranges"])
+    assert status.startswith("WARN Only ")
+    assert status.endswith("so the robot is in place: check the transform of 'laser'.")
 
 
 @pytest.mark.parametrize(
@@ -98,13 +98,13 @@ def test_a_second_scan_that_does_not_fit_is_no_sign_of_a_misplaced_robot(bench: 
     ],
     ids=["costmap", "hidden", "invisible", "tilted", "beyond the map", "out of reach"],
 )
-def test_nothing_is_concluded_where_it_could_mislead(
+def test_ambiguous_matches_give_no_conclusion(
     bench: Benches, map_: Map, pose: Pose2D, pitch: float
 ) -> None:
     b = bench(LaserScan(), map_)
     place(b, pose, pitch=pitch)
     look(b)
-    assert told(b) == ""
+    assert match_status(b) == ""
 
 
 def test_the_map_that_fits_best_counts(bench: Benches) -> None:
@@ -113,18 +113,18 @@ def test_the_map_that_fits_best_counts(bench: Benches) -> None:
     empty = building.grid(np.zeros_like(building.WORLD.cells))
     b.publish("/mask", "nav_msgs/msg/OccupancyGrid", {"header": header("map", S)} | empty)
     look(b)
-    assert told(b).startswith("OK 100%")
-    assert told(b).endswith("walls of /map.")
+    assert match_status(b).startswith("OK 100%")
+    assert match_status(b).endswith("walls of /map.")
 
 
 def test_a_comparison_ends_with_its_displays(bench: Benches) -> None:
     b = bench(LaserScan(), Map())
     place(b, HERE)
     look(b)
-    assert told(b) != ""
+    assert match_status(b) != ""
     b.scene.watched = False
     b.clock += 1.1
-    assert told(b) == ""
+    assert match_status(b) == ""
 
 
 @pytest.mark.parametrize(
@@ -136,7 +136,7 @@ def test_a_comparison_ends_with_its_displays(bench: Benches) -> None:
         (-2.0, 8.0, ""),
     ],
 )
-def test_a_path_through_a_box_says_why(
+def test_a_path_through_a_box_has_a_reason(
     bench: Benches, goal_x: float, age_s: float, expected: str
 ) -> None:
     b = bench(LaserScan(), Map(), Path())
@@ -146,19 +146,19 @@ def test_a_path_through_a_box_says_why(
     b.turn()
     b.source.now += round(age_s * S)
     look(b, building.scan(HERE, building.with_box(1.5, 0.0, 0.8)))
-    assert told(b).startswith("OK")
-    obstacles = told(b, PATH, "Obstacles")
+    assert match_status(b).startswith("OK")
+    obstacles = match_status(b, PATH, "Obstacles")
     assert (expected in obstacles) if expected else (obstacles == "")
 
 
 def test_coarse_and_fine_maps_are_compared_in_bounded_memory() -> None:
     points = (5.0 * np.exp(1j * np.linspace(0, math.tau, 360))).astype(np.complex128)
-    asked: list[int] = []
+    cells: list[int] = []
 
     def window(row: int, column: int, rows: int, columns: int) -> np.ndarray:
-        asked.append(rows * columns)
+        cells.append(rows * columns)
         return np.full((rows, columns), 100, np.int8)
 
     for resolution in (1e-6, 0.01, 5.0, 1e6):
         fit(0j, 0.0, points, resolution, window)
-    assert max(asked) <= 600 * 600
+    assert max(cells) <= 600 * 600

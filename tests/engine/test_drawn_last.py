@@ -4,44 +4,32 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import pytest
 from bench import Benches
+from dots import POSE, FrameDot, T, dots, show_dot
 
 from webviz import Context, Display, Input, Prop, Sample, Topic
+from webviz.api.nodes import Points
 from webviz.commands import SetFixedFrame, SetProperty
-
-SECOND = 1_000_000_000
-T = 100 * SECOND
-POSE = "geometry_msgs/msg/PoseStamped"
-
-
-class Link(Display):
-    """A dot at a frame, which stays if its transform is lost."""
-
-    def draw_all(self, samples: Any, ctx: Context) -> None:
-        link = ctx.follow("base", keep_last=True)
-        link.points("dot", [[0, 0, 0]], (255, 0, 0), 0.1)
 
 
 @pytest.mark.parametrize("other", ["elsewhere", "somewhere"])  # before and after "map"
-def test_what_stays_at_its_last_pose_does_so_in_one_fixed_frame_only(
-    bench: Benches, other: str
-) -> None:
-    b = bench(Link(name="Link"))
+def test_a_last_pose_is_kept_in_one_fixed_frame_only(bench: Benches, other: str) -> None:
+    b = bench(FrameDot(name="Dot", keeps_last=True))
     b.transform("map", "base", T, x=3.0)
     b.transform(other, "odd", T)
     b.turn()
-    assert [pose.position[0] for _, pose, _ in b.scene.visible()] == [3.0]
+    assert dots(b) == [3.0]
     b.viewer.buffer.clear()
     b.turn()
-    assert [pose.position[0] for _, pose, _ in b.scene.visible()] == [3.0]
+    assert dots(b) == [3.0]
     b.do(SetFixedFrame(other))
     assert list(b.scene.visible()) == []
 
 
-class Slow(Display):
+class GatedDots(Display):
     """Draws a number of points, once it is allowed to."""
 
     is_threaded = True
@@ -59,19 +47,17 @@ class Slow(Display):
 
 
 def test_a_worker_draws_with_the_properties_of_its_start(bench: Benches) -> None:
-    drawn: list[int] = []
-    b = bench(Slow(name="Slow"))
-    b.transform("map", "base", T, static=True)
-    b.pose("/pose", "base", T)
-    b.turn()
-    assert Slow.begun.wait(60.0)
+    counts: list[int] = []
+    b = bench(GatedDots(name="Dots"))
+    show_dot(b)
+    assert GatedDots.begun.wait(60.0)
     b.viewer.enqueue(SetProperty("display1", "count", 5))
     b.turn()
-    Slow.may_end.set()
+    GatedDots.may_end.set()
     deadline = time.monotonic() + 60.0
-    while not drawn or drawn[-1] != 5:
+    while not counts or counts[-1] != 5:
         assert time.monotonic() < deadline
         b.turn()
-        drawn += [len(node.xyz) for _, _, node in b.scene.visible()]
+        counts += [len(node.xyz) for node in b.nodes(Points)]
         time.sleep(0.005)
-    assert drawn[0] == 1
+    assert counts[0] == 1

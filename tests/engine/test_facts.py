@@ -12,12 +12,12 @@ from bench import Bench, Benches
 
 from webviz.api.panel import Panel
 from webviz.api.registry import plugin_types
-from webviz.engine.parts import Core, Part
+from webviz.engine.parts import Part, PartContext
 from webviz.engine.parts.panels import PanelsPart, parameters_of
 from webviz.engine.requests import LoopCalls
 from webviz.engine.state import PanelTimes, State
 
-Shown = list[tuple[Any, ...]]
+Calls = list[tuple[Any, ...]]
 
 
 class Batteries(Part):
@@ -29,10 +29,10 @@ class Batteries(Part):
         return {"charge": 0.5, "cells": 4}
 
 
-class Broken(Part):
+class Unreadable(Part):
     """Has none that can be read."""
 
-    name = "Broken"
+    name = "Unreadable"
 
     def state(self) -> Mapping[str, Any]:
         raise RuntimeError("no luck")
@@ -42,32 +42,34 @@ def show(b: Bench, panel: Panel) -> None:
     b.viewer.get(PanelsPart).show(panel)
 
 
-def test_a_panel_gets_what_it_names_and_nothing_else(
+def test_a_panel_gets_the_values_it_names_and_no_others(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Charge(Panel):
-        shown: ClassVar[Shown] = []
+        calls: ClassVar[Calls] = []
 
         def show(self, charge: float, clock: PanelTimes, bridges: Sequence[Any] = ()) -> None:
-            self.shown.append((charge, clock.is_paused, bridges))
+            self.calls.append((charge, clock.is_paused, bridges))
 
     b = bench(parts=[Batteries])
-    monkeypatch.setattr(Core, "state", lambda core: pytest.fail("nobody asks for all of it"))
+    monkeypatch.setattr(
+        PartContext, "state", lambda context: pytest.fail("nobody asks for all of it")
+    )
     panel = Charge()
     show(b, panel)
-    assert panel.shown == [(0.5, False, ())]
+    assert panel.calls == [(0.5, False, ())]
 
 
 def test_a_panel_that_names_nothing_gets_nothing(bench: Benches) -> None:
     show(bench(), Panel())
 
 
-def test_what_no_part_has_is_what_the_panel_says_or_an_error(bench: Benches) -> None:
+def test_a_missing_value_is_the_default_of_the_panel_or_an_error(bench: Benches) -> None:
     class Lenient(Panel):
-        shown: ClassVar[Shown] = []
+        calls: ClassVar[Calls] = []
 
         def show(self, frames: Sequence[str], wheels: int = 3) -> None:
-            self.shown.append((frames, wheels))
+            self.calls.append((frames, wheels))
 
     class Strict(Panel):
         def show(self, frames: Sequence[str], wheels: int) -> None:
@@ -76,31 +78,31 @@ def test_what_no_part_has_is_what_the_panel_says_or_an_error(bench: Benches) -> 
     b = bench()
     panel = Lenient()
     show(b, panel)
-    assert panel.shown == [((), 3)]
+    assert panel.calls == [((), 3)]
     with pytest.raises(TypeError, match="`show` asks for wheels, which this viewer does not have"):
         show(b, Strict())
 
 
 def test_a_panel_of_before_gets_the_whole_state(bench: Benches) -> None:
     class Old(Panel):
-        shown: ClassVar[Shown] = []
+        calls: ClassVar[Calls] = []
 
         def show(self, state: State) -> None:
-            self.shown.append((state.fixed_frame, state.charge))
+            self.calls.append((state.fixed_frame, state.charge))
 
     b = bench(parts=[Batteries])
     panel = Old()
     show(b, panel)
-    assert panel.shown == [("map", 0.5)]
+    assert panel.calls == [("map", 0.5)]
 
 
 def test_a_part_that_fails_has_no_facts_and_harms_no_others(bench: Benches) -> None:
-    b = bench(parts=[Broken, Batteries], strict=False)
+    b = bench(parts=[Unreadable, Batteries], strict=False)
     assert b.viewer.fact("cells") == 4
     assert b.viewer.fact("wheels", 3) == 3
     state = b.viewer.state()
     assert (state.cells, state.fixed_frame) == (4, "map")
-    assert "no luck" in b.viewer.state().statuses["Broken"].text
+    assert "no luck" in b.viewer.state().statuses["Unreadable"].text
 
 
 def test_calls_of_other_threads_wait_for_the_end_of_a_turn() -> None:
@@ -125,13 +127,13 @@ def test_calls_of_other_threads_wait_for_the_end_of_a_turn() -> None:
 
 
 @pytest.mark.parametrize("panel", plugin_types(Panel).values(), ids=lambda panel: panel.__name__)
-def test_the_panels_of_webviz_name_what_every_viewer_has(panel: type[Panel]) -> None:
+def test_built_in_panels_name_values_of_every_viewer(panel: type[Panel]) -> None:
     required = {
         name for name, default in parameters_of(panel.show).items() if default is Parameter.empty
     }
     assert required <= {*State.__struct_fields__}
-    types, known = get_type_hints(panel.show), get_type_hints(State)
-    wrong = [n for n in required if types[n] != known[n] and n not in LOOSER]
+    types, state_types = get_type_hints(panel.show), get_type_hints(State)
+    wrong = [n for n in required if types[n] != state_types[n] and n not in LOOSER]
     assert not wrong
 
 

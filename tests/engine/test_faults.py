@@ -7,10 +7,12 @@ import inspect
 import sys
 import weakref
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from typing import Annotated, Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
+from dots import SECOND
 
 from webviz import (
     Comparable,
@@ -34,18 +36,14 @@ from webviz.api.handles import Control, Drag, Handle
 from webviz.api.nodes import Pose
 from webviz.api.status import Level
 from webviz.commands import DragHandle, Identify, Refresh, SetBackground, SetProperty
-from webviz.engine.commands import Picks
+from webviz.engine.commands import NodePicks
 from webviz.engine.parts.displays import DisplaysPart
-
-SECOND = 1_000_000_000
-T = 100 * SECOND
-
 
 DOT = Pose()
 KNOB = {"m1": Handle("Knob", None, (Control("", "button"),))}
 
 
-class Boom(Exception):
+class Unprintable(Exception):
     """Of nobody's making."""
 
     def __str__(self) -> str:
@@ -73,7 +71,7 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
         if hook == self.hook:
             if self.leaves:
                 sys.exit(3)
-            raise Boom
+            raise Unprintable
 
     def new_state(self) -> None:
         self._raise_in("new_state")
@@ -156,7 +154,7 @@ HOOKS = sorted(
 )
 
 
-def feed(b: Any) -> None:
+def feed(b: Bench) -> None:
     """Let the next turn have something to do in every part."""
     b.source.now += SECOND // 10
     b.clock += 0.3
@@ -166,14 +164,14 @@ def feed(b: Any) -> None:
 
 @pytest.mark.parametrize("leaves", [False, True], ids=["raises", "exits"])
 @pytest.mark.parametrize("hook", HOOKS)
-def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
+def test_an_exception_of_a_hook_is_a_status_of_its_display_and_logged_once(
     bench: Benches, caplog: pytest.LogCaptureFixture, hook: str, leaves: bool
 ) -> None:
     faulty_class = FaultyFold if hook in ("fold", "place", "places") else Faulty
     faulty = faulty_class(name="Faulty", hook=hook, leaves=leaves)
     sound = Sound(name="Sound")
     b = bench(faulty, sound, strict=False)
-    dot = Picks("display1/tick/", "dot", ((1, 0, (0.0, 0.0, 0.0), None),))
+    dot = NodePicks("display1/tick/", "dot", ((1, 0, (0.0, 0.0, 0.0), None),))
     for _ in range(5):
         feed(b)
         b.viewer.enqueue(Identify(dot))
@@ -183,7 +181,7 @@ def test_what_a_hook_raises_is_a_status_of_its_display_and_logged_once(
     feed(b)
     level, text = b.statuses(0)["Display"]
     assert level == "ERROR"
-    assert ("SystemExit: 3" if leaves else "Boom") in text
+    assert ("SystemExit: 3" if leaves else "Unprintable") in text
     assert sound.turns > before
     assert len([record for record in caplog.records if record.exc_info]) == 1
 
@@ -210,7 +208,7 @@ PARTS = {
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
+def test_an_exception_of_a_part_is_a_status_and_logged_once_and_the_rest_goes_on(
     bench: Benches,
     caplog: pytest.LogCaptureFixture,
     monkeypatch: pytest.MonkeyPatch,
@@ -218,15 +216,13 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
 ) -> None:
     sound = Sound(name="Sound")
     b = bench(Faulty(name="Faulty"), sound, strict=False)
-    *path, name = part.split(".")
-    owner = b
-    for step in path:
-        owner = getattr(owner, step)
+    path, _, name = part.rpartition(".")
+    owner = attrgetter(path)(b)
     calls: list[int] = []
 
     def boom(*args: Any, **options: Any) -> None:
         calls.append(1)
-        raise Boom
+        raise Unprintable
 
     feed(b)
     b.turn(keep_up=True)
@@ -244,8 +240,8 @@ def test_what_a_part_raises_is_a_status_and_logged_once_and_the_rest_goes_on(
         assert sound.turns == before + 5
         state = b.viewer.state()
     rows = [status for row in state.rows for status in row.statuses.values()]
-    told = [state.statuses[PARTS[part]]] if PARTS[part] else rows
-    assert any(status.level is Level.ERROR and "Boom" in status.text for status in told)
+    statuses = [state.statuses[PARTS[part]]] if PARTS[part] else rows
+    assert any(status.level is Level.ERROR and "Unprintable" in status.text for status in statuses)
     assert logged[0] in (1, 2), "two displays may have met it"
     assert logged[-1] == logged[0]
 
@@ -256,36 +252,34 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
     b = bench(Sound(name="Sound"), strict=False)
 
     def boom(*args: Any) -> None:
-        raise Boom
+        raise Unprintable
 
     with monkeypatch.context() as patch:
         patch.setattr(b.viewer.get(DisplaysPart).list, "set", boom)
         refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
         b.turn()
-    assert "Boom" in str(refused.exception())
+    assert "Unprintable" in str(refused.exception())
     answer = b.viewer.enqueue(Refresh())
     b.turn()
     assert answer.result() == ""
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_strict_lets_through_what_a_part_raises(
+def test_strict_raises_exceptions_of_parts(
     bench: Benches, monkeypatch: pytest.MonkeyPatch, part: str
 ) -> None:
     b = bench(Faulty(name="Faulty"), Sound(name="Sound"))
-    *path, name = part.split(".")
-    owner = b
-    for step in path:
-        owner = getattr(owner, step)
+    path, _, name = part.rpartition(".")
+    owner = attrgetter(path)(b)
 
     def boom(*args: Any, **options: Any) -> None:
-        raise Boom
+        raise Unprintable
 
     with monkeypatch.context() as patch:
         patch.setattr(owner, name, boom)
         feed(b)
         b.viewer.enqueue(SetBackground((1, 2, 3)))
-        with pytest.raises(Boom):
+        with pytest.raises(Unprintable):
             b.turn(keep_up=True)
 
 
@@ -297,7 +291,7 @@ def test_a_turn_that_raises_does_not_end_the_loop(
     arrived = b.source.inbox.arrived
 
     def boom() -> None:
-        raise Boom
+        raise Unprintable
 
     def begin() -> None:
         """Begin a turn, with which there is nothing new."""
@@ -305,27 +299,27 @@ def test_a_turn_that_raises_does_not_end_the_loop(
         if len(turns) == 3:
             b.viewer.stop()
 
-    monkeypatch.setattr(b.viewer.core, "is_watched", boom)
+    monkeypatch.setattr(b.viewer.context, "is_watched", boom)
     monkeypatch.setattr(arrived, "clear", begin)
     b.viewer.run()
     assert len(turns) == 3
     b.viewer.update()
-    assert b.viewer.statuses["Frame loop"].text.startswith("Frame loop failed: Boom")
+    assert b.viewer.statuses["Frame loop"].text.startswith("Frame loop failed: Unprintable")
 
 
 def test_a_command_that_fails_leaves_memory_at_once(bench: Benches) -> None:
     b = bench(Sound(name="Sound"))
-    told: list[str] = []
+    errors: list[str] = []
     gc.collect()
     gc.disable()  # it stops all threads, for longer the more there is
     try:
         answer = b.viewer.enqueue(SetProperty("display1", "nothing", 1))
         waiting = weakref.ref(answer)
-        answer.add_done_callback(lambda done: told.append(str(done.exception())))
+        answer.add_done_callback(lambda done: errors.append(str(done.exception())))
         b.until_done(answer)
         del answer
-        assert told
-        assert told[0].startswith("Not changed")
+        assert errors
+        assert errors[0].startswith("Not changed")
         assert waiting() is None
     finally:
         gc.enable()

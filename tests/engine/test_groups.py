@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 from webviz.api.group import DisplayGroup
 from webviz.commands import AddDisplay, RemoveDisplay, SetProperty
@@ -31,7 +29,7 @@ displays:
 """
 
 
-def names(b: Any) -> list[tuple[str, int]]:
+def names(b: Bench) -> list[tuple[str, int]]:
     b.turn()
     return [(row.name, row.depth) for row in b.states[-1].rows]
 
@@ -68,13 +66,13 @@ def test_a_group_that_holds_itself_is_refused() -> None:
         parse("displays: &a\n- {type: Group, displays: *a}\n", "x.yaml")
 
 
-def test_the_list_shows_groups_before_what_is_in_them(bench: Benches) -> None:
+def test_groups_are_listed_before_their_displays(bench: Benches) -> None:
     b = bench(*parse(NESTED, "x.yaml").displays, publish=None)
     assert [depth for _, depth in names(b)] == [0, 0, 1, 1, 2, 2, 0]
     assert dump(b.viewer.config()) == NESTED
 
 
-def test_a_group_switches_what_is_in_it_and_a_display_keeps_its_own_switch(bench: Benches) -> None:
+def test_a_group_switches_its_displays_which_keep_their_own_switch(bench: Benches) -> None:
     b = bench(Branch(DisplayGroup(name="Group"), [Axes(name="A"), Axes(name="B", enabled=False)]))
     b.turn()
     assert len(list(b.scene.visible())) == 1

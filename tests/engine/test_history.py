@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
+from dots import SECOND, T
 
 from webviz import Context, Display, Input, Keep, Prop, Sample, Topic
+from webviz.api.nodes import Points
 from webviz.commands import RemoveDisplay, SetProperty
 from webviz.engine.pipeline import history
-
-SECOND = 1_000_000_000
-T = 100 * SECOND
 
 
 class Note(Display):
@@ -34,11 +33,11 @@ def limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(history, "MAX_BYTES", 2_000_000)
 
 
-def lengths(bench: Any) -> list[int]:
-    return [round(float(node.xyz[0][0])) for _, _, node in bench.scene.visible()]
+def lengths(bench: Bench) -> list[int]:
+    return [round(float(node.xyz[0][0])) for node in bench.nodes(Points)]
 
 
-def note(bench: Any, length: int, second: float, topic: str = "/note") -> None:
+def note(bench: Bench, length: int, second: float, topic: str = "/note") -> None:
     bench.source.now = T + round(second * SECOND)
     bench.publish(topic, "std_msgs/msg/String", {"data": "x" * length})
     bench.turn()
@@ -65,7 +64,7 @@ def test_the_newest_stays_however_large_it_is(bench: Benches) -> None:
     assert lengths(b) == [1001]
 
 
-def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(bench: Benches) -> None:
+def test_displays_share_the_limit_and_the_largest_history_drops_its_oldest(bench: Benches) -> None:
     more = Note(name="More", count=0, seconds=10.0, topic=Topic("/more"))
     newest = Note(name="Newest", topic=Topic("/newest"))
     b = bench(Note(name="Note", count=0, seconds=10.0), more, newest)
@@ -85,7 +84,7 @@ def test_displays_share_the_limit_and_whichever_holds_most_drops_its_oldest(benc
     assert sorted(lengths(b))[:-1] == [300_000, 300_001, *range(300_010, 300_014)]
 
 
-def test_nothing_is_said_while_all_that_was_asked_for_is_kept(bench: Benches) -> None:
+def test_a_complete_history_has_no_status(bench: Benches) -> None:
     b = bench(Note(name="Note", count=0, seconds=10.0))
     for second in range(6):
         note(b, 600_000, second)
@@ -102,7 +101,7 @@ def test_longer_than_any_clock_is_for_ever(bench: Benches) -> None:
     assert sorted(lengths(b)) == [1, 2]
 
 
-class Two(Note):
+class TwoNotes(Note):
     """Another dot for every text of another topic."""
 
     other: Annotated[Topic, Input("std_msgs/msg/String")] = Topic("/other")
@@ -112,14 +111,14 @@ def test_inputs_share_the_number_of_samples(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(history, "MAX_SAMPLES", 5)
-    b = bench(Two(name="Two", count=0, seconds=100.0))
+    b = bench(TwoNotes(name="TwoNotes", count=0, seconds=100.0))
     for second in range(4):
         note(b, 10 + second, second)
         note(b, 20 + second, second, "/other")
     assert sorted(lengths(b)) == [12, 13, 22, 23]
 
 
-def test_one_message_at_a_time_is_no_shortage(bench: Benches) -> None:
+def test_a_display_of_single_messages_has_no_history_status(bench: Benches) -> None:
     b = bench(Note(name="Note"))
     for second in range(6):
         note(b, 900_000, second)

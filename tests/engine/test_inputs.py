@@ -6,16 +6,14 @@ from collections.abc import Sequence
 from typing import Annotated, Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
+from dots import POSE, SECOND, T
 
 from webviz import Context, Display, Input, Keep, Sample, Sync, Topic
 from webviz.api.display import inputs_of
+from webviz.api.nodes import Lines, Points
 from webviz.commands import Reset, SetFixedFrame
 from webviz.engine.pipeline import synchronizer
-
-SECOND = 1_000_000_000
-T = 100 * SECOND
-POSE = "geometry_msgs/msg/PoseStamped"
 
 
 class _Two(Display):
@@ -46,11 +44,12 @@ class TwoAtOnce(_Two):
             mark(sample, ctx, f"{sample.input} {index}")
 
 
-def dots(bench: Any) -> list[tuple[str, float]]:
+def dots(bench: Bench) -> list[tuple[str, float]]:
     """Key and x of every visible dot."""
     return sorted(
         (key.split()[0], pose.position[0] + float(node.xyz[0][0]))
         for key, pose, node in bench.scene.visible()
+        if isinstance(node, Points)
     )
 
 
@@ -105,9 +104,9 @@ class LoosePair(Pair):
     sync = Sync("left", "right", slop=0.1)
 
 
-def lines(bench: Any) -> list[list[float]]:
+def lines(bench: Bench) -> list[list[float]]:
     """The x of the ends of every visible line."""
-    return [node.segments[0, :, 0].tolist() for _, _, node in bench.scene.visible()]
+    return [node.segments[0, :, 0].tolist() for node in bench.nodes(Lines)]
 
 
 def test_messages_of_one_stamp_are_drawn_together(bench: Benches) -> None:
@@ -138,7 +137,7 @@ def test_a_slop_lets_messages_of_nearby_stamps_meet(bench: Benches) -> None:
     assert b.statuses()["Sync"] == ("OK", text)
 
 
-def test_what_waits_for_its_partner_is_bounded_in_bytes(
+def test_unmatched_messages_are_bounded_in_bytes(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(synchronizer, "MAX_BYTES", 150)
@@ -178,7 +177,7 @@ def test_what_waits_for_its_partner_is_bounded_in_bytes(
         ),
     ],
 )
-def test_a_status_says_what_the_sync_waits_for(
+def test_a_status_names_the_input_the_sync_waits_for(
     bench: Benches, display: type[Pair], stamp_ns: int | None, text: str
 ) -> None:
     b = bench(display(name="Pair"))
@@ -204,7 +203,7 @@ def test_a_set_that_waits_for_a_transform_is_not_blamed_on_stamps(bench: Benches
     assert statuses["Transform (right)"][0] == "ERROR"
 
 
-def test_a_reset_forgets_what_waits_for_its_partner(bench: Benches) -> None:
+def test_a_reset_drops_unmatched_messages(bench: Benches) -> None:
     b = bench(Pair(name="Pair"))
     b.transform("map", "base", T, static=True)
     b.pose("/left", "base", T)
@@ -261,7 +260,7 @@ def test_all_of_a_set_moves_into_a_new_fixed_frame(bench: Benches) -> None:
     assert lines(b) == [[0.0, 4.0]]
 
 
-def test_a_sync_of_something_that_is_no_input_is_refused_with_its_name() -> None:
+def test_a_sync_of_an_unknown_input_is_refused_with_its_name() -> None:
     class Wrong(_Two):
         sync = Sync("left", "count")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 from webviz.api.roles import Role
 from webviz.commands import (
@@ -30,7 +30,7 @@ from webviz.commands import (
     Undo,
     WriteDisplays,
 )
-from webviz.engine.commands import Picks, Sender
+from webviz.engine.commands import NodePicks, Sender
 from webviz.files.opening import load
 from webviz.files.sessions import MAX_VIEWERS, Sessions
 from webviz.server.access import rules
@@ -54,7 +54,7 @@ def start(bench: Benches, file: Path) -> Callable[..., Any]:
     return start
 
 
-def frames(b: Any) -> list[str]:
+def frames(b: Bench) -> list[str]:
     return [row.name for row in b.viewer.state().rows]
 
 
@@ -66,7 +66,7 @@ def test_unsaved_changes_are_restored_and_undone_in_one_step(start: Benches, fil
     assert file.stat().st_mode & 0o077 == 0
     b = start()
     state = b.viewer.state()
-    assert [row.display.length for row in state.rows] == [2.5]
+    assert (len(state.rows), b.display(Axes).length) == (1, 2.5)
     assert state.history.undo[0].label == "Restore 1 display"
     assert state.file.is_changed
     b.viewer.close()
@@ -83,7 +83,9 @@ def test_a_viewer_that_changes_nothing_keeps_nothing(start: Benches, file: Path)
     assert not file.exists()
 
 
-def test_what_is_saved_is_not_kept_twice(bench: Benches, file: Path, tmp_path: Path) -> None:
+def test_saved_changes_are_not_kept_in_the_session(
+    bench: Benches, file: Path, tmp_path: Path
+) -> None:
     config = tmp_path / "lab.yaml"
     config.write_text("displays: [{type: Axes, name: A}]\n")
     before = config.read_text()
@@ -105,7 +107,7 @@ def test_what_is_saved_is_not_kept_twice(bench: Benches, file: Path, tmp_path: P
     assert start().viewer.state().history.undo == ()
 
 
-def test_what_a_browser_brought_is_restored_without_a_file(start: Benches) -> None:
+def test_a_config_uploaded_by_a_browser_is_restored_without_a_file(start: Benches) -> None:
     b = start()
     b.ask(Load("fixed_frame: odom\ndisplays: [{type: Grid, name: Floor}]", "mine.yaml"))
     b.viewer.close()
@@ -136,9 +138,9 @@ def test_another_fixed_frame_at_the_start_holds(start: Benches) -> None:
     b.do(SetFixedFrame("base"))
     b.viewer.close()
     assert start().viewer.state().fixed_frame == "base"
-    state = start(fixed_frame="odom").viewer.state()
-    assert state.fixed_frame == "odom"
-    assert state.rows[0].display.length == 2.5
+    b = start(fixed_frame="odom")
+    assert b.viewer.state().fixed_frame == "odom"
+    assert b.display(Axes).length == 2.5
 
 
 def test_no_restore_shows_the_config_and_loses_nothing(start: Benches, file: Path) -> None:
@@ -161,7 +163,7 @@ def test_no_restore_shows_the_config_and_loses_nothing(start: Benches, file: Pat
         lambda text: text.partition("\n")[2],
     ],
 )
-def test_a_damaged_session_is_set_aside_and_said(
+def test_a_damaged_session_is_set_aside_and_reported(
     start: Benches, file: Path, damage: Callable[[str], str]
 ) -> None:
     b = start()
@@ -221,12 +223,12 @@ def test_a_folder_that_cannot_be_written_is_logged_once(
 
 
 def test_watchers_leave_nothing_in_a_session(start: Benches, file: Path) -> None:
-    done = (
+    commands = (
         ChangeView("distance", 3.0),
         Export(lambda text: None),
         FocusDisplay("display1"),
         FocusFrame("map"),
-        Identify(Picks("display1", "", ())),
+        Identify(NodePicks("display1", "", ())),
         LookUpTransform("map", "base"),
         ResetView(),
         SaveImage(),
@@ -235,9 +237,9 @@ def test_watchers_leave_nothing_in_a_session(start: Benches, file: Path) -> None
         WriteDisplays(("display1",)),
     )
     b = start()
-    for command in done:
+    for command in commands:
         b.until_done(b.viewer.enqueue(command, Sender(1)))
     b.viewer.close()
     assert not file.exists()
     allowed = {kind for kind, role in rules.commands().items() if role is Role.WATCHER}
-    assert allowed == set(map(type, done))
+    assert allowed == set(map(type, commands))

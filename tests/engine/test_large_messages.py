@@ -8,17 +8,18 @@ from typing import Annotated, Any
 
 import numpy as np
 import pytest
+from bench import Bench, Benches
+from dots import T
 from waiting import until
 
 from webviz import Context, Display, Input, Sample, Topic
+from webviz.api.nodes import Points
 from webviz.commands import SetFixedFrame, SetProperty
 from webviz.data.messages import MessageTypes, decode, encode
 from webviz.engine.pipeline import folding
 from webviz.engine.pipeline.folding import MAX_BYTES
 from webviz.shell.testing.messages import header
 
-SECOND = 1_000_000_000
-T = 100 * SECOND
 GRID = "nav_msgs/msg/OccupancyGrid"
 gates: list[threading.Event] = []
 """One for each message in the order they are worked on; work waits until its gate is open."""
@@ -61,33 +62,36 @@ class Folding(Display):
 
 
 @pytest.fixture(autouse=True)
-def all_gates_are_open_at_the_end(bench: Any) -> Iterator[None]:
+def all_gates_are_open_at_the_end(bench: Bench) -> Iterator[None]:
     gates.clear()
     yield
     for gate in gates:
         gate.set()
 
 
-def send(at: Any, number: int, size: int = Display.slow_bytes, frame: str = "map") -> None:
+def send(at: Bench, number: int, size: int = Display.slow_bytes, frame: str = "map") -> None:
     """Publish a map that says which it is by its width."""
     values = {"header": header(frame, T), "info": {"width": number}, "data": np.zeros(size, "i1")}
     at.source.put("/map", GRID, encode(GRID, values))
     at.turn()
 
 
-def dots(at: Any) -> list[list[float]]:
+def dots(at: Bench) -> list[list[float]]:
     return [
-        (row + pose.position).tolist() for _, pose, node in at.scene.visible() for row in node.xyz
+        (row + pose.position).tolist()
+        for _, pose, node in at.scene.visible()
+        if isinstance(node, Points)
+        for row in node.xyz
     ]
 
 
-def open_gate(at: Any, number: int) -> None:
+def open_gate(at: Bench, number: int) -> None:
     """Let the work on a message end, once it has begun."""
     until(lambda: len(gates) > number, turn=at.turn)
     gates[number].set()
 
 
-def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench: Any) -> None:
+def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench: Benches) -> None:
     at = bench(SceneDiff())
     send(at, 1)
     until(lambda: gates, turn=at.turn)
@@ -101,8 +105,8 @@ def test_the_loop_goes_on_while_a_large_message_is_drawn_and_then_shows_it(bench
     assert not at.viewer.is_busy()
 
 
-def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
-    bench: Any,
+def test_the_previous_drawing_stays_and_only_the_newest_message_waits(
+    bench: Benches,
 ) -> None:
     at = bench(SceneDiff())
     send(at, 1)
@@ -121,7 +125,7 @@ def test_what_was_drawn_stays_while_the_next_is_drawn_and_only_the_newest_waits(
     assert len(gates) == 3
 
 
-def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: Any) -> None:
+def test_a_property_changed_meanwhile_redraws_a_large_message(bench: Benches) -> None:
     at = bench(SceneDiff())
     send(at, 1)
     until(lambda: gates, turn=at.turn)
@@ -132,7 +136,7 @@ def test_a_large_message_is_drawn_anew_when_a_property_changes_meanwhile(bench: 
     until(lambda: dots(at) == [[1, 0, 5]], turn=at.turn)
 
 
-def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> None:
+def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Benches) -> None:
     """Another fixed frame, or a display that was switched off."""
     at = bench(SceneDiff())
     at.transform("odom", "map", T, 10.0, static=True)
@@ -153,7 +157,9 @@ def test_nothing_is_shown_of_work_that_a_change_has_made_wrong(bench: Any) -> No
     assert dots(at) == []
 
 
-def test_what_a_thread_raises_is_the_fault_of_its_display_and_not_tried_again(bench: Any) -> None:
+def test_an_exception_of_a_thread_is_a_fault_of_its_display_and_not_retried(
+    bench: Benches,
+) -> None:
     at = bench(SceneDiff(), strict=False)
     send(at, 13)
     open_gate(at, 0)
@@ -165,7 +171,7 @@ def test_what_a_thread_raises_is_the_fault_of_its_display_and_not_tried_again(be
     assert dots(at) == [[1, 0, 0]]
 
 
-def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) -> None:
+def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Benches) -> None:
     at = bench(Folding())
     send(at, 1)
     send(at, 2, size=1)
@@ -180,7 +186,7 @@ def test_messages_wait_for_a_large_one_that_is_folded_in_a_thread(bench: Any) ->
     assert [x for x, _, _ in dots(at)] == [1, 2, 3]
 
 
-def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Any) -> None:
+def test_messages_that_wait_too_long_are_dropped_counted_and_reported(bench: Benches) -> None:
     at = bench(Folding())
     for number in range(1, 5):
         send(at, number, size=Display.slow_bytes if number == 1 else MAX_BYTES // 2 - 1000)
@@ -205,7 +211,7 @@ class Unthreaded(Display):
 
 
 def test_large_messages_are_decoded_in_a_thread_also_if_they_are_folded_by_the_loop(
-    bench: Any, monkeypatch: pytest.MonkeyPatch
+    bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def decode_at_gate(type_name: str, cdr: bytes, types: MessageTypes) -> Any:
         if len(cdr) >= Display.slow_bytes:
@@ -223,7 +229,7 @@ def test_large_messages_are_decoded_in_a_thread_also_if_they_are_folded_by_the_l
     assert not at.viewer.is_busy()
 
 
-def test_a_large_message_that_a_thread_cannot_decode_is_reported(bench: Any) -> None:
+def test_a_large_message_that_a_thread_cannot_decode_is_reported(bench: Benches) -> None:
     at = bench(Unthreaded())
     at.source.put("/map", GRID, bytes(4) + Display.slow_bytes * b"\xff")
     until(lambda: "Message" in at.statuses(), turn=at.turn)
@@ -246,7 +252,7 @@ class Steps(Display):
         return None
 
 
-def test_what_is_drawn_in_parts_keeps_the_loop_turning_until_it_is_whole(bench: Any) -> None:
+def test_a_drawing_in_parts_keeps_the_loop_awake_until_it_is_complete(bench: Benches) -> None:
     at = bench(Steps())
     arrived = at.source.inbox.arrived
     for is_unfinished in (True, False):

@@ -15,7 +15,7 @@ from webviz.api.status import Level, Status
 from webviz.commands import Load, Pause, Refresh, Reset
 from webviz.engine.commands import Command, FileCommand, Sender
 from webviz.engine.feature import Feature
-from webviz.engine.parts import Batches, Core, Handler, Part
+from webviz.engine.parts import Batches, Handler, Part, PartContext
 from webviz.engine.parts.part import overrides
 from webviz.engine.requests import Job, Refused
 from webviz.engine.state import State
@@ -40,8 +40,8 @@ class Counter(Part):
 
     name = "Counter"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
         self.count = 0
         self.senders: list[Sender] = []
 
@@ -95,20 +95,20 @@ class Listener(Part):
 
     name = "Listener"
 
-    def __init__(self, core: Core) -> None:
-        super().__init__(core)
-        self.heard: list[tuple[str, Sender]] = []
+    def __init__(self, context: PartContext) -> None:
+        super().__init__(context)
+        self.commands: list[tuple[str, Sender]] = []
 
     def after(self, command: Command, sender: Sender) -> None:
-        self.heard.append((type(command).__name__, sender))
+        self.commands.append((type(command).__name__, sender))
 
 
-def test_a_part_notes_what_others_have_carried_out(bench: Benches) -> None:
+def test_a_part_observes_commands_of_other_parts(bench: Benches) -> None:
     b = bench(parts=[Counter, Listener])
     b.do(Count(), Sender(browser=4))
     b.refused(Count(-1))
     b.do(Load("displays: []", "x.yaml"))  # has a slow part
-    assert b.viewer.get(Listener).heard == [("Count", Sender(4)), ("Load", Sender())]
+    assert b.viewer.get(Listener).commands == [("Count", Sender(4)), ("Load", Sender())]
 
 
 HOOKS = sorted(
@@ -160,7 +160,7 @@ PARTS += [
 
 
 @pytest.mark.parametrize("name", PARTS)
-def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
+def test_a_part_whose_every_method_raises_does_not_stop_the_others(
     bench: Benches,
     monkeypatch: pytest.MonkeyPatch,
     caplog: pytest.LogCaptureFixture,
@@ -187,7 +187,7 @@ def test_a_part_that_raises_whatever_it_is_asked_does_not_stop_the_others(
     assert sorted(parts) == sorted([*PARTS, "Ticker"])
     part = parts[name]
     hooks = {hook for hook in HOOKS if overrides(part, hook)}  # the others are not called
-    before = parts["Ticker"].turns
+    before = b.viewer.get(Ticker).turns
     with monkeypatch.context() as patch:
         for hook in hooks:
             patch.setattr(part, hook, boom(hook))
@@ -249,5 +249,5 @@ def test_every_command_and_every_field_of_the_state_has_one_owner(bench: Benches
     mechanism = (part for part in parts if not isinstance(part, Feature))
     assert all(hasattr(State, name) for part in mechanism for name in part.state())
     public = [getattr(commands, name) for name in commands.__all__]
-    asked = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
-    assert {kind for part in parts for kind in part.handles} == asked - {*KINDS}
+    command_types = {cls for cls in public if isinstance(cls, type) and issubclass(cls, Command)}
+    assert {kind for part in parts for kind in part.handles} == command_types - {*KINDS}

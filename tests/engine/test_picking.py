@@ -10,7 +10,7 @@ from webviz.api.frames import Frames
 from webviz.api.nodes import Arrows, Lines, Mesh, Node, Points
 from webviz.data.transforms import TransformBuffer
 from webviz.engine.commands import Pick
-from webviz.engine.pipeline.picking import Shot, found_in
+from webviz.engine.pipeline.picking import SceneSnapshot, found_in
 
 Point = tuple[float, float, float]
 NUMBER = 5
@@ -22,7 +22,7 @@ def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None
     group = Group(Placement())
     group.add("node", node)
     picks: list[Pick] = [(NUMBER, item, point, None)]
-    hits = found_in(Shot({"": group}, (), "map"), "", "node", picks).get(NUMBER)
+    hits = found_in(SceneSnapshot({"": group}, (), "map"), "", "node", picks).get(NUMBER)
     return None if hits is None else (hits.hit.id, (*hits.hit.point,))
 
 
@@ -72,7 +72,7 @@ def test_a_line_is_where_its_middle_is() -> None:
 
 
 @pytest.mark.parametrize(("when", "x"), [("latest", 3.0), ("now", 2.0)])
-def test_what_moves_with_a_frame_is_where_it_was_drawn(when: When, x: float) -> None:
+def test_a_hit_on_a_moving_frame_has_the_pose_of_its_drawing(when: When, x: float) -> None:
     buffer = TransformBuffer()
     for stamp_ns, at in ((1, 1.0), (2, 2.0)):
         buffer.set_transform("map", "cart", stamp_ns, (at, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
@@ -80,5 +80,5 @@ def test_what_moves_with_a_frame_is_where_it_was_drawn(when: When, x: float) -> 
     group = Group(Placement("cart", when))
     group.add("node", points)
     picks: list[Pick] = [(NUMBER, 0, (1.0, 0.0, 0.0), None)]
-    hits = found_in(Shot({"": group}, (), "map"), "", "node", picks)[NUMBER]
+    hits = found_in(SceneSnapshot({"": group}, (), "map"), "", "node", picks)[NUMBER]
     assert hits.position(Frames(buffer, "map", 1)) == ("map", (x, 0.0, 0.0))

@@ -8,7 +8,7 @@ from webviz.engine.pipeline.point_budget import PointBudget
 
 
 @pytest.mark.parametrize(
-    ("wanted", "limits"),
+    ("requests", "limits"),
     [
         ({"a": 10}, {"a": 1000}),
         ({"a": 5000}, {"a": 1000}),
@@ -18,13 +18,13 @@ from webviz.engine.pipeline.point_budget import PointBudget
         ({str(i): 10**6 for i in range(3000)}, {"7": 1}),
     ],
 )
-def test_who_wants_little_gets_it_and_the_others_share_the_rest(
-    wanted: dict[str, int], limits: dict[str, int]
+def test_small_displays_get_their_points_and_the_others_share_the_rest(
+    requests: dict[str, int], limits: dict[str, int]
 ) -> None:
     budget = PointBudget(lambda: 1000)
-    for display, count in wanted.items():
+    for display, count in requests.items():
         budget.share(display, count)
-    assert {each: budget.share(each, wanted[each]) for each in limits} == limits
+    assert {each: budget.share(each, requests[each]) for each in limits} == limits
 
 
 def test_a_limit_stays_while_the_sizes_of_other_clouds_vary_a_little() -> None:
@@ -36,7 +36,7 @@ def test_a_limit_stays_while_the_sizes_of_other_clouds_vary_a_little() -> None:
     assert limits == {370_000}
 
 
-def test_what_a_display_had_is_shared_when_it_leaves() -> None:
+def test_the_points_of_a_removed_display_are_shared() -> None:
     budget = PointBudget(lambda: 1000)
     budget.share("a", 5000)
     budget.share("b", 5000)

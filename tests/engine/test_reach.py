@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
+from dots import SECOND, T
 
 from webviz import Context, Display, Input, Pose, Sample, Topic
+from webviz.api.nodes import Axes
 from webviz.data.transforms.geometry import REACH_M
 from webviz.engine.pipeline.scene import NoCameras
 from webviz_displays.tf import TF
 
-SECOND = 1_000_000_000
-T = 100 * SECOND
 MANY = 100
 """Frames that are computed as arrays."""
 
@@ -45,14 +45,14 @@ class Following(NoCameras):
         return {self._frame}
 
 
-def finite(b: Any) -> bool:
+def finite(b: Bench) -> bool:
     """Return whether all poses in the scene are."""
     return all(math.isfinite(sum((*p.position, *p.wxyz))) for p in b.scene.poses.values())
 
 
 @pytest.mark.parametrize("far", [1e308, math.inf, REACH_M])
 @pytest.mark.parametrize("others", [0, MANY], ids=["few", "many"])
-def test_what_does_not_compose_to_a_pose_within_reach_is_not_drawn_and_names_the_link(
+def test_poses_out_of_reach_are_not_drawn_and_the_link_is_named(
     bench: Benches, far: float, others: int
 ) -> None:
     b = bench(Marks(name="Marks"), TF(name="TF"))
@@ -74,11 +74,11 @@ def test_what_does_not_compose_to_a_pose_within_reach_is_not_drawn_and_names_the
     level, text = b.statuses(1)["b"]
     assert level == "WARN"
     assert "too far to draw" in text
-    near = next(node for key, _, node in b.scene.visible("display2") if key == "axes")
+    (near,) = b.nodes(Axes, "display2")
     assert len(near.positions) == 1 + others + (far == REACH_M)
 
 
-def test_what_is_far_and_comes_back_is_drawn(bench: Benches) -> None:
+def test_a_chain_that_returns_within_reach_is_drawn(bench: Benches) -> None:
     b = bench(Marks(name="Marks"))
     b.transform("map", "a", T, 1e200)
     b.transform("a", "b", T, -1e200)

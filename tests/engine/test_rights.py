@@ -8,20 +8,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 import webviz
 from webviz.api.status import Level, Status
 from webviz.commands import Load, Redo, Refresh, Reset, SetToolProperty, Undo, UseTool
 from webviz.data.messages import encode
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.own_names import own_names
 from webviz.files.opening import parse
 from webviz.panels.nav2 import Nav2
 from webviz.shell.app.arguments import report_everything
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Advertisement, Gate, NotConnected, Rights
+from webviz.sources import Advertisement, NotConnected, RestrictedGraph, Rights
 
 POINT = ((1.0, 2.0, 0.0),)
 TYPE = "geometry_msgs/msg/PointStamped"
@@ -48,16 +48,16 @@ def make(bench: Benches) -> Callable[..., Any]:
     return make
 
 
-def use(b: Any, tool: str = "2D Goal Pose") -> str:
+def use(b: Bench, tool: str = "2D Goal Pose") -> str:
     """The result of using a tool."""
-    told: list[Status] = []
-    b.ask(UseTool(tool, POINT, report=told.append))
-    assert len(b.source.graph.published) == (told[0].level is Level.OK)
-    b.source.graph.published.clear()
-    return told[0].text
+    statuses: list[Status] = []
+    b.ask(UseTool(tool, POINT, report=statuses.append))
+    assert len(b.graph.published) == (statuses[0].level is Level.OK)
+    b.graph.published.clear()
+    return statuses[0].text
 
 
-def refusals(b: Any) -> dict[str, str]:
+def refusals(b: Bench) -> dict[str, str]:
     """Return why the tools with one topic cannot be used, by name."""
     names = ("2D Pose Estimate", "2D Goal Pose", "Publish Point")
     tools = (tool for tool in b.do(Refresh()).tools if tool.name in names)
@@ -89,21 +89,21 @@ def test_a_name_is_compared_with_the_list(
     names: tuple[str, ...], name: str, is_allowed: bool
 ) -> None:
     source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
-    gate = Gate(source, Rights(), lambda: names)
-    assert (gate.refusal(name) == "") is is_allowed
+    restricted_graph = RestrictedGraph(source, Rights(), lambda: names)
+    assert (restricted_graph.refusal(name) == "") is is_allowed
 
 
-def test_what_is_refused_never_reaches_the_source() -> None:
+def test_refused_requests_never_reach_the_source() -> None:
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
     rights = Rights(may_publish=False)
-    gate = Gate(source, rights, lambda: ("/*",))
-    assert gate.rights is rights
-    gate.advertise({Advertisement("/a", TYPE)})
-    goal = gate.send_goal("/go", "nav2_msgs/action/NavigateToPose", b"", lambda _: None)
+    restricted_graph = RestrictedGraph(source, rights, lambda: ("/*",))
+    assert restricted_graph.rights is rights
+    restricted_graph.advertise({Advertisement("/a", TYPE)})
+    goal = restricted_graph.send_goal("/go", "nav2_msgs/action/NavigateToPose", b"", lambda _: None)
     answers = (
-        gate.publish(Advertisement("/a", TYPE), encode(TYPE, {})),
-        gate.call("/empty", "std_srvs/srv/Empty", b"", 1.0),
+        restricted_graph.publish(Advertisement("/a", TYPE), encode(TYPE, {})),
+        restricted_graph.call("/empty", "std_srvs/srv/Empty", b"", 1.0),
         goal.accepted,
         goal.result,
     )
@@ -114,23 +114,23 @@ def test_what_is_refused_never_reaches_the_source() -> None:
     assert (graph.published, graph.requests, list(graph.advertised)) == ([], [], [])
 
 
-def test_what_has_still_to_stop_keeps_its_publisher_and_no_other_refused_topic_does() -> None:
+def test_only_a_stopping_topic_keeps_its_publisher_although_refused() -> None:
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]
-    gate = Gate(source, Rights(), lambda: ("/c",))
+    restricted_graph = RestrictedGraph(source, Rights(), lambda: ("/c",))
     a, b, c = (Advertisement(topic, TYPE) for topic in ("/a", "/b", "/c"))
-    gate.advertise({a, b, c}, {a})
+    restricted_graph.advertise({a, b, c}, {a})
     assert set(graph.advertised) == {a, c}
 
 
-def test_only_the_gate_reaches_the_graph_of_a_source() -> None:
+def test_only_the_restricted_graph_reaches_the_graph_of_a_source() -> None:
     files = Path(webviz.__file__).parent.rglob("*.py")
     users = {path for path in files if "source.graph" in path.read_text(encoding="utf-8")}
-    # A fleet is a source itself: its graph passes on what has come through the gate.
-    assert {path.name for path in users if path.parent.name != "fleet"} == {"gate.py"}
+    # A fleet is a source itself: its graph passes on what the restricted graph allowed.
+    assert {path.name for path in users if path.parent.name != "fleet"} == {"restricted_graph.py"}
 
 
-def test_without_the_right_to_publish_every_tool_says_why(make: Benches) -> None:
+def test_without_the_right_to_publish_every_tool_has_a_reason(make: Benches) -> None:
     b = make(may_publish=False)
     assert set(refusals(b).values()) == {NO_PUBLISH}
     assert use(b) == NO_PUBLISH
@@ -142,7 +142,7 @@ def test_a_list_refuses_the_tools_it_does_not_name(make: Benches) -> None:
     b = make(publish=("/goal_pose", "/clicked*", "/navigate*"))
     refusal = OF_START.format("/initialpose")
     assert refusals(b) == {"2D Pose Estimate": refusal}
-    assert {advertisement.topic for advertisement in b.source.graph.advertised} == {
+    assert {advertisement.topic for advertisement in b.graph.advertised} == {
         "/goal_pose",
         "/clicked_point",
     }
@@ -190,7 +190,7 @@ def test_a_config_that_is_opened_later_narrows_the_list_and_never_widens_it(make
     assert set(refusals(b)) == {"Publish Point"}
 
 
-def test_without_a_list_a_viewer_writes_only_what_its_config_uses(make: Benches) -> None:
+def test_without_a_list_a_viewer_writes_only_to_names_its_config_uses(make: Benches) -> None:
     b = make(publish=None)
     assert refusals(b) == {}
     assert use(b) == "Published to /goal_pose, 1 subscription."
@@ -226,9 +226,9 @@ panels: [{type: Nav2, namespace: arm}]
 """
 
 
-def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
+def test_a_config_uses_the_names_its_tools_displays_and_panels_write_to() -> None:
     config = parse(USED, "x.yaml")
-    names = set(own_names(config, Guard("", True)))
+    names = set(own_names(config, ErrorBoundary("", True)))
     managers = {f"lifecycle_manager_{each}" for each in ("navigation", "localization")}
     services = {f"{each}/{name}" for each in managers for name in ("is_active", "manage_nodes")}
     actions = {"navigate_to_pose", "navigate_through_poses", "follow_waypoints"}
@@ -268,8 +268,8 @@ def test_a_config_uses_what_its_tools_displays_and_panels_write() -> None:
         "displays: [{type: InteractiveMarkers, interactive_markers_namespace: '*'}]",
     ],
 )
-def test_a_pattern_as_a_property_is_no_name_that_may_be_written(config: str) -> None:
-    names = own_names(parse(f"version: 1\n{config}\n", "x.yaml"), Guard("", True))
+def test_a_pattern_as_a_property_allows_no_name(config: str) -> None:
+    names = own_names(parse(f"version: 1\n{config}\n", "x.yaml"), ErrorBoundary("", True))
     assert {name for name in names if set("*?[") & set(name)} == {"/*/feedback"}
 
 
@@ -284,19 +284,19 @@ def test_a_pattern_that_allows_everything_is_reported(
     ]
 
 
-def test_a_plug_in_that_cannot_name_what_it_uses_adds_nothing(
+def test_a_plug_in_whose_names_raise_adds_none(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def uses(panel: object) -> tuple[str, ...]:
         raise RuntimeError("broken")
 
     monkeypatch.setattr(Nav2, "uses", property(uses))
-    names = own_names(parse("version: 1\n", "x.yaml"), Guard("", strict=False))
+    names = own_names(parse("version: 1\n", "x.yaml"), ErrorBoundary("", strict=False))
     assert "/goal_pose" in names
     assert not any("lifecycle" in name for name in names)
 
 
-def test_every_button_says_that_a_source_can_only_be_read(make: Benches) -> None:
+def test_every_button_of_a_read_only_source_has_that_reason(make: Benches) -> None:
     b = make()
     assert refusals(b) == {}
     b.source.graph = HandFedSource().graph

@@ -65,7 +65,7 @@ def test_a_display_belongs_to_the_robot_whose_namespace_its_topics_have() -> Non
     assert robot_of(["/scan", "/robot11/scan"], (one, ten)) is None
 
 
-def test_frames_of_a_robot_follow_each_message_whatever_was_named_before(bench: Benches) -> None:
+def test_alternating_lists_of_frames_of_a_robot_keep_their_names(bench: Benches) -> None:
     b = bench(Pose(topic=Topic("/robot1/pose")), robots=("robot1",))
 
     def move(names: str, x: float, second: int) -> None:
@@ -95,7 +95,7 @@ def test_two_robots_with_equal_frames_are_drawn_where_each_is(bench: Benches) ->
     assert {"robot1/odom", "robot2/odom", "map"} <= {*b.viewer.state().frames}
     assert "odom" not in b.viewer.state().frames
     xs = [b.statuses(index) for index in (0, 1)]
-    assert all(found["Transform"][0] == "OK" for found in xs), xs
+    assert all(statuses["Transform"][0] == "OK" for statuses in xs), xs
     buffer = b.viewer.buffer
     assert buffer.lookup("map", "robot2/base_link", 0).translation[0] == 5.5
 
@@ -173,7 +173,7 @@ def test_a_display_with_a_protocol_of_its_own_belongs_to_the_robot_of_its_topics
 
 
 @pytest.mark.parametrize(
-    ("frame", "stamp_ns", "fixed", "sent"),
+    ("frame", "stamp_ns", "fixed", "header"),
     [
         ("base_link", 0, "map", ("base_link", 3)),
         ("base_link", 1 * S, "map", ("map", 0)),
@@ -182,16 +182,16 @@ def test_a_display_with_a_protocol_of_its_own_belongs_to_the_robot_of_its_topics
     ],
 )
 def test_feedback_of_interactive_markers_has_the_frame_names_of_their_robot(
-    frame: str, stamp_ns: int, fixed: str, sent: tuple[str, int]
+    frame: str, stamp_ns: int, fixed: str, header: tuple[str, int]
 ) -> None:
     buffer = TransformBuffer()
     for parent, child in (("map", "robot1/odom"), ("robot1/odom", "robot1/base_link")):
         for second in (1, 3):
             buffer.set_transform(parent, child, second * S, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
     frames = RobotFrames(Frames(buffer, fixed, 3 * S), NamespacedRobot("robot1"))
-    made = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), 0, ())
-    values: Any = values_of(POSE_UPDATE, Tracked("m", made), "", frames, "client")
-    assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == sent
+    marker = Completed("m", frame, stamp_ns, At(), "", 1.0, (), (), 0, ())
+    values: Any = values_of(POSE_UPDATE, Tracked("m", marker), "", frames, "client")
+    assert (values["header"]["frame_id"], values["header"]["stamp"]["sec"]) == header
 
 
 @pytest.mark.parametrize(("robots", "tools"), [(3, 6), (20, 16)])

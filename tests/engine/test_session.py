@@ -6,10 +6,9 @@ import fcntl
 import os
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 from webviz.api.declared import Topic, to_values
 from webviz.api.group import DisplayGroup
@@ -45,7 +44,7 @@ from webviz_displays.path import Path as PathDisplay
 from webviz_displays.text import Text
 
 
-def do(b: Any, command: Command) -> State:
+def do(b: Bench, command: Command) -> State:
     """Run a command and return the state that panels show."""
     return b.do(command)
 
@@ -55,7 +54,7 @@ def names(state: State) -> list[str]:
     return ["  " * row.depth + row.name for row in state.rows]
 
 
-def offers(b: Any, *names: str) -> bool:
+def offers(b: Bench, *names: str) -> bool:
     """Return whether the config files of the folder become these."""
     return any(do(b, Refresh()).file.others == names or time.sleep(0.01) for _ in range(1000))
 
@@ -81,7 +80,7 @@ def test_a_config_is_saved_under_a_name_and_then_again_without(
     assert "length: 2.5" in (folder / "lab.yaml").read_text()
 
 
-def test_what_rvizs_format_cannot_hold_is_named_when_saving(folder: Path, bench: Benches) -> None:
+def test_saving_as_rviz_names_unsupported_parts(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     do(b, AddPanel("Plot"))
     answer = b.ask(Save("lab.rviz"))
@@ -93,9 +92,7 @@ def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Benches) -> N
     assert bench(Axes(name="A")).refused(Save()) == ("This config has no file yet. Choose a name.")
 
 
-def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
-    folder: Path, bench: Benches
-) -> None:
+def test_unsaved_changes_are_marked_until_saved_or_undone(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     assert not do(b, Refresh()).file.is_changed
     assert do(b, SetProperty("display1", "length", 2.5)).file.is_changed
@@ -104,7 +101,7 @@ def test_what_is_not_saved_is_marked_until_it_is_saved_or_undone(
     assert not do(b, Save("a.yaml")).file.is_changed
 
 
-def test_another_file_replaces_what_is_shown(folder: Path, bench: Benches) -> None:
+def test_opening_another_file_replaces_the_config(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
     do(b, Save("a.yaml"))
     (folder / "b.yaml").write_text("fixed_frame: odom\ndisplays:\n- {type: Axes, name: B}\n")
@@ -232,7 +229,7 @@ def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
     assert b.refused(Load(large, "l.yaml")).endswith("it is larger than 2 MB.")
 
 
-def test_a_file_in_a_folder_that_cannot_be_written_is_told(folder: Path, bench: Benches) -> None:
+def test_saving_to_a_missing_folder_is_refused(folder: Path, bench: Benches) -> None:
     refusal = bench(Axes(name="A")).refused(Save("nowhere/lab.yaml"))
     assert "No such file or directory" in refusal
 
@@ -256,7 +253,7 @@ def test_the_last_session_is_kept_in_a_file_of_its_own(tmp_path: Path, bench: Be
     assert axes.length == 2.5
 
 
-def test_a_session_keeps_the_list_of_what_may_be_written(tmp_path: Path, bench: Benches) -> None:
+def test_a_session_keeps_the_list_of_writable_names(tmp_path: Path, bench: Benches) -> None:
     b = bench(publish=None, autosave=tmp_path / "last.yaml")
     do(b, SetToolProperty("2D Goal Pose", "topic.name", "/cmd_vel_raw"))
     b.viewer.close()
@@ -283,7 +280,7 @@ def test_a_config_is_handed_out_as_text(folder: Path, bench: Benches) -> None:
     assert "Class: rviz_default_plugins/Axes" in texts[1]
 
 
-def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(bench: Benches) -> None:
+def test_an_exported_rviz_file_names_its_unsupported_parts(bench: Benches) -> None:
     b = bench(Axes(name="A"), Text(name="B"))
     answers = {n: b.viewer.enqueue(Export(lambda _: None, n)) for n in ("a.yaml", "a.rviz")}
     b.until_done(answers["a.rviz"])
@@ -297,7 +294,7 @@ def test_a_config_handed_out_as_rviz_is_answered_with_what_is_left_out(bench: Be
 # The list
 
 
-def test_a_copy_stands_behind_its_original_under_a_name_of_its_own(bench: Benches) -> None:
+def test_a_copy_follows_its_original_with_a_unique_name(bench: Benches) -> None:
     b = bench(Axes(name="A", length=3.0), Axes(name="B"))
     assert names(do(b, DuplicateDisplay("display1"))) == ["A", "A 2", "B"]
     state = do(b, DuplicateDisplay("display1"))
@@ -413,7 +410,7 @@ def test_background_and_frame_rate_are_set(bench: Benches) -> None:
         (AddDisplay("Axis"), "Unknown display type `Axis`: did you mean `Axes`?"),
     ],
 )
-def test_what_is_refused_is_told_and_changes_nothing(
+def test_a_refused_command_changes_nothing(
     bench: Benches,
     command: Command,
     sentence: str,
@@ -426,7 +423,7 @@ def test_what_is_refused_is_told_and_changes_nothing(
     assert document(b.viewer.config()) == document(before)
 
 
-def test_who_asks_after_the_end_is_refused(bench: Benches) -> None:
+def test_commands_after_the_end_are_refused(bench: Benches) -> None:
     b = bench()
     waiting = b.viewer.enqueue(SetFrameRate(10.0))
     b.viewer.close()
@@ -434,7 +431,7 @@ def test_who_asks_after_the_end_is_refused(bench: Benches) -> None:
         assert str(future.exception(timeout=0)) == "The viewer has ended."
 
 
-def test_what_nobody_waits_for_any_more_is_not_done(bench: Benches) -> None:
+def test_a_cancelled_command_is_not_carried_out(bench: Benches) -> None:
     b = bench()
     assert b.viewer.enqueue(SetFrameRate(10.0)).cancel()
     b.turn()

@@ -2,53 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
-
 import pytest
-from bench import Benches
+from bench import Bench, Benches
+from dots import POSE, SECOND, PoseDot, T, dots, show_dot
 
-from webviz import Context, Display, Input, Keep, Sample, Topic
 from webviz.commands import DuplicateDisplay, Pause, Reset
 from webviz.sources import Offer, Publisher
 
-SECOND = 1_000_000_000
-T = 100 * SECOND
-
-
-class Dot(Display):
-    """A dot where a pose is, for as long as it lasts."""
-
-    topic: Annotated[Topic, Input("geometry_msgs/msg/PoseStamped")] = Topic("/pose")
-
-    def history(self) -> Keep:
-        return Keep(0, 3.0)
-
-    def draw(self, sample: Sample, ctx: Context) -> None:
-        ctx.points("dot", [[sample.message.pose.position.x, 0, 0]], (255, 0, 0), 0.1)
-
 
 @pytest.fixture
-def b(bench: Benches) -> Any:
+def b(bench: Benches) -> Bench:
     """A viewer of a dot."""
-    return bench(Dot(name="Dot"))
+    return bench(PoseDot(name="Dot", count=0, seconds=3.0))
 
 
-def statuses(b: Any) -> dict[str, tuple[str, str]]:
+def statuses(b: Bench) -> dict[str, tuple[str, str]]:
     """Level and sentence by key of the viewer as a whole, a second later."""
     b.clock += 1.1
     b.statuses()
     return {key: (s.level.name, s.text) for key, s in b.states[-1].statuses.items()}
 
 
-def shown(b: Any) -> list[float]:
-    return sorted(pose.position[0] + float(node.xyz[0][0]) for _, pose, node in b.scene.visible())
-
-
-def publishes(b: Any, topic: str, *nodes: str) -> None:
+def publishes(b: Bench, topic: str, *nodes: str) -> None:
     b.source.known[topic] = Offer(tuple(Publisher(n, "", "reliable", "volatile") for n in nodes))
 
 
-def test_before_the_first_clock_the_viewer_waits_and_says_for_what(b: Any) -> None:
+def test_before_the_first_clock_message_the_wait_is_a_status(b: Bench) -> None:
     b.source.now = 0
     level, text = statuses(b)["Time"]
     assert level == "WARN"
@@ -60,18 +39,16 @@ def test_before_the_first_clock_the_viewer_waits_and_says_for_what(b: Any) -> No
     assert "Time" not in statuses(b)
 
 
-def test_paused_time_is_told_and_nothing_fades(b: Any) -> None:
+def test_paused_time_is_reported_and_nothing_fades(b: Bench) -> None:
     publishes(b, "/clock", "/gazebo")
-    b.transform("map", "base", T, static=True)
-    b.pose("/pose", "base", T, 1.0)
-    b.turn()
+    show_dot(b, 1.0)
     b.clock += 0.3
     assert "Time" not in statuses(b)
     assert statuses(b)["Time"] == (
         "OK",
         "Simulated time has stopped at 100.0 s: /gazebo is paused.",
     )
-    assert shown(b) == [1.0]
+    assert dots(b) == [1.0]
     assert b.statuses()["Transform"] == ("OK", "Transform OK")
     publishes(b, "/clock")
     assert statuses(b)["Time"][0] == "WARN"
@@ -79,27 +56,27 @@ def test_paused_time_is_told_and_nothing_fades(b: Any) -> None:
     assert "Time" not in statuses(b)
 
 
-def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(b: Any) -> None:
+def test_a_jump_back_of_the_clock_starts_over_but_keeps_static_transforms(b: Bench) -> None:
     b.transform("base", "laser", T, 10.0, static=True)
     b.transform("map", "base", T)
     b.pose("/pose", "laser", T, 1.0)
     b.turn()
-    assert shown(b) == [11.0]
+    assert dots(b) == [11.0]
     b.source.now -= 50 * SECOND
     b.turn()
-    assert shown(b) == []
+    assert dots(b) == []
     assert statuses(b)["Time"] == ("OK", "Time went back by 50 s: everything was reset.")
     b.transform("map", "base", T - 50 * SECOND)
     b.pose("/pose", "laser", T - 50 * SECOND, 2.0)
     b.turn()
-    assert shown(b) == [12.0]
+    assert dots(b) == [12.0]
     b.clock += 20.0
     b.source.now += 20
     assert "Time" not in statuses(b)
 
 
 def test_a_clock_that_jumps_at_each_message_is_logged_once_a_minute(
-    b: Any, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+    b: Bench, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = [1000.0]
     monkeypatch.setattr("webviz.engine.pipeline.ros_time.time.monotonic", lambda: now[0])
@@ -121,13 +98,13 @@ def test_a_clock_that_jumps_at_each_message_is_logged_once_a_minute(
     ]
 
 
-def elapsed_s(b: Any) -> float:
+def elapsed_s(b: Bench) -> float:
     b.clock += 1.1
     b.statuses()
     return b.states[-1].clock.ros_elapsed_ns / SECOND
 
 
-def test_elapsed_time_restarts_when_time_goes_back(b: Any) -> None:
+def test_elapsed_time_restarts_when_time_goes_back(b: Bench) -> None:
     assert elapsed_s(b) == 0.0
     b.source.now -= SECOND // 20
     assert elapsed_s(b) == 0.0, "too little for a reset"
@@ -147,10 +124,8 @@ def test_elapsed_time_restarts_when_time_goes_back(b: Any) -> None:
     assert elapsed_s(b) == 0.0
 
 
-def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(b: Any) -> None:
-    b.transform("map", "base", T, static=True)
-    b.pose("/pose", "base", T, 1.0)
-    b.turn()
+def test_messages_dropped_while_paused_give_no_warning(b: Bench) -> None:
+    show_dot(b, 1.0)
     b.do(Pause(True))
     b.turn()
     for _ in range(1005):
@@ -158,13 +133,13 @@ def test_messages_that_do_not_fit_while_paused_are_no_sign_of_haste(b: Any) -> N
     assert statuses(b)["Time"] == ("OK", "5 messages dropped while paused; the newest are kept.")
     b.do(Pause(False))
     b.turn()
-    assert shown(b)[-1] == 2.0
+    assert dots(b)[-1] == 2.0
     assert "Message" not in b.statuses()
     b.source.now += SECOND
     assert "Time" not in statuses(b)
 
 
-def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(b: Any) -> None:
+def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(b: Bench) -> None:
     b.transform("map", "base", T)
     b.turn()
     b.transform("map", "base", T + SECOND)
@@ -173,38 +148,34 @@ def test_the_end_of_a_loop_that_comes_with_the_jump_does_not_spoil_the_next(b: A
     b.transform("map", "base", T - 50 * SECOND)
     b.pose("/pose", "base", T - 50 * SECOND, 2.0)
     b.turn()
-    assert shown(b) == [2.0]
+    assert dots(b) == [2.0]
 
 
-def test_a_clock_that_is_set_right_by_a_little_resets_nothing(b: Any) -> None:
-    b.transform("map", "base", T, static=True)
-    b.pose("/pose", "base", T, 1.0)
-    b.turn()
+def test_a_clock_that_is_set_right_by_a_little_resets_nothing(b: Bench) -> None:
+    show_dot(b, 1.0)
     b.source.now -= SECOND // 20
     b.turn()
-    assert shown(b) == [1.0]
+    assert dots(b) == [1.0]
 
 
-def test_after_a_reset_what_is_latched_is_asked_for_again_and_welcome(b: Any) -> None:
+def test_a_reset_requests_latched_messages_again(b: Bench) -> None:
     policies = ("reliable", "transient_local")
-    b.source.known["/pose"] = Offer(
-        (Publisher("/map_server", "geometry_msgs/msg/PoseStamped", *policies),), policies
-    )
-    b.transform("map", "base", T, static=True)
-    b.pose("/pose", "base", T, 1.0)
-    b.turn()
-    asked = {topic: subscription.asked for topic, subscription in b.source.wanted.items()}
+    b.source.known["/pose"] = Offer((Publisher("/map_server", POSE, *policies),), policies)
+    show_dot(b, 1.0)
+    requests = {
+        topic: subscription.resubscriptions for topic, subscription in b.source.wanted.items()
+    }
     b.source.now -= 50 * SECOND
     b.turn()
-    again = {topic: subscription.asked for topic, subscription in b.source.wanted.items()}
-    assert again["/pose"] > asked["/pose"]
-    assert again["/tf_static"] > asked["/tf_static"]
+    again = {topic: subscription.resubscriptions for topic, subscription in b.source.wanted.items()}
+    assert again["/pose"] > requests["/pose"]
+    assert again["/tf_static"] > requests["/tf_static"]
     b.pose("/pose", "base", T, 1.0)
     b.turn()
-    assert shown(b) == [1.0]
+    assert dots(b) == [1.0]
 
 
-def loop(b: Any, first: int, last: int, *frames: str) -> None:
+def loop(b: Bench, first: int, last: int, *frames: str) -> None:
     """Half-second steps of a bag without /clock: wall time goes on, the stamps are the bag's."""
     for half in range(2 * first, 2 * last):
         for frame in frames:
@@ -215,22 +186,22 @@ def loop(b: Any, first: int, last: int, *frames: str) -> None:
         b.turn()
 
 
-def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(b: Any) -> None:
+def test_a_bag_that_loops_without_a_clock_is_noticed_and_its_new_loop_is_shown(b: Bench) -> None:
     loop(b, 10, 40, "base")
-    assert shown(b)[-1] == 39.5
+    assert dots(b)[-1] == 39.5
     loop(b, 10, 13, "base")
     assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
     text = statuses(b)["Transforms"][1]
     assert 'transforms of "base" were refused' in text
     assert "If a bag was restarted, press Reset" in text
     loop(b, 13, 24, "base")
-    assert shown(b)[-1] == 23.5
+    assert dots(b)[-1] == 23.5
     assert statuses(b)["Time"][1].startswith("The transforms started over in the past")
     assert "Transforms" not in statuses(b)
 
 
 def test_too_many_frames_are_a_status_while_they_arrive(
-    b: Any, monkeypatch: pytest.MonkeyPatch
+    b: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.data.transforms.buffer.MAX_FRAMES", 3)
     loop(b, 10, 13, "base", "arm", "tool")
@@ -239,7 +210,7 @@ def test_too_many_frames_are_a_status_while_they_arrive(
     assert "Transforms" not in statuses(b)
 
 
-def test_many_old_transforms_at_once_are_no_new_loop(b: Any) -> None:
+def test_many_old_transforms_at_once_are_not_a_loop_of_the_bag(b: Bench) -> None:
     loop(b, 10, 40, "base")
     for half in range(20, 60):
         b.transform("map", "base", half * SECOND // 2)
@@ -247,7 +218,7 @@ def test_many_old_transforms_at_once_are_no_new_loop(b: Any) -> None:
     assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
 
 
-def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Any) -> None:
+def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Bench) -> None:
     loop(b, 10, 40, "base", "arm")
     for half in range(80, 140):
         b.transform("map", "base", half * SECOND // 2)
@@ -264,7 +235,7 @@ def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Any) -> N
     assert "Transforms" not in statuses(b)
 
 
-def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(b: Any) -> None:
+def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(b: Bench) -> None:
     b.transform("map", "odom", T)
     b.transform("map", "odom", T + 1)
     b.transform("odom", "camera", T + 2 * SECOND)
@@ -280,11 +251,11 @@ def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(b: Any) -> None
     assert "Clocks" not in statuses(b)
 
 
-def test_a_second_static_publisher_is_found_by_asking_again(b: Any) -> None:
+def test_a_second_static_publisher_is_found_by_asking_again(b: Bench) -> None:
     publishes(b, "/tf_static", "/first", "/second")
     b.turn()
     for _ in range(2):
-        asked = b.source.wanted["/tf_static"].asked
+        requests = b.source.wanted["/tf_static"].resubscriptions
         b.transform("base", "laser", T, static=True)
         b.transform("camera", "laser", T, static=True)
         b.clock += 5.0
@@ -292,7 +263,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(b: Any) -> None:
         b.turn()
         if "Transforms" in statuses(b):
             break
-        assert b.source.wanted["/tf_static"].asked > asked
+        assert b.source.wanted["/tf_static"].resubscriptions > requests
     level, text = statuses(b)["Transforms"]
     assert level == "WARN"
     assert '"laser" has two parents in static transforms, "base" and "camera"' in text
@@ -304,7 +275,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(b: Any) -> None:
     assert "Transforms" not in statuses(b)
 
 
-def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(b: Any) -> None:
+def test_a_static_publisher_that_restarts_with_another_pose_is_not_a_conflict(b: Bench) -> None:
     for x in (1.0, 2.0):
         b.transform("base", "laser", T, x, static=True)
         b.clock += 5.0
@@ -312,19 +283,19 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_no_quarrel(b: Any
     b.transform("base", "laser", T, 2.0, static=True)
     b.clock += 5.0
     assert "Transforms" not in statuses(b)
-    asked = b.source.wanted["/tf_static"].asked
+    requests = b.source.wanted["/tf_static"].resubscriptions
     b.clock += 60.0
     b.turn()
     b.turn()
-    assert b.source.wanted["/tf_static"].asked == asked
+    assert b.source.wanted["/tf_static"].resubscriptions == requests
 
 
-def test_a_second_display_of_a_topic_asks_for_what_the_first_one_got_latched(
+def test_a_second_display_of_a_topic_requests_its_latched_message(
     bench: Benches,
 ) -> None:
-    b = bench(Dot(name="One"))
-    first = b.source.wanted["/pose"].asked
+    b = bench(PoseDot(name="One"))
+    first = b.source.wanted["/pose"].resubscriptions
     b.turn()
-    assert b.source.wanted["/pose"].asked == first
+    assert b.source.wanted["/pose"].resubscriptions == first
     b.do(DuplicateDisplay("display1"))
-    assert b.source.wanted["/pose"].asked > first
+    assert b.source.wanted["/pose"].resubscriptions > first

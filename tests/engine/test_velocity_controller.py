@@ -32,14 +32,14 @@ def make_controller(deceleration: float = 2.0, holding: int | None = None) -> Ve
 
 
 def drive(
-    controller: VelocityController, start: float, seconds: float, held: Velocity | None
+    controller: VelocityController, start: float, seconds: float, share: Velocity | None
 ) -> list[Velocity | None]:
     """Return the commands published while a browser holds keys with heartbeats, or is silent."""
     steps = []
     for index in range(round(seconds / PERIOD_S)):
         now = start + index * PERIOD_S
-        if held is not None:
-            controller.steer(1, held, now, now)
+        if share is not None:
+            controller.steer(1, share, now, now)
         steps.append(controller.step(now))
     return steps
 
@@ -67,7 +67,7 @@ def test_a_drive_that_ends_within_one_step_ends_with_some_zeros() -> None:
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
-def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: float) -> None:
+def test_slowing_down_brakes_and_reversing_passes_through_zero(way: float) -> None:
     controller = make_controller()
     drive(controller, 0.0, 1.0, Velocity(way))
 
@@ -82,7 +82,7 @@ def test_who_slows_down_brakes_and_who_reverses_stands_still_in_between(way: flo
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
-def test_a_driver_who_falls_silent_before_the_first_command_moves_nothing(way: float) -> None:
+def test_a_driver_silent_before_the_first_command_moves_nothing(way: float) -> None:
     controller = make_controller()
     controller.steer(1, Velocity(way), 0.0, 0.0)
     assert [controller.step(BEAT_S + 0.05 * n) for n in range(TAIL + 1)] == [STILL] * TAIL + [None]
@@ -100,7 +100,7 @@ def test_only_another_set_point_asks_for_a_command_before_its_time() -> None:
     assert asks == [True, False, True, False, True, True, False]
 
 
-def test_halting_what_rests_publishes_nothing() -> None:
+def test_halting_at_rest_publishes_nothing() -> None:
     controller = make_controller()
     controller.halt()
     assert controller.is_at_rest
@@ -108,7 +108,7 @@ def test_halting_what_rests_publishes_nothing() -> None:
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
-def test_a_driver_who_falls_silent_stops_the_vehicle_at_once(way: float) -> None:
+def test_a_silent_driver_stops_the_vehicle_at_once(way: float) -> None:
     controller = make_controller()
     drive(controller, 0.0, 1.0, Velocity(way))
     steps = drive(controller, 1.0, 1.0, None)
@@ -121,17 +121,17 @@ def test_a_driver_who_falls_silent_stops_the_vehicle_at_once(way: float) -> None
     assert controller.step(3.0) == Velocity(linear=0.05)
 
 
-@pytest.mark.parametrize("held", [AHEAD, Velocity(linear=-0.5)], ids=["the same", "another"])
-def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocity) -> None:
+@pytest.mark.parametrize("share", [AHEAD, Velocity(linear=-0.5)], ids=["the same", "another"])
+def test_a_driver_who_sends_but_receives_nothing_new_loses_control(share: Velocity) -> None:
     controller = make_controller()
     drive(controller, 0.0, 1.0, AHEAD)
-    seen = 19 * PERIOD_S
+    beat_s = 19 * PERIOD_S
     steps: list[Velocity | None] = []
-    for now in (seen + 0.005 + 0.01 * index for index in range(60)):
-        is_new = controller.steer(1, held, seen, now)
-        assert not is_new or now < seen + BEAT_S
+    for now in (beat_s + 0.005 + 0.01 * index for index in range(60)):
+        is_new = controller.steer(1, share, beat_s, now)
+        assert not is_new or now < beat_s + BEAT_S
         steps.append(controller.step(now))
-        assert now < seen + BEAT_S or steps[-1] in (STILL, None)
+        assert now < beat_s + BEAT_S or steps[-1] in (STILL, None)
     assert steps[round(BEAT_S / 0.01) - 1] not in (STILL, None)
     assert steps.count(STILL) == TAIL
     # What it receives may take long, as long as it comes.
@@ -142,7 +142,7 @@ def test_a_driver_who_sends_but_receives_nothing_new_loses_control(held: Velocit
     assert steps[-1] == Velocity(linear=0.5)
 
 
-def test_what_was_received_before_counts_no_more() -> None:
+def test_older_receptions_do_not_extend_the_deadline() -> None:
     controller = make_controller()
     controller.steer(1, AHEAD, 1.0, 1.0)
     for index in range(1, 5):
@@ -150,7 +150,7 @@ def test_what_was_received_before_counts_no_more() -> None:
     assert controller.deadline == 1.0 + BEAT_S
 
 
-def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
+def test_a_second_driver_is_not_bound_by_the_receptions_of_the_first() -> None:
     controller = make_controller()
     drive(controller, 0.0, 1.0, AHEAD)
     drive(controller, 1.0, 2.0, None)
@@ -160,7 +160,7 @@ def test_another_driver_begins_with_what_the_first_had_not_received() -> None:
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0], ids=["ahead", "back"])
-def test_who_brakes_for_longer_than_the_release_keeps_control(way: float) -> None:
+def test_a_driver_keeps_control_while_braking_longer_than_the_release(way: float) -> None:
     controller = make_controller(deceleration=0.1)
     drive(controller, 0.0, 1.0, Velocity(way))
     drive(controller, 1.0, 2.0, STILL)
@@ -179,7 +179,7 @@ def test_a_browser_that_only_looks_takes_no_beats_from_the_next_driver() -> None
     assert controller.step(5.3) == Velocity(linear=0.05)
 
 
-def test_what_is_held_while_the_vehicle_changes_has_to_be_let_go_first() -> None:
+def test_a_key_held_while_the_vehicle_changes_must_be_released_first() -> None:
     controller = make_controller(holding=1)
     for now in (0.0, 0.05):
         assert not controller.steer(1, AHEAD, now, now)
@@ -227,13 +227,13 @@ numbers = st.floats() | st.sampled_from([0.0, 1.0, -1.0, 1e308, math.nan, math.i
 
 
 @given(st.lists(st.tuples(st.tuples(numbers, numbers, numbers), st.floats(0.0, 0.4)), max_size=40))
-def test_whatever_is_held_a_vehicle_keeps_its_limits_and_ramps(
-    held: list[tuple[tuple[float, float, float], float]],
+def test_a_vehicle_keeps_its_limits_and_ramps_for_any_input(
+    inputs: list[tuple[tuple[float, float, float], float]],
 ) -> None:
     controller, now = make_controller(), 0.0
     ramps = controller.vehicle.acceleration, controller.vehicle.deceleration
     velocities = [STILL]
-    for share, wait in held:
+    for share, wait in inputs:
         controller.steer(1, Velocity(*share), now, now)
         for _ in range(3):
             now += wait / 3

@@ -145,7 +145,7 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
 
     alone = acted(command, Sender(ALICE))
     assert [ALICE] in alone
-    assert not any(BOB in found for found in alone)
+    assert not any(BOB in browsers for browsers in alone)
     named = replace(command, browser=ALICE)
     assert acted(named, Sender(BOB)) == acted(named, PROGRAM) == alone
 
@@ -158,7 +158,7 @@ def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
     assert "`TopDownOrtho`" in looking.refused(ChangeView("type", "TopDownOrto", ALICE))
 
 
-def test_a_view_changes_its_type_and_keeps_what_is_looked_at(looking: Looking) -> None:
+def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: Looking) -> None:
     looking.do(ShowView(Orbit(focal_point=(3.0, 2.0, 0.0)), ALICE))
     looking.do(ChangeView("type", "TopDownOrtho", ALICE))
     view = looking.cameras.shown[ALICE]
@@ -183,7 +183,7 @@ def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(looking: Lo
     assert target_group("base") not in scene.poses
 
 
-def test_a_target_frame_that_is_missing_is_told_until_it_comes(looking: Looking) -> None:
+def test_a_missing_target_frame_is_reported_until_it_arrives(looking: Looking) -> None:
     state = looking.do(ShowView(Orbit(target_frame="arm"), ALICE))
     status = state.statuses["Target Frame"]
     assert status.level is Level.WARN
@@ -232,7 +232,7 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     assert "name is empty" in looking.refused(SaveView("", ALICE))
 
 
-def test_a_config_begins_with_the_view_that_somebody_chose(looking: Looking) -> None:
+def test_the_chosen_default_view_is_saved_in_the_config(looking: Looking) -> None:
     looking.do(ShowView(TopDownOrtho(x=3.0), ALICE))
     looking.do(StartWithView(ALICE))
     assert looking.cameras.start == TopDownOrtho(x=3.0)
@@ -242,7 +242,7 @@ def test_a_config_begins_with_the_view_that_somebody_chose(looking: Looking) -> 
     assert "type: TopDownOrtho" in text
 
 
-def test_whoever_opens_a_config_sees_its_view(looking: Looking) -> None:
+def test_opening_a_config_shows_its_view(looking: Looking) -> None:
     looking.do(Load("view: {distance: 4}\nviews: {Near: {distance: 1}}\n", "x.yaml"))
     assert looking.cameras.start == Orbit(distance=4.0)
     assert set(looking.cameras.shown.values()) == {Orbit(distance=4.0)}
@@ -250,7 +250,7 @@ def test_whoever_opens_a_config_sees_its_view(looking: Looking) -> None:
     assert set(looking.cameras.shown.values()) == {Orbit(distance=1.0)}
 
 
-def test_a_picture_is_asked_of_one_browser(looking: Looking) -> None:
+def test_a_picture_is_requested_from_one_browser(looking: Looking) -> None:
     looking.do(SaveImage(BOB, "robot.png"))
     assert looking.cameras.images == [("robot.png", BOB)]
 

@@ -16,7 +16,7 @@ from webviz.api.roles import Role
 from webviz.engine import feature
 from webviz.engine.commands import Command, Sender
 from webviz.engine.feature import Feature, command, store
-from webviz.engine.parts import Core
+from webviz.engine.parts import PartContext
 from webviz.engine.parts.declaring import commands_of, stores_of
 from webviz.engine.store import PageStore
 from webviz.server.access import rules
@@ -124,7 +124,7 @@ class Failing(Feature):
 
     name = "Failing"
 
-    def __init__(self, core: Core) -> None:
+    def __init__(self, context: PartContext) -> None:
         raise RuntimeError("no luck")
 
 
@@ -139,10 +139,10 @@ def test_one_that_is_not_sound_leaves_the_others(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(feature, "installed", lambda group: points)
     feature.loaded.cache_clear()
     try:
-        found, broken = feature.features(), feature.broken_features()
+        sound, broken = feature.features(), feature.broken_features()
     finally:
         feature.loaded.cache_clear()
-    assert found == {"Counting": Counting}
+    assert sound == {"Counting": Counting}
     assert broken["Pausing"].endswith("does not load: ValueError: Pause exists already")
     assert "AttributeError" in broken["Missing"]
 
@@ -150,15 +150,15 @@ def test_one_that_is_not_sound_leaves_the_others(monkeypatch: pytest.MonkeyPatch
 def test_one_that_cannot_be_made_leaves_the_others(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    known = {"failing": Failing, **feature.features()}
-    monkeypatch.setattr("webviz.engine.loop.loop.features", lambda: known)
+    available = {"failing": Failing, **feature.features()}
+    monkeypatch.setattr("webviz.engine.loop.loop.features", lambda: available)
     b = bench(strict=False)
-    assert sum(isinstance(part, Feature) for part in b.viewer.parts) == len(known) - 1
+    assert sum(isinstance(part, Feature) for part in b.viewer.parts) == len(available) - 1
     assert "no luck" in b.viewer.state().statuses["Failing"].text
 
 
 @pytest.mark.parametrize("name", FOLDERS)
-def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path) -> None:
+def test_a_viewer_without_a_feature_starts_and_reports_it(name: str, tmp_path: Path) -> None:
     inner = tmp_path / "webviz"
     inner.mkdir()
     for path in PACKAGE.iterdir():
@@ -181,10 +181,10 @@ def test_a_viewer_without_a_feature_starts_and_says_so(name: str, tmp_path: Path
     assert completed.returncode == 0, completed.stderr
     missing = re.findall(r"(\w+) is missing: webviz\.features\.(?=\1:)", completed.stdout)
     assert sorted(missing) == sorted({name, *NEEDED_BY.get(name, ())})
-    lost = ", ".join(sorted({name, *NEEDED_BY.get(name, ())}))
-    asked = [*own, *(["UseTool"] if "UseTool" in own else [])]
-    texts = [f"There is no {each} without {lost}. Install webviz anew." for each in asked]
+    lost_features = ", ".join(sorted({name, *NEEDED_BY.get(name, ())}))
+    commands = [*own, *(["UseTool"] if "UseTool" in own else [])]
+    texts = [f"There is no {each} without {lost_features}. Reinstall webviz." for each in commands]
     assert re.findall(r"^There is no .*", completed.stdout, re.MULTILINE) == texts
-    assert ("This viewer has no Doctor. Install webviz anew." in completed.stdout) == (
+    assert ("This viewer has no Doctor. Reinstall webviz." in completed.stdout) == (
         name == "doctor"
     )

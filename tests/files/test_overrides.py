@@ -147,14 +147,16 @@ def test_a_value_can_make_a_display_readable(config: Config) -> None:
         ("", "write it as "),
     ],
 )
-def test_what_cannot_be_set_is_one_sentence(config: Config, assignment: str, reason: str) -> None:
+def test_invalid_assignments_are_refused_in_one_sentence(
+    config: Config, assignment: str, reason: str
+) -> None:
     with pytest.raises(ConfigError) as caught:
         override(config, [assignment])
     assert str(caught.value).startswith(f"--set {assignment}: {reason}")
     assert "\n" not in str(caught.value)
 
 
-def test_a_value_that_is_no_yaml_is_one_sentence(config: Config) -> None:
+def test_a_value_that_is_not_yaml_is_refused_in_one_sentence(config: Config) -> None:
     with pytest.raises(ConfigError, match=r"^--set view=\[:1 is not valid YAML: "):
         override(config, ["view=["])
 

@@ -13,7 +13,7 @@ import { statistics, sumsText, valueAt, valueText } from "../../webviz/page/web/
 import { changed, numberText, roomy, share, ticks } from "../../webviz/page/web/charts/scale.js";
 import { boxBetween, boxed, panned, scaled, shareOf } from "../../webviz/page/web/charts/zoom.js";
 
-/** @import {Shown} from "webviz/charts/zoom.js" */
+/** @import {AxisRanges} from "webviz/charts/zoom.js" */
 /** @import {Curve, Facts, Range} from "webviz/types.js" */
 
 const LARGEST = Number.MAX_VALUE;
@@ -48,9 +48,9 @@ const TWO = curve({ pieces: [piece([], []), piece([0, 1], [5, 6]), piece([2, 3],
  */
 function visited(curve, range) {
   /** @type {number[]} */
-  const found = [];
-  visit(curve, range, (time) => found.push(time));
-  return found;
+  const times = [];
+  visit(curve, range, (time) => times.push(time));
+  return times;
 }
 
 test("statistics are of the finite values within a range, and do not overflow", () => {
@@ -97,7 +97,7 @@ test("a round number at an end has a tick, however the end was rounded", () => {
   assert.deepEqual(ticks(-59.99, 0, 3), [-40, -20, 0]);
 });
 
-test("ticks of extreme ranges are few, and an empty range has none", () => {
+test("extreme ranges have few ticks and an empty range none", () => {
   const widest = ticks(-LARGEST, LARGEST, 5);
   assert.ok(widest.length > 2 && widest.every(Number.isFinite), String(widest));
   assert.ok(ticks(1e17, 1e17 + 16, 4).length <= 50);
@@ -143,10 +143,10 @@ test("curves are made of the pieces that have come, and unchanged pieces stay th
   const values = new Map([["plot/8.3", { start: 100, times: [0, 0.5], values: [1, null] }]]);
   /** @type {Facts[]} */
   const facts = [{ key: 8, name: "/a", problem: "", chunks: [2, 4], axis: 0, unit: "" }];
-  const known = new WeakMap();
-  const [{ pieces }] = curvesOf(facts, values, "plot", known);
+  const cache = new WeakMap();
+  const [{ pieces }] = curvesOf(facts, values, "plot", cache);
   assert.deepEqual(pieces, [piece(Float64Array.of(100, 100.5), Float64Array.of(1, NaN))]);
-  assert.equal(curvesOf(facts, values, "plot", known)[0].pieces[0], pieces[0]);
+  assert.equal(curvesOf(facts, values, "plot", cache)[0].pieces[0], pieces[0]);
 });
 
 test("a line is drawn from the value before a range to the one behind it", () => {
@@ -191,7 +191,7 @@ test("curves stand at their axes, apart from the one in place of time", () => {
   assert.deepEqual(keys(byAxis([], 0)), [undefined, []]);
 });
 
-test("a legend reads values with their units, and says where there are none", () => {
+test("a legend has values with units and marks missing ones", () => {
   const speed = { ...TWO, unit: "m/s" };
   assert.equal(valueText(speed, 1.5), "6 m/s");
   assert.equal(valueText(speed, Infinity), "no value");
@@ -200,7 +200,7 @@ test("a legend reads values with their units, and says where there are none", ()
   assert.equal(sumsText(speed, [8, 9]), "No values in this span.");
 });
 
-/** @type {Shown} */
+/** @type {AxisRanges} */
 const SHOWN = { times: [0, 10], values: [-1, 1] };
 const AREA = { left: 50, top: 10, width: 200, height: 100 };
 
@@ -211,8 +211,8 @@ test("the wheel zooms times or values, and values that were zoomed stay so", () 
   assert.deepEqual(scaled(SHOWN, null, change, true), { times: [0, 10], values: [-1, 0] });
 });
 
-test("a zoom to hardly any time, or to far too much, is none", () => {
-  /** @type {Shown} */
+test("a zoom to almost no time, or to too much, is ignored", () => {
+  /** @type {AxisRanges} */
   const short = { ...SHOWN, times: [5, 5 + 1.5e-6] };
   assert.equal(scaled(short, null, { by: 0.5 }, false), null);
   assert.equal(scaled({ ...SHOWN, times: [0, 9e5] }, null, { by: 1.2 }, false), null);
@@ -224,7 +224,7 @@ test("a drag moves times, and values if it goes up", () => {
   assert.deepEqual(panned(SHOWN, [0.1, 0.5], true), { times: [-1, 9], values: [-2, 0] });
 });
 
-test("a box is zoomed to in whatever direction it was drawn, unless it is a line", () => {
+test("a box drawn in any direction is zoomed to, a line is not", () => {
   assert.deepEqual(boxed(SHOWN, [0.75, 0], [0.25, 0.5]), { times: [2.5, 7.5], values: [-1, 0] });
   assert.equal(boxed(SHOWN, [0.2, 0.5], [0.8, 0.504]), null);
   assert.deepEqual(shareOf([100, 35], AREA), [0.25, 0.75]);

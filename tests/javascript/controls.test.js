@@ -57,8 +57,8 @@ test("numbers that mean nothing are refused with the reason", () => {
 });
 
 test("a field shows a number as short as it can be", () => {
-  const shown = [0.1 + 0.2, -0, 2, 1e-7, 123456.7891234, 1e15, 1e308, NaN, Infinity].map(format);
-  assert.deepEqual(shown, [
+  const texts = [0.1 + 0.2, -0, 2, 1e-7, 123456.7891234, 1e15, 1e308, NaN, Infinity].map(format);
+  assert.deepEqual(texts, [
     "0.3",
     "0",
     "2",

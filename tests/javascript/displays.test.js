@@ -59,7 +59,7 @@ function itemOf(id, model = MODEL) {
 const ids = (items) => items.map(({ id }) => id).join("");
 const always = () => true;
 
-test("rows with depths become a tree, and a group that is off switches off what is in it", () => {
+test("rows with depths become a tree, and a group that is off switches off its displays", () => {
   assert.equal(ids(MODEL.top), "agd");
   assert.equal(ids(itemOf("g").children), "bh");
   assert.equal(itemOf("c").parent, itemOf("h"));
@@ -85,7 +85,7 @@ test("rows count their siblings, those on top with the global options", () => {
   assert.deepEqual(placeAmong(MODEL, globalItem(null)), { position: 1, count: 4 });
 });
 
-test("one selected item is shown whatever it is, several only as far as they can be edited", () => {
+test("a single selected item is always shown, several only if they can be edited", () => {
   const items = [
     globalItem(null),
     { ...itemOf("a"), can_edit: true },
@@ -119,17 +119,17 @@ test("rows of folded groups are not shown", () => {
   assert.equal(ids(visible(MODEL, ({ id }) => id === "g", "")), "agbhd");
 });
 
-test("a search shows what matches, the groups around it and all in groups that match", () => {
+test("a search shows matching displays with their groups, and all displays of matching groups", () => {
   /** @param {string} text */
-  const found = (text) => ids(visible(MODEL, () => false, text));
-  assert.equal(found("FRONT grid"), "gb");
-  assert.equal(found("same"), "aghcd");
-  assert.equal(found("robot"), "gbhc");
-  assert.equal(found("inner"), "ghc");
-  assert.equal(found("nothing"), "");
+  const search = (text) => ids(visible(MODEL, () => false, text));
+  assert.equal(search("FRONT grid"), "gb");
+  assert.equal(search("same"), "aghcd");
+  assert.equal(search("robot"), "gbhc");
+  assert.equal(search("inner"), "ghc");
+  assert.equal(search("nothing"), "");
 });
 
-test("what is selected together with its group goes with the group", () => {
+test("a display selected together with its group moves with the group", () => {
   assert.equal(ids(topmost(MODEL, new Set(["c", "g", "d"]))), "gd");
 });
 
@@ -198,7 +198,7 @@ test("keys move up, down, out of a group and into one", () => {
   assert.deepEqual(to("ag", "down"), { group: "", before: "" }, "several stay together");
 });
 
-test("what is at its place already is not moved", () => {
+test("a drop at the present place moves nothing", () => {
   /**
    * @param {string} id
    * @param {Place} place

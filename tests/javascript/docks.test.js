@@ -84,7 +84,7 @@ test("a floating panel keeps its size, and stays over the scene", () => {
   assert.deepEqual(layout.over[0], { panel: "Log", width: 1, height: 0.05, left: 0, top: 0.2 });
 });
 
-test("neighbours share what they have", () => {
+test("neighbours share their space", () => {
   let layout = place(place(EMPTY, "a", "below"), "b", "below", 1);
   layout = shared(layout, "below", "a", "b", 0.25);
   assert.deepEqual(
@@ -142,7 +142,7 @@ test("a layout of the server is complete, and each panel has one place", () => {
   assert.equal(placeOf(layout, "Plot"), "tabs");
 });
 
-test("panels leave room to the scene, but beside it keep what can be read", () => {
+test("panels leave room to the scene and keep a readable width", () => {
   const layout = { ...EMPTY, width: 700, height: 600 };
   assert.deepEqual(sizesIn(layout, { width: 1000, height: 500 }), { width: 600, height: 350 });
   assert.equal(sizesIn(layout, { width: 100, height: 500 }).width, 120);

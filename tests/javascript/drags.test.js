@@ -94,7 +94,7 @@ test("in a plane, it follows the pointer", () => {
   assertPose(dragged(control, [1, 2, 0], [1, 2, 0.3], { to: [2, 3] }), [2, 3, 0]);
 });
 
-test("facing the camera, the plane is that of the screen, whatever the control says", () => {
+test("the plane of a control that faces the camera is that of the screen", () => {
   /** @type {GivenControl} */
   const control = { mode: "move_plane", facing: "view_facing" };
   assertPose(dragged(control, [0, 0, 5], [0, 0, 5], { to: [2, 3] }), [2, 3, 5]);
@@ -175,7 +175,7 @@ test("nothing moves along an axis that points to the camera, in a plane seen fro
 /** @type {SceneHandle["menu"][number]} */
 const ENTRY = { id: 1, title: "", checked: null, refusal: "", entries: [] };
 
-test("the hint of a handle names its buttons, and who drags it", () => {
+test("the hint of a handle names its buttons and the browser that drags it", () => {
   /** @type {Pick<SceneHandle, "name" | "holder" | "menu">} */
   const handle = { name: "Dock", holder: null, menu: [] };
   /**

@@ -73,7 +73,7 @@ test("a folded namespace is one box, whose links are those of all in it", () => 
   assert.equal(links[0].topics.size, 2);
 });
 
-test("boxes do not cover each other, whatever they are called", () => {
+test("boxes do not overlap, with names of any length", () => {
   const hostile = ["", "/", "//", "no slash", "/x".repeat(100), "__proto__"];
   const topics = hostile.map((name) => topic(name, hostile, hostile));
   const all = [...layOut(topics, () => false).boxes.values()];
@@ -106,7 +106,7 @@ test("a whole drawing is in the middle, never enlarged", () => {
   assert.equal(whole({ width: 1e9, height: 1 }, canvas).scale, 0.02);
 });
 
-test("zooming keeps what is under the pointer, and a box that is found is in the middle", () => {
+test("zooming keeps the point under the pointer, and a search centres its box", () => {
   const look = { x: 10, y: 20, scale: 0.5 };
   assert.deepEqual(zoomed(look, 4, 30, 40), { x: 55, y: 80, scale: 2 });
   assert.equal(zoomed(look, 1e9, 0, 0).scale, 3);
@@ -128,7 +128,7 @@ test("a box is hit within its edges", () => {
   assert.equal(boxAt(boxes, look, 4, 5), undefined);
 });
 
-test("words find boxes and what is folded in them, and are counted", () => {
+test("a search counts boxes and rows folded in them", () => {
   const drawing = layOut(CHAIN, () => false);
   assert.equal(finder("  "), null);
   assert.equal(sumText(drawing, finder("M AM")), "1 of 6");

@@ -135,10 +135,10 @@ test("a place of an image is where the undistorted image shows it", () => {
   ];
   for (const place of places) {
     const share = straight(warp, place);
-    const found = share && bent(warp, share);
+    const point = share && bent(warp, share);
     assert.ok(
-      found && Math.hypot(found[0] - place[0], found[1] - place[1]) < 1e-4,
-      `${place}: ${found}`,
+      point && Math.hypot(point[0] - place[0], point[1] - place[1]) < 1e-4,
+      `${place}: ${point}`,
     );
   }
   const beside = bent(warp, [0, 0]); // the corner of the image, which is not shown

@@ -71,7 +71,7 @@ test("keys drive while they are held", () => {
   assert.deepEqual(keys.share(), [0, 0, 0]);
 });
 
-test("a key that is no key to drive with is left to others", () => {
+test("other keys than those for driving are not handled", () => {
   assert.equal(press("KeyX"), false);
   assert.deepEqual(keys.share(), [0, 0, 0]);
 });
@@ -91,7 +91,7 @@ test("a repeat begins nothing, and a shortcut ends all that is held", () => {
   assert.deepEqual(keys.share(), [0, 0, 0]);
 });
 
-test("shortcuts of a part do what the table of keys says", () => {
+test("shortcuts of a part follow the table of keys", () => {
   /** @type {unknown[]} */
   const done = [];
   const take = shortcuts("A part", [

@@ -15,12 +15,12 @@ const MESSAGE = {
 };
 
 /** @param {MessageRow[]} rows */
-const shown = (rows) =>
+const printed = (rows) =>
   rows.map(({ depth, name, value }) => `${"  ".repeat(depth)}${name} ${value}`.trimEnd());
 
 test("messages are unfolded at first, and sequences are not", () => {
   const rows = rowsOf(MESSAGE, new Map());
-  assert.deepEqual(shown(rows), [
+  assert.deepEqual(printed(rows), [
     "header",
     "  stamp",
     "    sec 5",
@@ -36,14 +36,14 @@ test("messages are unfolded at first, and sequences are not", () => {
   );
 });
 
-test("rows are folded and unfolded by their keys, and what was left out is counted", () => {
+test("rows are folded by their keys, and omitted ones counted", () => {
   const folds = new Map([
     ["/header", false],
     ["/ranges", true],
     ["/poses", true],
     ["/poses/[0]", false],
   ]);
-  assert.deepEqual(shown(rowsOf(MESSAGE, folds)), [
+  assert.deepEqual(printed(rowsOf(MESSAGE, folds)), [
     "header stamp: sec: 5, nanosec: 0, frame_id: 'base'",
     "ranges 720 in all",
     "  [0] 0.0",
@@ -72,7 +72,7 @@ test("messages deep within others are folded, and the line of a folded one is sh
   assert.ok(value.length < 100 && value.endsWith("…"));
 });
 
-test("a message is copied as it is echoed, and what was left out is marked", () => {
+test("a message is copied as ros2 topic echo prints it, with omitted parts marked", () => {
   assert.equal(
     textOf(MESSAGE),
     [

@@ -34,7 +34,7 @@ test("lengths are round and in the unit that suits them", () => {
   );
 });
 
-test("a search finds what has all words and puts the best match first", () => {
+test("a search finds names with all words, the best match first", () => {
   const all = [
     ["Depth image", "a cloud of points"],
     ["Incloudy", ""],
@@ -43,11 +43,17 @@ test("a search finds what has all words and puts the best match first", () => {
     ["Cloud", ""],
     ["Grid", ""],
   ];
-  const found = (/** @type {string} */ text) =>
+  const matches = (/** @type {string} */ text) =>
     search(all, text, (each) => each).map(([title]) => title);
-  assert.deepEqual(found("cloud"), ["Cloud", "My cloud", "Hair/cloud", "Incloudy", "Depth image"]);
-  assert.deepEqual(found("POINTS depth"), ["Depth image"]);
-  assert.deepEqual(found("cloud grid"), []);
+  assert.deepEqual(matches("cloud"), [
+    "Cloud",
+    "My cloud",
+    "Hair/cloud",
+    "Incloudy",
+    "Depth image",
+  ]);
+  assert.deepEqual(matches("POINTS depth"), ["Depth image"]);
+  assert.deepEqual(matches("cloud grid"), []);
   assert.equal(
     search(all, "  ", (each) => each),
     all,

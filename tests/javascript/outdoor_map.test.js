@@ -20,7 +20,7 @@ test("places are shares of the world in Web Mercator, and back", () => {
   assert.ok(Math.abs(longitude - 8.25) < 1e-9 && Math.abs(latitude - 49.5) < 1e-9);
 });
 
-test("a map asks for what is in sight, its middle first, and for nothing beyond the world", () => {
+test("a map requests visible tiles from the middle outwards, and none beyond the world", () => {
   const [first, ...rest] = tilesOf({ x: 0.6, y: 0.3, zoom: 3.2 }, SIZE);
   assert.deepEqual(first, [3, 4, 2]);
   assert.ok(rest.length >= 3 && rest.length < 12);
@@ -30,7 +30,7 @@ test("a map asks for what is in sight, its middle first, and for nothing beyond 
   assert.deepEqual(tilesOf({ x: 5, y: 5, zoom: 4 }, SIZE), []);
 });
 
-test("a map that is zoomed keeps what is under the pointer, and stops at its last level", () => {
+test("zooming a map keeps the point under the pointer and stops at the last level", () => {
   const look = { x: 0.5, y: 0.25, zoom: 4 };
   assert.deepEqual(pixelOf([0.5, 0.25], look, SIZE), [300, 200]);
   const place = placeAt([100, 50], look, SIZE);

@@ -4,56 +4,56 @@ import { test } from "node:test";
 import { frameAt, shownAt, within } from "../../webviz/page/web/recorded/moments.js";
 import { changesBetween } from "../../webviz/page/web/recorded/scene_changes.js";
 
-/** @import {Chunk, Known} from "webviz/recorded/types.js" */
+/** @import {Chunk, MessageFacts} from "webviz/recorded/types.js" */
 
 /**
  * @param {number} number
  * @param {string} node
- * @returns {Known}
+ * @returns {MessageFacts}
  */
 const create = (number, node) => ({ number, node, key: `create:${node}`, phase: "create" });
 /**
  * @param {number} number
  * @param {string} node
- * @returns {Known}
+ * @returns {MessageFacts}
  */
 const remove = (number, node) => ({ number, node, key: `create:${node}`, phase: "remove" });
 /**
  * @param {number} number
  * @param {string} node
  * @param {string} key
- * @returns {Known}
+ * @returns {MessageFacts}
  */
 const change = (number, node, key) => ({ number, node, key: `${node}:${key}`, phase: "" });
 const SCENE = [change(0, "", "background"), create(1, "/a"), create(2, "/a/b")];
 
-test("what has not changed is not sent again", () => {
-  assert.deepEqual(changesBetween(SCENE, SCENE), { gone: [], wanted: [] });
+test("unchanged nodes are not sent again", () => {
+  assert.deepEqual(changesBetween(SCENE, SCENE), { deletions: [], updates: [] });
   const moved = [...SCENE, change(3, "/a", "position")];
-  assert.deepEqual(changesBetween(SCENE, moved), { gone: [], wanted: [3] });
+  assert.deepEqual(changesBetween(SCENE, moved), { deletions: [], updates: [3] });
   const on = [...SCENE, change(4, "/a", "position")];
-  assert.deepEqual(changesBetween(moved, on), { gone: [], wanted: [4] });
-  assert.deepEqual(changesBetween(on, moved), { gone: [], wanted: [3] });
+  assert.deepEqual(changesBetween(moved, on), { deletions: [], updates: [4] });
+  assert.deepEqual(changesBetween(on, moved), { deletions: [], updates: [3] });
 });
 
-test("a node that was made anew gets all its changes again, and what is below it stays", () => {
+test("a recreated node gets all its changes again, and its children stay", () => {
   const before = [...SCENE, change(3, "/a", "position")];
   const anew = [SCENE[0], SCENE[2], create(5, "/a"), change(6, "/a", "position")];
-  assert.deepEqual(changesBetween(before, anew), { gone: [], wanted: [5, 6] });
-  assert.deepEqual(changesBetween(anew, before), { gone: [], wanted: [1, 3] });
+  assert.deepEqual(changesBetween(before, anew), { deletions: [], updates: [5, 6] });
+  assert.deepEqual(changesBetween(anew, before), { deletions: [], updates: [1, 3] });
 });
 
-test("back before a change, a node is made anew with all that is below it", () => {
+test("seeking back before a change recreates a node with its children", () => {
   const later = [...SCENE, change(3, "/a", "position"), change(4, "/a/b", "color")];
   const before = [...SCENE, change(4, "/a/b", "color")];
-  assert.deepEqual(changesBetween(later, before), { gone: ["/a"], wanted: [1, 2, 4] });
+  assert.deepEqual(changesBetween(later, before), { deletions: ["/a"], updates: [1, 2, 4] });
 });
 
 test("nodes that are not there yet, or any more, are removed", () => {
-  assert.deepEqual(changesBetween(SCENE, SCENE.slice(0, 2)), { gone: ["/a/b"], wanted: [] });
+  assert.deepEqual(changesBetween(SCENE, SCENE.slice(0, 2)), { deletions: ["/a/b"], updates: [] });
   const removed = [...SCENE.slice(0, 2), remove(7, "/a/b")];
-  assert.deepEqual(changesBetween(SCENE, removed), { gone: ["/a/b"], wanted: [] });
-  assert.deepEqual(changesBetween(removed, SCENE), { gone: [], wanted: [2] });
+  assert.deepEqual(changesBetween(SCENE, removed), { deletions: ["/a/b"], updates: [] });
+  assert.deepEqual(changesBetween(removed, SCENE), { deletions: [], updates: [2] });
 });
 
 /** @type {Pick<Chunk, "start" | "frames">} */
@@ -66,7 +66,7 @@ const CHUNK = {
   ],
 };
 
-test("each frame of a chunk is what its beginning and the changes up to it make", () => {
+test("each frame of a chunk is its start with all changes up to it", () => {
   const [first, second, third] = [0, 1, 2].map((frame) => shownAt(CHUNK, frame));
   assert.deepEqual([...first.scene], [0, 1]);
   assert.deepEqual([...second.scene], [1, 2]);

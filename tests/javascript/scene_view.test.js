@@ -24,7 +24,7 @@ const near = (a, b) => a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 1e-9, 
 /** @type {SceneCamera} */
 const above = { ...STANDARD, type: "TopDownOrtho", yaw: -Math.PI / 2 };
 
-test("an orbit is as far from its focal point as it says, by yaw and pitch", () => {
+test("an orbit has its distance from the focal point, by yaw and pitch", () => {
   /** @type {SceneCamera} */
   const camera = { ...STANDARD, focal_point: [1, 2, 3], distance: 2, yaw: 0, pitch: Math.PI / 6 };
   near(sightOf(camera, SIZE).position, [1 + Math.sqrt(3), 2, 4]);
@@ -53,7 +53,7 @@ test("the view from the top has north up, and shows as much at any height of the
   );
 });
 
-test("what is under the pointer stays there when it moves, and is looked at by a double click", () => {
+test("a drag keeps the point under the pointer, and a double click focuses it", () => {
   const meter = SIZE[1] / (2 * above.distance * Math.tan(Math.PI / 8));
   near(moved(above, [meter, 2 * meter], SIZE[1]).focal_point, [-1, 2, 0]);
   near(focused(above, [200 + meter, 100 - 2 * meter], SIZE).focal_point, [1, 2, 0]);

@@ -45,7 +45,7 @@ function errorsOf(act) {
   return errors;
 }
 
-test("an effect runs again when what it has read changes, before the write returns", () => {
+test("an effect runs again when a signal it has read changes, before the write returns", () => {
   const count = signal(1);
   const { seen, end } = follow(() => count.value);
   count.value = 2;
@@ -56,7 +56,7 @@ test("an effect runs again when what it has read changes, before the write retur
   assert.deepEqual([seen, count.readers.size], [[1, 2], 0]);
 });
 
-test("an effect depends on what it has read the last time", () => {
+test("an effect depends on the signals of its last run", () => {
   const [isOn, text] = [signal(true), signal("a")];
   const { seen } = follow(() => isOn.value && text.value);
   isOn.value = false;
@@ -121,7 +121,7 @@ test("no effect sees one value of now and another of before", () => {
   ]);
 });
 
-test("what a computed value throws is thrown where it is read, until it can be made", () => {
+test("an error of a computed value is thrown where it is read, until it can be computed", () => {
   const count = signal(0);
   const inverse = computed(() => {
     if (count.value === 0) throw new Error("division by zero");
@@ -162,7 +162,7 @@ test("an effect that throws does not stop others, nor itself the next time", () 
   );
 });
 
-test("what an effect throws the first time reaches who made it, and it is gone", () => {
+test("an error of the first run of an effect is thrown where it is created, and ends it", () => {
   const count = signal(1);
   const make = () =>
     effect(() => {
@@ -178,12 +178,12 @@ test("effects that never come to rest are stopped, and reported", () => {
   const { seen } = follow(() => other.value);
   const start = () => effect(() => void (count.value += 1));
   const errors = errorsOf(start);
-  assert.match(String(errors.at(-1)), /changes again and again/);
+  assert.match(String(errors.at(-1)), /keeps changing its own inputs/);
   other.value = 1;
   assert.deepEqual(seen, [0, 1]);
 });
 
-test("effects end with what they were made in, and before that runs again", () => {
+test("effects end with the effect that created them, and before it runs again", () => {
   const [chosen, text] = [signal("a"), signal("x")];
   /** @type {string[]} */
   const seen = [];
@@ -205,7 +205,7 @@ test("effects end with what they were made in, and before that runs again", () =
   assert.deepEqual([seen.length, ended, text.readers.size], [3, ["a", "b"], 0]);
 });
 
-test("an outer effect runs first, so that an inner one never reads what is gone", () => {
+test("an outer effect runs first, so that an inner one never reads a removed value", () => {
   const chosen = signal(/** @type {{name: string} | null} */ ({ name: "a" }));
   const isBold = signal(false);
   /** @type {unknown[]} */
@@ -240,7 +240,7 @@ test("an effect may end itself", () => {
   assert.deepEqual([seen, count.readers.size], [[0, 1, 1], 0]);
 });
 
-test("what is read untracked changes nothing", () => {
+test("an untracked read adds no dependency", () => {
   const [x, y] = [signal(1), signal(1)];
   const { seen } = follow(() => x.value + untracked(() => y.value));
   y.value = 5;

@@ -107,7 +107,7 @@ test("all values are read as one, and a computed value notices that a key went m
   all.end();
 });
 
-test("what is read again at once is not sent anew, and what is read is, on a new connection", async () => {
+test("a store read again at once is not requested again, and is on a new connection", async () => {
   const { sent } = server();
   const reader = store("places");
   const { end } = follow(() => reader.get("a"));
@@ -119,7 +119,7 @@ test("what is read again at once is not sent anew, and what is read is, on a new
   endAgain();
 });
 
-test("a listener gets all values, then what has changed, and makes no effect depend on them", () => {
+test("a listener gets all values, then changes, and adds no dependency", () => {
   const { values } = server();
   /** @type {string[][][]} */
   const calls = [];

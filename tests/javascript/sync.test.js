@@ -30,7 +30,7 @@ function control() {
 /** Lets promises that are settled call what waits for them. */
 const turn = () => new Promise((resolve) => setImmediate(resolve));
 
-test("what the viewer refuses stays for correction, however long", async () => {
+test("a refused value stays for correction", async () => {
   const { it, seen, has } = control();
   has(1);
   it.hold();

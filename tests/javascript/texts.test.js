@@ -73,7 +73,7 @@ test("a span has the unit that suits it", () => {
   ]);
 });
 
-test("what is rounded to zero has no sign", () => {
+test("values rounded to zero have no sign", () => {
   assert.equal(fixed(-0.0004, 3), "0.000");
   assert.equal(fixed(-0.4, 0), "0");
   assert.equal(fixed(-0.0006, 3), "-0.001");

@@ -36,7 +36,7 @@ test("a window is not shorter than a hundredth of a second, unless the recording
   assert.deepEqual(limited([0, 1], [0, 0]), [0, 0]);
 });
 
-test("zooming keeps what is under the pointer", () => {
+test("zooming keeps the time under the pointer", () => {
   assert.deepEqual(zoomed([0, 100], { around: 0.25, by: 0.5 }, [0, 100]), [12.5, 62.5]);
   assert.deepEqual(zoomed([12.5, 62.5], { around: 0.25, by: 2 }, [0, 100]), [0, 100]);
 });
@@ -49,7 +49,7 @@ test("a window follows the head by whole windows", () => {
   assert.deepEqual(following([-60, -50], -33, [-60, 0]), [-40, -30]);
 });
 
-test("a timeline shows a whole bag, and of live topics what the memory can hold", () => {
+test("a timeline shows a whole bag, or the length of the memory of live topics", () => {
   /** @param {Record<string, unknown>} values */
   const bounds = (values) => boundsOf(new Map(Object.entries(values)));
   assert.deepEqual(bounds({ is_live: null, duration: 5 }), [0, 5]);
@@ -106,13 +106,13 @@ test("while a value is under way, only the newest of the others is kept", async 
   });
   const done = sending.to(1);
   for (const value of [2, 3]) sending.to(value);
-  assert.deepEqual([sent, sending.wanted()], [[1], 3]);
+  assert.deepEqual([sent, sending.target()], [[1], 3]);
   arrived[0]();
   await Promise.resolve();
   assert.deepEqual(sent, [1, 3]);
   arrived[1]();
   await done;
-  assert.equal(sending.wanted(), null);
+  assert.equal(sending.target(), null);
 });
 
 test("typed times are seconds, minutes and hours, or a date", () => {

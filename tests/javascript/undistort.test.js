@@ -34,17 +34,17 @@ test("places of an image are found where the undistorted image shows them", () =
       const place = [i / 20, ((i * 7) % 20) / 20];
       const share = straight(lens, place);
       if (!share) continue;
-      const found = bent(lens, share);
-      assert.ok(found, `${strength} ${share}`);
+      const point = bent(lens, share);
+      assert.ok(point, `${strength} ${share}`);
       assert.ok(
-        Math.hypot(found[0] - place[0], found[1] - place[1]) < 1e-5,
+        Math.hypot(point[0] - place[0], point[1] - place[1]) < 1e-5,
         `${strength} ${place}`,
       );
     }
   }
 });
 
-test("what a lens does not see has no place, and numbers that are none do no harm", () => {
+test("points outside of a lens have no place, and invalid numbers do no harm", () => {
   const blind = warp(0.35, () => false);
   assert.equal(bent(blind, [0.5, 0.5]), null);
   const half = warp(0.35, (x) => x < 0);

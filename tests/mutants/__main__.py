@@ -94,8 +94,8 @@ def attempt(copy: Path, room: str, tests: str, options: argparse.Namespace) -> N
     with use_db(session, WorkDB.Mode.open) as plan:
         keep_sample(plan, copy, options.sample, options.seed)
     cosmic_ray("exec", config, session)
-    with use_db(session, WorkDB.Mode.open) as done:
-        report(done, room)
+    with use_db(session, WorkDB.Mode.open) as database:
+        report(database, room)
 
 
 def keep_sample(plan: WorkDB, copy: Path, count: int, seed: int) -> None:
@@ -119,13 +119,13 @@ def is_pointless(item: WorkItem, copy: Path) -> bool:
     return is_frozen or name in SAME or name.startswith(UNION)
 
 
-def report(done: WorkDB, room: str) -> None:
+def report(database: WorkDB, room: str) -> None:
     """Print the share of faults that were found, and the others."""
-    results = [result for _, result in done.results if result.test_outcome is not None]
-    left = [result for result in results if result.test_outcome is TestOutcome.SURVIVED]
-    for result in left:
+    results = [result for _, result in database.results if result.test_outcome is not None]
+    survivors = [result for result in results if result.test_outcome is TestOutcome.SURVIVED]
+    for result in survivors:
         print(result.diff)
-    killed = len(results) - len(left)
+    killed = len(results) - len(survivors)
     hung = sum(result.output == "timeout" for result in results)
     share = f"{killed / max(1, len(results)):.0%}"
     print(f"{room}: {killed} of {len(results)} found, {share}; {hung} of them hung the tests")

@@ -49,8 +49,8 @@ def test_colcon_builds_a_package_that_runs(tmp_path: Path, options: list[str]) -
     assert result.is_relative_to(tmp_path)
     assert result.resolve().is_relative_to(ROOT) == bool(options)
     programs = "cd $COLCON_PREFIX_PATH/webviz/lib/webviz && ./webviz --version && ./sim --help"
-    shown = run(["sh", "-c", source + programs])
-    assert "usage: webviz-sim" in shown
+    output = run(["sh", "-c", source + programs])
+    assert "usage: webviz-sim" in output
 
     test = [*build[:-1], "test", "--return-code-on-test-failure"]
     one = ["--pytest-args", "tests/data/test_rotations.py"]
@@ -66,8 +66,8 @@ def test_both_packages_have_one_version() -> None:
 
 def test_the_parameters_of_the_launch_file_exist() -> None:
     entries = YAML(typ="safe").load(ROOT / "ros/params/demo.yaml")
-    for node, known in (("sim", OPTIONS), ("webviz", PARAMETERS)):
-        assert entries[f"/**/{node}"]["ros__parameters"].keys() <= known.keys()
+    for node, names in (("sim", OPTIONS), ("webviz", PARAMETERS)):
+        assert entries[f"/**/{node}"]["ros__parameters"].keys() <= names.keys()
 
 
 def run(command: list[str]) -> str:

@@ -52,8 +52,8 @@ def test_every_file_of_the_packages_is_installed() -> None:
     setup = (ROOT / "setup.py").read_text(encoding="utf-8")
     patterns = re.search(r'DATA = """([^"]*)"""', setup)
     assert patterns
-    known = ["*.py", *patterns[1].split()]
-    missing = [str(f) for f in files() if not any(fnmatch.fnmatch(f.name, p) for p in known)]
+    globs = ["*.py", *patterns[1].split()]
+    missing = [str(f) for f in files() if not any(fnmatch.fnmatch(f.name, p) for p in globs)]
     assert missing == []
 
 
@@ -69,15 +69,15 @@ def test_the_description_on_a_package_index_has_no_links_into_a_clone() -> None:
 
 
 def test_every_imported_library_is_required() -> None:
-    known = {name.replace("-", "_") for name in requirements(*EXTRAS)} | OPTIONAL
-    known |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
+    packages = {name.replace("-", "_") for name in requirements(*EXTRAS)} | OPTIONAL
+    packages |= sys.stdlib_module_names | {Path(package).name for package in PACKAGES}
     result: dict[str, Path] = {}
     for file in files():
         if file.suffix == ".py":
             text = (ROOT / file).read_text(encoding="utf-8")
             result |= dict.fromkeys((a or b for a, b in IMPORT.findall(text)), file)
     missing = {name: str(file) for name, file in result.items() if not OF_ROS.match(name)}
-    assert {n: f for n, f in missing.items() if REQUIREMENT.get(n, n) not in known} == {}
+    assert {n: f for n, f in missing.items() if REQUIREMENT.get(n, n) not in packages} == {}
 
 
 def test_the_licence_of_every_requirement_is_listed() -> None:

@@ -61,7 +61,7 @@ def test_the_docs_explain_each_argument() -> None:
 
 
 @pytest.mark.parametrize("path", sorted(LAUNCH.glob("*.py")), ids=lambda path: path.name)
-def test_what_launch_files_read_is_declared(path: Path) -> None:
+def test_launch_files_declare_all_arguments_they_read(path: Path) -> None:
     calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
     read = {
         ast.literal_eval(call.args[0])
@@ -106,13 +106,13 @@ def env(tmp_path: Path) -> dict[str, str]:
 @pytest.mark.parametrize("path", sorted(LAUNCH.glob("*.py")), ids=lambda path: path.name)
 def test_show_args_lists_the_arguments(path: Path, env: dict[str, str]) -> None:
     command = [sys.executable, "-c", SHOW_ARGUMENTS, str(path)]
-    shown = subprocess.run(command, env=env, capture_output=True, text=True, timeout=60)
-    assert shown.returncode == 0, shown.stderr
-    assert set(shown.stdout.split()) >= {*declared(path)}
+    result = subprocess.run(command, env=env, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0, result.stderr
+    assert set(result.stdout.split()) >= {*declared(path)}
 
 
 @pytest.mark.parametrize("path", sorted(LAUNCH.glob("*.py")), ids=lambda path: path.name)
-def test_no_installed_file_is_what_save_overwrites(path: Path) -> None:
+def test_no_installed_file_is_overwritten_by_save(path: Path) -> None:
     text = path.read_text()
     assert '"config": ("",' in text
     assert "SHARE" not in text or '"template": (str(SHARE / "config" / "demo.yaml"),' in text

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Any
 
+import msgspec
 import playwright.sync_api as playwright
 
-from tests.page.conftest import Tab
+from tests.page.tabs import ViewerTab
 from webviz.commands import SetProperty
 
 MOUNT = """async (id) => {
@@ -27,17 +29,18 @@ MOUNT = """async (id) => {
 """Show the properties of a display, or of the whole viewer for \"\"."""
 
 
-class Pane:
+class PropertiesPane:
     """The properties of the display "a"."""
 
-    def __init__(self, tab: Tab) -> None:
+    def __init__(self, tab: ViewerTab) -> None:
         self.tab = tab
+        self.viewer = tab.viewer
         self.page = tab.page
         self.keyboard = tab.page.keyboard
         self.element = tab.page.locator("#bench")
 
-    def mount(self, id_: str = "a") -> Pane:
-        self.page.evaluate(MOUNT, id_)
+    def mount(self) -> PropertiesPane:
+        self.page.evaluate(MOUNT, self.viewer.id("a"))
         self.tab.wait_for(lambda: self.element.locator(".wv-property").count() > 0)
         return self
 
@@ -52,7 +55,15 @@ class Pane:
         self.keyboard.press(key)
 
     def wait_for_set(self, path: str, value: Any) -> None:
-        self.tab.wait_for_command(SetProperty("a", path, value))
+        """Wait until this was the last that a page has set, and the display has it."""
+        self.tab.wait_for_command(SetProperty(self.viewer.id("a"), path, value))
+        display = self.viewer.display_named("a")
+        assert msgspec.json.decode(msgspec.json.encode(attrgetter(path)(display))) == value
+
+    def change(self, **values: Any) -> None:
+        """Have a program set properties."""
+        for path, value in values.items():
+            self.viewer.do(SetProperty(self.viewer.id("a"), path, value))
 
     def wait_for_value(self, path: str, text: str) -> None:
         self.tab.wait_for(lambda: self.field(path).input_value() == text)

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tests.page.conftest import Tab
+from tests.page.tabs import ViewerTab
 from webviz import commands
 from webviz.page.dispatcher import command_of
 from webviz.server.access import rules
@@ -64,12 +64,14 @@ def test_no_page_may_load_code() -> None:
     assert commands.ReloadPlugin not in rules.commands()
 
 
-def test_the_page_that_asks_gets_the_answer(tab: Tab) -> None:
+def test_the_page_that_asks_gets_the_answer(viewer_tab: ViewerTab) -> None:
+    tab, viewer = viewer_tab, viewer_tab.viewer
     ask = "async (hz) => (await import('webviz/act.js')).act('SetFrameRate', {hz})"
     tab.page.evaluate(f"(hz) => {{ window.answer = ({ask})(hz) }}", 30)
     tab.wait_for_command(commands.SetFrameRate(30.0))
-    assert tab.loop.senders[-1].browser is not None
+    assert viewer.senders[-1].browser == tab.browser
+    assert viewer.settings.frame_rate == 30.0
     assert tab.page.evaluate("window.answer") == {"level": "ok", "text": ""}
-    tab.loop.answer = ValueError("Not changed: too fast.")
     tab.page.evaluate(f"(hz) => {{ window.answer = ({ask})(hz) }}", 1000)
-    tab.wait_for(lambda: "Not changed: too fast." in tab.text())
+    tab.wait_for(lambda: "Not changed: frame_rate" in tab.text())
+    assert viewer.settings.frame_rate == 30.0

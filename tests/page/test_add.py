@@ -2,49 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Loop, Tab
+from tests.page.everything import Everything
+from tests.page.page_bench import SCAN, PageBench
+from tests.page.tabs import ViewerTab
 from webviz.api.declared import Topic
 from webviz.commands import AddDisplay
 from webviz.engine.parts.displays import types_store
-from webviz.engine.state import Row, Traffic
-from webviz.scene.server import Server
-from webviz.sources import Offer, Publisher
 
-SCAN, BATTERY = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/BatteryState"
+BATTERY = "sensor_msgs/msg/BatteryState"
 MAP = "nav_msgs/msg/OccupancyGrid"
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 
-def offer(type_: str) -> Offer:
-    return Offer((Publisher("/driver", type_, "reliable", "volatile"),))
-
-
-OFFERS = {
-    "/back": offer(SCAN),
-    "/front": offer(SCAN),
-    "/map": offer(MAP),
-    "/battery": offer(BATTERY),
-}
-
-
-def commands(loop: Loop) -> list[tuple[str, object]]:
-    """Return the added displays with their properties."""
-    return [
+def commands(viewer: PageBench) -> list[tuple[str, dict[str, Any]]]:
+    """Return the added displays with their properties, which the viewer has."""
+    added = [
         (command.type, command.values)
-        for command in loop.commands
+        for command in viewer.commands
         if isinstance(command, AddDisplay)
     ]
+    if added:
+        assert [row.type for row in viewer.rows][-len(added) :] == [type_ for type_, _ in added]
+        names = [values.get("topic") for _, values in added]
+        topics = viewer.values("topic.name")[-len(added) :]
+        assert [names[i] and topic for i, topic in enumerate(topics)] == names
+    return added
 
 
 @pytest.fixture
-def dialog(tab: Tab) -> playwright.Locator:
+def dialog(viewer: PageBench, viewer_tab: ViewerTab) -> playwright.Locator:
     """The dialog by type, while four topics are live."""
-    tab.loop.show(offers=OFFERS, traffic={"/front": Traffic(39.84, 1e4)})
+    for topic, type_ in {"/back": SCAN, "/front": SCAN, "/map": MAP, "/battery": BATTERY}.items():
+        viewer.offer(topic, type_, "/driver")
+    viewer.turn()
+    return opened(viewer_tab)
+
+
+def opened(tab: ViewerTab) -> playwright.Locator:
+    """The dialog by type."""
     tab.page.keyboard.press("Insert")
     dialog = tab.page.get_by_role("dialog", name="Add display")
     dialog.get_by_role("tab", name="By display").click()
@@ -52,14 +52,17 @@ def dialog(tab: Tab) -> playwright.Locator:
     return dialog
 
 
-def test_enter_adds_the_best_match_and_closes(tab: Tab, dialog: playwright.Locator) -> None:
+def test_enter_adds_the_best_match_and_closes(
+    viewer_tab: ViewerTab, dialog: playwright.Locator
+) -> None:
+    tab = viewer_tab
     playwright.expect(dialog.get_by_label("Search")).to_be_focused()
     tab.page.keyboard.type("scan")
     playwright.expect(dialog.get_by_role("option")).to_have_count(1)
     laser = "M4 18a9 9 0 0 1 16 0M12 18l-6-9M12 18V7M12 18l6-9"
     playwright.expect(dialog.locator(".wv-pick-icon path")).to_have_attribute("d", laser)
     tab.page.keyboard.press("Enter")
-    tab.wait_for(lambda: commands(tab.loop) == [("LaserScan", {})])
+    tab.wait_for(lambda: commands(tab.viewer) == [("LaserScan", {})])
     playwright.expect(dialog).to_have_count(0)
 
 
@@ -71,8 +74,13 @@ def test_each_type_has_a_line_of_help(dialog: playwright.Locator) -> None:
 
 
 def test_topics_are_shown_with_rate_and_as_text_if_by_nothing_else(
-    tab: Tab, dialog: playwright.Locator
+    viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
+    viewer.offer("/front", SCAN, "/driver")
+    viewer.offer("/battery", BATTERY, "/driver")
+    viewer.show(Everything(name="a", topic=Topic("/front")))
+    viewer.stream_scans("/front", 40.0)
+    dialog = opened(viewer_tab)
     dialog.get_by_role("tab", name="By topic").click()
     front = dialog.get_by_role("option").filter(has_text="/front")
     playwright.expect(front).to_contain_text("40 Hz · 1 publisher")
@@ -83,37 +91,47 @@ def test_topics_are_shown_with_rate_and_as_text_if_by_nothing_else(
 
 
 def test_topics_that_are_shown_already_come_after_those_that_are_not(
-    tab: Tab, dialog: playwright.Locator, make_row: Callable[..., Row]
+    viewer: PageBench, viewer_tab: ViewerTab, dialog: playwright.Locator
 ) -> None:
-    tab.loop.show(make_row("a", topic=Topic("back")))
+    viewer.show(Everything(name="a", topic=Topic("back")))
     dialog.get_by_role("tab", name="By topic").click()
     titles = dialog.locator(".wv-pick-title")
-    tab.wait_for(lambda: titles.all_inner_texts() == ["/front", "/map", "/back", "/battery"])
+    viewer_tab.wait_for(
+        lambda: titles.all_inner_texts() == ["/front", "/map", "/back", "/battery", "/tf_static"]
+    )
     assert [text for text in dialog.get_by_role("option").all_inner_texts() if "shown" in text] == [
         dialog.get_by_role("option").filter(has_text="/back").inner_text()
     ]
     dialog.press("Escape")
 
 
-def test_several_topics_are_added_at_once(tab: Tab, dialog: playwright.Locator) -> None:
+def test_several_topics_are_added_at_once(
+    viewer_tab: ViewerTab, dialog: playwright.Locator
+) -> None:
+    tab = viewer_tab
     dialog.get_by_role("tab", name="By topic").click()
     for topic in ("/front", "/back"):
         dialog.get_by_role("option").filter(has_text=topic).click()
     dialog.get_by_role("button", name="Add 2 displays").click()
     added = [("LaserScan", {"topic": "/front"}), ("LaserScan", {"topic": "/back"})]
-    tab.wait_for(lambda: commands(tab.loop) == added)
+    tab.wait_for(lambda: commands(tab.viewer) == added)
 
 
-def test_a_double_click_adds_a_topic(tab: Tab, dialog: playwright.Locator) -> None:
+def test_a_double_click_adds_a_topic(viewer_tab: ViewerTab, dialog: playwright.Locator) -> None:
+    tab = viewer_tab
     dialog.get_by_role("tab", name="By topic").click()
     dialog.get_by_role("option").filter(has_text="/front").dblclick()
-    tab.wait_for(lambda: commands(tab.loop) == [("LaserScan", {"topic": "/front"})])
+    tab.wait_for(lambda: commands(tab.viewer) == [("LaserScan", {"topic": "/front"})])
     playwright.expect(dialog).to_have_count(0)
 
 
-def test_topics_are_first_and_an_image_is_there_once_with_its_displays(tab: Tab) -> None:
+def test_topics_are_first_and_an_image_is_there_once_with_its_displays(
+    viewer_tab: ViewerTab,
+) -> None:
+    tab = viewer_tab
     kinds = {"": IMAGE, "/compressed": COMPRESSED, "/compressedDepth": COMPRESSED}
-    tab.loop.show(offers={f"/camera{name}": offer(type_) for name, type_ in kinds.items()})
+    for name, type_ in kinds.items():
+        tab.viewer.offer(f"/camera{name}", type_, "/driver")
     tab.page.evaluate("localStorage.clear()")
     tab.page.keyboard.press("Insert")
     dialog = tab.page.get_by_role("dialog", name="Add display")
@@ -128,28 +146,30 @@ def test_topics_are_first_and_an_image_is_there_once_with_its_displays(tab: Tab)
     tab.page.keyboard.type("compressedDepth image")
     dialog.get_by_role("option", name="/camera/compressedDepth Image", exact=True).dblclick()
     added = [("Image", {"topic": "/camera/compressedDepth"})]
-    tab.wait_for(lambda: commands(tab.loop) == added)
+    tab.wait_for(lambda: commands(tab.viewer) == added)
 
 
-def test_enter_adds_the_best_topic(tab: Tab, dialog: playwright.Locator) -> None:
+def test_enter_adds_the_best_topic(viewer_tab: ViewerTab, dialog: playwright.Locator) -> None:
+    tab = viewer_tab
     dialog.get_by_role("tab", name="By topic").click()
     tab.page.keyboard.type("ma")
     tab.page.keyboard.press("Enter")
-    tab.wait_for(lambda: commands(tab.loop) == [("Map", {"topic": "/map"})])
+    tab.wait_for(lambda: commands(tab.viewer) == [("Map", {"topic": "/map"})])
 
 
 def test_a_topic_that_appears_is_shown_and_a_check_mark_stays(
-    tab: Tab, dialog: playwright.Locator
+    viewer_tab: ViewerTab, dialog: playwright.Locator
 ) -> None:
+    tab = viewer_tab
     dialog.get_by_role("tab", name="By topic").click()
     dialog.get_by_role("option").filter(has_text="/front").click()
-    tab.loop.show(offers={**OFFERS, "/a": offer(SCAN)})
+    tab.viewer.offer("/a", SCAN, "/driver")
     first = dialog.get_by_role("option").first
     tab.wait_for(lambda: first.inner_text().startswith("/a"))
     front = dialog.get_by_role("option").filter(has_text="/front")
     playwright.expect(front).to_have_attribute("aria-checked", "true")
     dialog.get_by_role("button", name="Cancel").click()
-    assert tab.loop.commands == []
+    assert tab.viewer.commands == []
 
 
 def test_types_have_the_messages_that_they_show_an_icon_and_a_small_picture() -> None:
@@ -163,10 +183,9 @@ def test_types_have_the_messages_that_they_show_an_icon_and_a_small_picture() ->
     assert sum(sizes.values()) < 1500 * len(sizes)
 
 
-def test_a_closed_dialog_costs_nothing(
-    tab: Tab, server: Server, dialog: playwright.Locator
-) -> None:
-    assert {"topics", "traffic", "types"} <= server.channel.watched()
+def test_a_closed_dialog_costs_nothing(viewer_tab: ViewerTab, dialog: playwright.Locator) -> None:
+    tab = viewer_tab
+    assert {"topics", "traffic", "types"} <= tab.viewer.server.channel.watched()
     dialog.get_by_role("button", name="Cancel").click()
-    tab.wait_for(lambda: not {"topics", "traffic", "types"} & server.channel.watched())
+    tab.wait_for(lambda: not {"topics", "traffic", "types"} & tab.viewer.server.channel.watched())
     assert dialog.count() == 0

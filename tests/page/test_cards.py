@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
-from msgspec.structs import replace
 
-from tests.page.conftest import Loop, Tab
-from webviz.api.context import ColorScale
-from webviz.engine.state import Row
+from tests.page.page_bench import SCAN, PageBench
+from tests.page.tabs import ViewerTab
+from webviz.shell.testing.messages import header
+from webviz_displays.laser_scan import LaserScan
 
 STACK = ".wv-stack"
 SHOW = """async () => {
@@ -50,20 +50,23 @@ COVERED = """() => {
 
 
 @pytest.fixture
-def scene(loop: Loop, tab: Tab, make_row: Callable[..., Row]) -> Iterator[Tab]:
-    scale = ColorScale("intensity", 0.0, 1.0, ((255, 0, 0), (0, 0, 255)))
-    loop.show(replace(make_row("1", "Scan"), color_scale=scale))
-    size = tab.page.viewport_size
+def scene(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
+    """The tab with a scan, whose intensities have a legend."""
+    tab, size = viewer_tab, viewer_tab.page.viewport_size
+    viewer.show(LaserScan(name="Scan"))
+    measured = {"range_max": 10.0, "ranges": [1.0, 2.0], "intensities": [0.0, 1.0]}
+    viewer.publish("/scan", SCAN, {"header": header("map", viewer.source.now), **measured})
     tab.wait_for(lambda: tab.page.locator(".wv-legend").count() == 1)
     yield tab
     tab.page.evaluate(HIDE)
     assert size is not None
     tab.page.set_viewport_size(size)
-    loop.show()
 
 
 @pytest.mark.parametrize("size", [(1600, 900), (1280, 720), (900, 800)])
-def test_cards_cover_neither_each_other_nor_the_legend(scene: Tab, size: tuple[int, int]) -> None:
+def test_cards_cover_neither_each_other_nor_the_legend(
+    scene: ViewerTab, size: tuple[int, int]
+) -> None:
     scene.page.set_viewport_size({"width": size[0], "height": size[1]})
     scene.page.evaluate(SHOW)
     scene.wait_for(lambda: scene.page.locator(f"{STACK} > .wv-card").count() >= 3)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from pathlib import Path
 
 import playwright.sync_api as playwright
 import pytest
+from viser_internals import cut_connections
 
-from tests.page.conftest import Loop, Tab
+from tests.page.everything import named
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
 from webviz.api.views import Orbit
 from webviz.commands import (
+    AddDisplay,
     ChangeView,
     FocusDisplay,
     FocusFrame,
@@ -23,43 +28,38 @@ from webviz.commands import (
     ShowView,
     Undo,
 )
-from webviz.engine.commands import Command
-from webviz.engine.state import ConfigFile, Row
-from webviz.features.undo import HistoryStep, UndoHistory
-from webviz.files.config import Settings
-
-LAB = ConfigFile("/home/me/lab.yaml", False, "/home/me", ("lab.yaml",))
+from webviz.engine.commands import Command, Sender
+from webviz_displays.grid import Grid
 
 
-def open_list(tab: Tab) -> playwright.Locator:
+def open_list(tab: ViewerTab) -> playwright.Locator:
     tab.page.keyboard.press("Control+k")
     return tab.page.get_by_role("dialog", name="Commands")
 
 
-def run(tab: Tab, words: str) -> None:
+def run(tab: ViewerTab, words: str) -> None:
     """Do what the list finds by these words."""
     open_list(tab).get_by_role("combobox").fill(words)
     tab.page.keyboard.press("Enter")
 
 
-def test_the_list_follows_a_frame_and_puts_it_into_the_middle(tab: Tab, loop: Loop) -> None:
-    loop.show(frames=("map", "odom"))
+def test_the_list_follows_a_frame_and_puts_it_into_the_middle(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    viewer.link("map", "odom")
     open_list(tab)
     tab.wait_for(lambda: "Follow odom" in tab.text())
     tab.page.get_by_role("dialog").get_by_role("combobox").fill("follow odom")
     tab.page.keyboard.press("Enter")
-    tab.wait_for(lambda: len(loop.commands) == 2)
-    followed, centred = loop.commands
-    assert isinstance(followed, ChangeView)
-    assert (followed.key, followed.value) == ("target_frame", "odom")
-    assert isinstance(centred, FocusFrame)
-    assert centred.frame == "odom"
+    tab.wait_for(lambda: len(viewer.commands) == 2)
+    assert viewer.commands == [ChangeView("target_frame", "odom"), FocusFrame("odom")]
+    assert viewer.view(tab.browser).target_frame == "odom"
 
 
-def test_the_list_finds_what_keys_do_in_the_tree(
-    tab: Tab, loop: Loop, make_row: Callable[..., Row]
-) -> None:
-    loop.show(make_row("a"))
+def test_the_list_finds_what_keys_do_in_the_tree(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    viewer.show(*named("a"))
     tab.page.get_by_role("treeitem", name="a", exact=True).click()
     tab.page.mouse.move(800, 400)
     for name in ("Rename display", "Remove display", "Filter displays"):
@@ -67,8 +67,10 @@ def test_the_list_finds_what_keys_do_in_the_tree(
         dialog.get_by_role("combobox").fill(name)
         dialog.get_by_role("option", name=name).wait_for()
         tab.page.keyboard.press("Escape")
+    a = viewer.id("a")
     run(tab, "remove display")
-    tab.wait_for_command(RemoveDisplay("a"))
+    tab.wait_for_command(RemoveDisplay(a))
+    assert viewer.outline() == ""
 
 
 @pytest.mark.parametrize(
@@ -82,10 +84,11 @@ def test_the_list_finds_what_keys_do_in_the_tree(
     ],
 )
 def test_the_list_finds_commands_frames_and_views_by_their_words(
-    tab: Tab, loop: Loop, words: str, command: Command
+    viewer: PageBench, viewer_tab: ViewerTab, words: str, command: Command
 ) -> None:
-    loop.show(frames=("map", "odom"), settings=Settings(views={"kitchen": Orbit()}))
-    tab.turn()
+    tab = viewer_tab
+    viewer.link("map", "odom")
+    viewer.show(views={"kitchen": Orbit()})
     open_list(tab)
     tab.wait_for(lambda: "Fixed frame: odom" in tab.text())
     tab.page.get_by_role("dialog").get_by_role("combobox").fill(words)
@@ -93,45 +96,49 @@ def test_the_list_finds_commands_frames_and_views_by_their_words(
     tab.wait_for_command(command)
 
 
-def test_arrow_keys_choose_in_the_list_while_the_field_has_the_focus(tab: Tab) -> None:
-    dialog = open_list(tab)
+def test_arrow_keys_choose_in_the_list_while_the_field_has_the_focus(viewer_tab: ViewerTab) -> None:
+    dialog = open_list(viewer_tab)
     dialog.get_by_role("combobox").fill("theme")
-    tab.page.keyboard.press("ArrowDown")
+    viewer_tab.page.keyboard.press("ArrowDown")
     playwright.expect(dialog.get_by_role("option", selected=True)).to_have_text("Theme: light")
     playwright.expect(dialog.get_by_role("combobox")).to_be_focused()
-    tab.page.keyboard.press("Escape")
+    viewer_tab.page.keyboard.press("Escape")
 
 
-def test_every_command_of_the_list_has_an_icon(tab: Tab) -> None:
-    dialog = open_list(tab)
+def test_every_command_of_the_list_has_an_icon(viewer_tab: ViewerTab) -> None:
+    dialog = open_list(viewer_tab)
     dialog.get_by_role("option").first.wait_for()
-    without = dialog.get_by_role("option").filter(has_not=tab.page.locator("svg"))
+    without = dialog.get_by_role("option").filter(has_not=viewer_tab.page.locator("svg"))
     assert without.count() == 0
-    tab.page.keyboard.press("Escape")
+    viewer_tab.page.keyboard.press("Escape")
 
 
-def test_the_list_opens_once_and_visers_does_not(tab: Tab) -> None:
-    open_list(tab)
-    tab.page.keyboard.press("Control+k")
-    tab.turn()
-    assert tab.page.get_by_role("dialog").count() == 1
-    tab.page.keyboard.press("Escape")
-    assert tab.page.locator(".mantine-Spotlight-root").count() == 0
+def test_the_list_opens_once_and_visers_does_not(viewer_tab: ViewerTab) -> None:
+    open_list(viewer_tab)
+    viewer_tab.page.keyboard.press("Control+k")
+    viewer_tab.turn()
+    assert viewer_tab.page.get_by_role("dialog").count() == 1
+    viewer_tab.page.keyboard.press("Escape")
+    assert viewer_tab.page.locator(".mantine-Spotlight-root").count() == 0
 
 
 @pytest.mark.parametrize(
     ("keys", "command"), [("Control+s", Save()), ("r", Reset()), ("z", ResetView())]
 )
-def test_keys_do_what_rviz_does(tab: Tab, loop: Loop, keys: str, command: Command) -> None:
-    loop.show(file=LAB)
-    tab.wait_for(lambda: "lab.yaml" in tab.text())
-    tab.page.keyboard.press(keys)
-    tab.wait_for_command(command)
+def test_keys_do_what_rviz_does(
+    viewer: PageBench, viewer_tab: ViewerTab, tmp_path: Path, keys: str, command: Command
+) -> None:
+    file = tmp_path / "lab.yaml"
+    viewer.show(*named("a"), path=file)
+    viewer_tab.wait_for(lambda: "lab.yaml" in viewer_tab.text())
+    viewer_tab.page.keyboard.press(keys)
+    viewer_tab.wait_for_command(command)
+    assert file.exists() == (keys == "Control+s")
 
 
-def test_the_dialog_of_keys_has_those_of_commands_and_of_parts(tab: Tab) -> None:
-    tab.page.keyboard.press("?")
-    dialog = tab.page.get_by_role("dialog", name="Keyboard and mouse")
+def test_the_dialog_of_keys_has_those_of_commands_and_of_parts(viewer_tab: ViewerTab) -> None:
+    viewer_tab.page.keyboard.press("?")
+    dialog = viewer_tab.page.get_by_role("dialog", name="Keyboard and mouse")
     for group, does, keys in (
         ("File", "Save", "Ctrl+S"),
         ("Tree of displays", "Move in the list", "Alt+↑Alt+↓"),
@@ -140,10 +147,16 @@ def test_the_dialog_of_keys_has_those_of_commands_and_of_parts(tab: Tab) -> None
         ("While driving", "Drive", "WASD"),
         ("Scene", "Look at what is under the mouse", "F"),
     ):
-        section = dialog.locator("section").filter(has=tab.page.get_by_role("heading", name=group))
-        row = section.locator("dl > div").filter(has=tab.page.locator("dt", has_text=does)).first
+        section = dialog.locator("section").filter(
+            has=viewer_tab.page.get_by_role("heading", name=group)
+        )
+        row = (
+            section.locator("dl > div")
+            .filter(has=viewer_tab.page.locator("dt", has_text=does))
+            .first
+        )
         assert row.locator("dd").inner_text().replace("\n", "") == keys
-    tab.page.keyboard.press("Escape")
+    viewer_tab.page.keyboard.press("Escape")
 
 
 @pytest.mark.parametrize(
@@ -155,112 +168,137 @@ def test_the_dialog_of_keys_has_those_of_commands_and_of_parts(tab: Tab) -> None
         ("?", "Keyboard and mouse"),
     ],
 )
-def test_keys_open_dialogs(tab: Tab, keys: str, title: str) -> None:
-    tab.page.keyboard.press(keys)
-    playwright.expect(tab.page.get_by_role("dialog", name=title)).to_be_visible()
-    tab.page.keyboard.press("Escape")
-    playwright.expect(tab.page.get_by_role("dialog")).to_have_count(0)
+def test_keys_open_dialogs(viewer_tab: ViewerTab, keys: str, title: str) -> None:
+    viewer_tab.page.keyboard.press(keys)
+    playwright.expect(viewer_tab.page.get_by_role("dialog", name=title)).to_be_visible()
+    viewer_tab.page.keyboard.press("Escape")
+    playwright.expect(viewer_tab.page.get_by_role("dialog")).to_have_count(0)
 
 
-def test_the_dialog_of_keys_has_those_of_all_commands(tab: Tab) -> None:
-    tab.page.keyboard.press("?")
-    text = tab.page.get_by_role("dialog").inner_text()
+def test_the_dialog_of_keys_has_those_of_all_commands(viewer_tab: ViewerTab) -> None:
+    viewer_tab.page.keyboard.press("?")
+    text = viewer_tab.page.get_by_role("dialog").inner_text()
     for name in ("Save as", "Undo", "Add display", "Zero view", "Show all of it", "Walk"):
         assert name in text
-    tab.page.keyboard.press("Escape")
+    viewer_tab.page.keyboard.press("Escape")
 
 
-def test_keys_do_nothing_in_a_dialog_and_letters_nothing_in_a_field(tab: Tab, loop: Loop) -> None:
-    tab.page.keyboard.press("?")
+def test_keys_do_nothing_in_a_dialog_and_letters_nothing_in_a_field(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    viewer_tab.page.keyboard.press("?")
     for key in ("r", "z", "Control+s"):
-        tab.page.keyboard.press(key)
-    tab.page.keyboard.press("Escape")
-    field = tab.page.get_by_placeholder("Filter displays")
+        viewer_tab.page.keyboard.press(key)
+    viewer_tab.page.keyboard.press("Escape")
+    field = viewer_tab.page.get_by_placeholder("Filter displays")
     field.click()
-    tab.page.keyboard.type("rz")
-    tab.page.keyboard.press("Control+z")
-    tab.page.keyboard.press("Escape")
+    viewer_tab.page.keyboard.type("rz")
+    viewer_tab.page.keyboard.press("Control+z")
+    viewer_tab.page.keyboard.press("Escape")
     field.fill("")
     field.blur()
-    tab.turn()
-    assert loop.commands == []
+    viewer_tab.turn()
+    assert viewer.commands == []
 
 
 TWO_FRAMES = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
-def test_the_camera_stays_when_a_key_is_a_command(tab: Tab) -> None:
+def test_the_camera_stays_when_a_key_is_a_command(viewer_tab: ViewerTab) -> None:
     eye = "window.__viserMutable.cameraControl.getPosition().toArray().join()"
-    before = tab.page.evaluate(eye)
+    before = viewer_tab.page.evaluate(eye)
     for key in ("Control+s", "Control+o"):
-        tab.page.keyboard.press(key)
-        tab.page.keyboard.press("Escape")
-    tab.page.evaluate(TWO_FRAMES)
-    assert tab.page.evaluate(eye) == before
+        viewer_tab.page.keyboard.press(key)
+        viewer_tab.page.keyboard.press("Escape")
+    viewer_tab.page.evaluate(TWO_FRAMES)
+    assert viewer_tab.page.evaluate(eye) == before
 
 
-def steps(*labels: str, browser: int | None = None, first: int = 1) -> tuple[HistoryStep, ...]:
-    """Steps with these labels, the newest first."""
-    made = [HistoryStep(first + index, label, browser) for index, label in enumerate(labels)]
-    return tuple(reversed(made))
+@pytest.fixture
+def path_of_changes(viewer: PageBench, viewer_tab: ViewerTab) -> Sequence[str]:
+    """Three changes of this browser, as steps of undo; each is a display more."""
+    for name in ("Grid", "Path", "Map"):
+        viewer.do(AddDisplay(name, {"name": name}), Sender(viewer_tab.browser))
+    undo = viewer_tab.page.locator(".wv-head [aria-label=Undo]")
+    viewer_tab.wait_for(lambda: undo.get_attribute("data-tip") == "Undo: Add Map")
+    return [step.label for step in viewer.history().undo]
 
 
-def show_history(tab: Tab, history: UndoHistory) -> None:
-    tab.loop.show(history=history)
-    expected = f"Undo: {history.undo[0].label}" if history.undo else "Undo"
-    undo = tab.page.locator(".wv-head [aria-label=Undo]")
-    tab.wait_for(lambda: undo.get_attribute("data-tip") == expected)
-
-
-def test_buttons_and_keys_undo_and_redo(tab: Tab) -> None:
-    show_history(tab, UndoHistory(steps("Move Path"), steps("Hide Map")))
-    for act, command in [
-        (tab.button("Undo").click, Undo(own=True)),
-        (tab.button("Redo").click, Redo(own=True)),
-        (lambda: tab.page.keyboard.press("Control+z"), Undo(own=True)),
-        (lambda: tab.page.keyboard.press("Control+Shift+z"), Redo(own=True)),
-        (lambda: tab.page.keyboard.press("Control+y"), Redo(own=True)),
+def test_buttons_and_keys_undo_and_redo(
+    viewer: PageBench, viewer_tab: ViewerTab, path_of_changes: Sequence[str]
+) -> None:
+    assert path_of_changes == ["Add Map", "Add Path", "Add Grid"]
+    keyboard = viewer_tab.page.keyboard
+    for act, command, after in [
+        (viewer_tab.button("Undo").click, Undo(own=True), "Grid Path"),
+        (viewer_tab.button("Redo").click, Redo(own=True), "Grid Path Map"),
+        (lambda: keyboard.press("Control+z"), Undo(own=True), "Grid Path"),
+        (lambda: keyboard.press("Control+z"), Undo(own=True), "Grid"),
+        (lambda: keyboard.press("Control+Shift+z"), Redo(own=True), "Grid Path"),
+        (lambda: keyboard.press("Control+y"), Redo(own=True), "Grid Path Map"),
     ]:
-        tab.loop.commands.clear()
+        viewer.forget_commands()
         act()
-        tab.wait_for_command(command)
+        viewer_tab.wait_for_command(command)
+        assert viewer.outline() == after
 
 
-def test_nothing_can_be_undone_at_first(tab: Tab) -> None:
-    show_history(tab, UndoHistory())
-    assert tab.button("Undo").is_disabled()
-    assert tab.button("Redo").is_disabled()
+def test_nothing_can_be_undone_at_first(viewer_tab: ViewerTab) -> None:
+    viewer_tab.wait_for(viewer_tab.button("Undo").is_disabled)
+    assert viewer_tab.button("Redo").is_disabled()
 
 
-def test_a_list_of_steps_goes_back_several_at_once(tab: Tab) -> None:
-    show_history(tab, UndoHistory(steps("Add Grid", "Move Path", "Hide Map")))
-    tab.button("Undo").click(button="right")
-    items = tab.page.get_by_role("menuitem")
-    assert items.all_inner_texts() == ["Undo Hide Map", "Undo Move Path", "Undo Add Grid"]
+def test_a_list_of_steps_goes_back_several_at_once(
+    viewer: PageBench, viewer_tab: ViewerTab, path_of_changes: Sequence[str]
+) -> None:
+    viewer_tab.button("Undo").click(button="right")
+    items = viewer_tab.page.get_by_role("menuitem")
+    assert items.all_inner_texts() == [f"Undo {label}" for label in path_of_changes]
     items.nth(1).click()
-    tab.wait_for_command(Undo(2))
+    viewer_tab.wait_for_command(Undo(2))
+    assert viewer.outline() == "Grid"
 
 
-def test_what_was_removed_here_is_brought_back_by_a_toast(tab: Tab) -> None:
-    show_history(tab, UndoHistory())
-    browser = tab.page.evaluate("window.webviz.browser")
-    step = HistoryStep(1001, "Remove Path", browser, removed="Path")
-    show_history(tab, UndoHistory((step,)))
-    toast = tab.page.locator(".wv-toast", has_text="Removed Path.")
+@pytest.fixture
+def reconnected(viewer_tab: ViewerTab) -> ViewerTab:
+    """A page that has lost its connection, as when a viewer starts anew.
+
+    Else it takes the changes of this viewer for ones that others before have made.
+    """
+    before = viewer_tab.browser
+    cut_connections(viewer_tab.viewer.server)
+    viewer_tab.wait_for(lambda: viewer_tab.page.evaluate("webviz.browser") not in (None, before))
+    viewer_tab.catch_up()
+    return viewer_tab
+
+
+def test_what_was_removed_here_is_brought_back_by_a_toast(
+    viewer: PageBench, reconnected: ViewerTab
+) -> None:
+    viewer.do(AddDisplay("Path", {"name": "Path"}), Sender(reconnected.browser))
+    reconnected.page.get_by_role("treeitem", name="Path", exact=True).click()
+    reconnected.page.keyboard.press("Delete")
+    reconnected.wait_for(lambda: viewer.commands)
+    assert viewer.outline() == ""
+    toast = reconnected.page.locator(".wv-toast", has_text="Removed Path.")
     toast.get_by_role("button", name="Undo").click()
-    tab.wait_for_command(Undo(own=True))
+    reconnected.wait_for_command(Undo(own=True))
+    assert viewer.outline() == "Path"
 
 
-def test_what_others_change_is_told_once(tab: Tab) -> None:
-    show_history(tab, UndoHistory())
-    show_history(tab, UndoHistory(steps("Move <b>Path", browser=10**6, first=2001)))
-    text = "Changed in another browser: Move <b>Path"
-    tab.wait_for(lambda: text in tab.text())
+def test_what_others_change_is_told_once(viewer: PageBench, reconnected: ViewerTab) -> None:
+    viewer.do(AddDisplay("Grid"), Sender(reconnected.browser))
+    undo = reconnected.page.locator(".wv-head [aria-label=Undo]")
+    reconnected.wait_for(lambda: undo.get_attribute("data-tip") == "Undo: Add Grid")
+    other = Sender(10**6)
+    viewer.do(AddDisplay("Path", {"name": "Move <b>Path"}), other)
+    text = "Changed in another browser: Add Move <b>Path"
+    reconnected.wait_for(lambda: text in reconnected.text())
     for number in range(2002, 2010):
-        label = f"Move <b>Path {number}"
-        show_history(tab, UndoHistory(steps(label, browser=10**6, first=number)))
-    toasts = tab.page.locator(".wv-toast", has_text="Changed in another browser")
-    tab.wait_for(lambda: toasts.all_inner_texts() == [f"{text} 2009"])
+        viewer.do(AddDisplay("Path", {"name": f"Move <b>Path {number}"}), other)
+        reconnected.turn()
+    toasts = reconnected.page.locator(".wv-toast", has_text="Changed in another browser")
+    reconnected.wait_for(lambda: toasts.all_inner_texts() == [f"{text} 2009"])
 
 
 SAME = """async () => {
@@ -275,14 +313,14 @@ UNDER = """(toast) => {
 }"""
 
 
-def test_toasts_are_few_and_leave_the_pointer_to_the_scene(tab: Tab) -> None:
-    tab.page.evaluate(SAME)
-    toasts = tab.page.locator(".wv-toast")
+def test_toasts_are_few_and_leave_the_pointer_to_the_scene(viewer_tab: ViewerTab) -> None:
+    viewer_tab.page.evaluate(SAME)
+    toasts = viewer_tab.page.locator(".wv-toast")
     assert toasts.all_inner_texts() == ["Done 7.", "Done 8.", "Not done."]
-    tab.page.evaluate(SAME.replace("9", "2"))
+    viewer_tab.page.evaluate(SAME.replace("9", "2"))
     assert toasts.all_inner_texts()[:1] == ["Not done. (5)"]
     assert toasts.first.evaluate(UNDER) == "CANVAS"
-    box, size = toasts.first.bounding_box(), tab.page.viewport_size
+    box, size = toasts.first.bounding_box(), viewer_tab.page.viewport_size
     assert box is not None
     assert size is not None
     assert box["y"] > size["height"] / 2
@@ -292,19 +330,20 @@ def test_toasts_are_few_and_leave_the_pointer_to_the_scene(tab: Tab) -> None:
 
 
 def test_displays_are_selected_and_looked_at_by_name(
-    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+    viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
-    loop.show(make_row("a", "Front scan"), make_row("b", "Map"))
-    tab.wait_for(lambda: "Front scan" in tab.text())
-    run(tab, "focus front")
-    tab.wait_for_command(FocusDisplay("a"))
-    run(tab, "select map")
-    row = tab.page.get_by_role("treeitem", name="Map")
+    viewer.show(Grid(name="Front scan"), *named("Map"))
+    viewer_tab.wait_for(lambda: "Front scan" in viewer_tab.text())
+    run(viewer_tab, "focus front")
+    viewer_tab.wait_for_command(FocusDisplay(viewer.id("Front scan")))
+    run(viewer_tab, "select map")
+    row = viewer_tab.page.get_by_role("treeitem", name="Map")
     playwright.expect(row).to_have_attribute("aria-selected", "true")
 
 
-def test_shift_f_looks_at_everything_and_ctrl_d_bookmarks_nothing(tab: Tab) -> None:
-    tab.page.keyboard.press("Shift+f")
-    tab.wait_for_command(FocusDisplay(""))
-    tab.page.keyboard.press("Control+d")
-    playwright.expect(tab.page.get_by_text("Select a display to duplicate it.")).to_be_visible()
+def test_shift_f_looks_at_everything_and_ctrl_d_bookmarks_nothing(viewer_tab: ViewerTab) -> None:
+    page = viewer_tab.page
+    page.keyboard.press("Shift+f")
+    viewer_tab.wait_for_command(FocusDisplay(""))
+    page.keyboard.press("Control+d")
+    playwright.expect(page.get_by_text("Select a display to duplicate it.")).to_be_visible()

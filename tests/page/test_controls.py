@@ -7,7 +7,7 @@ from typing import Any
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
+from tests.page.tabs import ViewerTab
 
 MOUNT = """async ([path, name, options]) => {
   const module = await import(`webviz/controls/${path}.js`);
@@ -37,7 +37,7 @@ UPDATE = """(changes) => {
 class MountedControl:
     """A control on the page, and what was entered there."""
 
-    def __init__(self, tab: Tab) -> None:
+    def __init__(self, tab: ViewerTab) -> None:
         self.page = tab.page
         self.keyboard = tab.page.keyboard
         self._tab = tab
@@ -67,8 +67,8 @@ class MountedControl:
 
 
 @pytest.fixture
-def bench(tab: Tab) -> MountedControl:
-    return MountedControl(tab)
+def bench(viewer_tab: ViewerTab) -> MountedControl:
+    return MountedControl(viewer_tab)
 
 
 FRAMES = [{"value": "base_link"}, {"value": "map", "note": "static"}, {"value": "odom"}]

@@ -5,21 +5,27 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Loop, Tab
+from tests.page.everything import named
+from tests.page.opened_panels import open_panel
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
 from webviz.api import registry
 from webviz.api.declared import make
 from webviz.api.panel import Panel
+from webviz.api.tool import Tool
 from webviz.commands import UseTool
 from webviz.engine.pipeline.plugins import PluginError, load
-from webviz.engine.state import PanelTab, Row
-from webviz.features.tools.toolbar import ToolButton
 from webviz.page.widgets import MAX_HTML, MAX_TEXT, CustomWidget
 
 EXAMPLES = Path(__file__).parents[2] / "displays/docs/examples"
+
+BATTERY = "sensor_msgs/msg/BatteryState"
 
 DRAW = """async () => {
   const { afterRender, requestRender } = await import("webviz/viser_page.js");
@@ -28,25 +34,44 @@ DRAW = """async () => {
 """Returns when the scene was drawn once more."""
 
 
+class Sketch(Tool):
+    """Draw an area."""
+
+    title = "Sketch"
+    gesture = "outline"
+
+
+class Keep(Tool):
+    """Draw an area."""
+
+    title = "Keep"
+    gesture = "keep"
+
+
 @pytest.fixture(autouse=True)
-def _forget(loop: Loop, tab: Tab) -> Iterator[None]:
+def _forget(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[None]:
     yield
     for path in EXAMPLES.glob("*.py"):
         registry.register(str(path), {})
-    tab.page.keyboard.press("Escape")
-    loop.show(tools=(), panels=())
-    tab.show_tab("Displays")
+    viewer_tab.page.keyboard.press("Escape")
+    viewer.show()
+    viewer_tab.show_tab("Displays")
 
 
-def test_a_tool_has_a_gesture_of_its_module(loop: Loop, tab: Tab) -> None:
-    button = ToolButton("keep", "Keep Out", "Draw an area.", "", "outline", "M5 5l14 3-3 11-9-2z")
-    loop.show(tools=(button,))
+def test_a_tool_has_a_gesture_of_its_module(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    viewer.show(tools=[Sketch(name="Sketch")])
+    sketch = tab.button("Sketch")
+    tab.wait_for(lambda: "is unknown" in str(sketch.get_attribute("data-tip")))
+    playwright.expect(sketch).to_be_disabled()
+    tool = make(load(EXAMPLES / "keep_out.py")["KeepOut"], {})
+    assert isinstance(tool, Tool)
+    tab.wait_for(lambda: sketch.get_attribute("aria-disabled") is None)
+    viewer.show(tools=[tool])
+    viewer.viewer.context.graph.allow("/keep_out")
     shown = tab.button("Keep Out")
-    tab.wait_for(lambda: "is unknown" in str(shown.get_attribute("data-tip")))
-    playwright.expect(shown).to_be_disabled()
-    load(EXAMPLES / "keep_out.py")
-    tab.wait_for(lambda: shown.get_attribute("aria-disabled") is None)
-    assert shown.locator("path").get_attribute("d") == button.icon
+    tab.wait_for(lambda: shown.count() and shown.get_attribute("aria-disabled") is None)
+    assert shown.locator("path").get_attribute("d") == tool.icon
     shown.click()
     box = tab.page.locator("canvas").first.bounding_box()
     assert box is not None
@@ -58,29 +83,40 @@ def test_a_tool_has_a_gesture_of_its_module(loop: Loop, tab: Tab) -> None:
     line = tab.page.locator("[data-webviz=keep-out] polyline")
     playwright.expect(line).to_have_attribute("points", re.compile(r"^\S+ \S+ \S+ \S+$"))
     tab.page.mouse.up()
-    tab.wait_for(lambda: isinstance(next(iter(loop.commands[-1:]), None), UseTool))
-    command = loop.commands[-1]
+    tab.wait_for(lambda: isinstance(next(iter(viewer.commands[-1:]), None), UseTool))
+    command = viewer.commands[-1]
     assert isinstance(command, UseTool)
-    assert command.tool == "keep"
+    assert command.tool == viewer.states[-1].tools[0].id
     assert len(command.points) == 4
     assert {point[2] for point in command.points} == {0.0}
     assert len(set(command.points)) == 4
+    ((topic, message),) = viewer.published()
+    assert topic == "/keep_out"
+    assert message.polygon.points == pytest.approx(np.array(command.points), abs=1e-5)
 
 
-def test_a_panel_has_a_widget_of_its_module(loop: Loop, tab: Tab) -> None:
+def battery_dial() -> Panel:
     panel = make(load(EXAMPLES / "battery_dial.py")["BatteryDial"], {})
     assert isinstance(panel, Panel)
-    loop.show(panels=(PanelTab("battery", "BatteryDial", panel),))
-    tab.wait_for(lambda: tab.page.get_by_role("tab", name="Battery").count())
-    tab.show_tab("Battery")
+    return panel
+
+
+def test_a_panel_has_a_widget_of_its_module(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    viewer.offer("/battery_state", BATTERY, "/battery")
+    panel: Any = open_panel(tab, battery_dial())
     tab.wait_for(lambda: "0 %, warns below 20 %" in tab.text())
     bar = tab.page.get_by_role("meter")
     width = bar.evaluate("each => each.getBoundingClientRect().width")
     bar.click(position={"x": width / 2, "y": 3})
     tab.wait_for(lambda: re.search("warns below (49|50|51) %", tab.text()))
+    assert panel.limit == pytest.approx(0.5, abs=0.02)
+    viewer.publish("/battery_state", BATTERY, {"percentage": 0.8})
+    tab.wait_for(lambda: "80 %, warns below" in tab.text())
 
 
-def test_a_display_has_an_overlay_of_its_module(loop: Loop, tab: Tab) -> None:
+def test_a_display_has_an_overlay_of_its_module(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
     load(EXAMPLES / "compass.py")
     heading = tab.page.locator("[title='Heading of the camera']")
     tab.wait_for(lambda: heading.count() == 1 and heading.inner_text().endswith("°"))
@@ -88,8 +124,9 @@ def test_a_display_has_an_overlay_of_its_module(loop: Loop, tab: Tab) -> None:
 
 
 def test_a_module_that_fails_is_reported_and_the_page_goes_on(
-    loop: Loop, tab: Tab, tmp_path: Path
+    viewer_tab: ViewerTab, tmp_path: Path
 ) -> None:
+    tab = viewer_tab
     path = tmp_path / "broken.py"
     path.write_text(
         "from webviz import Display\nclass Broken(Display):\n    module = 'broken.js'\n"
@@ -118,7 +155,8 @@ def test_a_module_that_is_too_large_with_those_that_it_imports_is_refused(tmp_pa
     registry.register(str(path), {})
 
 
-def test_a_module_imports_others_beside_it(tab: Tab, tmp_path: Path) -> None:
+def test_a_module_imports_others_beside_it(viewer_tab: ViewerTab, tmp_path: Path) -> None:
+    tab = viewer_tab
     path = tmp_path / "split.py"
     path.write_text("from webviz import Display\nclass Split(Display):\n    module = 'split.js'\n")
     for name, text in {
@@ -153,7 +191,8 @@ export default (page) => {
 """
 
 
-def test_a_module_imports_those_of_the_page(tab: Tab, tmp_path: Path) -> None:
+def test_a_module_imports_those_of_the_page(viewer_tab: ViewerTab, tmp_path: Path) -> None:
+    tab = viewer_tab
     path = tmp_path / "members.py"
     path.write_text("from webviz import Display\nclass Members(Display):\n    module = 'm.js'\n")
     (tmp_path / "m.js").write_text(MEMBERS)
@@ -202,23 +241,20 @@ export default ({ beforeRender, el, gesture, panel, style, toast, watch, widget 
 
 
 def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
-    open_tab: Callable[..., Tab],
-    lasting: Tab,
-    shared_loop: Loop,
-    make_row: Callable[..., Row],
+    viewer: PageBench,
+    viewer_tab: ViewerTab,
+    open_viewer_tab: Callable[..., ViewerTab],
     tmp_path: Path,
 ) -> None:
-    tab, loop = open_tab(), shared_loop
+    tab = open_viewer_tab()
     path = tmp_path / "faulty.py"
     path.write_text(
         "from webviz import Display\nclass Faulty(Display):\n    module = 'faulty.js'\n"
     )
     (tmp_path / "log.js").write_text("globalThis.log = [];")
     (tmp_path / "faulty.js").write_text(FAULTS)
-    keep_out = ToolButton("keep", "Keep Out", "Draw an area.", "", "keep", "")
-    dial = make(load(EXAMPLES / "battery_dial.py")["BatteryDial"], {})
-    assert isinstance(dial, Panel)
-    loop.show(make_row("before"), tools=(keep_out,))
+    dial = battery_dial()
+    viewer.show(*named("before"), tools=[Keep(name="Keep Out")])
     tab.wait_for(lambda: "before" in tab.text())
     load(path)
     try:
@@ -228,9 +264,7 @@ def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
         for title in ("Twice", "Answers", "Twice", "Displays"):
             tab.show_tab(title)
         tab.page.evaluate(DRAW)
-        loop.show(
-            make_row("after"), tools=(keep_out,), panels=(PanelTab("battery", "BatteryDial", dial),)
-        )
+        viewer.show(*named("after"), tools=[Keep(name="Keep Out")], panels=[dial])
         tab.wait_for(lambda: "after" in tab.text())
         tab.wait_for(lambda: tab.button("Keep Out").count())
         tab.show_tab("Battery")
@@ -239,6 +273,6 @@ def test_code_of_a_plug_in_that_throws_anywhere_stops_nothing_else(
     finally:
         for each in (path, EXAMPLES / "battery_dial.py"):
             registry.register(str(each), {})
-        loop.show(tools=(), panels=())
-        lasting.page.reload()  # its panels stay
-        lasting.wait_for(lambda: lasting.page.get_by_role("tab", name="Tools").count())
+        viewer.show()
+        viewer_tab.page.reload()  # its panels stay
+        viewer_tab.wait_for(lambda: viewer_tab.page.get_by_role("tab", name="Tools").count())

@@ -3,108 +3,122 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from playwright.sync_api import expect
 
-from tests.page.conftest import Loop, Tab
-from webviz.commands import AddDisplay, SetPanelProperty
-from webviz.data.messages import decode, encode, to_tree
-from webviz.engine.state import Inspected, PanelTab, PanelTimes
-from webviz.files.config import DockedPanel, Layout, Settings
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from webviz.commands import SetPanelProperty
+from webviz.files.config import DockedPanel, Layout
 from webviz.panels.plot import Plot
 from webviz.panels.raw import RawMessage
-from webviz.sources import Offer, Publisher
 
 TWIST = "geometry_msgs/msg/Twist"
-SECOND = 10**9
 FIELDS = ["/cmd.linear.x", "/cmd.angular.z"]
-BELOW = Settings(layout=Layout(below=(DockedPanel(panel="Plot", tabs=("RawMessage",)),)))
+BELOW = Layout(below=(DockedPanel(panel="Plot", tabs=("RawMessage",)),))
 
 
 @pytest.fixture(autouse=True)
-def _close(loop: Loop, tab: Tab) -> Iterator[None]:
+def _close(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[None]:
     yield
-    loop.show(panels=(), offers={}, inspected={}, settings=Settings())
-    tab.wait_for(lambda: tab.page.locator(".wv-docked").count() == 0)
-    tab.show_tab("Displays")
+    viewer.show()
+    viewer_tab.wait_for(lambda: viewer_tab.page.locator(".wv-docked").count() == 0)
+    viewer_tab.show_tab("Displays")
 
 
-def show(loop: Loop, tab: Tab, plot: Plot) -> None:
-    """A plot below the scene, with a topic that has one message."""
-    message = decode(TWIST, encode(TWIST, {"linear": {"x": 0.5}}))
-    raw = PanelTab("raw", "RawMessage", RawMessage(name="Raw"))
-    loop.show(
-        panels=(PanelTab("plot", "Plot", plot), raw),
-        offers={"/cmd": Offer((Publisher("/robot", TWIST, "reliable", "volatile"),))},
-        inspected={"/cmd": Inspected(TWIST, to_tree(message), "", 48, 1.0)},
-        clock=PanelTimes(ros_ns=100 * SECOND),
-        settings=BELOW,
-    )
+def publish(viewer: PageBench, x: float) -> None:
+    viewer.publish("/cmd", TWIST, {"linear": {"x": x}})
+    viewer.turn()
+
+
+def show(viewer: PageBench, tab: ViewerTab, *curves: str) -> tuple[str, str]:
+    """Show a plot and a raw message below the scene, with one topic; return their ids."""
+    panels = [Plot(name="Plot", curves=list(curves)), RawMessage(name="Raw")]
+    viewer.show(panels=panels, layout=BELOW)
+    viewer.source.known.clear()
+    viewer.offer("/cmd", TWIST, "/robot")
     front = tab.page.locator(".wv-docked [role=tab][data-tab=Plot]")
     tab.wait_for(lambda: front.count() == 1)
     front.click()
     tab.wait_for(lambda: tab.page.locator("[data-panel=plugin-Plot]").count() == 1)
-    if plot.curves:
-        tab.wait_for(lambda: tab.page.locator(".wv-chart-entry").count() == len(plot.curves))
-    plot.take("/cmd", message, 90 * SECOND)
+    tab.wait_for(lambda: tab.page.locator(".wv-chart-entry").count() == len(curves))
+    plot, raw = viewer.states[-1].panels
+    return plot.id, raw.id
 
 
-def test_a_field_is_added_in_a_popover_by_keys(loop: Loop, tab: Tab) -> None:
-    plot = Plot(name="Plot")
-    show(loop, tab, plot)
+def panel(viewer: PageBench, number: int) -> Any:
+    """The first or the second panel."""
+    return viewer.states[-1].panels[number].panel
+
+
+def test_a_field_is_added_in_a_popover_by_keys(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    plot, _ = show(viewer, tab)
     tab.wait_for(lambda: "Add a field with +" in tab.text())
     tab.button("Add a field").click()
     topic = tab.page.get_by_role("combobox", name="Topic", exact=True)
     expect(topic).to_be_focused()
     topic.fill("/cmd")
     topic.press("Enter")
-    tab.wait_for(lambda: plot.chooser.topic == "/cmd")
-    tab.wait_for(lambda: "/cmd" in plot.subscriptions())
-    plot.take("/cmd", decode(TWIST, encode(TWIST, {})), 91 * SECOND)
+    tab.wait_for(lambda: "/cmd" in viewer.source.wanted)
+    publish(viewer, 0.0)
     fields = tab.page.get_by_role("listbox", name="Fields").get_by_role("option")
     tab.wait_for(lambda: fields.count() == 6)
     expect(tab.page.get_by_role("combobox", name="Field", exact=True)).to_be_focused()
     tab.page.keyboard.type("ang z")
     tab.page.keyboard.press("Enter")
-    tab.wait_for_command(SetPanelProperty("plot", "curves", ["/cmd.angular.z"]))
+    tab.wait_for_command(SetPanelProperty(plot, "curves", ["/cmd.angular.z"]))
+    assert panel(viewer, 0).curves == ["/cmd.angular.z"]
     tab.page.keyboard.press("Escape")
     expect(fields).to_have_count(0)
     expect(tab.button("Add a field")).to_be_focused()
 
 
-def test_topics_and_fields_are_dragged_onto_panels_and_the_scene(loop: Loop, tab: Tab) -> None:
-    plot = Plot(name="Plot")
-    show(loop, tab, plot)
+def test_topics_and_fields_are_dragged_onto_panels_and_the_scene(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    plot, raw = show(viewer, tab)
     tab.show_tab("Topics")
     topic = tab.page.locator(".wv-topic")
     tab.wait_for(lambda: topic.count() == 1)
     here = tab.page.locator(".wv-docked .wv-plugin")
     topic.drag_to(here)
-    tab.wait_for(lambda: plot.chooser.topic == "/cmd")
+    tab.wait_for(lambda: panel(viewer, 0).chooser.topic == "/cmd")
     expect(tab.page.get_by_role("dialog", name="Add a field")).to_be_visible()
     tab.page.keyboard.press("Escape")
 
     topic.click()
+    tab.wait_for(lambda: "/cmd" in viewer.states[-1].inspected)
+    publish(viewer, 0.5)
     field = tab.page.locator(".wv-field-row").filter(has_text="x0.5")
     tab.wait_for(lambda: field.count() == 1)
     field.drag_to(here)
-    tab.wait_for_command(SetPanelProperty("plot", "curves", ["/cmd.linear.x"]))
+    tab.wait_for_command(SetPanelProperty(plot, "curves", ["/cmd.linear.x"]))
+    assert panel(viewer, 0).curves == ["/cmd.linear.x"]
     tab.page.get_by_role("tab", name="Raw").click()
     tab.wait_for(lambda: tab.page.locator("[data-panel=plugin-RawMessage]").count() == 1)
     tab.wait_for(lambda: "Choose a topic." in tab.text())
     field.drag_to(here)
-    tab.wait_for_command(SetPanelProperty("raw", "path", "/cmd.linear.x"))
+    tab.wait_for_command(SetPanelProperty(raw, "path", "/cmd.linear.x"))
+    assert panel(viewer, 1).path == "/cmd.linear.x"
 
     topic.drag_to(tab.page.locator("canvas[data-engine]"), target_position={"x": 400, "y": 150})
-    tab.wait_for(lambda: isinstance(loop.commands[-1], AddDisplay))
+    tab.wait_for(lambda: len(viewer.rows) == 1)
+    assert viewer.values("topic.name") == ["/cmd"]
 
 
-def test_a_docked_plot_leaves_its_height_to_the_curves(loop: Loop, tab: Tab) -> None:
+def test_a_docked_plot_leaves_its_height_to_the_curves(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
     size = tab.page.viewport_size
     assert size is not None
     tab.page.set_viewport_size({"width": 960, "height": 720})
-    show(loop, tab, Plot(name="Plot", curves=FIELDS))
+    show(viewer, tab, *FIELDS)
+    publish(viewer, 0.5)
     frame = tab.page.locator(".wv-docked")
     tab.wait_for(lambda: (frame.bounding_box() or {}).get("width") == 640)
     assert (frame.bounding_box() or {})["height"] <= 240

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.page.conftest import Loop, Tab
-from tests.page.test_daily_panels import open_panel
-from webviz.engine.state import Traffic
+from tests.page.opened_panels import open_panel
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from webviz.api.declared import make
+from webviz.commands import InspectTopic
 from webviz.panels.graph import MAX_TOPICS, NodeGraph, mismatch, topic_of
 from webviz.sources import Endpoint, Offer, Publisher
 
@@ -19,12 +21,12 @@ TYPE = "std_msgs/msg/String"
 
 
 @pytest.fixture(autouse=True)
-def _close(loop: Loop, tab: Tab) -> Iterator[None]:
+def _close(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[None]:
     yield
-    loop.show(panels=(), offers={}, traffic={})
-    tab.show_tab("Displays")
+    viewer.show()
+    viewer_tab.show_tab("Displays")
     # Else, on a busy machine, the next panel would keep what was unfolded and found in this one.
-    tab.wait_for(lambda: not tab.page.locator(".wv-graph-canvas").count())
+    viewer_tab.wait_for(lambda: not viewer_tab.page.locator(".wv-graph-canvas").count())
 
 
 def publisher(node: str, reliability: str = "best_effort") -> Publisher:
@@ -39,7 +41,22 @@ def offer(*publishers: str, to: tuple[Endpoint, ...] = ()) -> Offer:
     return Offer(tuple(map(publisher, publishers)), readers=to)
 
 
-def label(tab: Tab) -> str:
+def open_graph(viewer: PageBench, tab: ViewerTab, offers: dict[str, Offer]) -> None:
+    """Open the panel, with these topics and no others."""
+    viewer.source.known = offers
+    open_panel(tab, make(NodeGraph, {}))
+
+
+def measure(viewer: PageBench, topic: str, hz: float) -> None:
+    """Follow a topic with messages at a rate, until it is measured."""
+    viewer.do(InspectTopic(topic))
+    for _ in range(round(4 * hz)):
+        viewer.pass_time(1 / hz)
+        viewer.publish(topic, TYPE, {})
+        viewer.turn()
+
+
+def label(tab: ViewerTab) -> str:
     return tab.page.locator(".wv-graph-canvas").get_attribute("aria-label") or ""
 
 
@@ -60,15 +77,18 @@ def test_an_end_without_a_node_is_a_program_or_behind_the_bridge() -> None:
     assert result["from"] == ["a DDS program", "the bridge"]
 
 
-def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop, tab: Tab) -> None:
+def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
     offers = {
         "/scan": offer("/driver", to=(reader("/amcl"), reader("/map", "reliable"))),
         HOSTILE: offer("", to=(reader(HOSTILE),)),
         "/rosout": offer("/driver", to=(reader("/webviz"),)),
         "/dock/_action/status": offer("/dock"),
     }
-    traffic = {"/scan": Traffic(9.98, 100.0, None)}
-    open_panel(loop, tab, NodeGraph(), offers=offers, traffic=traffic)
+    open_graph(viewer, tab, offers)
+    measure(viewer, "/scan", 10.0)
     tab.wait_for(lambda: label(tab) == "Graph: 7 boxes, 1 QoS mismatch")
     search = tab.page.get_by_label("Find nodes and topics")
     search.fill("SCAN")
@@ -84,10 +104,12 @@ def test_the_graph_is_searched_and_a_topic_says_what_does_not_arrive(loop: Loop,
 
 
 def test_the_drawing_is_saved_as_svg_with_texts_as_texts(
-    loop: Loop, tab: Tab, tmp_path: Path
+    viewer: PageBench, viewer_tab: ViewerTab, tmp_path: Path
 ) -> None:
+    tab = viewer_tab
     offers = {HOSTILE: offer("/driver", to=(reader("/map", "reliable"),))}
-    open_panel(loop, tab, NodeGraph(), offers=offers, traffic={HOSTILE: Traffic(2.5, 1.0, None)})
+    open_graph(viewer, tab, offers)
+    measure(viewer, HOSTILE, 2.5)
     tab.wait_for(lambda: label(tab).startswith("Graph: 3 boxes"))
     with tab.page.expect_download() as download:
         tab.button("Download as SVG").click()
@@ -103,7 +125,10 @@ def test_the_drawing_is_saved_as_svg_with_texts_as_texts(
     assert "/map asks for reliable, but /driver offers best effort." in texts
 
 
-def test_a_large_graph_begins_folded_and_is_drawn_quickly(loop: Loop, tab: Tab) -> None:
+def test_a_large_graph_begins_folded_and_is_drawn_quickly(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
     offers = {
         f"/robot{i % 20}/part{i % 7}/topic{i}": offer(
             f"/robot{i % 20}/node{i // 20 % 10}",
@@ -111,7 +136,7 @@ def test_a_large_graph_begins_folded_and_is_drawn_quickly(loop: Loop, tab: Tab) 
         )
         for i in range(2000)
     }
-    open_panel(loop, tab, NodeGraph(), offers=offers)
+    open_graph(viewer, tab, offers)
     tab.wait_for(lambda: label(tab) == "Graph: 20 boxes")
     tab.button("Fold or unfold all namespaces").click()
     tab.wait_for(lambda: label(tab) == "Graph: 2200 boxes")
@@ -119,7 +144,8 @@ def test_a_large_graph_begins_folded_and_is_drawn_quickly(loop: Loop, tab: Tab) 
     tab.wait_for(lambda: label(tab) == "Graph: 20 boxes")
 
 
-def test_more_topics_than_the_limit_are_counted(loop: Loop, tab: Tab) -> None:
+def test_more_topics_than_the_limit_are_counted(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
     offers = {f"/t{i}": offer("/node") for i in range(MAX_TOPICS + 3)}
-    open_panel(loop, tab, NodeGraph(), offers=offers)
+    open_graph(viewer, tab, offers)
     tab.wait_for(lambda: f"3 topics not shown; the limit is {MAX_TOPICS}." in tab.text())

@@ -9,7 +9,8 @@ import playwright.sync_api as playwright
 import pytest
 from playwright.sync_api import expect
 
-from tests.page.conftest import Loop, Tab
+from tests.page.page_bench import PageBench, PageServer
+from tests.page.tabs import ViewerTab
 from webviz.commands import (
     AddPanel,
     RemoveLayout,
@@ -18,26 +19,31 @@ from webviz.commands import (
     SetLayout,
     UseTemplate,
 )
-from webviz.engine.state import PanelTab
+from webviz.engine.parts.panels import PanelsPart
 from webviz.features.layouts import layout_store
-from webviz.files.config import DockedPanel, FloatingPanel, Layout, Settings
-from webviz.panels.plot import Plot
+from webviz.files.config import DockedPanel, FloatingPanel, Layout
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 BESIDE = Layout(beside=(DockedPanel(panel="doctor"),))
 
 
+@pytest.fixture
+def tab(viewer_tab: ViewerTab) -> ViewerTab:
+    return viewer_tab
+
+
 @pytest.fixture(autouse=True)
-def _close(loop: Loop, tab: Tab) -> Iterator[None]:
+def _close(page_server: PageServer, tab: ViewerTab) -> Iterator[None]:
     yield
     tab.page.keyboard.press("Escape")
-    loop.show(settings=Settings(layout=BESIDE))
+    viewer = page_server.begin()
+    viewer.show(layout=BESIDE)
     tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
-    loop.show(settings=Settings())
+    viewer.show()
     tab.wait_for(lambda: docked(tab) == {})
 
 
-def docked(tab: Tab) -> dict[str, str]:
+def docked(tab: ViewerTab) -> dict[str, str]:
     """The place of each panel that is not in the tabs."""
     return tab.page.evaluate(
         "Object.fromEntries([...document.querySelectorAll('.wv-docked')]"
@@ -51,7 +57,7 @@ def middle(element: playwright.Locator) -> tuple[float, float]:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def drag(tab: Tab, element: playwright.Locator, x: float, y: float) -> None:
+def drag(tab: ViewerTab, element: playwright.Locator, x: float, y: float) -> None:
     mouse = tab.page.mouse
     mouse.move(*middle(element))
     mouse.down()
@@ -59,21 +65,21 @@ def drag(tab: Tab, element: playwright.Locator, x: float, y: float) -> None:
     mouse.up()
 
 
-def scene(tab: Tab) -> dict[str, float]:
+def scene(tab: ViewerTab) -> dict[str, float]:
     box = tab.page.locator("#root").bounding_box()
     assert box is not None
     return {key: float(value) for key, value in box.items() if isinstance(value, int | float)}
 
 
-def newest(loop: Loop) -> Layout:
+def newest(viewer: PageBench) -> Layout:
     """The arrangement that the page has asked for last."""
-    command = loop.commands[-1]
+    command = viewer.commands[-1]
     assert isinstance(command, SetLayout)
     assert isinstance(command.layout, Layout)
     return command.layout
 
 
-def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
+def test_a_tab_is_dragged_to_each_place_and_back(viewer: PageBench, tab: ViewerTab) -> None:
     topics = tab.page.locator("#wv-tab-topics")
     room = scene(tab)
     drag(tab, topics, room["x"] + room["width"] - 20, room["y"] + room["height"] / 2)
@@ -90,8 +96,8 @@ def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
     drag(tab, head, room["x"] + 300, room["y"] + 200)
     tab.wait_for(lambda: docked(tab) == {"topics": "wv-floats"})
     tab.wait_for(lambda: scene(tab) == room)
-    tab.wait_for(lambda: newest(loop).over != ())
-    (over,) = newest(loop).over
+    tab.wait_for(lambda: newest(viewer).over != ())
+    (over,) = newest(viewer).over
     assert over.panel == "topics"
     assert 0 < over.left < 0.3
     assert 0 < over.top < 0.4
@@ -102,13 +108,15 @@ def test_a_tab_is_dragged_to_each_place_and_back(loop: Loop, tab: Tab) -> None:
     assert topics.is_visible()
 
 
-def test_an_arrangement_of_others_is_shown_and_sizes_can_be_changed(loop: Loop, tab: Tab) -> None:
+def test_an_arrangement_of_others_is_shown_and_sizes_can_be_changed(
+    viewer: PageBench, tab: ViewerTab
+) -> None:
     arranged = Layout(
         beside=(DockedPanel(panel="doctor"), DockedPanel(panel="views", weight=3)),
         over=(FloatingPanel(panel=HOSTILE), FloatingPanel(panel="topics", left=0.1)),
         width=300,
     )
-    loop.show(settings=Settings(layout=arranged))
+    viewer.show(layout=arranged)
     tab.wait_for(lambda: len(docked(tab)) == 3)
     heights = tab.page.locator(".wv-beside .wv-docked").evaluate_all(
         "each => each.map(e => e.offsetHeight)"
@@ -118,26 +126,26 @@ def test_an_arrangement_of_others_is_shown_and_sizes_can_be_changed(loop: Loop, 
     border = tab.page.get_by_role("separator", name="Width of the panels beside the scene")
     border.focus()
     tab.page.keyboard.press("ArrowLeft")
-    tab.wait_for(lambda: bool(loop.commands))
-    wider = newest(loop)
+    tab.wait_for(lambda: bool(viewer.commands))
+    wider = newest(viewer)
     assert wider.width == 316
     corner = tab.page.locator("[data-panel=topics] .wv-docked-corner")
     x, y = middle(corner)
     drag(tab, corner, x + 60, y + 40)
-    tab.wait_for(lambda: newest(loop) is not wider)
-    assert newest(loop).over[1].width > arranged.over[1].width
+    tab.wait_for(lambda: newest(viewer) is not wider)
+    assert newest(viewer).over[1].width > arranged.over[1].width
 
 
-def test_a_refused_arrangement_is_taken_back(loop: Loop, tab: Tab) -> None:
-    loop.answer = RuntimeError("not now")
+def test_a_refused_arrangement_is_taken_back(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.viewer.close()
     drag(tab, tab.page.locator("#wv-tab-topics"), 700, 300)
-    tab.wait_for(lambda: bool(loop.commands))
+    tab.wait_for(lambda: bool(viewer.commands))
     tab.wait_for(lambda: docked(tab) == {})
-    assert "not now" in tab.text()
+    assert "The viewer has ended." in tab.text()
 
 
-def test_escape_leaves_full_screen_and_cancels_a_drag(loop: Loop, tab: Tab) -> None:
-    loop.show(settings=Settings(layout=BESIDE))
+def test_escape_leaves_full_screen_and_cancels_a_drag(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.show(layout=BESIDE)
     tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
     tab.button("Full screen").click()
     frame = tab.page.locator(".wv-docked")
@@ -152,13 +160,15 @@ def test_escape_leaves_full_screen_and_cancels_a_drag(loop: Loop, tab: Tab) -> N
     tab.page.keyboard.press("Escape")
     tab.page.mouse.up()
     tab.turn()
-    assert not loop.commands
+    assert not viewer.commands
     assert docked(tab) == {"doctor": "wv-beside"}
 
 
-def test_panels_of_one_place_are_tabs_which_keys_and_drags_change(loop: Loop, tab: Tab) -> None:
+def test_panels_of_one_place_are_tabs_which_keys_and_drags_change(
+    viewer: PageBench, tab: ViewerTab
+) -> None:
     shared = Layout(below=(DockedPanel(panel="doctor", tabs=("views",)),))
-    loop.show(settings=Settings(layout=shared))
+    viewer.show(layout=shared)
     tab.wait_for(lambda: docked(tab) == {"doctor": "wv-below"})
     here = tab.page.get_by_role("tablist", name="Panels here").get_by_role("tab")
     assert here.all_inner_texts() == ["Doctor", "Views"]
@@ -167,14 +177,14 @@ def test_panels_of_one_place_are_tabs_which_keys_and_drags_change(loop: Loop, ta
     tab.wait_for(lambda: docked(tab) == {"views": "wv-below"})
     expect(here.last).to_be_focused()
     expect(here.last).to_have_attribute("aria-selected", "true")
-    assert not loop.commands, "it is the choice of this page"
+    assert not viewer.commands, "it is the choice of this page"
 
     topics = tab.page.locator("#wv-tab-topics")
     head = tab.page.locator(".wv-docked-head")
     drag(tab, topics, *middle(head))
     three = Layout(below=(DockedPanel(panel="doctor", tabs=("views", "topics")),))
     tab.wait_for_command(SetLayout(three))
-    loop.show(settings=Settings(layout=three))
+    assert viewer.settings.layout == three
     tab.wait_for(lambda: docked(tab) == {"topics": "wv-below"})
 
     room = scene(tab)
@@ -186,25 +196,29 @@ def test_panels_of_one_place_are_tabs_which_keys_and_drags_change(loop: Loop, ta
     assert docked(tab) == {"doctor": "wv-beside", "topics": "wv-below"}
 
 
-def test_a_wide_panel_that_is_added_comes_to_the_front_of_its_place(loop: Loop, tab: Tab) -> None:
+def test_a_wide_panel_that_is_added_comes_to_the_front_of_its_place(
+    viewer: PageBench, tab: ViewerTab
+) -> None:
+    viewer.show(layout=Layout(below=(DockedPanel(panel="doctor"),)))
+    tab.wait_for(lambda: docked(tab) == {"doctor": "wv-below"})
     tab.show_tab("Topics")
     tab.button("Add a panel").click()
     tab.page.keyboard.type("plot")
     tab.page.keyboard.press("Enter")
     tab.wait_for_command(AddPanel("Plot"))
+    (plot,) = viewer.viewer.get(PanelsPart).tabs()
     below = Layout(below=(DockedPanel(panel="doctor", tabs=("Plot",)),))
-    plot = PanelTab("plot", "Plot", Plot(name="Plot"))
-    loop.show(panels=(plot,), settings=Settings(layout=below))
+    assert viewer.settings.layout == below
     tab.wait_for(lambda: docked(tab) == {"plugin-Plot": "wv-below"})
     expect(tab.page.locator("#wv-tab-topics")).to_have_attribute("aria-selected", "true")
     tab.page.locator(".wv-docked").get_by_role("button", name="Remove panel").click()
-    tab.wait_for_command(RemovePanel("plot"))
-    loop.show(settings=Settings())
+    tab.wait_for_command(RemovePanel(plot.id))
+    viewer.show()
     tab.show_tab("Displays")
 
 
-def test_layouts_are_saved_shown_and_removed_by_the_menu(loop: Loop, tab: Tab) -> None:
-    loop.show(settings=Settings(layouts={"driving": BESIDE, HOSTILE: Layout()}))
+def test_layouts_are_saved_shown_and_removed_by_the_menu(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.show(layouts={"driving": BESIDE, HOSTILE: Layout()})
 
     def choose(*names: str) -> None:
         tab.button("Menu").click()
@@ -226,10 +240,10 @@ def test_layouts_are_saved_shown_and_removed_by_the_menu(loop: Loop, tab: Tab) -
 
 
 def test_a_window_shows_one_panel_or_a_layout(
-    loop: Loop, tab: Tab, open_tab: Callable[..., Tab]
+    viewer: PageBench, tab: ViewerTab, open_viewer_tab: Callable[..., ViewerTab]
 ) -> None:
-    loop.show(settings=Settings(layouts={"driving": BESIDE}))
-    other = open_tab(query="&panel=topics")
+    viewer.show(layouts={"driving": BESIDE})
+    other = open_viewer_tab(query="&panel=topics")
     other.wait_for(lambda: docked(other) == {"topics": "wv-floats"})
     other.wait_for(lambda: not other.page.locator("#root").is_visible())
     other.page.goto(other.page.url.replace("panel=topics", "layout=driving"))
@@ -237,13 +251,13 @@ def test_a_window_shows_one_panel_or_a_layout(
     assert docked(tab) == {}
 
 
-def test_a_window_for_an_unknown_panel_says_so(open_tab: Callable[..., Tab]) -> None:
-    other = open_tab(query="&panel=" + quote(HOSTILE))
+def test_a_window_for_an_unknown_panel_says_so(open_viewer_tab: Callable[..., ViewerTab]) -> None:
+    other = open_viewer_tab(query="&panel=" + quote(HOSTILE))
     expect(other.page.get_by_text(f"Unknown panel `{HOSTILE}`.")).to_be_visible()
 
 
-def test_a_phone_keeps_its_collapsed_panel(loop: Loop, tab: Tab) -> None:
-    loop.show(settings=Settings(layout=BESIDE))
+def test_a_phone_keeps_its_collapsed_panel(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.show(layout=BESIDE)
     tab.wait_for(lambda: docked(tab) == {"doctor": "wv-beside"})
     size = tab.page.viewport_size
     assert size is not None
@@ -253,9 +267,7 @@ def test_a_phone_keeps_its_collapsed_panel(loop: Loop, tab: Tab) -> None:
     tab.page.set_viewport_size(size)
 
 
-def test_a_store_has_the_saved_layout_of_a_window(loop: Loop) -> None:
-    loop.show(settings=Settings(layouts={"driving": BESIDE}))
-    assert [each.panel for each in layout_store(loop.state.settings, "driving").beside] == [
-        "doctor"
-    ]
-    assert not layout_store(loop.state.settings, "unknown").beside
+def test_a_store_has_the_saved_layout_of_a_window(viewer: PageBench) -> None:
+    viewer.show(layouts={"driving": BESIDE})
+    assert [each.panel for each in layout_store(viewer.settings, "driving").beside] == ["doctor"]
+    assert not layout_store(viewer.settings, "unknown").beside

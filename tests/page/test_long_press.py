@@ -7,20 +7,21 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Locator, expect
 
-from tests.page.conftest import Loop, Tab
-from tests.page.test_toolbar import GOAL
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from webviz.tools.goal_pose import GoalPose
 
 WIDTH, HEIGHT = 390, 844
 HELD_MS = 900
 
 
 @pytest.fixture(scope="module")
-def opened(open_lasting_tab: Callable[..., Tab]) -> Tab:
-    return open_lasting_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+def opened(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
+    return open_lasting_viewer_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
 
 
 @pytest.fixture
-def phone(opened: Tab, tab: Tab) -> Tab:
+def phone(opened: ViewerTab, viewer_tab: ViewerTab) -> ViewerTab:
     """A phone with the panels closed."""
     opened.page.keyboard.press("Escape")
     opened.button("Hide the panels").evaluate_all("found => found.forEach((one) => one.click())")
@@ -28,7 +29,7 @@ def phone(opened: Tab, tab: Tab) -> Tab:
 
 
 @pytest.fixture
-def touch(phone: Tab) -> Iterator[Callable[..., None]]:
+def touch(phone: ViewerTab) -> Iterator[Callable[..., None]]:
     """Put a finger down at a place, or lift it."""
     session = phone.page.context.new_cdp_session(phone.page)
 
@@ -41,10 +42,10 @@ def touch(phone: Tab) -> Iterator[Callable[..., None]]:
 
 
 def test_a_finger_on_a_tool_reads_what_it_does_and_does_not_choose_it(
-    phone: Tab, loop: Loop, touch: Callable[..., None]
+    phone: ViewerTab, viewer: PageBench, touch: Callable[..., None]
 ) -> None:
-    loop.show(tools=[GOAL])
-    tool = phone.page.locator(f'.wv-tool[aria-label="{GOAL.name}"]')
+    viewer.show(tools=[GoalPose(name="Goal")])
+    tool = phone.page.locator('.wv-tool[aria-label="Goal"]')
     expect(tool).to_be_visible()
     box = tool.bounding_box()
     assert box is not None
@@ -61,7 +62,7 @@ def test_a_finger_on_a_tool_reads_what_it_does_and_does_not_choose_it(
 
 
 def test_a_finger_on_the_scene_reads_where_it_is_until_the_next_one(
-    phone: Tab, touch: Callable[..., None]
+    phone: ViewerTab, touch: Callable[..., None]
 ) -> None:
     text = phone.page.locator(".wv-pointer")
     expect(text).to_be_hidden()
@@ -75,7 +76,7 @@ def test_a_finger_on_the_scene_reads_where_it_is_until_the_next_one(
     touch("touchEnd")
 
 
-def test_a_finger_that_moves_does_not_rest(phone: Tab, touch: Callable[..., None]) -> None:
+def test_a_finger_that_moves_does_not_rest(phone: ViewerTab, touch: Callable[..., None]) -> None:
     x, y = WIDTH / 2, 0.6 * HEIGHT
     touch("touchStart", (x, y))
     for step in range(4):
@@ -86,7 +87,7 @@ def test_a_finger_that_moves_does_not_rest(phone: Tab, touch: Callable[..., None
     touch("touchEnd")
 
 
-def test_menus_and_dialogs_of_a_phone_are_sheets_at_its_bottom(phone: Tab, loop: Loop) -> None:
+def test_menus_and_dialogs_of_a_phone_are_sheets_at_its_bottom(phone: ViewerTab) -> None:
     phone.page.get_by_role("button", name="More").first.click()
     menu = phone.page.get_by_role("menu")
     expect(menu).to_be_visible()

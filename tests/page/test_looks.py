@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 
 import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
 
-from tests.page.conftest import Tab
-from webviz.engine.state import Row, State
-from webviz.scene.server import Server
+from tests.page.everything import Everything, named
+from tests.page.page_bench import SCAN, PageBench
+from tests.page.tabs import ViewerTab
 from webviz.server.channel.messages import Shell
-from webviz.sources import Offer, Publisher
 
 SURFACES = ("back", "raised", "field", "chosen", "hover")
 LETTERS = ("text", "quiet", "accent", "ok", "warn", "error")
@@ -41,11 +39,23 @@ WATCH = """
 """Notes the words of viser's page that are seen in any frame."""
 
 
-def theme(tab: Tab) -> str:
+@pytest.fixture
+def tab(viewer_tab: ViewerTab) -> ViewerTab:
+    return viewer_tab
+
+
+@pytest.fixture
+def silent(viewer: PageBench, tab: ViewerTab) -> ViewerTab:
+    """A tab of a viewer in which no node publishes anything."""
+    viewer.source.known.clear()
+    return tab
+
+
+def theme(tab: ViewerTab) -> str:
     return tab.page.evaluate("document.documentElement.dataset.wvTheme")
 
 
-def choose_theme(tab: Tab, name: str) -> None:
+def choose_theme(tab: ViewerTab, name: str) -> None:
     tab.button("Menu").click()
     tab.page.get_by_role("menuitemradio", name=f"Theme: {name}").click()
 
@@ -56,7 +66,7 @@ def luminance(color: list[float]) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def test_the_theme_is_the_systems_until_another_is_chosen(tab: Tab) -> None:
+def test_the_theme_is_the_systems_until_another_is_chosen(tab: ViewerTab) -> None:
     try:
         tab.page.emulate_media(color_scheme="light")
         tab.wait_for(lambda: theme(tab) == "light")
@@ -70,7 +80,7 @@ def test_the_theme_is_the_systems_until_another_is_chosen(tab: Tab) -> None:
 
 
 @pytest.mark.parametrize("name", ["dark", "light"])
-def test_all_letters_can_be_read_on_all_surfaces(tab: Tab, name: str) -> None:
+def test_all_letters_can_be_read_on_all_surfaces(tab: ViewerTab, name: str) -> None:
     choose_theme(tab, name)
     colors = {each: luminance(tab.page.evaluate(COLOR, each)) for each in SURFACES + LETTERS}
     choose_theme(tab, "as the system")
@@ -82,20 +92,21 @@ def test_all_letters_can_be_read_on_all_surfaces(tab: Tab, name: str) -> None:
     assert too_faint == []
 
 
-def test_nothing_published_is_explained_until_a_topic_appears(tab: Tab) -> None:
-    card = tab.page.get_by_role("region", name="Nothing is published")
-    tab.loop.show(offers={"/rosout": offer("/driver"), "/goal_pose": offer("/webviz")})
-    tab.wait_for(card.is_visible)
+def test_nothing_published_is_explained_until_a_topic_appears(silent: ViewerTab) -> None:
+    viewer = silent.viewer
+    card = silent.page.get_by_role("region", name="Nothing is published")
+    viewer.offer("/rosout", "rcl_interfaces/msg/Log", "/driver")
+    viewer.offer("/goal_pose", "geometry_msgs/msg/PoseStamped", "/webviz")
+    silent.wait_for(card.is_visible)
     assert "webviz-sim" in card.inner_text()
-    tab.loop.show(offers={"/scan": offer("/driver")})
-    tab.wait_for(card.is_hidden)
+    viewer.offer("/scan", SCAN, "/driver")
+    silent.wait_for(card.is_hidden)
 
 
-def offer(node: str) -> Offer:
-    return Offer((Publisher(node, "std_msgs/msg/String", "reliable", "volatile"),))
-
-
-def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(tab: Tab) -> None:
+def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it(
+    silent: ViewerTab,
+) -> None:
+    tab = silent
     card = tab.page.get_by_role("region", name="Nothing is published")
     tab.wait_for(card.is_visible)
     box = card.get_by_text("Start your robot").bounding_box()
@@ -108,12 +119,13 @@ def test_the_scene_below_the_first_hint_takes_the_mouse_and_its_button_closes_it
 
 
 def test_a_new_page_shows_nothing_before_it_is_ours_and_no_hint_that_was_closed(
-    tab: Tab, server: Server
+    silent: ViewerTab,
 ) -> None:
+    tab = silent
     tab.page.evaluate("localStorage.setItem('webviz.knows-first-run', 'true')")
     page = tab.page.context.new_page()
     page.add_init_script(WATCH)
-    page.goto(f"http://127.0.0.1:{server.get_port()}/?fixedDpr={COARSE}")
+    page.goto(f"http://127.0.0.1:{tab.viewer.server.get_port()}/?fixedDpr={COARSE}")
     page.get_by_role("tablist").first.wait_for()
     assert page.evaluate("[...window.seen]") == []
     tab.wait_for(lambda: page.locator(".wv-file").inner_text() == "webviz")
@@ -121,7 +133,7 @@ def test_a_new_page_shows_nothing_before_it_is_ours_and_no_hint_that_was_closed(
     page.close()
 
 
-def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: Tab) -> None:
+def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: ViewerTab) -> None:
     tip = tab.page.get_by_role("tooltip")
     tab.button("Commands").hover()
     playwright.expect(tip).to_have_text("CommandsCtrl+K")
@@ -130,7 +142,7 @@ def test_a_tooltip_appears_under_the_mouse_and_goes_with_it(tab: Tab) -> None:
     playwright.expect(tip).to_be_hidden()
 
 
-def test_a_title_becomes_a_tooltip_and_stays_a_name(tab: Tab) -> None:
+def test_a_title_becomes_a_tooltip_and_stays_a_name(tab: ViewerTab) -> None:
     make = """() => {
       const button = document.createElement("button");
       button.title = "Turn <b>";
@@ -146,17 +158,17 @@ def test_a_title_becomes_a_tooltip_and_stays_a_name(tab: Tab) -> None:
     button.evaluate("(button) => button.remove()")
 
 
-def test_visers_panel_is_hidden_but_for_debugging(tab: Tab, server: Server) -> None:
+def test_visers_panel_is_hidden_but_for_debugging(tab: ViewerTab) -> None:
     panel = tab.page.locator("#root .mantine-Paper-root").first
     playwright.expect(panel).to_be_hidden()
-    server.channel.send(Shell(debug=True))
+    tab.viewer.server.channel.send(Shell(debug=True))
     playwright.expect(panel).to_be_visible()
-    server.channel.send(Shell())
+    tab.viewer.server.channel.send(Shell())
     playwright.expect(panel).to_be_hidden()
 
 
-def test_nothing_changes_on_the_page_while_nothing_changes(tab: Tab) -> None:
-    tab.loop.state = State(offers={"/scan": offer("/driver")})
+def test_nothing_changes_on_the_page_while_nothing_changes(tab: ViewerTab) -> None:
+    tab.viewer.offer("/scan", SCAN, "/driver")
     watch = """() => {
       window.touched = [];
       const observer = new MutationObserver((records) => {
@@ -194,10 +206,8 @@ EDGES = """() => {
 }"""
 
 
-def test_filter_dots_and_buttons_stand_below_each_other(
-    tab: Tab, make_row: Callable[..., Row]
-) -> None:
-    tab.loop.show(make_row("a", size=0.5), make_row("b"))
+def test_filter_dots_and_buttons_stand_below_each_other(tab: ViewerTab) -> None:
+    tab.viewer.show(Everything(name="a", size=0.5), *named("b"))
     row = tab.page.get_by_role("treeitem", name="a", exact=True)
     tab.wait_for(lambda: row.count() == 1)
     row.click()

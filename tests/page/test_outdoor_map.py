@@ -3,32 +3,22 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import PIL.Image
 import pytest
 
-from tests.page.conftest import Loop, Tab
-from tests.page.test_daily_panels import open_panel
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from tests.page.test_daily_panels import subscribe
+from tests.page.test_daily_panels import tab as tab
+from webviz.api.declared import make
 from webviz.data.geo import Geodetic, TilePlane
-from webviz.data.messages import decode, encode
 from webviz.panels.outdoor_map import FIX, OutdoorMap
-from webviz.sources import Offer, Publisher
 
 HERE = Geodetic(50.0, 8.0)
 LEVEL = 17
 GREEN = (60, 160, 90)
-OFFERS = {"/fix": Offer((Publisher("/gps", FIX, "reliable", "volatile"),))}
-
-
-@pytest.fixture(autouse=True)
-def _close(loop: Loop, tab: Tab) -> Iterator[None]:
-    yield
-    loop.show(panels=(), offers={})
-    tab.show_tab("Displays")
-    tab.wait_for(lambda: not tab.page.locator(".wv-outdoor").count())
 
 
 @pytest.fixture
@@ -43,11 +33,13 @@ def tiles(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def fix(latitude: float, longitude: float) -> Any:
-    return decode(FIX, encode(FIX, {"latitude": latitude, "longitude": longitude}))
+def publish(viewer: PageBench, latitude: float, longitude: float) -> None:
+    """Have the receiver report a place."""
+    viewer.publish("/fix", FIX, {"latitude": latitude, "longitude": longitude})
+    viewer.turn()
 
 
-def color(tab: Tab, dx: int = 0, dy: int = 0) -> tuple[int, ...]:
+def color(tab: ViewerTab, dx: int = 0, dy: int = 0) -> tuple[int, ...]:
     """RGBA of the map this far from its middle, in pixels."""
     script = """(canvas, [dx, dy]) => {
       const { width, height } = canvas;
@@ -58,19 +50,18 @@ def color(tab: Tab, dx: int = 0, dy: int = 0) -> tuple[int, ...]:
 
 
 def test_the_track_lies_on_the_tiles_and_the_map_follows_it(
-    loop: Loop, tab: Tab, tiles: Path
+    viewer: PageBench, tab: ViewerTab, tiles: Path
 ) -> None:
-    panel = OutdoorMap(object_uri=str(tiles))
-    open_panel(loop, tab, panel, offers=OFFERS)
+    subscribe(tab, make(OutdoorMap, {"object_uri": str(tiles)}), fix=FIX)
     tab.wait_for(lambda: "No place yet on /fix." in tab.text())
     for i in range(21):
-        panel.take("/fix", fix(50.0, 7.999 + i / 20_000))
+        publish(viewer, 50.0, 7.999 + i / 20_000)
     tab.wait_for(lambda: color(tab, 0, 60) == (*GREEN, 255))
     track = color(tab)
     assert track != (*GREEN, 255)
     assert color(tab, -40) == track
     assert color(tab, 40) == (*GREEN, 255)
-    panel.take("/fix", fix(50.0, 8.001))
+    publish(viewer, 50.0, 8.001)
     tab.wait_for(lambda: color(tab, -80) == track)
     box = tab.page.locator(".wv-outdoor canvas").bounding_box()
     assert box is not None
@@ -94,5 +85,5 @@ def test_the_track_lies_on_the_tiles_and_the_map_follows_it(
     assert color(tab, 0, 60) == (*GREEN, 255)
 
 
-def canvas_label(tab: Tab) -> str | None:
+def canvas_label(tab: ViewerTab) -> str | None:
     return tab.page.locator(".wv-outdoor canvas").get_attribute("aria-label")

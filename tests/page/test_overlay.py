@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+import time
 
-import numpy as np
 import pytest
-from msgspec.structs import replace
+from playwright.sync_api import expect
 from viser_internals import cut_connections
 
-from tests.page.conftest import HEIGHT, WIDTH, Loop, Tab
+from tests.page.everything import named
+from tests.page.page_bench import SCAN, PageBench
+from tests.page.tabs import HEIGHT, WIDTH, ViewerTab
 from webviz.api.bridge import Bridge
-from webviz.api.context import ColorScale
-from webviz.api.nodes import Points, Pose
-from webviz.engine.state import Row
-from webviz.scene import ViserScene
-from webviz.scene.server import Server
+from webviz.shell.testing.messages import header, stamped_transform
+from webviz_displays.axes import Axes
+from webviz_displays.laser_scan import LaserScan
 
 TURN = """async () => {
   const { controls } = await import("webviz/viser_page.js");
@@ -27,28 +26,35 @@ AXES = "async () => (await import('webviz/scene/view.js')).axes()"
 CENTER = (700, 400)
 
 
-@pytest.fixture(scope="module")
-def scene(server: Server) -> ViserScene:
-    return ViserScene(server)
+@pytest.fixture
+def tab(viewer_tab: ViewerTab) -> ViewerTab:
+    return viewer_tab
+
+
+def publish_scan(viewer: PageBench, *intensities: float) -> None:
+    """Publish a scan whose beams hit something a metre away."""
+    ranges = [1.0 for _ in intensities]
+    scan = {"header": header("map", viewer.source.now), "range_max": 100.0, "ranges": ranges}
+    viewer.publish("/scan", SCAN, {**scan, "intensities": intensities})
+    viewer.turn()
 
 
 @pytest.mark.parametrize(
     ("name", "axis", "toward"),
     [("X", 0, 1), ("-X", 0, -1), ("Y", 1, 1), ("-Y", 1, -1), ("Z", 2, 1)],
 )
-def test_the_axes_turn_the_view(tab: Tab, name: str, axis: int, toward: int) -> None:
+def test_the_axes_turn_the_view(tab: ViewerTab, name: str, axis: int, toward: int) -> None:
     tab.page.get_by_role("button", name=f"Look from {name}", exact=True).dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[axis][2] * toward > 0.999)
 
 
-def test_the_keyboard_reaches_the_axes(tab: Tab) -> None:
+def test_the_keyboard_reaches_the_axes(tab: ViewerTab) -> None:
     tab.page.get_by_role("button", name="Look from -Y", exact=True).focus()
     tab.page.keyboard.press("Enter")
     tab.wait_for(lambda: tab.page.evaluate(AXES)[1][2] < -0.999)
 
 
-@pytest.mark.usefixtures("scene")  # it tells pages where to begin
-def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: Server) -> None:
+def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: ViewerTab) -> None:
     tab.wait_for(lambda: tab.page.evaluate("window.webviz.hasView()"))
     tab.page.get_by_role("button", name="Look from -Y", exact=True).dispatch_event("click")
     tab.wait_for(lambda: tab.page.evaluate(TURN) > 0.9999)
@@ -68,7 +74,7 @@ def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: 
           on("StartView", () => { window.isBack = true; });
         }"""
     )
-    cut_connections(server)
+    cut_connections(tab.viewer.server)
     tab.wait_for(lambda: tab.page.evaluate("window.isBack"))
     assert tab.page.evaluate("window.turned") < 0.1
     tab.page.get_by_role("button", name="Look from X", exact=True).dispatch_event("click")
@@ -76,10 +82,23 @@ def test_the_view_is_as_before_when_a_lost_connection_is_back(tab: Tab, server: 
     tab.wait_for(lambda: float(up.get_attribute("y2") or 0.0) < -25)
 
 
-def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
+def look_from_above(tab: ViewerTab) -> None:
+    """Click on the axis until it is followed: the view of a config may come after a first click."""
+    due_s = 0.0
+
+    def is_above() -> bool:
+        nonlocal due_s
+        if time.monotonic() > due_s:
+            due_s = time.monotonic() + 3.0
+            tab.button("Look from Z").dispatch_event("click")
+        return tab.page.evaluate(AXES)[2][2] > 0.999
+
+    tab.wait_for(is_above)
+
+
+def test_the_scale_is_that_of_the_picture(tab: ViewerTab) -> None:
     """Two points as far apart as the bar says are as far apart on the canvas as it is long."""
-    tab.button("Look from Z").dispatch_event("click")
-    tab.wait_for(lambda: tab.page.evaluate(AXES)[2][2] > 0.999)
+    look_from_above(tab)
     bar = tab.page.locator(".wv-scale")
     words, pixels = bar.inner_text(), tab.page.locator(".wv-scale-line").bounding_box()
     number, unit = words.split()
@@ -97,27 +116,30 @@ def test_the_scale_is_that_of_the_picture(tab: Tab) -> None:
 
 
 def test_legends_say_what_colors_stand_for_and_of_which_topic(
-    tab: Tab, loop: Loop, make_row: Callable[..., Row]
+    viewer: PageBench, tab: ViewerTab
 ) -> None:
-    scale = ColorScale("intensity", 2.16949, 97.5, ((255, 0, 0), (0, 0, 255)))
-    loop.show(replace(make_row("a", "Scan <b>"), color_scale=scale), make_row("b"))
+    def scan(name: str) -> LaserScan:
+        red, blue = (255, 0, 0), (0, 0, 255)
+        return LaserScan(name=name, use_rainbow=False, min_color=red, max_color=blue)
+
+    viewer.show(scan("Scan <b>"), *named("b"))
+    publish_scan(viewer, 2.16949, 97.5, 50.0)
     legend = tab.page.locator(".wv-legend")
     tab.wait_for(lambda: legend.count() == 1)
     assert legend.inner_text().split("\n") == ["/scan", "2.169", "intensity", "97.5"]
     background = tab.page.locator(".wv-legend-bar").evaluate("e => e.style.background")
     assert background == "linear-gradient(to right, rgb(255, 0, 0), rgb(0, 0, 255))"
-    loop.show(*(replace(make_row(one, f"Scan <{one}>"), color_scale=scale) for one in "ab"))
+    viewer.show(scan("Scan <a>"), scan("Scan <b>"))
+    publish_scan(viewer, 2.16949, 97.5, 50.0)
     titles = legend.locator(":scope > :first-child")
     tab.wait_for(lambda: titles.all_inner_texts() == ["/scan (Scan <a>)", "/scan (Scan <b>)"])
-    loop.show(make_row("a"))
+    viewer.show(*named("a"))
     tab.wait_for(lambda: legend.count() == 0)
 
 
-def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
-    settings = replace(loop.state.settings, fixed_frame="odom")
-    loop.show(settings=settings)
-    tab.button("Look from Z").dispatch_event("click")
-    tab.wait_for(lambda: tab.page.evaluate(AXES)[2][2] > 0.999)
+def test_the_place_under_the_mouse_is_told(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.show(fixed_frame="odom")
+    look_from_above(tab)
 
     def is_pointed_at() -> bool:
         place = tab.page.evaluate(
@@ -137,28 +159,25 @@ def test_the_place_under_the_mouse_is_told(tab: Tab, loop: Loop) -> None:
     tab.wait_for(lambda: "Left: turn" in tab.text())
 
 
-def test_what_is_under_the_resting_mouse_is_named(
-    tab: Tab, loop: Loop, scene: ViserScene, make_row: Callable[..., Row]
-) -> None:
-    grid = np.stack(np.meshgrid(np.linspace(-3, 3, 60), np.linspace(-3, 3, 60)), -1).reshape(-1, 2)
-    xyz = np.column_stack((grid, np.full(len(grid), 0.25))).astype(np.float32)
-    scene.upsert("display7/all/laser|", "points", Points(xyz, (255, 0, 0), 0.2, "square"), Pose())
-    scene.flush()
-    loop.show(make_row("display7", "Front scan"))
-    tab.button("Look from Z").dispatch_event("click")
+def test_what_is_under_the_resting_mouse_is_named(viewer: PageBench, tab: ViewerTab) -> None:
+    lidar = stamped_transform("map", "lidar", 0, (0.0, 0.0, 0.25))
+    viewer.publish("/tf_static", "tf2_msgs/msg/TFMessage", {"transforms": [lidar]})
+    viewer.show(Axes(name="Front <b>", reference_frame="lidar", length=2.0, radius=1.0))
+    look_from_above(tab)
     hit = """async (xy) => {
       const { hit } = await import("webviz/scene/mouse.js");
       return Boolean(hit(xy)?.object);
     }"""
     tab.wait_for(lambda: tab.page.evaluate(hit, CENTER))
-    tab.page.mouse.move(*CENTER)
-    tab.wait_for(lambda: "Front scan: laser" in tab.text())
-    assert "z 0.2" in tab.text()
-    scene.remove_group("display7/all/laser|")
-    scene.flush()
+    words = tab.page.locator(".wv-pointer")
+    with tab.paused():
+        tab.page.mouse.move(*CENTER)
+        expect(words).to_contain_text("z 2.25 m · map · Front <b>: lidar")  # not answered yet
+    answer = "z 2.25 m · map · Front <b> · Axes of lidar"
+    tab.wait_for(lambda: answer in words.inner_text())
 
 
-def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: Tab) -> None:
+def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: ViewerTab) -> None:
     tab.page.set_viewport_size({"width": 820, "height": 600})
     scale = tab.page.locator(".wv-scale")
     tab.wait_for(scale.is_visible)
@@ -169,7 +188,7 @@ def test_the_hint_for_the_mouse_leaves_room_for_the_scale(tab: Tab) -> None:
     tab.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
 
 
-def test_the_hint_goes_once_the_camera_was_moved_some_times(tab: Tab) -> None:
+def test_the_hint_goes_once_the_camera_was_moved_some_times(tab: ViewerTab) -> None:
     hint = tab.page.locator(".wv-pointer")
     forget = "localStorage.removeItem('webviz.camera-moves')"
     tab.page.evaluate(forget)
@@ -184,7 +203,7 @@ def test_the_hint_goes_once_the_camera_was_moved_some_times(tab: Tab) -> None:
     tab.page.evaluate(forget)
 
 
-def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
+def test_rates_are_told_and_explained_on_a_click(tab: ViewerTab) -> None:
     rates = tab.page.locator(".wv-rates")
     tab.wait_for(lambda: " ms" in rates.inner_text())
     assert " fps" in rates.inner_text()
@@ -194,9 +213,9 @@ def test_rates_are_told_and_explained_on_a_click(tab: Tab) -> None:
     assert "Round trip" not in tab.text()
 
 
-def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: Tab, server: Server) -> None:
+def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: ViewerTab) -> None:
     note = tab.page.locator(".wv-slow-link")
-    congestion = server.channel.congestion(max(server.channel.browsers()))
+    congestion = tab.viewer.server.channel.congestion(tab.browser)
     assert congestion is not None
     congestion.rate, congestion.every, congestion.shrink = 0.6e6, 8, 2
     tab.wait_for(note.is_visible)
@@ -206,21 +225,23 @@ def test_the_page_says_what_is_reduced_because_of_a_slow_link(tab: Tab, server: 
     tab.wait_for(note.is_hidden)
 
 
-def test_the_page_names_its_bridge_and_says_when_it_is_not_live(tab: Tab, loop: Loop) -> None:
+def test_the_page_names_its_bridge_and_says_when_it_is_not_live(
+    viewer: PageBench, tab: ViewerTab
+) -> None:
     card = tab.page.locator(".wv-bridge")
     assert card.count() == 0
     up = Bridge("ws://robot:8765", "Foxglove", is_up=True, was_up=True)
-    loop.change(bridges=(up,))
+    viewer.source.bridges = (up,)
     tab.wait_for(card.is_visible)
     assert card.text_content() == "ws://robot:8765"
     thinned = "The link carries 1.5 Mbit/s, so webviz thins /points to 0.13 Hz."
-    loop.change(bridges=(dataclasses.replace(up, remarks=(thinned,)),))
+    viewer.source.bridges = (dataclasses.replace(up, remarks=(thinned,)),)
     tab.wait_for(lambda: card.text_content() == f"ws://robot:8765 · {thinned}")
     problem = "Nothing listens on <b>robot</b>:8765."
-    loop.change(bridges=(dataclasses.replace(up, is_up=False, problem=problem),))
+    viewer.source.bridges = (dataclasses.replace(up, is_up=False, problem=problem),)
     tab.wait_for(lambda: card.text_content() == "ws://robot:8765 · not live")
     assert card.get_attribute("data-tip") == problem
     fleet = [dataclasses.replace(up, robot=f"r{n}") for n in range(1, 11)]
     fleet[3] = dataclasses.replace(fleet[3], is_up=False, problem=problem)
-    loop.change(bridges=tuple(fleet))
+    viewer.source.bridges = tuple(fleet)
     tab.wait_for(lambda: card.all_text_contents() == ["9 robots connected", "r4 · not live"])

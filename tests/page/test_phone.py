@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
-from msgspec.structs import replace
 
-from tests.page.conftest import Tab
-from tests.page.test_rewinding import SHORT
-from tests.page.test_rewinding import show as show_ago
-from tests.page.test_teleop import card, open_card, wait_for_share
-from tests.page.test_timeline import show as show_recording
+from tests.page.everything import group, named
+from tests.page.page_bench import SCAN, PageBench, PageServer
+from tests.page.tabs import ViewerTab
+from tests.page.test_rewinding import look_back, remembering
+from tests.page.test_teleop import LIMITS, card, open_card, wait_for_share
+from tests.page.test_timeline import bag as bag
+from tests.page.test_timeline import play as play
 from tests.page.test_toolbar import GOAL, POINT, overflow, toolbar
 from tests.page.test_tree_drag import at
-from tests.page.trees import Tree, group
+from tests.page.trees import Tree
 from webviz.api.vehicle import STILL
 from webviz.commands import MoveDisplay, Save, SaveMemory
-from webviz.data.messages import LaserScan, to_tree
-from webviz.data.transforms import Diagnosis, FrameReport
-from webviz.engine.state import ConfigFile, Inspected, Row
-from webviz.sources import Offer, Publisher
+from webviz.tools.goal_pose import GoalPose
+from webviz.tools.publish_point import PublishPoint
 
 WIDTH, HEIGHT = 390, 844
 FINGER_PX = 40
@@ -34,15 +35,16 @@ HIT = """(element) => {
   return [reach.filter((d) => isHit(x + d, y)).length, reach.filter((d) => isHit(x, y + d)).length];
 }"""
 """Width and height of an element for a finger."""
+SAVE_LAST = re.compile(r"Save last \d+ s")
 
 
 @pytest.fixture(scope="module")
-def opened(open_lasting_tab: Callable[..., Tab]) -> Tab:
-    return open_lasting_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
+def opened(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
+    return open_lasting_viewer_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
 
 
 @pytest.fixture
-def phone(opened: Tab, tab: Tab) -> Tab:
+def phone(viewer: PageBench, viewer_tab: ViewerTab, opened: ViewerTab) -> ViewerTab:
     """A phone with the panels closed."""
     opened.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
     opened.page.keyboard.press("Escape")
@@ -51,14 +53,18 @@ def phone(opened: Tab, tab: Tab) -> Tab:
     return opened
 
 
-def side(phone: Tab) -> playwright.Locator:
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    """The path of a config file."""
+    return tmp_path / "lab.yaml"
+
+
+def side(phone: ViewerTab) -> playwright.Locator:
     return phone.page.get_by_role("complementary", name="Panels")
 
 
-def test_the_scene_is_free_until_the_side_is_opened_over_it(
-    phone: Tab, make_row: Callable[..., Row]
-) -> None:
-    phone.loop.show(make_row("a"), file=ConfigFile("/home/me/lab.yaml"))
+def test_the_scene_is_free_until_the_side_is_opened_over_it(phone: ViewerTab, lab: Path) -> None:
+    phone.viewer.show(*named("a"), path=lab)
     playwright.expect(side(phone)).to_be_hidden()
     assert phone.page.locator(".mantine-Paper-root:visible").count() == 0
     canvas = phone.page.locator("#root canvas").first.bounding_box()
@@ -73,8 +79,8 @@ def test_the_scene_is_free_until_the_side_is_opened_over_it(
     playwright.expect(side(phone)).to_be_hidden()
 
 
-def test_buttons_can_be_hit_with_a_finger(phone: Tab) -> None:
-    phone.loop.show(file=ConfigFile("/home/me/lab.yaml"))
+def test_buttons_can_be_hit_with_a_finger(phone: ViewerTab, lab: Path) -> None:
+    phone.viewer.show(path=lab)
     phone.button("Show the panels").tap()
     for name in ("Menu", "Commands", "Hide the panels", "Show the panels"):
         box = phone.button(name).bounding_box()
@@ -90,21 +96,19 @@ def test_buttons_can_be_hit_with_a_finger(phone: Tab) -> None:
     assert box["height"] >= FINGER_PX
     item.tap()
     phone.wait_for_command(Save())
+    assert lab.exists()
 
 
-def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: Tab) -> None:
-    scan = Publisher("/driver", "sensor_msgs/msg/LaserScan", "reliable", "volatile")
-    message = to_tree(LaserScan())
-    odom = FrameReport("odom", "map", True, (), 0.0, 0, None, None, 1, 0, ())
-    phone.loop.show(
-        offers={"/scan": Offer((scan,))},
-        inspected={"/scan": Inspected(scan.type, message, "", 100, 1.0)},
-        transforms=Diagnosis(("map",), (), (odom,)),
-    )
+def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: ViewerTab) -> None:
+    viewer = phone.viewer
+    viewer.source.known.clear()
+    viewer.offer("/scan", SCAN, "/driver")
     phone.button("Show the panels").tap()
     phone.show_tab("Topics")
     phone.wait_for(lambda: phone.page.locator(".wv-topic").count() == 1)
     phone.page.locator(".wv-topic").tap()
+    phone.wait_for(lambda: "/scan" in viewer.source.wanted)
+    viewer.publish("/scan", SCAN, {})
     phone.wait_for(lambda: phone.page.locator(".wv-field-row").count() > 3)
     assert too_small(phone) == []
     phone.show_tab("TF")
@@ -115,7 +119,7 @@ def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: Tab) -> None:
     assert min(phone.page.locator(".wv-tree-fold").first.evaluate(HIT)) >= FINGER_PX - 1
 
 
-def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
+def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: ViewerTab) -> None:
     phone.page.set_viewport_size({"width": 250, "height": HEIGHT})
     phone.button("Show the panels").tap()
     tab = phone.page.get_by_role("tab").last
@@ -137,7 +141,7 @@ def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: Tab) -> None:
     playwright.expect(phone.button("All panels")).to_be_hidden()
 
 
-def too_small(phone: Tab) -> list[str]:
+def too_small(phone: ViewerTab) -> list[str]:
     """Return the elements of the panel that can be tapped but are too low."""
     return phone.page.locator(".wv-panel").evaluate(
         """(panel, least) => [...panel.querySelectorAll("button, input, select, .wv-row")]
@@ -147,12 +151,18 @@ def too_small(phone: Tab) -> list[str]:
     )
 
 
-def test_dialogs_fit(phone: Tab) -> None:
-    phone.loop.show(file=ConfigFile(folder="/home/me/a folder/" + "with_a_long_name" * 10))
+def test_dialogs_fit(
+    page_server: PageServer, phone: ViewerTab, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "a folder" / ("with_a_long_name" * 10)
+    folder.mkdir(parents=True)
+    monkeypatch.chdir(folder)
+    page_server.begin()
     phone.button("Show the panels").tap()
     phone.wait_for(lambda: "webviz" in side(phone).inner_text())
     phone.button("Menu").tap()
     phone.page.get_by_role("menuitem", name="Save as…").tap()
+    assert "with_a_long_name" in phone.page.get_by_role("dialog").inner_text()
     box = phone.page.get_by_role("dialog").bounding_box()
     assert box is not None
     assert box["x"] >= 0
@@ -161,10 +171,10 @@ def test_dialogs_fit(phone: Tab) -> None:
 
 
 @pytest.mark.parametrize("width", [360, 390, 430])
-def test_everything_is_inside_the_toolbar(phone: Tab, width: int) -> None:
+def test_everything_is_inside_the_toolbar(phone: ViewerTab, width: int) -> None:
     phone.page.set_viewport_size({"width": width, "height": HEIGHT})
     phone.wait_for(lambda: phone.page.evaluate("innerWidth") == width)
-    phone.loop.show(tools=(GOAL, POINT), frames=("base_link", "map"))
+    phone.viewer.show(tools=[GoalPose(name=GOAL.name), PublishPoint(name=POINT.name)])
     bar = toolbar(phone)
     more = bar.get_by_role("button", name="More")
     phone.wait_for(lambda: bar.get_by_role("button", name="2D Goal Pose").is_visible())
@@ -179,14 +189,16 @@ def test_everything_is_inside_the_toolbar(phone: Tab, width: int) -> None:
     assert rates["y"] >= box["y"] + box["height"]
 
 
-def right_edges(phone: Tab, *names: str) -> list[float]:
+def right_edges(phone: ViewerTab, *names: str) -> list[float]:
     """Of buttons."""
     boxes = [phone.button(name).bounding_box() for name in names]
     return [box["x"] + box["width"] if box else 999.0 for box in boxes]
 
 
-def test_the_track_and_buttons_of_a_recording_are_within_the_width(phone: Tab) -> None:
-    show_recording(phone.loop)
+def test_the_track_and_buttons_of_a_recording_are_within_the_width(
+    phone: ViewerTab, play: Callable[[Path], PageBench], bag: Path
+) -> None:
+    play(bag)
     phone.wait_for(lambda: phone.page.locator(".wv-track").count() == 1)
     names = ("Play", "Previous message", "Next message", "Rate", "Loop", "Topics")
     assert max(right_edges(phone, *names)) <= WIDTH
@@ -195,20 +207,32 @@ def test_the_track_and_buttons_of_a_recording_are_within_the_width(phone: Tab) -
     assert box["x"] + box["width"] <= WIDTH
 
 
-def test_what_just_happened_can_be_saved(phone: Tab) -> None:
-    memory = replace(SHORT, seconds=42.0)
-    show_ago(phone.loop, None, memory)
-    phone.wait_for(lambda: phone.button("Save last 42 s").is_visible())
-    assert max(right_edges(phone, "Pause", "Topics", "Record", "Save last 42 s")) <= WIDTH
-    show_ago(phone.loop, 12.4, memory)
+@pytest.fixture
+def live(page_server: PageServer, phone: ViewerTab) -> Iterator[PageBench]:
+    """A viewer of live topics with a memory."""
+    yield remembering(page_server)
+    page_server.begin()
+
+
+def test_what_just_happened_can_be_saved(
+    phone: ViewerTab, live: PageBench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    save = phone.page.get_by_role("button", name=SAVE_LAST)
+    phone.wait_for(save.is_visible)
+    name = save.get_attribute("aria-label") or ""
+    assert max(right_edges(phone, "Pause", "Topics", "Record", name)) <= WIDTH
+    look_back(live, 12.4)
     phone.wait_for(lambda: phone.button("Live (L)").is_visible())
-    assert max(right_edges(phone, "Next message", "Live (L)", "Save last 42 s")) <= WIDTH
-    phone.button("Save last 42 s").click()
+    name = phone.page.locator(".wv-save-last").get_attribute("aria-label") or ""
+    assert max(right_edges(phone, "Next message", "Live (L)", name)) <= WIDTH
+    phone.button(name).click()
     phone.wait_for_command(SaveMemory())
+    assert [*tmp_path.glob("*/*.mcap")]
 
 
-def test_fingers_drive_ahead_and_sideways(phone: Tab) -> None:
-    open_card(phone, lateral=0.5)
+def test_fingers_drive_ahead_and_sideways(phone: ViewerTab) -> None:
+    open_card(phone, lateral=LIMITS.lateral)
     box = card(phone).bounding_box()
     assert box is not None
     assert box["x"] >= 0
@@ -266,23 +290,25 @@ class Finger:
 
 
 @pytest.fixture
-def tree(phone: Tab, make_row: Callable[..., Row]) -> Tree:
+def tree(phone: ViewerTab) -> Tree:
     """On a tablet, where the panels are beside the scene."""
     phone.page.set_viewport_size({"width": 800, "height": 900})
-    phone.loop.show(group("g"), make_row("d"), make_row("e"))
+    phone.viewer.show(group("g"), *named("d", "e"))
     tree = Tree(phone)
     tree.wait_for_names("g", "d", "e")
     return tree
 
 
-def test_a_finger_that_rests_on_a_row_drags_it(tree: Tree) -> None:
+def test_a_finger_that_rests_on_a_row_drags_it(viewer: PageBench, tree: Tree) -> None:
+    moved = MoveDisplay(viewer.id("e"), viewer.id("g"), "")
     finger = Finger(tree.tab.page)
     x, y = at(tree, "e", 0.5)
     finger.hold(x, y)
     for step in (0.3, 0.7, 1.0):
         finger.move(x, y + step * (at(tree, "g", 0.5)[1] - y))
     finger.lift()
-    tree.tab.wait_for_command(MoveDisplay("e", "g", ""))
+    tree.tab.wait_for_command(moved)
+    assert viewer.outline() == "g(e) d"
 
 
 def test_a_finger_that_rests_and_leaves_opens_the_menu(tree: Tree) -> None:

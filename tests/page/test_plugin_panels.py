@@ -11,16 +11,19 @@ from typing import Annotated, Any, ClassVar
 import pytest
 from playwright.sync_api import expect
 
-from tests.page.conftest import Loop, Tab
+from tests.page.opened_panels import open_panel
+from tests.page.page_bench import PageBench, PageServer
+from tests.page.tabs import ViewerTab
 from webviz.api import registry
-from webviz.api.declared import Prop, make
+from webviz.api.declared import Prop, Topic, make
 from webviz.api.panel import Panel, Send, Slide, Ui
 from webviz.commands import AddPanel, InspectTopic, RemovePanel, Reset, SetPanelProperty
 from webviz.engine.pipeline.plugins import load
-from webviz.engine.state import PanelTab, PanelTimes, State, Traffic
+from webviz.engine.state import State
 from webviz.features.panels import MAX_WAITING
 from webviz.page.recorded_ui import RecordedUi
 from webviz.page.widgets import MAX_HTML, MAX_LINES
+from webviz_displays.laser_scan import LaserScan
 
 EXAMPLE = Path(__file__).parents[2] / "displays/docs/examples/quiet_topics.py"
 HOSTILE = "<img src=x onerror=alert(1)>"
@@ -62,10 +65,10 @@ class Form(Panel):
         self.text.text(f"a text {HOSTILE}")
         self.lines.lines("one\n  two")
         self.html.html("<b id='bold'>bold</b>")
-        self.pause.label = "Resume" if state.clock.is_paused else "Pause"
+        self.pause.label = "Resume" if "arm" in state.frames else "Pause"
         self.sliders.show([Slide("left hip", 0.25, -1.0, 1.0, "rad"), Slide("rail", 2.0, 0.0, 4.0)])
-        if state.frames:
-            self.robot.show(state.frames[0])
+        if "arm" in state.frames:
+            self.robot.show("arm")
 
 
 class Limited(Panel):
@@ -79,15 +82,15 @@ class Limited(Panel):
 
 
 class Moody(Panel):
-    """A panel that fails until a frame is known."""
+    """A panel that fails until the frame of an arm is known."""
 
     def build(self, ui: Ui, send: Send) -> None:
         ui.button("Half", lambda browser: None, width=0.5)
         ui.button("Other half", lambda browser: None, width=0.5)
 
     def show(self, state: State) -> None:
-        if not state.frames:
-            raise ValueError("no frames, sorry")
+        if "arm" not in state.frames:
+            raise ValueError("no arm, sorry")
 
 
 class Unbuilt(Panel):
@@ -107,53 +110,52 @@ class Slow(Panel):
 
 
 @pytest.fixture(autouse=True)
-def _register(loop: Loop, tab: Tab) -> Iterator[None]:
+def _types(viewer_tab: ViewerTab) -> Iterator[None]:
+    types = Frames, Form, Limited, Moody, Unbuilt, Slow
+    registry.register("tests", {each.__name__: each for each in types})
     yield
     registry.register("tests", {})
-    loop.show(panels=())
-    tab.show_tab("Displays")
+    viewer_tab.viewer.show()
+    viewer_tab.show_tab("Displays")
 
 
-def tabs(tab: Tab) -> list[str]:
-    """The titles of the tabs."""
-    return tab.page.get_by_role("tab").all_inner_texts()
+def titles(tab: ViewerTab) -> list[str]:
+    """The titles of the tabs that are shown."""
+    return [each for each in tab.page.get_by_role("tab").all_inner_texts() if each]
 
 
-def shown(*types: Any) -> tuple[PanelTab, ...]:
-    """Return the state of panels of these registered types."""
-    registry.register("tests", {cls.__name__: cls for cls in types if cls.__module__ == __name__})
-    names = [f"{cls.__name__}{i or ''}" for i, cls in enumerate(types)]
-    tabs = zip(names, types, strict=True)
-    return tuple(PanelTab(f"of {name}", name, make(cls, {})) for name, cls in tabs)
+def logged(caplog: pytest.LogCaptureFixture) -> list[str]:
+    """The first line of each warning."""
+    return [
+        each.message.partition("\n")[0] for each in caplog.records if each.levelno > logging.INFO
+    ]
 
 
-def open_panel(loop: Loop, tab: Tab, type_: type[Panel]) -> None:
-    loop.show(panels=shown(type_))
-    tab.wait_for(lambda: type_.__name__ in tabs(tab))
-    tab.show_tab(type_.__name__)
-    tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
-
-
-def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(loop: Loop, tab: Tab) -> None:
-    loop.show(frames=("map", HOSTILE))
-    tab.wait_for(lambda: tabs(tab)[-1:] == ["Tools"])  # none of the test before
-    before = tabs(tab)
-    open_panel(loop, tab, Frames)
-    assert tabs(tab) == [*before, "Frames"]
+def test_a_panel_of_a_plug_in_has_a_tab_behind_those_of_webviz(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    viewer.link("map", HOSTILE)
+    viewer.show()
+    tab.wait_for(lambda: titles(tab)[-1:] == ["Tools"])
+    before = titles(tab)
+    open_panel(tab, make(Frames, {}))
+    assert titles(tab) == [*before, "Frames"]
     tab.wait_for(lambda: HOSTILE in tab.text())
     assert tab.button("Forget all").get_attribute("data-tip") == "All of it"
+    assert not tab.button("Settings of this panel").is_visible(), "it has none"
     tab.button("Forget all").click()
     tab.wait_for_command(Reset())
-    assert loop.senders[-1].browser is not None
-    loop.show(panels=())
-    tab.wait_for(lambda: tabs(tab) == before)
+    assert viewer.senders[-1].browser == tab.browser
+    viewer.show()
+    tab.wait_for(lambda: titles(tab) == before)
     assert tab.page.locator("[role=tab][aria-selected=true]").count() == 1
 
 
-def test_every_kind_of_widget_is_drawn_and_heard(loop: Loop, tab: Tab) -> None:
+def test_every_kind_of_widget_is_drawn_and_heard(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
     Form.entered.clear()
-    loop.show()
-    open_panel(loop, tab, Form)
+    open_panel(tab, make(Form, {}))
     tab.wait_for(lambda: f"a text {HOSTILE}" in tab.text())
     assert tab.page.locator("pre").inner_text() == "one\n  two"
     assert tab.page.locator("#bold").inner_text() == "bold"
@@ -177,57 +179,63 @@ def test_every_kind_of_widget_is_drawn_and_heard(loop: Loop, tab: Tab) -> None:
     tab.wait_for(lambda: Form.entered[-1] == ("rail", 3.0))
 
 
-def test_what_somebody_types_stays_while_the_panel_shows_something_else(
-    loop: Loop, tab: Tab
+def test_typed_text_stays_while_the_panel_shows_something_else(
+    viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
-    loop.show()
-    open_panel(loop, tab, Form)
+    tab = viewer_tab
+    open_panel(tab, make(Form, {}))
     name = tab.page.get_by_label("Name", exact=True)
     name.click()
     name.press("End")
     name.press("x")
-    loop.show(frames=("map",), clock=PanelTimes(is_paused=True))
+    viewer.link("map", "arm")
     tab.wait_for(lambda: tab.page.get_by_text("Resume", exact=True).count() > 0)
     assert name.input_value() == "robotx"
     name.blur()
-    tab.wait_for(lambda: name.input_value() == "map")
+    tab.wait_for(lambda: name.input_value() == "arm")
 
 
-def test_panels_are_added_and_removed_and_their_properties_edited(loop: Loop, tab: Tab) -> None:
-    open_panel(loop, tab, Limited)
+def test_panels_are_added_and_removed_and_their_properties_edited(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    panel = open_panel(tab, make(Limited, {}))
+    (shown,) = viewer.states[-1].panels
     settings = tab.button("Settings of this panel")
     settings.click()
     most = tab.page.get_by_role("spinbutton", name="Most")
     expect(most).to_be_focused()
     most.fill("7")
     most.press("Enter")
-    tab.wait_for_command(SetPanelProperty("of Limited", "most", 7))
+    tab.wait_for_command(SetPanelProperty(shown.id, "most", 7))
+    assert panel.most == 7
     most.press("Escape")
     expect(most).to_have_count(0)
     expect(settings).to_be_focused()
     tab.button("More for this panel").click()
     tab.page.get_by_role("menuitem", name="Remove panel").click()
-    tab.wait_for_command(RemovePanel("of Limited"))
-    loop.show(panels=shown(Limited, Limited))
-    tab.wait_for(lambda: tabs(tab).count("Limited") == 2)
+    tab.wait_for_command(RemovePanel(shown.id))
+    assert viewer.states[-1].panels == ()
+    viewer.show(panels=[make(Limited, {}), make(Limited, {})])
+    tab.wait_for(lambda: titles(tab).count("Limited") == 2)
     tab.button("Add a panel").click()
     element = tab.page.get_by_role("dialog", name="Add panel").get_by_role("option")
-    titles = element.locator(".wv-pick-title").all_inner_texts()
-    assert titles == sorted(titles, key=str.casefold)
+    offers = element.locator(".wv-pick-title").all_inner_texts()
+    assert offers == sorted(offers, key=str.casefold)
     plot = element.filter(has_text="Numbers of any messages over time")
     assert plot.locator(".wv-pick-note").inner_text() == "Below the scene"
     tab.page.keyboard.type("nav")
     assert element.first.locator(".wv-pick-note").inner_text() == "In the side bar"
     tab.page.keyboard.press("Enter")
     tab.wait_for_command(AddPanel("Nav2"))
-    loop.show(panels=shown(Limited, Limited, Frames))
-    added = tab.page.get_by_role("tab", name="Frames", exact=True)
+    title = viewer.states[-1].panels[-1].panel.name
+    added = tab.page.get_by_role("tab", name=title, exact=True)
     tab.wait_for(lambda: added.get_attribute("aria-selected") == "true")
-    assert not settings.is_visible(), "it has none"
 
 
-def test_a_click_elsewhere_closes_the_settings_of_a_panel(loop: Loop, tab: Tab) -> None:
-    open_panel(loop, tab, Limited)
+def test_a_click_elsewhere_closes_the_settings_of_a_panel(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    open_panel(tab, make(Limited, {}))
     settings, most = tab.button("Settings of this panel"), tab.page.get_by_text("Most", exact=True)
     for close in (settings, tab.page.get_by_role("tab", name="Limited")):
         settings.click()
@@ -237,10 +245,11 @@ def test_a_click_elsewhere_closes_the_settings_of_a_panel(loop: Loop, tab: Tab) 
 
 
 def test_tabs_that_are_too_many_leave_the_open_one_and_the_button_in_sight(
-    loop: Loop, tab: Tab
+    viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
-    loop.show(panels=shown(*[Limited] * 6))
-    tab.wait_for(lambda: tabs(tab).count("Limited") == 6)
+    tab = viewer_tab
+    viewer.show(panels=[make(Limited, {}) for _ in range(6)])
+    tab.wait_for(lambda: titles(tab).count("Limited") == 6)
     for opened in (tab.page.get_by_role("tab").last, tab.page.get_by_role("tab").first):
         tab.button("All panels").click()
         name = opened.inner_text()
@@ -255,8 +264,11 @@ def test_tabs_that_are_too_many_leave_the_open_one_and_the_button_in_sight(
         assert add["x"] + add["width"] <= 320
 
 
-def test_the_list_of_commands_opens_and_adds_panels(loop: Loop, tab: Tab) -> None:
-    open_panel(loop, tab, Limited)
+def test_the_list_of_commands_opens_and_adds_panels(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    open_panel(tab, make(Limited, {}))
     for words in ("panel topics", "panel limited"):
         tab.page.keyboard.press("Control+k")
         tab.page.get_by_role("combobox", name="Command").fill(words)
@@ -267,53 +279,59 @@ def test_the_list_of_commands_opens_and_adds_panels(loop: Loop, tab: Tab) -> Non
     tab.page.get_by_role("combobox", name="Command").fill("add panel navigation")
     tab.page.keyboard.press("Enter")
     tab.wait_for_command(AddPanel("Nav2"))
+    assert len(viewer.states[-1].panels) == 2
 
 
 def test_a_button_that_fails_says_so_in_the_browser(
-    loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
+    viewer_tab: ViewerTab, caplog: pytest.LogCaptureFixture
 ) -> None:
-    loop.show()
-    open_panel(loop, tab, Frames)
+    tab = viewer_tab
+    open_panel(tab, make(Frames, {}))
     tab.button("Break").click()
     sentence = "The panel Frames failed: ZeroDivisionError: division by zero"
     tab.wait_for(lambda: sentence in tab.text())
-    assert [record.message for record in caplog.records] == [sentence]
+    assert logged(caplog) == [sentence]
 
 
 def test_a_panel_that_fails_says_so_in_its_tab_and_harms_no_other(
-    loop: Loop, tab: Tab, caplog: pytest.LogCaptureFixture
+    page_server: PageServer, viewer_tab: ViewerTab, caplog: pytest.LogCaptureFixture
 ) -> None:
-    with caplog.at_level(logging.WARNING):
-        loop.show(panels=shown(Moody, Unbuilt))
+    tab = viewer_tab
+    viewer = page_server.begin(strict=False)
+    caplog.clear()  # it began with a panel of each type
+    viewer.show(panels=[make(Moody, {}), make(Unbuilt, {})])
     unbuilt, moody = (
         "The panel Unbuilt failed: SystemExit: not today",
-        "The panel Moody failed: ValueError: no frames, sorry",
+        "The panel Moody failed: ValueError: no arm, sorry",
     )
-    tab.wait_for(lambda: "Unbuilt" in tabs(tab))
+    tab.wait_for(lambda: "Unbuilt" in titles(tab))
     tab.show_tab("Unbuilt")
     tab.wait_for(lambda: unbuilt in tab.text())
     tab.show_tab("Moody")
     tab.wait_for(lambda: moody in tab.text())
-    assert [r.message.partition("\n")[0] for r in caplog.records] == [unbuilt, moody]
+    assert logged(caplog) == [unbuilt, moody]
     note, half, other = (
         tab.page.get_by_text(text, exact=True).bounding_box() or {}
         for text in (moody, "Half", "Other half")
     )
     assert note["y"] < half["y"] == other["y"], "the sentence is on top, the rest as it was"
-    loop.show(frames=("map",))
+    viewer.link("map", "arm")
     tab.wait_for(lambda: moody not in tab.text())
 
 
-def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> None:
+def test_a_button_that_takes_long_holds_up_nobody_else(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
     Slow.go_on.clear()
     try:
-        loop.show(panels=shown(Slow, Frames))
-        tab.wait_for(lambda: "Slow" in tabs(tab))
+        viewer.show(panels=[make(Slow, {}), make(Frames, {})])
+        tab.wait_for(lambda: "Slow" in titles(tab))
         tab.show_tab("Slow")
         tab.wait_for(lambda: tab.button("Wait").count() > 0)
         for _ in range(MAX_WAITING + 2):
             tab.button("Wait").click()
-        tab.wait_for(lambda: "Not done: the panel Slow is busy." in tab.text())
+        tab.wait_for(lambda: "Failed: the panel Slow is busy." in tab.text())
         tab.show_tab("Frames")
         tab.wait_for(lambda: tab.button("Forget all").count() > 0)
         tab.button("Forget all").click()
@@ -322,22 +340,24 @@ def test_a_button_that_takes_long_holds_up_nobody_else(loop: Loop, tab: Tab) -> 
         Slow.go_on.set()
 
 
-def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(loop: Loop, tab: Tab) -> None:
-    loop.show()
-    open_panel(loop, tab, Frames)
+def test_a_command_of_a_panel_has_a_key_and_stands_in_the_list(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
+    open_panel(tab, make(Frames, {}))
     tab.wait_for(lambda: "Forget all" in tab.text())
     tab.page.keyboard.press("Control+k")
     tab.page.get_by_role("dialog").get_by_text("Forget frames").click()
     tab.wait_for_command(Reset())
-    loop.commands.clear()
+    viewer.forget_commands()
     tab.page.keyboard.press("j")
     tab.wait_for_command(Reset())
 
 
-def test_what_is_shown_already_is_not_sent_again(loop: Loop, tab: Tab) -> None:
-    loop.show(frames=("map",))
-    open_panel(loop, tab, Frames)
-    tab.wait_for(lambda: tab.page.locator("td").count() == 2)
+def test_unchanged_widgets_are_not_sent_again(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    open_panel(tab, make(Frames, {}))
+    tab.wait_for(lambda: tab.page.locator("td").count() == 4)
     tab.page.evaluate(
         "window.changes = 0; new MutationObserver(() => { changes += 1 }).observe("
         "document.querySelector('.wv-plugin'), {subtree: true, childList: true, attributes: true})"
@@ -347,21 +367,27 @@ def test_what_is_shown_already_is_not_sent_again(loop: Loop, tab: Tab) -> None:
     assert tab.page.evaluate("changes") == 0
 
 
-def test_the_example_of_the_docs_works_from_its_file(loop: Loop, tab: Tab) -> None:
+def test_the_example_of_the_docs_works_from_its_file(
+    viewer: PageBench, viewer_tab: ViewerTab
+) -> None:
+    tab = viewer_tab
     types = load(EXAMPLE)
+    displays = [LaserScan(name=name, topic=Topic(name)) for name in ("/scan", "/busy")]
     try:
-        quiet = {"/scan": Traffic(0.0, 0.0), "/map": Traffic(2.0, 10.0)}
-        loop.show(traffic=quiet, panels=shown(types["QuietTopics"]))
-        tab.wait_for(lambda: "Quiet topics" in tabs(tab))
+        viewer.offer("/scan", "sensor_msgs/msg/LaserScan", "/driver")
+        viewer.show(*displays, panels=[make(types["QuietTopics"], {})])
+        viewer.stream_scans("/busy", 10.0)
+        tab.wait_for(lambda: "Quiet topics" in titles(tab))
         tab.show_tab("Quiet topics")
-        tab.wait_for(lambda: "no messages" in tab.text())
-        assert "/scan" in tab.text()
-        assert "/map" not in tab.text()
-        tab.button("Look into none").click()
+        side = tab.page.locator(".wv-plugin")
+        tab.wait_for(lambda: "/scan\tno messages" in side.inner_text())
+        assert "/busy" not in side.inner_text()
+        tab.button("Stop inspecting topics").click()
         tab.wait_for_command(InspectTopic(""))
         again = load(EXAMPLE)  # after a save: the same tab, of the new class
-        loop.show(traffic={}, panels=shown(again["QuietTopics"]))
-        tab.wait_for(lambda: "has messages" in tab.text())
+        viewer.show(panels=[make(again["QuietTopics"], {})])
+        tab.wait_for(lambda: "/scan" not in side.inner_text())
+        assert "/tf_static\tno messages" in side.inner_text()
     finally:
         registry.register(str(EXAMPLE), {})
 

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
-from tests.page.properties_pane import MOUNT, Pane
+from tests.page.everything import Everything, named
+from tests.page.page_bench import SCAN, PageBench
+from tests.page.properties_pane import MOUNT, PropertiesPane
+from tests.page.tabs import ViewerTab
 from tests.page.trees import Tree
-from webviz.api.declared import make
+from webviz.api.declared import Topic, make
 from webviz.api.registry import display_types
 from webviz.api.status import Level, Remedy, Status
 from webviz.commands import SetBackground, SetFixedFrame, SetFrameRate
 from webviz.engine.forms import values_of
 from webviz.engine.parts.display_properties import IN_THE_TREE
-from webviz.engine.state import Row, Traffic
-from webviz.files.config import Settings
-from webviz.sources import Offer, Publisher
+from webviz.shell.testing.messages import header
 from webviz_displays.markers import MarkerArray
 from webviz_displays.point_cloud2 import PointCloud2
 from webviz_displays.tf import TF
@@ -33,25 +33,37 @@ BROKEN = """(labels) => labels.flatMap((label) => {
     return range.getClientRects().length > 1;
   }).map(([word]) => word);
 })"""
-MakeRow = Callable[..., Row]
 
 
 @pytest.fixture
-def pane(tab: Tab, make_row: MakeRow) -> Iterator[Pane]:
-    tab.loop.show(make_row("a"))
+def pane(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[PropertiesPane]:
+    viewer.show(*named("a"))
+    yield from mounted(viewer_tab)
+
+
+def mounted(tab: ViewerTab) -> Iterator[PropertiesPane]:
+    """The properties of the display that is shown."""
     tab.page.evaluate("localStorage.clear()")
-    pane = Pane(tab).mount()
-    yield pane
+    yield PropertiesPane(tab).mount()
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 
 
-def test_switches_of_hundreds_of_frames_are_searched_and_set_together(pane: Pane) -> None:
-    frames = (*(f"arm/link_{i:03}" for i in range(300)), "<img src=x onerror=alert(1)>")
-    tf = TF(name="a", frames={"gone": False})
-    pane.tab.loop.show(Row("a", "TF", tf, "a", {}), frames=frames)
+@pytest.fixture
+def pane_of_frames(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[PropertiesPane]:
+    """The properties of a TF display with 303 frames."""
+    links = [f"arm/link_{i:03}" for i in range(300)]
+    viewer.link("map", *links, "<img src=x onerror=alert(1)>")
+    viewer.show(TF(name="a", frames={"gone": False}))
+    yield from mounted(viewer_tab)
+
+
+def test_switches_of_hundreds_of_frames_are_searched_and_set_together(
+    pane_of_frames: PropertiesPane,
+) -> None:
+    pane = pane_of_frames
     row = pane.row("frames")
     options = row.get_by_role("option")
-    pane.tab.wait_for(lambda: row.get_by_placeholder("Filter 302 frames").count() == 1)
+    pane.tab.wait_for(lambda: row.get_by_placeholder("Filter 304 frames").count() == 1)
     assert options.count() < 30
     row.get_by_role("searchbox").fill("link_29")
     playwright.expect(options).to_have_count(10)
@@ -70,18 +82,42 @@ def test_switches_of_hundreds_of_frames_are_searched_and_set_together(pane: Pane
     pane.wait_for_set("frames", {"gone": False, "arm/link_293": True})
 
 
-def test_switches_by_names_of_the_display_tell_how_many_things_have_each(pane: Pane) -> None:
-    markers = MarkerArray(name="a", namespaces={"gone": False})
-    offered = {"namespaces": {"lanes": 12, "<b>cones</b>": 3, "": 1}}
-    pane.tab.loop.show(Row("a", "MarkerArray", markers, "a", {}, offered=offered))
+@pytest.fixture
+def pane_of_markers(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[PropertiesPane]:
+    """The properties of a MarkerArray display with 16 markers."""
+    viewer.show(MarkerArray(name="a", namespaces={"gone": False}))
+    names = ["lanes"] * 12 + ["<b>cones</b>"] * 3 + [""]
+    markers = [
+        {
+            "header": header("map", viewer.source.now),
+            "ns": name,
+            "id": number,
+            "type": 2,
+            "scale": {"x": 1.0, "y": 1.0, "z": 1.0},
+            "color": {"a": 1.0},
+            "pose": {"orientation": {"w": 1.0}},
+        }
+        for number, name in enumerate(names)
+    ]
+    topic = viewer.display_named("a").topic.name
+    viewer.publish(topic, "visualization_msgs/msg/MarkerArray", {"markers": markers})
+    viewer.turn()
+    yield from mounted(viewer_tab)
+
+
+def test_switches_by_names_of_the_display_tell_how_many_things_have_each(
+    pane_of_markers: PropertiesPane,
+) -> None:
+    pane = pane_of_markers
     row = pane.row("namespaces")
     options = row.get_by_role("option")
+    pane.tab.wait_for(lambda: options.count() == 4)
     playwright.expect(options).to_have_text(["(no name)1", "<b>cones</b>3", "gone", "lanes12"])
     options.nth(3).click()
     pane.wait_for_set("namespaces", {"gone": False, "lanes": False})
 
 
-def test_each_kind_of_property_has_its_control(pane: Pane) -> None:
+def test_each_kind_of_property_has_its_control(pane: PropertiesPane) -> None:
     pane.field("topic.name").fill("/front")
     pane.keyboard.press("Enter")
     pane.wait_for_set("topic.name", "/front")
@@ -111,7 +147,7 @@ def test_each_kind_of_property_has_its_control(pane: Pane) -> None:
     pane.wait_for_set("alpha", 0.99)
 
 
-def test_what_the_viewer_has_is_shown(pane: Pane, make_row: MakeRow) -> None:
+def test_what_the_viewer_has_is_shown(pane: PropertiesPane) -> None:
     values: dict[str, Any] = {
         "frame": "odom",
         "size": 0.125,
@@ -121,7 +157,7 @@ def test_what_the_viewer_has_is_shown(pane: Pane, make_row: MakeRow) -> None:
         "prefixes": ["a", "b"],
         "shown": {"base_link": False},
     }
-    pane.tab.loop.show(make_row("a", **values))
+    pane.change(**values)
     pane.wait_for_value("size", "0.125")
     assert pane.field("frame").input_value() == "odom"
     assert pane.field("style").input_value() == "Boxes"
@@ -133,7 +169,7 @@ def test_what_the_viewer_has_is_shown(pane: Pane, make_row: MakeRow) -> None:
     assert pane.field("shown").input_value() == "base_link: false"
 
 
-def test_what_differs_from_the_default_is_marked_and_can_be_reset(pane: Pane) -> None:
+def test_what_differs_from_the_default_is_marked_and_can_be_reset(pane: PropertiesPane) -> None:
     reset = pane.row("count").get_by_role("button", name="Reset Count")
     assert not reset.is_visible()
     pane.enter("count", "7")
@@ -145,14 +181,14 @@ def test_what_differs_from_the_default_is_marked_and_can_be_reset(pane: Pane) ->
     pane.tab.wait_for(lambda: not reset.is_visible())
 
 
-def test_what_does_not_apply_is_hidden(pane: Pane) -> None:
+def test_what_does_not_apply_is_hidden(pane: PropertiesPane) -> None:
     assert "Edge" not in pane.labels()
     pane.field("style").fill("Boxes")
     pane.field("style").press("Enter")
     pane.tab.wait_for(lambda: "Edge" in pane.labels())
 
 
-def test_units_ranges_and_help_can_be_read(pane: Pane) -> None:
+def test_units_ranges_and_help_can_be_read(pane: PropertiesPane) -> None:
     assert pane.row("size").locator(".wv-number-unit").inner_text() == "m"
     assert pane.field("size").get_attribute("title") == (
         "Edge of each point.\nRange: > 0 m.\nDefault: 0.01 m."
@@ -160,7 +196,7 @@ def test_units_ranges_and_help_can_be_read(pane: Pane) -> None:
     assert "Range: 0 to 1." in (pane.field("alpha").get_attribute("title") or "")
 
 
-def test_what_is_refused_says_why_below_the_field_and_stays(pane: Pane) -> None:
+def test_what_is_refused_says_why_below_the_field_and_stays(pane: PropertiesPane) -> None:
     pane.enter("size", "-1")
     refusal = pane.row("size").get_by_role("alert")
     pane.tab.wait_for(refusal.is_visible)
@@ -182,16 +218,18 @@ def test_what_is_refused_says_why_below_the_field_and_stays(pane: Pane) -> None:
         ("shown", "base_link: yes", "is not valid"),
     ],
 )
-def test_what_means_nothing_is_not_sent(pane: Pane, path: str, text: str, reason: str) -> None:
+def test_what_means_nothing_is_not_sent(
+    pane: PropertiesPane, path: str, text: str, reason: str
+) -> None:
     field = pane.row(path).locator("input:not([type=color]), textarea").first
     field.fill(text)
     field.blur()
     assert reason in pane.row(path).get_by_role("alert").inner_text()
     pane.tab.turn()
-    assert pane.tab.loop.commands == []
+    assert pane.viewer.commands == []
 
 
-def test_a_text_without_end_is_refused(pane: Pane) -> None:
+def test_a_text_without_end_is_refused(pane: PropertiesPane) -> None:
     pane.field("channel").evaluate("(field) => { field.value = 'x'.repeat(1_000_000) }")
     pane.field("channel").press("End")
     pane.keyboard.type("x")
@@ -201,12 +239,12 @@ def test_a_text_without_end_is_refused(pane: Pane) -> None:
     assert pane.field("channel").input_value() == "intensity"
 
 
-def test_a_number_can_be_typed_with_its_unit(pane: Pane) -> None:
+def test_a_number_can_be_typed_with_its_unit(pane: PropertiesPane) -> None:
     pane.enter("size", "5 cm")
     pane.wait_for_set("size", 0.05)
 
 
-def test_numbers_go_by_steps_that_suit_their_size(pane: Pane) -> None:
+def test_numbers_go_by_steps_that_suit_their_size(pane: PropertiesPane) -> None:
     pane.field("size").click()
     pane.keyboard.press("ArrowUp")
     pane.wait_for_set("size", 0.011)
@@ -218,7 +256,7 @@ def test_numbers_go_by_steps_that_suit_their_size(pane: Pane) -> None:
     pane.wait_for_set("count", 1)  # not below its bound
 
 
-def test_a_number_can_be_dragged_sideways(pane: Pane) -> None:
+def test_a_number_can_be_dragged_sideways(pane: PropertiesPane) -> None:
     box = pane.field("count").bounding_box()
     assert box
     mouse = pane.page.mouse
@@ -233,7 +271,7 @@ def test_a_number_can_be_dragged_sideways(pane: Pane) -> None:
     pane.wait_for_value("count", "1")
 
 
-def test_a_number_can_be_dragged_by_its_label_and_coarser_and_finer(pane: Pane) -> None:
+def test_a_number_can_be_dragged_by_its_label_and_coarser_and_finer(pane: PropertiesPane) -> None:
     label = pane.row("count").locator(".wv-property-label")
     box = label.bounding_box()
     assert box
@@ -265,7 +303,7 @@ def test_a_number_can_be_dragged_by_its_label_and_coarser_and_finer(pane: Pane) 
     mouse.up()
 
 
-def test_a_slider_sends_while_it_is_dragged(pane: Pane) -> None:
+def test_a_slider_sends_while_it_is_dragged(pane: PropertiesPane) -> None:
     box = pane.field("alpha").bounding_box()
     assert box
     mouse = pane.page.mouse
@@ -279,7 +317,7 @@ def test_a_slider_sends_while_it_is_dragged(pane: Pane) -> None:
     pane.tab.wait_for(lambda: number.input_value() == "0")
 
 
-def test_a_colour_is_picked_or_typed_as_rviz_writes_it(pane: Pane) -> None:
+def test_a_colour_is_picked_or_typed_as_rviz_writes_it(pane: PropertiesPane) -> None:
     pane.field("color").fill("#0080ff")
     pane.wait_for_set("color", [0, 128, 255])
     text = pane.row("color").locator("[type=text]")
@@ -288,25 +326,23 @@ def test_a_colour_is_picked_or_typed_as_rviz_writes_it(pane: Pane) -> None:
     pane.wait_for_set("color", [1, 2, 3])
 
 
-def test_what_comes_from_elsewhere_waits_while_somebody_types(
-    pane: Pane, make_row: MakeRow
-) -> None:
+def test_what_comes_from_elsewhere_waits_while_somebody_types(pane: PropertiesPane) -> None:
     pane.field("channel").fill("half")
-    pane.tab.loop.show(make_row("a", channel="other", count=9))
+    pane.change(channel="other", count=9)
     pane.wait_for_value("count", "9")
     assert pane.field("channel").input_value() == "half"
     pane.keyboard.press("Escape")
     pane.wait_for_value("channel", "other")
 
 
-def test_a_field_ends_with_what_the_viewer_made_of_it(pane: Pane, make_row: MakeRow) -> None:
+def test_a_field_ends_with_what_the_viewer_made_of_it(pane: PropertiesPane) -> None:
     pane.enter("count", "5")
     pane.wait_for_set("count", 5)
-    pane.tab.loop.show(make_row("a", count=6))
+    pane.change(count=6)
     pane.wait_for_value("count", "6")
 
 
-def test_sections_fold_and_this_browser_remembers_it(pane: Pane) -> None:
+def test_sections_fold_and_this_browser_remembers_it(pane: PropertiesPane) -> None:
     assert "Length" in pane.labels()
     pane.element.get_by_role("button", name="Arrow", exact=True).click()
     assert "Length" not in pane.labels()
@@ -316,23 +352,22 @@ def test_sections_fold_and_this_browser_remembers_it(pane: Pane) -> None:
     assert "Length" not in pane.labels()
 
 
-def offered(*nodes: str, problem: str = "") -> Offer:
-    type_ = "sensor_msgs/msg/LaserScan"
-    publishers = tuple(Publisher(node, type_, "best_effort", "volatile") for node in nodes)
-    return Offer(publishers, ("best_effort", "volatile"), problem)
+@pytest.fixture
+def pane_with_topics(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[PropertiesPane]:
+    """The properties of a display, while four topics are live."""
+    viewer.offer("/scans", SCAN, "/driver")
+    viewer.offer("/rear", SCAN, "/driver", "/bag")
+    viewer.offer("/bad", SCAN, "/x", problem="The types differ.")
+    viewer.offer("/plan", "nav_msgs/msg/Path", "/nav")
+    viewer.show(Everything(name="a", topic=Topic("/scans")))
+    viewer.stream_scans("/scans", 40.0)
+    yield from mounted(viewer_tab)
 
 
-def test_the_topics_of_the_type_are_offered_with_what_is_known_of_them(pane: Pane) -> None:
-    other = Offer((Publisher("/nav", "nav_msgs/msg/Path", "reliable", "volatile"),))
-    offers = {
-        "/scan": offered("/driver"),
-        "/rear": offered("/driver", "/bag"),
-        "/bad": offered("/x", problem="The types differ."),
-        "/plan": other,
-    }
-    pane.tab.loop.show(
-        *pane.tab.loop.state.rows, offers=offers, traffic={"/scan": Traffic(39.84, 1e5)}
-    )
+def test_the_topics_of_the_type_are_offered_with_what_is_known_of_them(
+    pane_with_topics: PropertiesPane,
+) -> None:
+    pane = pane_with_topics
     pane.tab.wait_for(lambda: "40 Hz" in pane.text())
     assert "auto (best effort)" in pane.text()
     pane.field("topic.name").click()
@@ -341,13 +376,13 @@ def test_the_topics_of_the_type_are_offered_with_what_is_known_of_them(pane: Pan
     assert options.all_inner_texts() == [
         "/bad\nThe types differ.",
         "/rear\n2 publishers",
-        "/scan\n40 Hz · 1 publisher · shown by a",
+        "/scans\n40 Hz · 1 publisher · shown by a",
     ]
     options.nth(1).click()
     pane.wait_for_set("topic.name", "/rear")
 
 
-def test_the_qos_is_folded_under_one_line(pane: Pane) -> None:
+def test_the_qos_is_folded_under_one_line(pane: PropertiesPane) -> None:
     assert "Reliability" not in pane.labels()
     pane.element.get_by_role("button", name="QoS").click()
     pane.field("topic.reliability").fill("reliable")
@@ -358,8 +393,7 @@ def test_the_qos_is_folded_under_one_line(pane: Pane) -> None:
     pane.tab.wait_for(lambda: "reliable, depth 20" in pane.text())
 
 
-def test_frames_are_offered(pane: Pane) -> None:
-    pane.tab.loop.show(*pane.tab.loop.state.rows, frames=("base_link", "map"))
+def test_frames_are_offered(pane: PropertiesPane) -> None:
     pane.field("frame").click()
     options = pane.row("frame").get_by_role("option")
     pane.tab.wait_for(lambda: options.all_inner_texts() == ["<Fixed Frame>", "base_link", "map"])
@@ -367,30 +401,30 @@ def test_frames_are_offered(pane: Pane) -> None:
     pane.wait_for_set("frame", "map")
 
 
-def test_statuses_are_folded_while_all_is_well(pane: Pane, make_row: MakeRow) -> None:
+def test_statuses_are_folded_while_all_is_well(pane: PropertiesPane) -> None:
     well = {"Topic": Status(Level.OK, "5 messages"), "Transform": Status(Level.OK, "fine")}
-    pane.tab.loop.show(make_row("a", statuses=well))
+    pane.viewer.report(a=well)
     pane.tab.wait_for(lambda: "OK" in pane.text())
     assert "5 messages" not in pane.text()
     pane.element.get_by_role("button", name="Status").click()
     pane.tab.wait_for(lambda: "Topic: 5 messages" in pane.text())
     pane.element.get_by_role("button", name="Status").click()
     bad = {**well, "Message": Status(Level.ERROR, "<b>It</b> is broken.")}
-    pane.tab.loop.show(make_row("a", statuses=bad))
+    pane.viewer.report(a=bad)
     pane.tab.wait_for(lambda: "Message: <b>It</b> is broken." in pane.text())
 
 
-def test_a_status_offers_what_a_click_can_do_about_it(pane: Pane, make_row: MakeRow) -> None:
+def test_a_status_offers_what_a_click_can_do_about_it(pane: PropertiesPane) -> None:
     remedy = Remedy("topic.name", "/front/scan")
     status = Status(Level.WARN, "No publisher on /scan.", remedy)
-    pane.tab.loop.show(make_row("a", statuses={"Topic": status}))
+    pane.viewer.report(a={"Topic": status})
     link = pane.element.get_by_role("button", name="Use it")
     pane.tab.wait_for(link.is_visible)
     link.click()
     pane.wait_for_set("topic.name", "/front/scan")
 
 
-def test_nothing_on_the_page_changes_while_nothing_changes(pane: Pane) -> None:
+def test_nothing_on_the_page_changes_while_nothing_changes(pane: PropertiesPane) -> None:
     pane.page.evaluate("""() => {
       window.changes = 0;
       const observer = new MutationObserver((records) => { changes += records.length });
@@ -403,11 +437,11 @@ def test_nothing_on_the_page_changes_while_nothing_changes(pane: Pane) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(display_types()))
-def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> None:
-    display = make(display_types()[name], {})
-    tab.loop.show(Row("b", name, display, name, {}))
+def test_every_property_of_every_display_has_a_control(viewer_tab: ViewerTab, name: str) -> None:
+    tab, display = viewer_tab, make(display_types()[name], {"name": "b"})
+    tab.viewer.show(display)
     tab.page.evaluate("localStorage.clear()")
-    tab.page.evaluate(MOUNT, "b")
+    tab.page.evaluate(MOUNT, tab.viewer.id("b"))
     values = values_of(display, IN_THE_TREE)
     rows = tab.page.locator("#bench .wv-property")
     tab.wait_for(lambda: rows.count() == len(values))
@@ -417,11 +451,12 @@ def test_every_property_of_every_display_has_a_control(tab: Tab, name: str) -> N
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 
 
-def test_untrusted_names_are_text(pane: Pane, make_row: MakeRow) -> None:
+def test_untrusted_names_are_text(pane: PropertiesPane) -> None:
     name = "<img src=x onerror=alert(1)>\u202e" + "x" * 10_000
     status = Status(Level.ERROR, name)
-    row = make_row("a", channel=name, frame=name, shown={name: True}, statuses={name: status})
-    pane.tab.loop.show(row, offers={name: offered("/x")})
+    pane.viewer.report(a={name: status})
+    pane.viewer.offer(name, SCAN, "/x")
+    pane.change(channel=name, frame=name, shown={name: True})
     pane.wait_for_value("channel", name)
     pane.field("topic.name").click()
     pane.tab.wait_for(lambda: pane.row("topic.name").get_by_role("option").count() == 1)
@@ -429,26 +464,29 @@ def test_untrusted_names_are_text(pane: Pane, make_row: MakeRow) -> None:
 
 
 @pytest.fixture
-def options(tab: Tab) -> Iterator[Pane]:
+def options(viewer_tab: ViewerTab) -> Iterator[PropertiesPane]:
+    tab = viewer_tab
     tab.page.evaluate("localStorage.clear()")
     tab.page.evaluate(MOUNT, "")
-    pane = Pane(tab)
+    pane = PropertiesPane(tab)
     tab.wait_for(lambda: pane.labels() == ["Fixed Frame", "Background", "Frame Rate", "Robots"])
     yield pane
     tab.page.evaluate("ended(); document.querySelector('#bench').remove()")
 
 
-def test_what_holds_for_the_whole_viewer_is_edited(options: Pane) -> None:
-    options.tab.loop.show(frames=("map", "odom"))
+def test_what_holds_for_the_whole_viewer_is_edited(options: PropertiesPane) -> None:
+    viewer = options.viewer
+    viewer.link("map", "odom")
     options.field("fixed_frame").click()
     odom = options.page.get_by_role("option", name="odom")
     options.tab.wait_for(odom.is_visible)
-    assert options.row("fixed_frame").get_by_role("option").count() == 2
+    assert options.row("fixed_frame").get_by_role("option").count() == 3
     odom.click()
     options.tab.wait_for_command(SetFixedFrame("odom"))
+    assert viewer.settings.fixed_frame == "odom"
     options.field("background").fill("#0a0b0c")
     options.tab.wait_for_command(SetBackground((10, 11, 12)))
-    options.tab.loop.show(settings=Settings(background=(10, 11, 12)))
+    assert viewer.settings.background == (10, 11, 12)
     text = options.row("background").get_by_role("textbox", name="Background, as text")
     playwright.expect(text).to_have_value("10, 11, 12")
     text.fill("")
@@ -459,18 +497,21 @@ def test_what_holds_for_the_whole_viewer_is_edited(options: Pane) -> None:
     rate.fill("30 Hz")
     rate.press("Enter")
     options.tab.wait_for_command(SetFrameRate(30.0))
+    assert (viewer.settings.background, viewer.settings.frame_rate) == (None, 30.0)
 
 
-def test_what_is_wrong_with_the_viewer_is_said_above(options: Pane) -> None:
-    bad = {"Fixed Frame": Status(Level.ERROR, "There is no frame <b>map</b>.")}
-    options.tab.loop.show(statuses=bad, settings=Settings(fixed_frame="odom"))
-    options.tab.wait_for(lambda: "Fixed Frame: There is no frame <b>map</b>." in options.text())
-    assert options.field("fixed_frame").input_value() == "odom"
+def test_what_is_wrong_with_the_viewer_is_said_above(options: PropertiesPane) -> None:
+    options.viewer.do(SetFixedFrame("<b>earth</b>"))
+    options.tab.wait_for(
+        lambda: 'Fixed Frame: Fixed frame "<b>earth</b>" does not exist.' in options.text()
+    )
+    assert options.field("fixed_frame").input_value() == "<b>earth</b>"
     assert options.row("fixed_frame").get_attribute("data-changed") is not None
 
 
-def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(tab: Tab) -> None:
-    tab.loop.show(Row("a", "PointCloud2", PointCloud2(name="a"), "a", {}))
+def test_words_of_labels_stay_whole_in_a_panel_of_320_pixels(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
+    tab.viewer.show(PointCloud2(name="a"))
     tree = Tree(tab)
     tree.click("a")
     labels = tab.page.locator(".wv-property-label:visible")

@@ -49,10 +49,10 @@ def test_the_name_comes_first_and_the_rest_as_declared() -> None:
 def test_labels_are_rviz_names_with_the_unit_beside_them() -> None:
     assert PROPERTIES["size"].label == "Size (m)"
     assert PROPERTIES["marker.value"].label == "Marker"
-    told = declared()
-    assert told["invert_rainbow"]["label"] == "Invert Rainbow"
-    assert (told["size"]["label"], told["size"]["unit"]) == ("Size", "m")
-    assert told["marker"]["children"][2]["label"] == "Edge"
+    declarations = declared()
+    assert declarations["invert_rainbow"]["label"] == "Invert Rainbow"
+    assert (declarations["size"]["label"], declarations["size"]["unit"]) == ("Size", "m")
+    assert declarations["marker"]["children"][2]["label"] == "Edge"
 
 
 def test_each_kind_is_named() -> None:
@@ -77,14 +77,14 @@ def test_each_kind_is_named() -> None:
 
 
 def test_choices_bounds_help_defaults_and_types_are_told() -> None:
-    told = declared()
-    assert told["color_by"]["choices"] == ["Intensity", "Axis", "Flat"]
-    assert told["size"]["above"] == 0
-    assert (told["count"]["low"], told["count"]["high"]) == (0, 9)
-    assert told["invert_rainbow"]["help"] == "Turn it round."
-    assert told["topic"]["type"] == "sensor_msgs/msg/Imu"
-    assert told["topic"]["children"][0]["default"] == "/imu"
-    assert (told["prefixes"]["items"], told["shown"]["items"]) == ("text", "json")
+    declarations = declared()
+    assert declarations["color_by"]["choices"] == ["Intensity", "Axis", "Flat"]
+    assert declarations["size"]["above"] == 0
+    assert (declarations["count"]["low"], declarations["count"]["high"]) == (0, 9)
+    assert declarations["invert_rainbow"]["help"] == "Turn it round."
+    assert declarations["topic"]["type"] == "sensor_msgs/msg/Imu"
+    assert declarations["topic"]["children"][0]["default"] == "/imu"
+    assert (declarations["prefixes"]["items"], declarations["shown"]["items"]) == ("text", "json")
 
 
 def test_conditions_are_told_with_those_of_what_they_name() -> None:

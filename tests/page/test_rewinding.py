@@ -3,151 +3,210 @@
 from __future__ import annotations
 
 import re
-import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from msgspec.structs import replace
+from bags import Bag
 from playwright.sync_api import expect
 
-from tests.page.conftest import Loop, Tab
-from webviz.api.status import Level
-from webviz.commands import OpenRecording, ReturnToLive, Seek
-from webviz.engine.state import ClockRate, PanelTimes
-from webviz.features.black_box.saved import BlackBoxState, SavedMoment
-from webviz.features.recording import MemoryState, RecordingState
-from webviz.sources.past_state import Event, PlaybackState
+from tests.page.everything import Everything
+from tests.page.page_bench import SCAN, PageBench, PageServer
+from tests.page.tabs import ViewerTab
+from webviz.api.declared import Topic
+from webviz.commands import (
+    OpenRecording,
+    Pause,
+    ReturnToLive,
+    SaveMemory,
+    Seek,
+    StartRecording,
+    StopRecording,
+)
+from webviz.files.config.model import MemorySettings
+from webviz.files.config.watch import WatchRule
+from webviz.panels.log import LOG
 
-SHORT = MemoryState(60.0, 0)
-BEGAN_S = 100
-"""Time in seconds before now."""
+REMEMBERED_S = 55.0
+"""Seconds that the memory reaches back."""
+SAVE = re.compile(r"Save (last|all) \d+ s")
+WATCH = [WatchRule(display="Scan", status="error")]
+SAVED = "2026-11-23_05-12-47_Scan_error"
+"""Name of the recording of a rule."""
 
 
-def show(loop: Loop, ago_s: float | None, memory: MemoryState = SHORT) -> None:
-    """Show live topics, or what was some seconds ago."""
-    wall_s = time.time()
-    recording = PlaybackState(
-        names=(),
-        start_ns=round((wall_s - BEGAN_S) * 1e9),
-        end_ns=round(wall_s * 1e9),
-        position_s=BEGAN_S - (ago_s or 0),
-        rate=1.0,
-        is_playing=False,
-        is_seeking=False,
-        loop=False,
-        selected=None,
-        first_s=BEGAN_S - memory.seconds,
-        is_live=ago_s is None,
-    )
-    loop.show(playback=recording, memory=memory, clock=PanelTimes(wall_s=wall_s))
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder in which the viewer is started, with a recording of a rule."""
+    monkeypatch.chdir(tmp_path)
+    bag = Bag()
+    bag.add("/front", SCAN)
+    for at_s in range(10):
+        bag.put(at_s, "/front", {})
+    bag.write(tmp_path / "webviz_black_box" / SAVED)
+    return tmp_path
 
 
 @pytest.fixture
-def live(loop: Loop, tab: Tab) -> Tab:
-    show(loop, None)
-    tab.wait_for(lambda: tab.page.locator(".wv-track").count() == 1)
-    return tab
+def viewer(folder: Path, page_server: PageServer, viewer: PageBench) -> Iterator[PageBench]:
+    """A viewer that remembers live topics."""
+    viewer = remembering(page_server)
+    viewer.show(watch=WATCH)
+    yield viewer
+    page_server.begin(memory=MemorySettings(seconds=0.0))
 
 
-def test_the_past_cannot_be_overlooked_and_a_key_leads_back(loop: Loop, live: Tab) -> None:
+@pytest.fixture
+def live(viewer: PageBench, viewer_tab: ViewerTab) -> ViewerTab:
+    viewer_tab.wait_for(lambda: viewer_tab.page.locator(".wv-track").count() == 1)
+    return viewer_tab
+
+
+def remembering(page_server: PageServer, memory: MemorySettings | None = None) -> PageBench:
+    """Start a viewer that has received transforms for a while."""
+    viewer = page_server.begin(ago_s=REMEMBERED_S, memory=memory)
+    for ago_s in range(50, 0, -5):
+        viewer.link("map", f"wheel{ago_s}", ago_s=ago_s)
+    return viewer
+
+
+def look_back(viewer: PageBench, ago_s: float) -> None:
+    """Show what was some seconds ago."""
+    playback = viewer.playback
+    viewer.do(Seek((playback.end_ns - playback.start_ns) / 1e9 - ago_s))
+
+
+def ago(viewer: PageBench) -> float:
+    """Seconds between the newest message and what is shown."""
+    playback = viewer.playback
+    return (playback.end_ns - playback.start_ns) / 1e9 - playback.position_s
+
+
+def test_the_past_cannot_be_overlooked_and_a_key_leads_back(
+    viewer: PageBench, live: ViewerTab
+) -> None:
     banner = live.page.locator(".wv-rewound-banner")
     expect(banner).to_be_hidden()
-    show(loop, 12.4)
+    look_back(viewer, 12.4)
     expect(banner).to_contain_text("s ago · not live · press L to return")
     assert 11 < float(banner.inner_text().split()[0]) < 30
     expect(live.page.get_by_role("button", name="Live (L)")).to_be_visible()
     assert re.fullmatch(r"\d+ s ago · (\* )?(.* · )?webviz", live.page.title())
     live.page.keyboard.press("l")
-    live.wait_for(lambda: loop.commands == [ReturnToLive()])
-    show(loop, None)
+    live.wait_for_command(ReturnToLive())
+    live.wait_for(lambda: viewer.playback.is_live)
     expect(banner).to_be_hidden()
     live.wait_for(lambda: re.fullmatch(r"(\* )?(.* · )?webviz", live.page.title()))
 
 
-def test_a_drag_leads_into_the_past_and_back_to_now(loop: Loop, live: Tab) -> None:
+def test_a_drag_leads_into_the_past_and_back_to_now(viewer: PageBench, live: ViewerTab) -> None:
     box = live.page.locator(".wv-track").bounding_box()
     assert box
     middle, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 4
     live.page.mouse.move(middle, y)
     live.page.mouse.down()
-    live.wait_for(lambda: bool(loop.commands))
-    (seek,) = loop.commands
-    assert isinstance(seek, Seek)
-    assert seek.at_s == pytest.approx(BEGAN_S - 30, abs=10)
+    live.wait_for(lambda: viewer.playback.is_live is False)
+    assert ago(viewer) == pytest.approx(REMEMBERED_S / 2, abs=10)
     live.page.mouse.move(box["x"] + box["width"] - 9, y)
     live.page.mouse.up()
-    live.wait_for(lambda: loop.commands[-1] == ReturnToLive())
+    live.wait_for(lambda: viewer.commands[-1] == ReturnToLive())
+    live.wait_for(lambda: viewer.playback.is_live)
 
 
-def test_a_typed_number_is_seconds_ago(loop: Loop, live: Tab) -> None:
+def test_a_typed_number_is_seconds_ago(viewer: PageBench, live: ViewerTab) -> None:
     field = live.page.get_by_label("Go to time")
     expect(field).to_have_value("now")
     field.fill("20")
     field.press("Enter")
-    live.wait_for(lambda: bool(loop.commands))
-    (seek,) = loop.commands
-    assert isinstance(seek, Seek)
-    assert seek.at_s == pytest.approx(BEGAN_S - 20, abs=10)
+    live.wait_for(lambda: viewer.playback.is_live is False)
+    assert ago(viewer) == pytest.approx(20, abs=10)
 
 
-def test_a_paused_page_says_how_far_it_is_behind(loop: Loop, live: Tab) -> None:
+def test_a_paused_page_says_how_far_it_is_behind(viewer: PageBench, live: ViewerTab) -> None:
     field = live.page.get_by_label("Go to time")
     expect(field).to_have_value("now")
-    since = time.time() - 20.0
-    paused = ClockRate(round(since * 1e9), since, 0.0)
-    loop.show(clock=PanelTimes(wall_s=time.time(), is_paused=True, clock_rate=paused))
-    live.wait_for(lambda: re.fullmatch(r".[23]\d\.\d s", field.input_value()))
+    viewer.do(Pause(True))
+    live.wait_for(lambda: re.fullmatch(r".[2-9]\.\d\d? s", field.input_value()))
     expect(live.page.get_by_role("button", name="Live (L)")).to_be_hidden()
 
 
-def test_the_memory_says_what_it_holds(loop: Loop, live: Tab) -> None:
+def test_the_memory_says_what_it_holds(page_server: PageServer, live: ViewerTab) -> None:
+    viewer = remembering(page_server, MemorySettings(megabytes=3))
+    viewer.show(Everything(name="a", topic=Topic("/front")), memory=MemorySettings(megabytes=3))
+    viewer.offer("/front", SCAN, "/driver")
+    viewer.turn()
+    for ago_s, count in ((40.0, 60), (12.5, 330)):
+        for _ in range(count):
+            viewer.publish_past(ago_s, "/front", SCAN, {"ranges": [1.0] * 2500})
+        viewer.turn()
     memory = live.page.locator(".wv-memory")
-    show(loop, None, MemoryState(12.0, 256_000_000, is_full=True, pinned=("/map",)))
-    expect(memory).to_have_text("memory 12 s, 256 MB")
+    expect(memory).to_have_text(re.compile(r"memory 1[2-6] s, [23] MB"))
     expect(memory).to_have_attribute(
         "data-tip",
-        "Remembers the last 60 s of the displayed topics, up to 512 MB. Older messages are dropped "
+        "Remembers the last 60 s of the displayed topics, up to 3 MB. Older messages are dropped "
         "already: raise memory.megabytes. Older latched messages and last transforms are kept of "
-        "/map.",
+        "/tf_static.",
     )
 
 
-def test_the_last_error_is_reached_from_now(loop: Loop, live: Tab) -> None:
-    show(loop, None)
-    recording = loop.state.playback
-    assert recording is not None
-    at_ns = recording.start_ns + 92 * 10**9
-    loop.show(logged=(Event(at_ns, Level.ERROR, "amcl", "lost track"),))
+def test_the_last_error_is_reached_from_now(viewer: PageBench, live: ViewerTab) -> None:
+    viewer.offer("/rosout", LOG, "/amcl")
+    viewer.turn()
+    viewer.publish_past(8.0, "/rosout", LOG, {"level": 40, "name": "amcl", "msg": "lost track"})
+    viewer.turn()
     live.page.keyboard.press("Control+k")
     live.page.get_by_role("combobox", name="Command").fill("Previous warning")
     live.wait_for(lambda: live.page.get_by_role("option", name="Previous warning").count() == 1)
     live.page.keyboard.press("Enter")
-    live.wait_for(lambda: Seek(92.0) in loop.commands)
-    show(loop, None)
+    live.wait_for(lambda: viewer.playback.is_live is False)
+    assert 8.0 < ago(viewer) < 30.0
 
 
-def test_a_recording_of_a_rule_is_opened_and_left(loop: Loop, live: Tab) -> None:
-    path = Path("/home/robot/webviz_black_box/2026-11-23_05-12-47_Scan_error")
-    loop.show(black_box=BlackBoxState((SavedMoment(path, 12_300_000),)))
+def test_a_recording_of_a_rule_is_opened_and_left(
+    viewer: PageBench, live: ViewerTab, folder: Path
+) -> None:
     name = "2026-11-23 05:12:47 · Scan error"
-    live.button("Black box").click()
-    live.page.get_by_role("menuitem", name=f"{name} · 12.3 MB").click()
-    live.wait_for_command(OpenRecording(str(path)))
-    assert loop.state.playback is not None
-    opened = replace(loop.state.playback, names=(path.name,), is_live=None, is_opened=True)
-    loop.show(playback=opened)
+    item = live.page.get_by_role("menuitem", name=re.compile(rf"{name} · [\d.]+ MB"))
+
+    def is_listed() -> int:
+        """Return whether an opened menu has the recording, once the folder is read."""
+        live.page.keyboard.press("Escape")
+        live.button("Black box").click()
+        return item.count()
+
+    live.wait_for(live.button("Black box").is_visible)
+    live.wait_for(is_listed)
+    item.click()
+    live.wait_for_command(OpenRecording(str(folder / "webviz_black_box" / SAVED)))
     banner = live.page.locator(".wv-rewound-banner")
+    live.wait_for(lambda: "Recording " in banner.inner_text())
     expect(banner).to_have_text(f"Recording {name} · not live · press L to return")
     assert live.page.title().startswith("Recording · ")
+    assert viewer.playback.is_opened
     expect(live.button("Loop")).to_be_visible()
     banner.click()
     live.wait_for_command(ReturnToLive())
-    show(loop, None)
+    live.wait_for(lambda: viewer.playback.is_live)
     expect(banner).to_be_hidden()
-    expect(live.page.get_by_label("Go to time")).to_have_value("now")
+    live.wait_for(lambda: live.page.get_by_label("Go to time").input_value() == "now")
 
 
-OUTSIDE = """() => {
+OUTSIDE = """async () => {
+  const longest = {
+    "Stop recording": "1:06:40 · 12.3 MB",
+    "Save last": "Save last 60 s",
+    memory: "memory 60 s, 512 MB",
+  };
+  const texts = document.createTreeWalker(document.querySelector(".wv-time"), NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const { currentNode: text } = texts;
+    const name = text.parentElement.closest("button")?.ariaLabel ?? "";
+    const is = (key) => name === key || text.data.startsWith(key);
+    const key = Object.keys(longest).find(is);
+    if (key && text.data.trim()) text.data = longest[key];
+  }
+  const frame = () => new Promise(requestAnimationFrame);
+  for (let i = 0; i < 2; i += 1) await frame(); // the bar fits itself
   const [bar] = document.getElementsByClassName("wv-time");
   const { right, bottom } = bar.getBoundingClientRect();
   return [...bar.querySelectorAll("button, input, .wv-number, .wv-badge")]
@@ -158,28 +217,52 @@ OUTSIDE = """() => {
     })
     .map((each) => each.ariaLabel || each.textContent);
 }"""
-"""Names of what is beyond the bar of the time."""
+"""Names of what is beyond the bar of the time, even if all its texts are as long as can be."""
 
 
 @pytest.mark.parametrize("width", [1280, 1241, 1121, 1061, 961, 861, 741, 641])
-def test_all_buttons_of_the_time_are_within_the_window(loop: Loop, live: Tab, width: int) -> None:
+def test_all_buttons_of_the_time_are_within_the_window(
+    viewer: PageBench, live: ViewerTab, folder: Path, width: int
+) -> None:
     live.page.set_viewport_size({"width": width, "height": 600})
-    path = Path("2026-11-23_05-12-47_Scan_error")
-    recording = RecordingState(
-        path=Path("run"), seconds=4000, messages=4, size=12_300_000, dropped=0
-    )
-    loop.show(black_box=BlackBoxState((SavedMoment(path, 1),)), recording=recording)
-    long = MemoryState(60.0, 512_000_000)
-    for ago_s in (None, 12.4):
-        show(loop, ago_s, long)
-        live.wait_for(
-            live.button("Live (L)").is_visible
-            if ago_s
-            else live.button("Stop recording").is_visible
-        )
-        assert live.page.evaluate(OUTSIDE) == [], ago_s
-    assert loop.state.playback is not None
-    opened = replace(loop.state.playback, names=(path.name,), is_live=None, is_opened=True)
-    loop.show(playback=opened)
+    viewer.do(StartRecording("run"))
+    live.wait_for(live.button("Stop recording").is_visible)
+    live.wait_for(live.page.locator("[aria-label='Black box']").count)
+    assert live.page.evaluate(OUTSIDE) == []
+    look_back(viewer, 12.4)
+    live.wait_for(live.button("Live (L)").is_visible)
+    assert live.page.evaluate(OUTSIDE) == []
+    viewer.do(OpenRecording(str(folder / "webviz_black_box" / SAVED)))
     live.wait_for(live.button("Loop").is_visible)
     assert live.page.evaluate(OUTSIDE) == []
+
+
+def test_live_topics_are_recorded_and_their_last_minute_saved(
+    page_server: PageServer, viewer: PageBench, live: ViewerTab, folder: Path
+) -> None:
+    tab, before = live, {*folder.iterdir()}
+    tab.wait_for(lambda: tab.button("Record").count())
+    tab.button("Record").click()
+    tab.wait_for_command(StartRecording())
+    (recorded,) = {*folder.iterdir()} - before
+    stop = tab.button("Stop recording")
+    tab.wait_for(lambda: re.fullmatch(r"0:00:\d\d · 0 MB", stop.inner_text()))
+    stop.click()
+    tab.wait_for_command(StopRecording())
+    save = tab.page.get_by_role("button", name=SAVE)
+    expect(save).to_have_accessible_name(re.compile(r"Save last 5\d s"))
+    save.click()
+    tab.wait_for_command(SaveMemory())
+    (saved,) = {*folder.iterdir()} - before - {recorded}
+    assert [*recorded.glob("*.mcap")]
+    assert [*saved.glob("*.mcap")]
+    look_back(viewer, 20.0)
+    expect(save).to_have_accessible_name(re.compile(r"Save all \d\d s"))
+    card = tab.page.get_by_role("status", name="File")
+    tab.wait_for(lambda: saved.name in card.inner_text())
+    page_server.begin(memory=MemorySettings(seconds=0.0))
+    tab.wait_for(lambda: tab.page.get_by_role("button", name=SAVE).count() == 0)
+    tab.wait_for(card.is_hidden)  # its number would lead to another file
+    tab.button("Record").click()
+    stop.click()
+    tab.wait_for(card.is_visible)

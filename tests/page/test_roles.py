@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -12,17 +12,17 @@ import pytest
 from pages import COARSE
 from playwright.sync_api import expect
 
-from tests.page.conftest import Loop, Tab, open_page
+from tests.page.everything import named
+from tests.page.page_bench import PageBench, PageServer
+from tests.page.tabs import ViewerTab, open_page
 from webviz import commands
 from webviz.api.roles import Role
-from webviz.engine.state import Row
-from webviz.features.tools.toolbar import ToolButton
-from webviz.files.config import DockedPanel, Layout, Settings
-from webviz.scene import open_server
+from webviz.files.config import DockedPanel, Layout
 from webviz.server.access import token_file
 from webviz.server.access.access import Access
 from webviz.server.access.starting import link
 from webviz.server.access.tokens import Token, make
+from webviz.tools.goal_pose import GoalPose
 
 WHY = "Only operators may do this. Your link is for a watcher."
 
@@ -35,14 +35,16 @@ class House:
         url: of the page.
         path: of the file with tokens.
         tokens: one of each role.
+        page_server: of the viewers.
         watcher, owner: their tabs.
     """
 
     url: str
     path: Path
     tokens: dict[Role, Token]
-    watcher: Tab
-    owner: Tab
+    page_server: PageServer
+    watcher: ViewerTab
+    owner: ViewerTab
 
 
 @pytest.fixture(scope="module")
@@ -52,34 +54,39 @@ def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory)
     tokens = {role: make(f"the {role.label}", role, now) for role in Role}
     token_file.modify(path, lambda _: list(tokens.values()))
     access = Access(True, path)
-    server = open_server(port=0, access=access)
-    url = f"http://127.0.0.1:{server.get_port()}"
-    loop = Loop(server, access)
-    goal = ToolButton("goal", "Goal", "Sends a goal.", "g", "pose")
-    loop.change(tools=(goal,))
+    page_server = PageServer(access)
+    url = f"http://127.0.0.1:{page_server.server.get_port()}"
 
-    def tab(role: Role) -> Tab:
+    def tab(role: Role) -> ViewerTab:
         page = open_page(browser)
         answer = page.context.request.get(
             link(url, tokens[role]), headers={"Sec-Fetch-Site": "none"}
         )
         assert answer.ok
-        return Tab(page, server, loop)
+        return ViewerTab(page, page_server)
 
-    house = House(url, path, tokens, tab(Role.WATCHER), tab(Role.OWNER))
+    house = House(url, path, tokens, page_server, tab(Role.WATCHER), tab(Role.OWNER))
     yield house
     for each in (house.watcher, house.owner):
         each.page.context.close()
-    server.stop()
+    page_server.close()
 
 
 @pytest.fixture(autouse=True)
-def displays(house: House, make_row: Callable[..., Row]) -> None:
-    house.owner.loop.show(make_row("a"))
-    house.owner.loop.commands.clear()
+def viewer(house: House, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> PageBench:
+    """A viewer with one tool and two displays, which saves into a folder of the test."""
+    monkeypatch.chdir(tmp_path)
+    viewer = house.page_server.begin()
+    goal = GoalPose(name="Goal")
+    viewer.show(*named("a", "b"), tools=[goal])
+    viewer.link("map", "odom")
+    for tab in (house.watcher, house.owner):
+        tab.catch_up()
+    viewer.forget_commands()
+    return viewer
 
 
-def toasts(tab: Tab) -> playwright.Locator:
+def toasts(tab: ViewerTab) -> playwright.Locator:
     return tab.page.locator(".wv-toasts")
 
 
@@ -120,12 +127,12 @@ def test_what_a_watcher_may_not_do_says_why(house: House) -> None:
     expect(page.get_by_role("button", name="Goal", exact=True)).to_have_attribute(
         "aria-disabled", "true"
     )
-    assert watcher.loop.commands == []
+    assert watcher.viewer.commands == []
 
 
 def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None:
     watcher = house.watcher
-    watcher.page.locator('[data-id="a"] .wv-tree-name').click()
+    watcher.page.get_by_role("treeitem", name="a", exact=True).locator(".wv-tree-name").click()
     watcher.wait_for(lambda: watcher.page.locator(".wv-property").count() > 3)
     fields = watcher.page.locator(".wv-property-control").locator("input, select, textarea")
     assert fields.count() > 3
@@ -134,15 +141,15 @@ def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None
     expect(watcher.page.get_by_role("checkbox", name="Show a", exact=True)).to_be_disabled()
     watcher.page.keyboard.press("Delete")
     watcher.turn()
-    assert [c for c in watcher.loop.commands if isinstance(c, commands.RemoveDisplay)] == []
+    assert [c for c in watcher.viewer.commands if isinstance(c, commands.RemoveDisplay)] == []
 
 
-def test_lists_tabs_and_the_tree_are_locked_too(house: House, make_row: Callable[..., Row]) -> None:
+def test_lists_tabs_and_the_tree_are_locked_too(house: House) -> None:
     watcher = house.watcher
     page = watcher.page
-    watcher.loop.show(make_row("a"), make_row("b"), frames=("map", "odom"))
     expect(watcher.button("Add a panel")).to_have_attribute("data-why", WHY)
-    a, b = (page.locator(f'[data-id="{id_}"] .wv-tree-name').bounding_box() for id_ in "ab")
+    names = [page.get_by_role("treeitem", name=name, exact=True) for name in "ab"]
+    a, b = (name.locator(".wv-tree-name").bounding_box() for name in names)
     assert a is not None
     assert b is not None
     page.mouse.move(a["x"] + 5, a["y"] + 5)
@@ -150,7 +157,7 @@ def test_lists_tabs_and_the_tree_are_locked_too(house: House, make_row: Callable
     page.mouse.move(b["x"] + 5, b["y"] + 15, steps=5)
     expect(page.locator(".wv-tree-ghost")).to_have_count(0)
     page.mouse.up()
-    page.locator('[data-id="a"] .wv-tree-name').dblclick()
+    names[0].locator(".wv-tree-name").dblclick()
     expect(page.locator(".wv-tree-rename")).to_have_count(0)
     page.keyboard.press("Control+k")
     entry = page.get_by_role("option", name="Fixed frame: odom")
@@ -158,7 +165,7 @@ def test_lists_tabs_and_the_tree_are_locked_too(house: House, make_row: Callable
     expect(entry).to_have_attribute("aria-disabled", "true")
     page.keyboard.press("Escape")
     watcher.turn()
-    assert watcher.loop.commands == []
+    assert watcher.viewer.commands == []
 
 
 def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
@@ -172,13 +179,13 @@ def test_a_watcher_arranges_panels_for_themselves(house: House) -> None:
     watcher.page.get_by_role("menuitemradio", name="Beside the scene").click()
     beside = "section.wv-docked[data-panel=topics]"
     watcher.wait_for(lambda: watcher.page.locator(beside).count() == 1)
-    assert (owner.page.locator(".wv-docked").count(), watcher.loop.commands) == (0, [])
+    assert (owner.page.locator(".wv-docked").count(), watcher.viewer.commands) == (0, [])
     shared = Layout(below=(DockedPanel(panel="doctor"),))
-    owner.loop.show(settings=Settings(layout=shared))
+    house.page_server.viewer.show(layout=shared)
     for tab in (watcher, owner):
         tab.wait_for(lambda tab=tab: tab.page.locator(".wv-docked").count() == 1)
         tab.wait_for(lambda tab=tab: tab.page.locator(".wv-below > .wv-docked").count() == 1)
-    owner.loop.show(settings=Settings())
+    house.page_server.viewer.show()
     watcher.wait_for(lambda: watcher.page.locator(".wv-docked").count() == 0)
 
 
@@ -186,8 +193,8 @@ def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) ->
     ask = """async () => {
       const channel = await import('webviz/channel.js');
       window.answers = [];
-      channel.on('Done', ({number, text}) => number === 9999 && window.answers.push(text));
-      channel.send({type: 'Do', number: 9999, command: 'Undo', arguments: {}});
+      channel.on('CommandResult', ({number, text}) => number === 9999 && window.answers.push(text));
+      channel.send({type: 'CommandRequest', number: 9999, command: 'Undo', arguments: {}});
     }"""
     house.watcher.page.evaluate(ask)
     house.watcher.wait_for(lambda: house.watcher.page.evaluate("window.answers.length"))
@@ -195,17 +202,17 @@ def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) ->
         "Not allowed: this needs an operator, and you are a watcher. Ask the owner of this viewer "
         "for another link."
     ]
-    assert house.watcher.loop.commands == []
+    assert house.watcher.viewer.commands == []
 
 
-def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
+def test_the_owner_sees_who_is_there_and_invites_others(house: House, tmp_path: Path) -> None:
     owner = house.owner
     owner.button("Undo")
     expect(owner.page.locator(".wv-locked")).to_have_count(0)
-    owner.loop.answer = "Saved lab.yaml."
     save = "(await import('webviz/act.js')).act('Save', {path: 'lab.yaml'})"
     owner.page.evaluate(f"async () => void {save}")
     owner.wait_for_command(commands.Save("lab.yaml"))
+    assert (tmp_path / "lab.yaml").exists()
     owner.button("Menu").click()
     owner.page.get_by_role("menuitem", name="People…").click()
     people = owner.page.get_by_role("dialog")
@@ -220,9 +227,9 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House) -> None:
     role.press("Enter")
     people.get_by_role("button", name="Make a link").click()
     owner.wait_for(lambda: people.locator("code").count() == 1)
-    made = people.locator("code").inner_text()
+    address = people.locator("code").inner_text()
     (token,) = (t for t in token_file.read(house.path) if t.name == "Ada")
-    assert made == link(house.url, token)
+    assert address == link(house.url, token)
     assert owner.page.evaluate("document.querySelector('.wv-invitation img').naturalWidth") > 50
     expect(people.get_by_role("note")).to_contain_text("Only this machine can open this link.")
     people.get_by_label("Name", exact=True).fill("Ada")
@@ -257,7 +264,7 @@ def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
         owner.page.get_by_role("button", name=confirm, exact=True).click()
 
     end("End visit", "End")
-    expect(watcher.page.locator("body")).to_contain_text("The owner has ended your visit.")
+    expect(watcher.page.locator("body")).to_contain_text("The owner has disconnected this page.")
     owner.wait_for(lambda: row.count() == 0)
     watcher.page.goto(f"{house.url}/?fixedDpr={COARSE}")
     owner.wait_for(lambda: row.count() == 1)

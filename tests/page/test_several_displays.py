@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Annotated
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
+from tests.page.everything import Everything, named
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
 from tests.page.trees import Tree
 from webviz.api.declared import Color, Prop, Topic
 from webviz.api.display import Display, Input
-from webviz.commands import SetProperty
-from webviz.engine.state import Row
-
-MakeRow = Callable[..., Row]
+from webviz.commands import Redo, SetProperty, Undo
 
 
 class Other(Display):
@@ -28,8 +26,8 @@ class Other(Display):
 
 
 @pytest.fixture
-def tree(tab: Tab) -> Tree:
-    return Tree(tab)
+def tree(viewer_tab: ViewerTab) -> Tree:
+    return Tree(viewer_tab)
 
 
 def select(tree: Tree, *names: str) -> None:
@@ -43,27 +41,38 @@ def field(tree: Tree, path: str) -> playwright.Locator:
     return tree.details.locator(f"[data-path='{path}']").locator("input, select, textarea").first
 
 
-def test_a_common_value_is_changed_in_all_as_one_step(tree: Tree, make_row: MakeRow) -> None:
-    loop = tree.tab.loop
-    loop.show(make_row("a", size=0.5), make_row("b", size=0.25), make_row("c", size=4.0))
+def changed(viewer: PageBench, path: str, a: object, b: object) -> list[SetProperty]:
+    """The commands that set a property of the displays a and b."""
+    return [SetProperty(viewer.id(name), path, value) for name, value in (("a", a), ("b", b))]
+
+
+def test_a_common_value_is_changed_in_all_as_one_step(viewer: PageBench, tree: Tree) -> None:
+    sizes = {"a": 0.5, "b": 0.25, "c": 4.0}
+    viewer.show(*(Everything(name=name, size=size) for name, size in sizes.items()))
     select(tree, "a", "b")
     size = field(tree, "size")
     tree.tab.wait_for(lambda: size.count() == 1)  # the loop turns, which `expect` does not
     playwright.expect(size).to_have_value("")
     playwright.expect(size).to_have_attribute("placeholder", "Mixed")
     playwright.expect(field(tree, "count")).to_have_value("3")
-    for text in ("0.75", "0.8"):
-        size.fill(text)
+    for value in (0.75, 0.8):
+        size.fill(str(value))
         tree.press("Enter")
-        changed = [SetProperty(one, "size", float(text)) for one in "ab"]
-        tree.tab.wait_for(lambda changed=changed: loop.commands[-2:] == changed)
-    assert len({sender.step for sender in loop.senders}) == 1
-    assert loop.senders[0].step
+        both = changed(viewer, "size", value, value)
+        tree.tab.wait_for(lambda both=both: viewer.commands[-2:] == both)
+        assert viewer.values("size") == [value, value, 4.0]
+    assert len({sender.step for sender in viewer.senders}) == 1
+    assert viewer.senders[0].step
     playwright.expect(size).to_have_value("0.8")
     field(tree, "count").fill("5")
     tree.press("Enter")
-    tree.tab.wait_for(lambda: loop.commands[-2:] == [SetProperty(one, "count", 5) for one in "ab"])
-    assert loop.senders[-1].step != loop.senders[0].step
+    tree.tab.wait_for(lambda: viewer.commands[-2:] == changed(viewer, "count", 5, 5))
+    assert viewer.senders[-1].step != viewer.senders[0].step
+    viewer.do(Undo())
+    assert viewer.values("count") == [3, 3, 3]
+    viewer.do(Undo())
+    assert viewer.values("size") == [0.5, 0.25, 4.0]
+    viewer.do(Redo(2))
 
     size.fill("-1")
     tree.press("Enter")
@@ -73,7 +82,7 @@ def test_a_common_value_is_changed_in_all_as_one_step(tree: Tree, make_row: Make
     tree.press("Escape")
 
 
-def test_mixed_values_are_marked_in_each_kind_of_control(tree: Tree, make_row: MakeRow) -> None:
+def test_mixed_values_are_marked_in_each_kind_of_control(viewer: PageBench, tree: Tree) -> None:
     second = {
         "frame": "odom",
         "alpha": 0.5,
@@ -82,9 +91,9 @@ def test_mixed_values_are_marked_in_each_kind_of_control(tree: Tree, make_row: M
         "filled": False,
         "prefixes": ["x"],
     }
-    loop = tree.tab.loop
-    loop.show(make_row("a"), make_row("b", offset=(0.0, 0.5, 2.0), **second))
+    viewer.show(*named("a"), Everything(name="b", offset=(0.0, 0.5, 2.0), **second))
     select(tree, "a", "b")
+    tree.tab.wait_for(lambda: field(tree, "frame").count() == 1)
     for path in ("frame", "prefixes", "style"):
         playwright.expect(field(tree, path)).to_have_attribute("placeholder", "Mixed")
         playwright.expect(field(tree, path)).to_have_value("")
@@ -98,34 +107,30 @@ def test_mixed_values_are_marked_in_each_kind_of_control(tree: Tree, make_row: M
     assert [each.input_value() for each in offset.all()] == ["0", "0.5", ""]
     offset.nth(0).fill("1")
     tree.press("Enter")
-    changed = [
-        SetProperty("a", "offset", [1, 0.5, 0.0]),
-        SetProperty("b", "offset", [1, 0.5, 2.0]),
-    ]
-    tree.tab.wait_for(lambda: loop.commands[-2:] == changed)
+    both = changed(viewer, "offset", [1, 0.5, 0.0], [1, 0.5, 2.0])
+    tree.tab.wait_for(lambda: viewer.commands[-2:] == both)
+    assert viewer.values("offset") == [(1.0, 0.5, 0.0), (1.0, 0.5, 2.0)]
 
 
 def test_displays_of_other_types_share_what_they_declare_alike(
-    tree: Tree, make_row: MakeRow
+    viewer: PageBench, tree: Tree
 ) -> None:
-    loop = tree.tab.loop
-    other = Other(name="b")
-    loop.show(make_row("a"), Row("b", "Other", other, "b", {}))
+    viewer.show(*named("a"), Other(name="b"))
     select(tree, "a", "b")
     rows = tree.details.locator(".wv-property")
-    playwright.expect(rows).to_have_count(6)
+    tree.tab.wait_for(lambda: rows.count() == 6)
     paths = [row.get_attribute("data-path") for row in rows.all()]
     qos = ["topic.depth", "topic.reliability", "topic.durability", "topic.filter_size"]
     assert sorted(map(str, paths)) == sorted([*qos, "alpha", "color"])
     number = tree.details.locator("[data-path='alpha']").get_by_role("spinbutton")
     number.fill("0.5")
     tree.press("Enter")
-    changed = [SetProperty(one, "alpha", 0.5) for one in "ab"]
-    tree.tab.wait_for(lambda: loop.commands[-2:] == changed)
+    tree.tab.wait_for(lambda: viewer.commands[-2:] == changed(viewer, "alpha", 0.5, 0.5))
+    assert viewer.values("alpha") == [0.5, 0.5]
 
 
-def test_several_are_selected_without_keys(tree: Tree, make_row: MakeRow) -> None:
-    tree.tab.loop.show(make_row("a"), make_row("b"), make_row("c"))
+def test_several_are_selected_without_keys(viewer: PageBench, tree: Tree) -> None:
+    viewer.show(*named("a", "b", "c"))
     tree.click("a")
     for wanted in (["a", "c"], ["b"]):
         tree.tab.button("List options").click()

@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
-from msgspec.structs import replace
 
-from tests.page.conftest import Loop, Tab
-from tests.page.test_time import shows_seconds, wall_time
-from tests.page.trees import Tree, group, height_of
-from webviz.engine.state import Row
+from tests.page.everything import Everything, group, named
+from tests.page.page_bench import PageBench
+from tests.page.tabs import HEIGHT, WIDTH, ViewerTab
+from tests.page.trees import Tree, height_of
+from webviz.shell.testing.source import SECOND
+
+TIME_S = 1_764_000_000
+"""ROS time of these tests."""
 
 
-def width(tab: Tab) -> float:
+@pytest.fixture
+def wide(viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
+    """The tab with room for the ROS time beside the timeline."""
+    viewer_tab.page.set_viewport_size({"width": 1300, "height": HEIGHT})
+    yield viewer_tab
+    viewer_tab.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+
+
+def shows_seconds(tab: ViewerTab) -> bool:
+    """Return whether the ROS time is written in seconds."""
+    text = tab.page.locator(".wv-ros-time").inner_text()
+    return re.fullmatch(rf"{TIME_S}\.\d+", text) is not None
+
+
+def width(tab: ViewerTab) -> float:
     box = tab.page.get_by_role("complementary", name="Panels").bounding_box()
     assert box is not None
     return box["width"]
 
 
 def test_a_reload_keeps_sizes_folds_the_selection_and_how_times_are_written(
-    loop: Loop, tab: Tab, make_row: Callable[..., Row]
+    viewer: PageBench, wide: ViewerTab
 ) -> None:
-    tree = Tree(tab)
-    loop.show(make_row("a"), group("g"), replace(make_row("b"), depth=1), clock=wall_time())
+    tab, tree = wide, Tree(wide)
+    viewer.source.now = TIME_S * SECOND
+    viewer.show(*named("a"), group("g", Everything(name="b")))
     tree.click("a")
     tree.fold("g")
     border = tab.page.get_by_role("separator", name="Height of the properties")
@@ -62,7 +81,8 @@ def test_a_reload_keeps_sizes_folds_the_selection_and_how_times_are_written(
     tab.wait_for(lambda: not shows_seconds(tab))
 
 
-def test_arrow_keys_move_the_border_and_not_the_camera(tab: Tab) -> None:
+def test_arrow_keys_move_the_border_and_not_the_camera(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
     eye = "window.__viserMutable.cameraControl.getPosition().toArray().join()"
     before, camera = width(tab), tab.page.evaluate(eye)
     border = tab.page.get_by_role("separator", name="Width of the panels")
@@ -73,7 +93,8 @@ def test_arrow_keys_move_the_border_and_not_the_camera(tab: Tab) -> None:
     assert tab.page.evaluate(eye) == camera
 
 
-def test_a_key_folds_the_side_and_a_button_brings_it_back(tab: Tab) -> None:
+def test_a_key_folds_the_side_and_a_button_brings_it_back(viewer_tab: ViewerTab) -> None:
+    tab = viewer_tab
     side = tab.page.get_by_role("complementary", name="Panels")
     tab.page.keyboard.press("Control+b")
     playwright.expect(side).to_be_hidden()
@@ -82,8 +103,8 @@ def test_a_key_folds_the_side_and_a_button_brings_it_back(tab: Tab) -> None:
     playwright.expect(tab.button("Show the panels")).to_be_hidden()
 
 
-def test_a_panel_is_opened_by_its_tab_and_by_arrow_keys(tab: Tab) -> None:
-    tabs = tab.page.get_by_role("tablist", name="Panels").get_by_role("tab")
+def test_a_panel_is_opened_by_its_tab_and_by_arrow_keys(viewer_tab: ViewerTab) -> None:
+    tabs = viewer_tab.page.get_by_role("tablist", name="Panels").get_by_role("tab")
     tabs.first.click()
     tabs.first.press("ArrowRight")
     playwright.expect(tabs.nth(1)).to_be_focused()

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
 from webviz.api.vehicle import STILL, Velocity
-from webviz.engine.driving import DrivingAnswer
-from webviz.features.driving import Driving
-from webviz.features.tools.toolbar import ToolButton
-from webviz.scene.server import Server
+from webviz.features.driving import ODOMETRY
+from webviz.server.channel.messages import Drive
+from webviz.sources import ReadOnly
 from webviz.tools.teleop import Teleop
 
 CAMERA = """(() => {
@@ -23,42 +24,78 @@ CAMERA = """(() => {
 PAD = """(axes) => { navigator.getGamepads = () => [{connected: true, axes}] }"""
 
 
-def button(lateral: float = 0.0) -> ToolButton:
-    tool = Teleop(lateral=lateral)
-    return ToolButton("drive", "Teleop", "Drive.", "t", "drive", "wheel", tool=tool)
+LIMITS = Velocity(0.5, 0.25, 2.0)
+TOPIC = "/cmd_vel"
 
 
 @pytest.fixture
-def driver(tab: Tab) -> Iterator[Tab]:
+def tab(viewer_tab: ViewerTab) -> ViewerTab:
+    return viewer_tab
+
+
+@pytest.fixture
+def driver(tab: ViewerTab) -> Iterator[ViewerTab]:
     """A tab with the tool selected and a robot that moves."""
     open_card(tab)
     yield tab
     tab.page.keyboard.press("Escape")
     playwright.expect(card(tab)).to_have_count(0)
-    tab.loop.controller = DrivingAnswer()
 
 
-def open_card(tab: Tab, lateral: float = 0.0) -> None:
-    tab.loop.controller = DrivingAnswer()
-    tab.loop.show(tools=(button(lateral),), driving={"drive": Driving(None, -0.25, 1.5)})
+@pytest.fixture
+def heartbeats(viewer: PageBench) -> list[Drive]:
+    """The heartbeats of pages."""
+    heartbeats: list[Drive] = []
+    viewer.listen(Drive, lambda browser, drive: heartbeats.append(drive))
+    return heartbeats
+
+
+def open_card(tab: ViewerTab, lateral: float = 0.0) -> None:
+    """Select the tool, for a robot that reacts at once, and reports that it moves."""
+    linear, _, angular = LIMITS
+    tool = Teleop(
+        name="Teleop",
+        linear=linear,
+        lateral=lateral,
+        angular=angular,
+        acceleration=500.0,
+        deceleration=500.0,
+        angular_acceleration=500.0,
+        angular_deceleration=500.0,
+    )
+    tab.viewer.show(tools=[tool])
     tab.wait_for(lambda: tab.page.locator(".wv-tool[aria-label=Teleop]").count() == 1)
     tab.page.locator(".wv-tool[aria-label=Teleop]").click()
-    tab.wait_for(lambda: "\u22120.25" in card(tab).inner_text())
-    tab.loop.steered.clear()
+    tab.wait_for(lambda: shows_speed(tab))
 
 
-def card(tab: Tab) -> playwright.Locator:
+def shows_speed(tab: ViewerTab) -> bool:
+    """Return whether the card has the speed of the robot, which reports it once more."""
+    twist = {"linear": {"x": -0.25}, "angular": {"z": 1.5}}
+    tab.viewer.publish("/odom", ODOMETRY, {"twist": {"twist": twist}})
+    return "\u22120.25" in card(tab).inner_text()
+
+
+def card(tab: ViewerTab) -> playwright.Locator:
     return tab.page.get_by_role("region", name="Teleop")
 
 
-def wait_for_share(tab: Tab, *share: float) -> None:
-    """Wait until the newest heartbeat says that this is held."""
+def shares(viewer: PageBench) -> list[tuple[float, float, float]]:
+    """The velocity commands that the robot got, as shares of its limits."""
+    twists = [message for topic, message in viewer.published() if topic == TOPIC]
+    axes = [(twist.linear.x, twist.linear.y, twist.angular.z) for twist in twists]
+    x, y, turn = LIMITS
+    return [(linear / x, lateral / y, angular / turn) for linear, lateral, angular in axes]
+
+
+def wait_for_share(tab: ViewerTab, *share: float) -> None:
+    """Wait until the robot was last told to go with these shares of its limits."""
     expected = pytest.approx(share, abs=0.03)
-    tab.wait_for(lambda: tab.loop.steered and (tab.loop.steered[-1][2] or ()) == expected)
+    tab.wait_for(lambda: shares(tab.viewer)[-1:] == [expected])
 
 
 def test_keys_drive_while_they_are_held_and_leave_the_camera_and_other_tools_alone(
-    driver: Tab,
+    heartbeats: list[Drive], driver: ViewerTab
 ) -> None:
     keys, before = driver.page.keyboard, driver.page.evaluate(CAMERA)
     for key, share in (
@@ -75,7 +112,8 @@ def test_keys_drive_while_they_are_held_and_leave_the_camera_and_other_tools_alo
         keys.up(key)
     wait_for_share(driver, *STILL)
     keys.press("q")
-    assert all(share is None or share.lateral == 0 for _, _, share in driver.loop.steered)
+    assert all(drive.lateral == 0 for drive in heartbeats)
+    assert all(lateral == 0 for _, lateral, _ in shares(driver.viewer))
     driver.page.mouse.click(700, 300)
     keys.down("s")  # of another tool, if this one were not active
     wait_for_share(driver, -1, 0, 0)
@@ -87,7 +125,7 @@ def test_keys_drive_while_they_are_held_and_leave_the_camera_and_other_tools_alo
     assert driver.page.evaluate(CAMERA) == pytest.approx(before, abs=1e-3)
 
 
-def test_the_mouse_moves_the_camera_while_a_key_drives(driver: Tab) -> None:
+def test_the_mouse_moves_the_camera_while_a_key_drives(driver: ViewerTab) -> None:
     before = driver.page.evaluate(CAMERA)
     driver.page.keyboard.down("ArrowUp")
     mouse = driver.page.mouse
@@ -110,7 +148,7 @@ def test_the_mouse_moves_the_camera_while_a_key_drives(driver: Tab) -> None:
     ],
 )
 def test_what_is_held_counts_as_let_go_when_people_turn_to_something_else(
-    driver: Tab, away: str
+    driver: ViewerTab, away: str
 ) -> None:
     driver.page.keyboard.down("w")
     wait_for_share(driver, 1, 0, 0)
@@ -120,7 +158,7 @@ def test_what_is_held_counts_as_let_go_when_people_turn_to_something_else(
     driver.page.evaluate("document.activeElement.blur()")
 
 
-def test_the_stick_drives_by_mouse_with_a_share_of_the_limits(driver: Tab) -> None:
+def test_the_stick_drives_by_mouse_with_a_share_of_the_limits(driver: ViewerTab) -> None:
     stick = driver.page.get_by_role("application")
     box = stick.bounding_box()
     assert box is not None
@@ -137,42 +175,65 @@ def test_the_stick_drives_by_mouse_with_a_share_of_the_limits(driver: Tab) -> No
     wait_for_share(driver, *STILL)
 
 
-def test_a_gamepad_drives_once_its_stick_has_been_in_its_middle(driver: Tab) -> None:
+def test_a_gamepad_drives_once_its_stick_has_been_in_its_middle(
+    heartbeats: list[Drive], driver: ViewerTab
+) -> None:
     page = driver.page
+
+    def wait_for_heartbeats(count: int) -> None:
+        heartbeats.clear()
+        driver.wait_for(lambda: len(heartbeats) > count)
+
     page.evaluate(PAD, [0, -1, 0])
-    driver.loop.steered.clear()
-    driver.wait_for(lambda: len(driver.loop.steered) > 3)
+    wait_for_heartbeats(3)
     page.keyboard.press("Escape")
     page.keyboard.press("t")  # it is held aside when the tool is chosen
-    driver.loop.steered.clear()
-    driver.wait_for(lambda: len(driver.loop.steered) > 2)
-    assert {share for _, _, share in driver.loop.steered} <= {STILL, None}
+    wait_for_heartbeats(2)
+    assert {(drive.linear, drive.lateral, drive.angular) for drive in heartbeats} == {STILL}
+    driver.wait_for(lambda: not driver.viewer.viewer.controllers.is_moving())
+    before = len(shares(driver.viewer))
     page.evaluate(PAD, [0.1, -0.05, 0])
-    driver.loop.steered.clear()
-    driver.wait_for(lambda: len(driver.loop.steered) > 2)
+    wait_for_heartbeats(2)
+    assert {*shares(driver.viewer)[before:]} <= {STILL}
     page.evaluate(PAD, [-0.575, -1, 0])
     wait_for_share(driver, 1, 0, 0.5)
     page.evaluate("navigator.getGamepads = () => [null]")
     wait_for_share(driver, *STILL)
 
 
-def test_the_card_shows_the_robot_who_drives_and_why_nothing_moves(driver: Tab) -> None:
+def test_the_card_shows_the_robot_who_drives_and_why_nothing_moves(
+    driver: ViewerTab, monkeypatch: pytest.MonkeyPatch
+) -> None:
     readout = card(driver).locator("dd")
     assert readout.all_inner_texts() == ["\u22120.25m/s", "1.50rad/s"]
     note = card(driver).get_by_role("status")
-    driver.loop.controller = DrivingAnswer(99)
-    driver.wait_for(lambda: "Browser 99 is driving. You can drive once" in note.inner_text())
-    driver.loop.controller = DrivingAnswer(None, "This bag can only be read. <b>")
-    driver.wait_for(lambda: note.inner_text() == "This bag can only be read. <b>")
-    driver.loop.controller = DrivingAnswer(driver.page.evaluate("window.webviz.browser"))
+    viewer, (tool,) = driver.viewer, driver.viewer.viewer.context.tools.usable()
+    steer = viewer.viewer.controllers.steer
+
+    def is_another_driving() -> bool:
+        steer(tool, 99, Velocity(0.5), time.monotonic())
+        return "Browser 99 is driving. You can drive once" in note.inner_text()
+
+    driver.wait_for(is_another_driving)
+    refusal = ReadOnly("Nothing can be sent. <b>")
+    monkeypatch.setattr(viewer.graph, "publish", refusal.publish)
+    driver.page.keyboard.down("w")
+    driver.wait_for(lambda: note.inner_text() == refusal.reason)
+    monkeypatch.undo()
+    wait_for_share(driver, 1, 0, 0)
+    assert viewer.viewer.controllers.drivers() == {tool: driver.browser}
     driver.wait_for(lambda: not note.is_visible())
-    driver.loop.show(tools=(button(),), driving={})
+    driver.page.keyboard.up("w")
+    viewer.pass_time(2.0)  # without odometry
     driver.wait_for(lambda: readout.first.inner_text() == "\u2013m/s")
 
 
-def test_heartbeats_that_are_old_or_not_valid_move_nothing(driver: Tab, server: Server) -> None:
+def test_heartbeats_that_are_old_or_not_valid_move_nothing(
+    heartbeats: list[Drive], driver: ViewerTab
+) -> None:
+    (tool,) = driver.viewer.viewer.context.tools.usable()
     send = "async (drive) => (await import('webviz/channel.js')).send({type: 'Drive', ...drive})"
-    good = {"tool": "drive", "beat": 0, "linear": 1, "lateral": 0, "angular": 0}
+    good = {"tool": tool, "beat": 0, "linear": 1, "lateral": 0, "angular": 0}
     for wrong in (
         {"linear": 1e308},
         {"linear": None},
@@ -184,13 +245,12 @@ def test_heartbeats_that_are_old_or_not_valid_move_nothing(driver: Tab, server: 
     ):
         driver.page.evaluate(send, {**good, **wrong})
     driver.page.evaluate(send, {**good, "tool": "foreign", "beat": 12345})
-    driver.wait_for(lambda: any(tool == "foreign" for tool, _, _ in driver.loop.steered))
-    shares = {share for _, _, share in driver.loop.steered}
-    assert shares <= {None, STILL}
-    assert Velocity(linear=1.0) not in shares
+    driver.page.evaluate(send, good)  # with a beat that is not known
+    driver.wait_for(lambda: any(drive.tool == "foreign" for drive in heartbeats))
+    driver.wait_for(lambda: any(drive.linear == 1 and drive.tool == tool for drive in heartbeats))
+    assert {*shares(driver.viewer)} <= {STILL}
     for _ in range(300):
         driver.page.evaluate(send, good)
-    driver.loop.steered.clear()
     driver.page.keyboard.down("w")
     wait_for_share(driver, 1, 0, 0)  # a flood delays, but does not deafen
     driver.page.keyboard.up("w")

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import time
+from collections.abc import Callable
 
-from tests.page.conftest import Loop, Tab
+import pytest
+from playwright.sync_api import expect
+
+from tests.page.page_bench import PageBench, PageServer
+from tests.page.tabs import ViewerTab
 from webviz.commands import Pause, Reset
-from webviz.engine.state import ClockRate, PanelTimes
+from webviz.engine.parts.time import TimePart
+from webviz.engine.state import PanelTimes
+from webviz.files.config.model import MemorySettings
 
 CHANGES = """() => {
   window.changes = 0;
@@ -27,49 +35,79 @@ FIVE_TICKS = """async () => {
 """Script that waits for five updates of the time bar."""
 
 
-def bar(tab: Tab) -> str:
+@pytest.fixture
+def viewer(page_server: PageServer, viewer: PageBench) -> PageBench:
+    """A viewer without memory, so that its bar has no timeline."""
+    return page_server.begin(memory=MemorySettings(seconds=0.0))
+
+
+@pytest.fixture
+def tab(viewer_tab: ViewerTab) -> ViewerTab:
+    return viewer_tab
+
+
+def bar(tab: ViewerTab) -> str:
     """Return the text of the bar in one line."""
     return " ".join(tab.page.locator(".wv-time").inner_text().split())
 
 
-def shows_seconds(tab: Tab) -> bool:
+def shows_seconds(tab: ViewerTab) -> bool:
     """Return whether the bar begins with the time of the clock in seconds."""
     first, *_ = bar(tab).split(" ")  # empty while the page loads
     return "." in first and abs(float(first) - time.time()) < 60.0
 
 
-def running(ros_s: float, **more: object) -> PanelTimes:
-    """A simulation that has run for 5 s and goes on."""
-    clock_rate = ClockRate(round(ros_s * 1e9), time.time(), 1.0)
-    values = {"clock_rate": clock_rate, "is_simulated": True, **more}
-    return PanelTimes(round(ros_s * 1e9), 5_000_000_000, time.time(), 5.0, **values)  # pyright: ignore[reportArgumentType]
+def times(viewer: PageBench) -> PanelTimes:
+    """Both clocks, as of the last turn."""
+    return viewer.viewer.get(TimePart).times
 
 
-def wall_time() -> PanelTimes:
-    """A real robot, whose clock is that of this machine."""
-    now = time.time()
-    clock_rate = ClockRate(round(now * 1e9), now, 1.0)
-    return PanelTimes(round(now * 1e9), 0, now, 0.0, clock_rate=clock_rate)
+def run(tab: ViewerTab, ros_s: float, until: Callable[[], object]) -> None:
+    """Let ROS time go on from a moment in step with the machine until a condition holds."""
+    viewer, began_s = tab.viewer, time.monotonic()
+    viewer.source.now = round(ros_s * 1e9)
+    viewer.do(Reset())
+
+    def go_on() -> object:
+        passed_s = time.monotonic() - began_s
+        viewer.source.now = round((ros_s + passed_s) * 1e9)
+        return until()
+
+    tab.wait_for(go_on)
 
 
-def test_a_time_that_is_not_known_yet_is_not_zero(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=PanelTimes(is_simulated=True))
+def simulate(tab: ViewerTab, ros_s: float) -> None:
+    """Have a simulation that has run for a second and goes on, whose /clock comes at 98.7 Hz."""
+    viewer = tab.viewer
+    began_s, began_clock = time.monotonic(), viewer.clock
+
+    def is_measured() -> bool:
+        passed_s = time.monotonic() - began_s
+        viewer.clock = began_clock + passed_s
+        viewer.source.clock_count = 1 + int(98.7 * passed_s)
+        return passed_s > 1.0 and times(viewer).clock_rate.rate == 1.0
+
+    run(tab, ros_s, is_measured)
+
+
+def test_a_time_that_is_not_known_yet_is_not_zero(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.source.now = viewer.source.clock_count = 0
+    viewer.do(Reset())
     tab.wait_for(lambda: "No time yet" in bar(tab))
     assert "1970" not in bar(tab)
 
 
-def test_times_tick_without_messages(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=running(3600.0, clock_hz=98.7))
-    tab.wait_for(lambda: "sim time · 99 Hz" in bar(tab))
-    tab.wait_for(lambda: "1:00:02" in bar(tab))
+def test_times_tick_without_messages(tab: ViewerTab) -> None:
+    simulate(tab, 3600.0)
+    with tab.paused():
+        expect(tab.page.locator(".wv-time")).to_contain_text("1:00:03")
+    assert re.search(r"sim time · (?:98|99|100) Hz", bar(tab)), "of whole messages in a second"
     assert "Elapsed 0:00:0" in bar(tab)
     assert "Wall 20" in bar(tab)
 
 
-def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
-    loop: Loop, tab: Tab
-) -> None:
-    loop.show(clock=wall_time())
+def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(tab: ViewerTab) -> None:
+    run(tab, time.time(), lambda: times(tab.viewer).clock_rate.rate == 1.0)
     tab.wait_for(lambda: "wall time" in bar(tab))
     assert time.strftime("%Y-%m-%d ") in bar(tab)
     assert "Wall 20" not in bar(tab), "it is the same time"
@@ -79,12 +117,10 @@ def test_wall_time_is_shown_as_date_and_time_and_on_a_click_as_seconds(
     tab.wait_for(lambda: not shows_seconds(tab))
 
 
-def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None:
-    loop.show(
-        clock=running(
-            100.25, is_paused=True, clock_rate=ClockRate(100_250_000_000, time.time(), 0.0)
-        )
-    )
+def test_a_paused_time_changes_nothing_on_the_page(viewer: PageBench, tab: ViewerTab) -> None:
+    viewer.source.now, viewer.source.clock_count = 100_250_000_000, 1
+    viewer.do(Reset())
+    viewer.do(Pause(True))
     tab.page.mouse.move(450, 300)  # no tooltip
     tab.wait_for(lambda: "0:01:40.250" in bar(tab))
     tab.page.evaluate(CHANGES)
@@ -92,8 +128,8 @@ def test_a_paused_time_changes_nothing_on_the_page(loop: Loop, tab: Tab) -> None
     assert tab.page.evaluate("window.changes") == 0
 
 
-def test_a_running_time_changes_the_page_ten_times_a_second_at_most(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=running(100.0))
+def test_a_running_time_changes_the_page_ten_times_a_second_at_most(tab: ViewerTab) -> None:
+    simulate(tab, 100.0)
     tab.wait_for(lambda: "0:01:4" in bar(tab))
     tab.page.evaluate(CHANGES)
     tab.page.wait_for_function("window.changes >= 12")
@@ -101,24 +137,28 @@ def test_a_running_time_changes_the_page_ten_times_a_second_at_most(loop: Loop, 
     assert changes <= 10 * ms / 1000 + 3
 
 
-def test_time_stands_still_and_goes_on_and_starts_over(loop: Loop, tab: Tab) -> None:
-    loop.show(clock=running(100.0))
+def test_time_stands_still_and_goes_on_and_starts_over(viewer: PageBench, tab: ViewerTab) -> None:
+    part = viewer.viewer.get(TimePart)
     tab.button("Pause").click()
     tab.wait_for_command(Pause(True))
-    loop.show(clock=running(100.0, is_paused=True))
+    assert part.is_paused
+    viewer.pass_time(5.0)
     tab.wait_for(lambda: tab.button("Resume").count() > 0)
+    assert times(viewer).ros_ns == 100_000_000_000
     tab.button("Resume").click()
     tab.wait_for_command(Pause(False))
+    tab.wait_for(lambda: times(viewer).ros_ns == 105_000_000_000)
+    assert times(viewer).ros_elapsed_ns == 5_000_000_000
     tab.page.locator(".wv-time").get_by_role("button", name="Reset").click()
     tab.wait_for_command(Reset())
+    tab.wait_for(lambda: times(viewer).ros_elapsed_ns == 0)
 
 
-def test_the_key_r_resets_unless_somebody_types(loop: Loop, tab: Tab) -> None:
-    loop.show()
+def test_the_key_r_resets_unless_somebody_types(viewer: PageBench, tab: ViewerTab) -> None:
     tab.page.evaluate("document.activeElement?.blur()")
     tab.page.keyboard.press("r")
     tab.wait_for_command(Reset())
-    loop.commands.clear()
+    viewer.forget_commands()
     tab.page.evaluate(
         "document.querySelector('.wv-time').append(Object.assign("
         "document.createElement('input'), {id: 'typed'}))"
@@ -127,4 +167,4 @@ def test_the_key_r_resets_unless_somebody_types(loop: Loop, tab: Tab) -> None:
     tab.page.evaluate("document.querySelector('#typed').remove()")
     tab.button("Pause").click()
     tab.wait_for_command(Pause(True))
-    assert loop.commands == [Pause(True)]
+    assert viewer.commands == [Pause(True)]

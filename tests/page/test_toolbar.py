@@ -5,9 +5,11 @@ from __future__ import annotations
 import playwright.sync_api as playwright
 import pytest
 
-from tests.page.conftest import Tab
-from webviz.api.views import FPS, Orbit
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from webviz.api.views import FPS, Orbit, TopDownOrtho, View
 from webviz.commands import (
+    AddDisplay,
     ChangeView,
     FocusFrame,
     ResetView,
@@ -16,39 +18,35 @@ from webviz.commands import (
     ShowView,
     StartWithView,
 )
-from webviz.engine.commands import Command
-from webviz.engine.state import Row
+from webviz.engine.commands import Command, Sender
 from webviz.features.tools.toolbar import ToolButton
-from webviz.files.config import Settings
-from webviz_displays.image import Image
+from webviz.tools.goal_pose import GoalPose
+from webviz.tools.publish_point import PublishPoint
 
 GOAL = ToolButton("goal", "2D Goal Pose", "Send the robot to a pose.", "g", "pose")
 POINT = ToolButton("point", "Point <b>", "Publish a point.", "", "point")
-SETTINGS = Settings(fixed_frame="map", views={"kitchen": Orbit()})
 
 
-def toolbar(tab: Tab) -> playwright.Locator:
+def toolbar(tab: ViewerTab) -> playwright.Locator:
     return tab.page.get_by_role("toolbar", name="Tools and view")
 
 
 @pytest.fixture
-def wide(tab: Tab) -> Tab:
+def wide(viewer: PageBench, viewer_tab: ViewerTab) -> ViewerTab:
     """A tab in which everything fits, with two tools, three frames and one saved view."""
-    wide = tab
+    wide = viewer_tab
     wide.page.set_viewport_size({"width": 1600, "height": 900})
-    browser = wide.page.evaluate("window.webviz.browser")
-    wide.loop.change(
-        tools=(GOAL, POINT),
-        frames=("base_link", "map", "odom"),
-        settings=SETTINGS,
-        views={browser: FPS(target_frame="base_link")},
-    )
+    viewer.link("map", "odom")
+    tools = [GoalPose(name=GOAL.name), PublishPoint(name=POINT.name)]
+    viewer.show(tools=tools, views={"kitchen": Orbit(distance=3.0)})
+    viewer.do(ChangeView("type", "FPS"), Sender(wide.browser))
+    viewer.do(ChangeView("target_frame", "base_link"), Sender(wide.browser))
     wide.wait_for(lambda: "Point <b>" in toolbar(wide).inner_text())
     wide.wait_for(lambda: "FPS" in toolbar(wide).inner_text())
     return wide
 
 
-def test_it_shows_the_view_of_this_page_and_the_fixed_frame(wide: Tab) -> None:
+def test_it_shows_the_view_of_this_page_and_the_fixed_frame(wide: ViewerTab) -> None:
     fixed = toolbar(wide).get_by_role("combobox", name="Fixed frame")
     assert fixed.input_value() == "map"
     wide.wait_for(
@@ -57,18 +55,23 @@ def test_it_shows_the_view_of_this_page_and_the_fixed_frame(wide: Tab) -> None:
 
 
 @pytest.mark.parametrize(
-    ("button", "item", "command"),
+    ("button", "item", "command", "view"),
     [
-        ("View: FPS", "TopDownOrtho", ChangeView("type", "TopDownOrtho")),
-        ("View: FPS", "Zero", ResetView()),
-        ("Saved views", "kitchen", ShowView("kitchen")),
-        ("Saved views", "Start with this view", StartWithView()),
+        ("View: FPS", "TopDownOrtho", ChangeView("type", "TopDownOrtho"), TopDownOrtho),
+        ("View: FPS", "Zero", ResetView(), FPS),
+        ("Saved views", "kitchen", ShowView("kitchen"), Orbit),
+        ("Saved views", "Start with this view", StartWithView(), FPS),
     ],
 )
-def test_menus_change_the_view(wide: Tab, button: str, item: str, command: Command) -> None:
+def test_menus_change_the_view(
+    wide: ViewerTab, button: str, item: str, command: Command, view: type[View]
+) -> None:
     wide.button(button).click()
     wide.page.get_by_role("menu").get_by_text(item, exact=True).click()
     wide.wait_for_command(command)
+    assert isinstance(wide.viewer.view(wide.browser), view)
+    starts = isinstance(wide.viewer.settings.view, FPS)
+    assert starts == (item == "Start with this view")
 
 
 @pytest.mark.parametrize(
@@ -79,36 +82,43 @@ def test_menus_change_the_view(wide: Tab, button: str, item: str, command: Comma
     ],
 )
 def test_frames_are_chosen_by_name_and_the_followed_one_is_centered(
-    wide: Tab, field: str, commands: list[Command]
+    wide: ViewerTab, field: str, commands: list[Command]
 ) -> None:
     box = toolbar(wide).get_by_role("combobox", name=field)
     box.fill("odom")
     box.press("Enter")
-    wide.wait_for(lambda: wide.loop.commands == commands)
+    wide.wait_for(lambda: wide.viewer.commands == commands)
+    frames = wide.viewer.settings.fixed_frame, wide.viewer.view(wide.browser).target_frame
+    assert frames == (("odom", "base_link") if field == "Fixed frame" else ("map", "odom"))
 
 
-@pytest.mark.parametrize(("field", "before"), [("Fixed frame", "map"), ("Follow", "base_link")])
+@pytest.mark.parametrize(
+    ("field", "before", "name", "reason"),
+    [
+        ("Fixed frame", "map", "/", "The fixed frame needs a name."),
+        ("Follow", "base_link", "x" * 100_001, "expected at most 100000 characters"),
+    ],
+)
 def test_a_frame_that_the_viewer_refuses_does_not_stay_in_the_field(
-    wide: Tab, field: str, before: str
+    wide: ViewerTab, field: str, before: str, name: str, reason: str
 ) -> None:
     box = toolbar(wide).get_by_role("combobox", name=field)
-    wide.loop.answer = ValueError("Frame names have no spaces.")
-    box.fill("no frame")
+    box.fill(name)
     box.press("Enter")
-    wide.wait_for(lambda: "Frame names have no spaces." in wide.text())
+    wide.wait_for(lambda: reason in wide.text())
     playwright.expect(box).to_have_value(before)
     playwright.expect(box).not_to_have_attribute("aria-invalid", "true")
 
 
 @pytest.mark.parametrize("field", ["Follow", "Fixed frame"])
-def test_the_list_of_commands_leads_to_the_fields_of_frames(wide: Tab, field: str) -> None:
+def test_the_list_of_commands_leads_to_the_fields_of_frames(wide: ViewerTab, field: str) -> None:
     wide.page.keyboard.press("Control+k")
     wide.page.get_by_role("dialog").get_by_role("combobox").fill(field)
     wide.page.keyboard.press("Enter")
     playwright.expect(toolbar(wide).get_by_role("combobox", name=field)).to_be_focused()
 
 
-def test_a_view_is_saved_under_a_free_name_or_another(wide: Tab) -> None:
+def test_a_view_is_saved_under_a_free_name_or_another(wide: ViewerTab) -> None:
     wide.button("Saved views").click()
     wide.page.get_by_role("menuitem", name="Save this view…").click()
     name = wide.page.get_by_role("dialog").get_by_label("Name")
@@ -118,7 +128,7 @@ def test_a_view_is_saved_under_a_free_name_or_another(wide: Tab) -> None:
     wide.wait_for_command(SaveView("door"))
 
 
-def test_a_tool_is_chosen_by_its_key_and_left_by_escape(wide: Tab) -> None:
+def test_a_tool_is_chosen_by_its_key_and_left_by_escape(wide: ViewerTab) -> None:
     goal = toolbar(wide).get_by_role("button", name="2D Goal Pose")
     hint = wide.page.locator(".wv-hint")
     wide.page.keyboard.press("g")
@@ -131,7 +141,7 @@ def test_a_tool_is_chosen_by_its_key_and_left_by_escape(wide: Tab) -> None:
     playwright.expect(hint).to_be_hidden()
 
 
-def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None:
+def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: ViewerTab) -> None:
     goal, point = (
         toolbar(wide).get_by_role("button", name=name) for name in ("2D Goal Pose", "Point <b>")
     )
@@ -144,21 +154,25 @@ def test_arrow_keys_walk_along_the_bar_and_tooltips_tell_keys(wide: Tab) -> None
     wide.wait_for(walk)  # the tools of the test before may still be there, and go
     wide.page.keyboard.press("ArrowLeft")
     tip = wide.page.get_by_role("tooltip")
-    playwright.expect(tip).to_have_text("2D Goal Pose: Send the robot to a pose.G")
+    playwright.expect(tip).to_have_text(
+        "2D Goal Pose: Send the robot to a pose: press at the position, drag towards the heading.G"
+    )
     wide.page.keyboard.press("Escape")
     playwright.expect(tip).to_be_hidden()
 
 
 @pytest.mark.parametrize(("width", "image"), [(620, 0), (700, 0), (1000, 0), (700, 1), (900, 1)])
 def test_what_does_not_fit_is_in_a_menu_but_frames_and_tools_stay(
-    wide: Tab, width: int, image: int
+    wide: ViewerTab, width: int, image: int
 ) -> None:
     wide.page.evaluate("localStorage.setItem('webviz.tool-uses', '3')")  # no words below tools
     wide.page.reload()
     bar = toolbar(wide)
     wide.wait_for(lambda: "Point <b>" in bar.inner_text())
     playwright.expect(bar.get_by_role("button", name="More")).to_be_hidden()
-    wide.loop.show(*[Row("c", "Image", Image(name="c"), "c", {})] * image)
+    for _ in range(image):
+        wide.viewer.do(AddDisplay("Image"))
+    wide.turn()
     playwright.expect(
         wide.page.get_by_role("region", name="Image /camera/image_raw")
     ).to_have_count(image)

@@ -53,8 +53,8 @@ def test_a_row_offers_what_helps(make_row: MakeRow) -> None:
     remedy = Remedy("topic.name", "/front", "Use /front")
     statuses = {"Topic": Status(Level.WARN, "No publisher.", remedy), "Later": STATUSES["Topic"]}
     fields = {"display": "a", "path": "topic.name", "value": "/front"}
-    told = {"label": "Use /front", "command": "SetProperty", "arguments": [fields]}
-    assert row_of(make_row("a", statuses=statuses))["remedy"] == told
+    remedy_values = {"label": "Use /front", "command": "SetProperty", "arguments": [fields]}
+    assert row_of(make_row("a", statuses=statuses))["remedy"] == remedy_values
     statuses["Later"] = STATUSES["Transform"]
     assert "remedy" not in row_of(make_row("a", statuses=statuses)), "it would not help yet"
 
@@ -75,10 +75,19 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
     assert (shown["a"]["line"], shown["a"]["level"]) == ("", "error")
     assert shown["b"]["line"] == "No transform."
     assert shown_by("displays", State(rows=rows))["a"]["line"] == few.text
-    told = {"label": "Use odom", "command": "SetFixedFrame", "arguments": [{"frame": "odom"}]}
+    remedy_values = {
+        "label": "Use odom",
+        "command": "SetFixedFrame",
+        "arguments": [{"frame": "odom"}],
+    }
     state = State(rows=rows, statuses={"Fixed Frame": cause})
-    assert shown_by("statuses", state, "a")["statuses"][1] == ["Transform", "error", own.text, told]
-    assert shown_by("settings", state)["statuses"][0][3] == told
+    assert shown_by("statuses", state, "a")["statuses"][1] == [
+        "Transform",
+        "error",
+        own.text,
+        remedy_values,
+    ]
+    assert shown_by("settings", state)["statuses"][0][3] == remedy_values
 
 
 def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:

@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import playwright.sync_api as playwright
 import pytest
-from msgspec.structs import replace
 
-from tests.page.conftest import Loop, Tab
-from tests.page.trees import Tree, group
+from tests.page.everything import group, named
+from tests.page.page_bench import PageBench
+from tests.page.tabs import ViewerTab
+from tests.page.trees import Tree
 from webviz.commands import MoveDisplay
-from webviz.engine.commands import Command
-from webviz.engine.state import Row
 
-MakeRow = Callable[..., Row]
+BEFORE = "a g(b c) d empty() e"
 
 
 @pytest.fixture
-def rows(make_row: MakeRow) -> list[Row]:
+def tree(viewer: PageBench, viewer_tab: ViewerTab) -> Tree:
     """A group with two displays, and others around it."""
-    inner = [replace(make_row(name), depth=1) for name in ("b", "c")]
-    return [make_row("a"), group("g"), *inner, make_row("d"), group("empty"), make_row("e")]
-
-
-@pytest.fixture
-def tree(tab: Tab, rows: list[Row]) -> Tree:
-    tab.loop.show(*rows)
-    tree = Tree(tab)
+    full = group("g", *named("b", "c"))
+    viewer.show(*named("a"), full, *named("d"), group("empty"), *named("e"))
+    tree = Tree(viewer_tab)
     tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
     return tree
 
@@ -51,68 +43,68 @@ def drag(tree: Tree, name: str, to: str, share: float, dx: float = 0.0) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "to", "share", "dx", "command"),
+    ("name", "to", "share", "dx", "after"),
     [
-        ("e", "a", 0.2, 0, MoveDisplay("e", "", "a")),
-        ("a", "e", 0.8, 0, MoveDisplay("a", "", "")),
-        ("e", "g", 0.5, 0, MoveDisplay("e", "g", "")),
-        ("e", "empty", 0.5, 0, MoveDisplay("e", "empty", "")),
-        ("e", "c", 0.2, 0, MoveDisplay("e", "g", "c")),
-        ("d", "c", 0.8, 20, MoveDisplay("d", "g", "")),
-        ("b", "c", 0.8, -20, MoveDisplay("b", "", "d")),
-        ("b", "c", 0.8, 0, MoveDisplay("b", "g", "")),
-        ("a", "Global Options", 0.9, 0, None),
-        ("g", "c", 0.5, 0, None),
-        ("d", "d", 0.8, 0, None),
+        ("e", "a", 0.2, 0, "e a g(b c) d empty()"),
+        ("a", "e", 0.8, 0, "g(b c) d empty() e a"),
+        ("e", "g", 0.5, 0, "a g(b c e) d empty()"),
+        ("e", "empty", 0.5, 0, "a g(b c) d empty(e)"),
+        ("e", "c", 0.2, 0, "a g(b e c) d empty()"),
+        ("d", "c", 0.8, 20, "a g(b c d) empty() e"),
+        ("b", "c", 0.8, -20, "a g(c) b d empty() e"),
+        ("b", "c", 0.8, 0, "a g(c b) d empty() e"),
+        ("a", "Global Options", 0.9, 0, BEFORE),
+        ("g", "c", 0.5, 0, BEFORE),
+        ("d", "d", 0.8, 0, BEFORE),
     ],
 )
 def test_a_display_goes_where_the_line_is(
-    loop: Loop, tree: Tree, name: str, to: str, share: float, dx: float, command: Command | None
+    viewer: PageBench, tree: Tree, name: str, to: str, share: float, dx: float, after: str
 ) -> None:
+    assert viewer.outline() == BEFORE
     drag(tree, name, to, share, dx)
     assert tree.tab.page.locator(".wv-tree-drop").is_visible()
     tree.tab.page.mouse.up()
-    if command:
-        tree.tab.wait_for_command(command)
+    tree.tab.wait_for(lambda: viewer.outline() == after)
     tree.tab.turn()
-    assert loop.commands == ([command] if command else [])
+    assert [type(command) for command in viewer.commands] == [MoveDisplay] * (after != BEFORE)
     assert not tree.tab.page.locator(".wv-tree-drop").is_visible()
     assert tree.selected() == [name]
 
 
-def test_all_that_is_selected_goes_together_in_its_order(loop: Loop, tree: Tree) -> None:
+def test_all_that_is_selected_goes_together_in_its_order(viewer: PageBench, tree: Tree) -> None:
     tree.click("d")
     tree.click("a", modifiers=["Control"])
     drag(tree, "d", "g", 0.5)
     assert "2 displays" in tree.tab.text()
     tree.tab.page.mouse.up()
-    tree.tab.wait_for(lambda: len(loop.commands) == 2)
-    assert loop.commands == [MoveDisplay("a", "g", ""), MoveDisplay("d", "g", "")]
+    tree.tab.wait_for(lambda: len(viewer.commands) == 2)
+    assert viewer.outline() == "g(b c a d) empty() e"
     assert tree.selected() == ["a", "d"]
 
 
-def test_escape_cancels_a_drag(loop: Loop, tree: Tree) -> None:
+def test_escape_cancels_a_drag(viewer: PageBench, tree: Tree) -> None:
     tree.click("a")
     drag(tree, "e", "g", 0.5)
     tree.tab.page.keyboard.press("Escape")
     assert not tree.tab.page.locator(".wv-tree-drop").is_visible()
     tree.tab.page.mouse.up()
     tree.tab.turn()
-    assert loop.commands == []
+    assert viewer.commands == []
     assert tree.selected() == ["a"]
 
 
-def test_a_folded_group_opens_under_what_is_held_over_it(loop: Loop, tree: Tree) -> None:
+def test_a_folded_group_opens_under_what_is_held_over_it(viewer: PageBench, tree: Tree) -> None:
     tree.fold("g")
     tree.wait_for_names("a", "g", "d", "empty", "e")
     drag(tree, "e", "g", 0.5)
     tree.wait_for_names("a", "g", "b", "c", "d", "empty", "e")
     tree.tab.page.mouse.up()
-    tree.tab.wait_for_command(MoveDisplay("e", "g", ""))
+    tree.tab.wait_for(lambda: viewer.outline() == "a g(b c e) d empty()")
 
 
-def test_the_list_scrolls_at_its_edges(loop: Loop, tree: Tree, make_row: MakeRow) -> None:
-    loop.show(*(make_row(f"row{i}") for i in range(40)))
+def test_the_list_scrolls_at_its_edges(viewer: PageBench, tree: Tree) -> None:
+    viewer.show(*named(*(f"row{i}" for i in range(40))))
     tree.tab.wait_for(lambda: "row5" in tree.names())
     drag(tree, "row1", "row5", 0.5)
     box = tree.tab.page.locator(".wv-tree").bounding_box()
@@ -123,4 +115,4 @@ def test_the_list_scrolls_at_its_edges(loop: Loop, tree: Tree, make_row: MakeRow
     playwright.expect(last.last).to_be_in_viewport()
     tree.tab.page.mouse.move(100, at(tree, "row39", 0.8)[1])
     tree.tab.page.mouse.up()
-    tree.tab.wait_for_command(MoveDisplay("row1", "", ""))
+    tree.tab.wait_for(lambda: viewer.outline().endswith("row39 row1"))

@@ -6,46 +6,51 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
 import pytest
 
-from webviz.api.declared import Topic
-from webviz.api.nodes import Pane
-from webviz.api.pictures import Readout
-from webviz.commands import SetPanelProperty
-from webviz.data.messages import Header, JointState, String, Time, message_class
-from webviz.engine.state import PanelTab, PanelTimes, Row, Traffic
+from tests.page.opened_panels import open_panel
+from tests.page.page_bench import PageBench, PageServer
+from tests.page.tabs import ViewerTab
+from webviz.api.declared import Topic, make
+from webviz.commands import AddDisplay, SetPanelProperty
 from webviz.panels.plot import Plot
-from webviz.server.images.pictures import Pictures
-from webviz.sources import Offer, Publisher
+from webviz.shell.testing.messages import header
+from webviz.shell.testing.source import SECOND
 from webviz_displays.text import Text
 
-SECOND = 10**9
-Number = message_class("std_msgs/msg/Float64")
+NUMBER = "std_msgs/msg/Float64"
+STRING = "std_msgs/msg/String"
+JOINT_STATE = "sensor_msgs/msg/JointState"
 HOSTILE = "<img src=x onerror=alert(1)>"
-JOINTS = JointState(Header(Time(5, 0), "base"), ["left", HOSTILE], np.array([0.25, 1e308]))
+JOINTS = {
+    "header": header("base", 5 * SECOND),
+    "name": ["left", HOSTILE],
+    "position": [0.25, 1e308],
+}
 
 
-@pytest.fixture(scope="module")
-def pictures(server: Any) -> Pictures:
-    return Pictures(server.channel)
+def show_text(viewer: PageBench, type_: str) -> str:
+    """Show the messages of a topic as text; return the id of the display."""
+    viewer.offer("/joints", type_, "/robot")
+    viewer.show(Text(name="Joints", topic=Topic("/joints")))
+    return viewer.id("Joints")
 
 
-@pytest.fixture
-def texts(tab: Any, pictures: Pictures) -> Iterator[Any]:
-    """The tab with a text of joint states."""
-    display = Text(name="Joints", topic=Topic("/joints"))
-    tab.loop.show(
-        Row("Joints", "Text", display, "Joints", {}), traffic={"/joints": Traffic(50.0, 1.0)}
-    )
-    yield tab
-    pictures.remove("Joints")
+def publish(viewer: PageBench, type_: str, **values: Any) -> None:
+    viewer.pass_time(0.1)  # a text changes at most so often
+    viewer.publish("/joints", type_, values)
+    viewer.turn()
 
 
-def test_a_text_is_a_pane_with_fields_that_fold(texts: Any, pictures: Pictures) -> None:
-    pictures.show("Joints", Pane(Readout("/joints", "sensor_msgs/msg/JointState", JOINTS)))
-    pane = texts.page.get_by_label("Text /joints", exact=True)
-    texts.wait_for(lambda: pane.count() and "1e+308" in pane.inner_text())
+def text_pane(tab: ViewerTab) -> Any:
+    return tab.page.get_by_label("Text /joints", exact=True)
+
+
+def test_a_text_is_a_pane_with_fields_that_fold(viewer: PageBench, viewer_tab: ViewerTab) -> None:
+    show_text(viewer, JOINT_STATE)
+    publish(viewer, JOINT_STATE, **JOINTS)
+    pane = text_pane(viewer_tab)
+    viewer_tab.wait_for(lambda: pane.count() and "1e+308" in pane.inner_text())
     shown = pane.inner_text()
     assert "/joints · sensor_msgs/msg/JointState" in shown
     assert "5.000 s" in shown
@@ -55,23 +60,30 @@ def test_a_text_is_a_pane_with_fields_that_fold(texts: Any, pictures: Pictures) 
     before = rows.count()
     rows.filter(has_text="header").click()
     assert rows.count() == before - 2
-    texts.wait_for(lambda: "50 Hz" in pane.inner_text())
-    pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("hello"))))
-    texts.wait_for(lambda: "'hello'" in pane.inner_text())
+    for _ in range(40):
+        publish(viewer, JOINT_STATE, **JOINTS)
+    viewer_tab.wait_for(lambda: "10 Hz" in pane.inner_text())
+    show_text(viewer, STRING)
+    publish(viewer, STRING, data="hello")
+    viewer_tab.wait_for(lambda: "'hello'" in pane.inner_text())
 
 
 def test_a_text_that_is_folded_is_not_sent(
-    texts: Any, pictures: Pictures, monkeypatch: pytest.MonkeyPatch
+    page_server: PageServer,
+    viewer: PageBench,
+    viewer_tab: ViewerTab,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("webviz.server.images.pictures.UNSEEN_S", 0.0)
-    pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("first"))))
-    pane = texts.page.get_by_label("Text /joints", exact=True)
-    texts.wait_for(lambda: pane.count() and "'first'" in pane.inner_text())
+    id_ = show_text(viewer, STRING)
+    publish(viewer, STRING, data="first")
+    pane = text_pane(viewer_tab)
+    viewer_tab.wait_for(lambda: pane.count() and "'first'" in pane.inner_text())
     pane.get_by_role("button", name="Collapse /joints").click()
-    texts.wait_for(lambda: pictures.is_unseen("Joints"))
-    pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/String", String("second"))))
+    viewer_tab.wait_for(lambda: page_server.scene.is_unseen(id_))
+    publish(viewer, STRING, data="second")
     pane.get_by_role("button", name="Expand /joints").click()
-    texts.wait_for(lambda: "'second'" in pane.inner_text())
+    viewer_tab.wait_for(lambda: "'second'" in pane.inner_text())
 
 
 NEWEST = ["0.9046", "0.999"]
@@ -79,32 +91,32 @@ CURVES = ["/wheels.position[left]", "/wheels.position[right]"]
 
 
 @pytest.fixture
-def plot(tab: Any) -> Iterator[Any]:
+def plot(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
     """The tab with the panel Plot open, which has 20 s of two curves."""
-    panel = Plot(name="Plot", curves=CURVES)
-    wheels = Publisher("/robot", "sensor_msgs/msg/JointState", "reliable", "volatile")
-    tab.loop.show(
-        panels=(PanelTab("plot", "Plot", panel),),
-        offers={"/wheels": Offer((wheels,))},
-        clock=PanelTimes(ros_ns=120 * SECOND),
-    )
-    tab.show_tab("Plot")
-    tab.wait_for(lambda: tab.page.locator(".wv-chart-entry").count() == 2)
+    viewer.offer("/wheels", JOINT_STATE, "/robot")
+    open_panel(viewer_tab, make(Plot, {"curves": CURVES}))
+    viewer_tab.wait_for(lambda: viewer_tab.page.locator(".wv-chart-entry").count() == 2)
+    viewer_tab.wait_for(lambda: "/wheels" in viewer.source.wanted)
     for i in range(1000):
-        position = np.array([math.sin(i / 50), math.nan if 400 < i < 600 else i / 1000])
-        message = JointState(name=["left", "right"], position=position)
-        panel.take("/wheels", message, 100 * SECOND + i * SECOND // 50)
-    tab.wait_for(lambda: legend(tab) == NEWEST)
-    yield tab
-    tab.loop.show(panels=())
-    tab.show_tab("Displays")
+        turn_wheels(viewer, math.sin(i / 50), math.nan if 400 < i < 600 else i / 1000)
+        viewer.pass_time(0.02)
+        if i % 50 == 49:
+            viewer.turn()
+    viewer_tab.wait_for(lambda: legend(viewer_tab) == NEWEST)
+    yield viewer_tab
+    viewer.show()
+    viewer_tab.show_tab("Displays")
 
 
-def legend(tab: Any) -> list[str]:
+def turn_wheels(viewer: PageBench, *position: float) -> None:
+    viewer.publish("/wheels", JOINT_STATE, {"name": ["left", "right"], "position": position})
+
+
+def legend(tab: ViewerTab) -> list[str]:
     return tab.page.locator(".wv-chart-value").all_inner_texts()
 
 
-def hue(tab: Any, x: float) -> list[int]:
+def hue(tab: ViewerTab, x: float) -> list[int]:
     """The numbers of the curves that are drawn at a share of the width of the chart."""
     script = """(canvas, x) => {
       const [w, h] = [canvas.width, canvas.height];
@@ -119,8 +131,13 @@ def hue(tab: Any, x: float) -> list[int]:
     return tab.page.locator(".wv-chart-canvas").evaluate(script, x)
 
 
-def drag(tab: Any, start: tuple[float, float], end: tuple[float, float]) -> None:
-    box = tab.page.locator(".wv-chart-canvas").bounding_box()
+def chart_box(tab: ViewerTab) -> Any:
+    """The place of the chart in the window, in pixels."""
+    return tab.page.locator(".wv-chart-canvas").bounding_box()
+
+
+def drag(tab: ViewerTab, start: tuple[float, float], end: tuple[float, float]) -> None:
+    box = chart_box(tab)
     place = [(box["x"] + x * box["width"], box["y"] + y * box["height"]) for x, y in (start, end)]
     tab.page.mouse.move(*place[0])
     tab.page.mouse.down()
@@ -128,11 +145,11 @@ def drag(tab: Any, start: tuple[float, float], end: tuple[float, float]) -> None
     tab.page.mouse.up()
 
 
-def test_curves_are_drawn_with_gaps_and_a_legend_that_has_statistics(plot: Any) -> None:
+def test_curves_are_drawn_with_gaps_and_a_legend_that_has_statistics(plot: ViewerTab) -> None:
     plot.wait_for(lambda: hue(plot, 0.95) == [0, 1])
     assert hue(plot, 0.71) == [0], "the second curve has a gap"
     assert hue(plot, 0.3) == [], "of the window of 30 s, the first 10 s are empty"
-    box = plot.page.locator(".wv-chart-canvas").bounding_box()
+    box = chart_box(plot)
     plot.page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 50)
     plot.wait_for(lambda: legend(plot) != NEWEST)
     plot.page.mouse.move(0, 0)
@@ -145,7 +162,7 @@ def test_curves_are_drawn_with_gaps_and_a_legend_that_has_statistics(plot: Any) 
     plot.wait_for(lambda: sums.inner_text() == "")
 
 
-def test_a_page_zooms_pans_and_resets_for_itself(plot: Any) -> None:
+def test_a_page_zooms_pans_and_resets_for_itself(plot: ViewerTab) -> None:
     reset = plot.button("Reset zoom (double click)")
     assert reset.is_disabled()
     drag(plot, (0.6, 0.5), (0.85, 0.5))
@@ -153,7 +170,7 @@ def test_a_page_zooms_pans_and_resets_for_itself(plot: Any) -> None:
     assert reset.is_enabled()
     reset.click()
     plot.wait_for(lambda: hue(plot, 0.95) == [0, 1])
-    box = plot.page.locator(".wv-chart-canvas").bounding_box()
+    box = chart_box(plot)
     plot.page.mouse.move(box["x"] + box["width"] - 8, box["y"] + 50)
     for _ in range(5):
         plot.page.mouse.wheel(0, -100)
@@ -162,19 +179,18 @@ def test_a_page_zooms_pans_and_resets_for_itself(plot: Any) -> None:
     plot.wait_for(reset.is_disabled)
 
 
-def test_a_paused_page_stands_still_while_values_come(plot: Any) -> None:
+def test_a_paused_page_stands_still_while_values_come(plot: ViewerTab) -> None:
     chart = plot.page.locator(".wv-chart-tools")
     chart.get_by_role("button", name="Pause").click()
-    panel = plot.loop.state.panels[0].panel
-    message = JointState(name=["left", "right"], position=np.array([7.0, 8.0]))
-    panel.take("/wheels", message, 121 * SECOND)
+    plot.viewer.pass_time(1.0)
+    turn_wheels(plot.viewer, 7.0, 8.0)
     plot.turn()
     assert legend(plot) == NEWEST
     chart.get_by_role("button", name="Resume").click()
     plot.wait_for(lambda: legend(plot) == ["7", "8"])
 
 
-def test_values_are_downloaded_as_csv(plot: Any) -> None:
+def test_values_are_downloaded_as_csv(plot: ViewerTab) -> None:
     with plot.page.expect_download() as download:
         plot.button("Download as CSV").click()
     lines = download.value.path().read_text().splitlines()
@@ -184,13 +200,19 @@ def test_values_are_downloaded_as_csv(plot: Any) -> None:
 
 
 def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
-    plot: Any, texts: Any, pictures: Pictures
+    viewer: PageBench, plot: ViewerTab
 ) -> None:
-    pictures.show("Joints", Pane(Readout("/joints", "std_msgs/msg/Float64", Number(3.5))))
-    pane = texts.page.get_by_label("Text /joints", exact=True)
-    texts.wait_for(lambda: pane.count() and "3.5" in pane.inner_text())
+    viewer.offer("/joints", NUMBER, "/robot")
+    viewer.do(AddDisplay("Text", {"topic": "/joints"}))
+    publish(viewer, NUMBER, data=3.5)
+    pane = text_pane(plot)
+    plot.wait_for(lambda: pane.count() and "3.5" in pane.inner_text())
     pane.get_by_role("button", name="Plot", exact=True).click()
+    (panel,) = viewer.states[-1].panels
+    shown: Any = panel.panel
     curves = [*CURVES, "/joints.data"]
-    plot.wait_for(lambda: SetPanelProperty("plot", "curves", curves) in plot.loop.commands)
+    plot.wait_for_command(SetPanelProperty(panel.id, "curves", curves))
+    assert shown.curves == curves
     plot.button(f"Remove {CURVES[0]}").click()
-    plot.wait_for(lambda: SetPanelProperty("plot", "curves", CURVES[1:]) in plot.loop.commands)
+    plot.wait_for_command(SetPanelProperty(panel.id, "curves", curves[1:]))
+    assert shown.curves == curves[1:]

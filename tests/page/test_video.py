@@ -6,7 +6,7 @@ from pathlib import Path
 
 from playwright.sync_api import expect
 
-from tests.page.conftest import Tab
+from tests.page.tabs import ViewerTab
 
 SPIN = """() => {
   window.spins = true;
@@ -18,18 +18,20 @@ SPIN = """() => {
 }"""
 
 
-def test_a_video_of_the_scene_is_saved_by_the_browser(tab: Tab, tmp_path: Path) -> None:
-    tab.page.get_by_role("button", name="Menu", exact=True).click()
-    tab.page.get_by_role("menuitem", name="Record or stop a video").click()
-    stop = tab.page.get_by_role("button", name="Stop recording the video")
+def test_a_video_of_the_scene_is_saved_by_the_browser(
+    viewer_tab: ViewerTab, tmp_path: Path
+) -> None:
+    viewer_tab.page.get_by_role("button", name="Menu", exact=True).click()
+    viewer_tab.page.get_by_role("menuitem", name="Record or stop a video").click()
+    stop = viewer_tab.page.get_by_role("button", name="Stop recording the video")
     expect(stop).to_be_visible()
-    tab.page.evaluate(SPIN)
+    viewer_tab.page.evaluate(SPIN)
     expect(stop).to_contain_text("Recording a video: ")
-    tab.wait_for(lambda: "· 0 kB" not in stop.inner_text())
-    with tab.page.expect_download() as found:
+    viewer_tab.wait_for(lambda: "· 0 kB" not in stop.inner_text())
+    with viewer_tab.page.expect_download() as found:
         stop.click()
     expect(stop).to_be_hidden()
-    tab.page.evaluate("window.spins = false")
+    viewer_tab.page.evaluate("window.spins = false")
     path = tmp_path / found.value.suggested_filename
     found.value.save_as(path)
     assert path.suffix in (".mp4", ".webm")

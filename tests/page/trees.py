@@ -7,7 +7,7 @@ from typing import Any
 
 import playwright.sync_api as playwright
 
-from tests.page.conftest import Tab
+from tests.page.tabs import ViewerTab
 from webviz.api.group import DisplayGroup
 from webviz.api.status import Status
 from webviz.engine.state import Row
@@ -16,7 +16,7 @@ from webviz.engine.state import Row
 class Tree:
     """The tree of displays in a tab."""
 
-    def __init__(self, tab: Tab) -> None:
+    def __init__(self, tab: ViewerTab) -> None:
         self.tab = tab
         self.details = tab.page.get_by_role("region", name="Properties", exact=True)
 

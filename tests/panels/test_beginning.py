@@ -71,7 +71,9 @@ def test_a_curve_of_a_topic_that_is_plotted_begins_with_it_too(memory: Memory, l
     assert times == sorted(set(times))
 
 
-def test_a_plot_of_the_past_begins_with_what_came_before(memory: Memory, live: Guest) -> None:
+def test_a_plot_added_while_rewound_is_filled_with_earlier_messages(
+    memory: Memory, live: Guest
+) -> None:
     playback = memory.viewer.fact("playback")
     at_s = (playback.end_ns - playback.start_ns) / 1e9 - 0.5
     memory.viewer.do(Seek(at_s))
@@ -107,29 +109,29 @@ def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> 
     memory.pause()
     table = add(memory, live, "MessageTable", path="/plan.poses")
     try:
-        until(lambda: table.found, seconds=2.0)
+        until(lambda: table.values, seconds=2.0)
     finally:
         memory.resume()
 
 
-def test_what_a_panel_begins_with_is_bounded(
+def test_the_messages_that_fill_a_new_panel_are_bounded(
     memory: Memory, live: Guest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(panels, "MAX_MESSAGES", 7)
     begins = memory.viewer.fact("panels")
     assert begins == ()
-    given: list[int] = []
+    stamps: list[int] = []
     take = Plot.take
 
     def count(
         self: Plot, topic: str, message: Any, received_ns: int, *, is_past: bool = False
     ) -> None:
         if is_past:
-            given.append(received_ns)
+            stamps.append(received_ns)
         take(self, topic, message, received_ns, is_past=is_past)
 
     monkeypatch.setattr(Plot, "take", count)
     plot = add(memory, live, "Plot", curves=[X])
     until(lambda: X in plot.series and plot.series[X].history.newest)
-    assert len(given) == 7
-    assert given == sorted(given)
+    assert len(stamps) == 7
+    assert stamps == sorted(stamps)

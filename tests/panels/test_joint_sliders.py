@@ -66,8 +66,8 @@ class JointsPanel(OpenedPanel):
         self.show()
 
     def slides(self) -> dict[str, tuple[float, float, float]]:
-        shown = self.sliders().values["slides"]
-        return {each["name"]: (each["low"], each["value"], each["high"]) for each in shown}
+        rows = self.sliders().values["slides"]
+        return {each["name"]: (each["low"], each["value"], each["high"]) for each in rows}
 
     def sliders(self) -> Any:
         return next(w for w in self.ui.widgets.values() if w.values["kind"] == "sliders")
@@ -79,9 +79,9 @@ class JointsPanel(OpenedPanel):
         return " ".join(w.values.get("text", "") for w in self.ui.widgets.values())
 
     def published(self) -> list[dict[str, float]]:
-        found = self.graph.published
-        assert all(advertisement.topic == "/joint_states" for advertisement, _ in found)
-        return [dict(zip(each.name, each.position.tolist(), strict=True)) for _, each in found]
+        messages = self.graph.published
+        assert all(advertisement.topic == "/joint_states" for advertisement, _ in messages)
+        return [dict(zip(each.name, each.position.tolist(), strict=True)) for _, each in messages]
 
 
 @pytest.fixture
@@ -98,7 +98,7 @@ def test_each_joint_that_leads_has_a_slider_within_its_limits(hand: JointsPanel)
     assert hand.published() == [], "nothing before somebody acts"
 
 
-def test_a_moved_slider_publishes_all_joints_until_nobody_looks(
+def test_a_moved_slider_publishes_all_joints_while_a_page_shows_it(
     hand: JointsPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hand.move("bend", 0.75)
@@ -135,7 +135,7 @@ def test_a_value_that_no_slider_has_is_refused(hand: JointsPanel) -> None:
     assert hand.published() == []
 
 
-def test_a_viewer_that_may_not_publish_says_so(bench: Benches) -> None:
+def test_a_viewer_without_the_right_to_publish_has_a_reason(bench: Benches) -> None:
     display_bench = JointsPanel(bench, publish=("/cmd_vel",))
     display_bench.describe(HAND)
     display_bench.move("bend", 1.0)

@@ -92,7 +92,7 @@ def test_a_long_track_is_sent_in_parts_and_has_a_bound() -> None:
     ("latitude", "longitude", "status"),
     [(math.nan, 8.0, 0), (1e308, 8.0, 0), (89.9, 8.0, 0), (50.0, math.inf, 0), (50.0, 8.0, -1)],
 )
-def test_what_is_no_place_is_said(latitude: float, longitude: float, status: int) -> None:
+def test_invalid_places_are_reported(latitude: float, longitude: float, status: int) -> None:
     bench = LoneMap(topics=["/fix"])
     bench.fix(latitude, longitude, status)
     assert bench.places(0) == []
@@ -101,7 +101,7 @@ def test_what_is_no_place_is_said(latitude: float, longitude: float, status: int
     assert bench.values()["problem"].startswith("No tiles are chosen.")
 
 
-def test_topics_without_a_publisher_are_said() -> None:
+def test_topics_without_a_publisher_are_reported() -> None:
     assert "on /gone" in LoneMap(topics=["/gone"]).values()["problem"]
     bench = LoneMap()
     bench.state = State()
@@ -130,7 +130,7 @@ def test_a_page_gets_the_tiles_it_asks_for(tmp_path: Path) -> None:
         bench.widget.use('"tiles"', 7)
 
 
-def test_what_is_not_an_image_is_said_and_not_passed_on(tmp_path: Path) -> None:
+def test_a_tile_that_is_not_an_image_is_reported_and_not_served(tmp_path: Path) -> None:
     path = tmp_path / "0/0/0.png"
     path.parent.mkdir(parents=True)
     path.write_bytes(b"<svg onload=alert(1)>")
@@ -148,13 +148,13 @@ def test_tiles_of_a_server_that_is_not_allowed_are_not_loaded() -> None:
     assert "WEBVIZ_TILE_SERVERS" in shelf.problem
 
 
-def test_tiles_that_nobody_asked_for_longest_go(tmp_path: Path) -> None:
+def test_the_least_recently_used_tiles_are_dropped(tmp_path: Path) -> None:
     png(tmp_path, "9/0/0.png")
     shelf = TileShelf(str(tmp_path), 1.0)
     for row in range(0, MAX_TILES + 100, 100):
-        asked = [(9, 0, 0), *((9, 1, row + i) for i in range(100))]
-        shelf.want(asked)
-        until(lambda asked=asked: {"/".join(map(str, each)) for each in asked} <= {*shelf.parts()})
+        tiles = [(9, 0, 0), *((9, 1, row + i) for i in range(100))]
+        shelf.want(tiles)
+        until(lambda tiles=tiles: {"/".join(map(str, each)) for each in tiles} <= {*shelf.parts()})
     assert len(shelf.parts()) == MAX_TILES
     assert shelf.parts()["9/0/0"]["image"]
     assert "9/1/0" not in shelf.parts()

@@ -61,7 +61,7 @@ def test_without_a_list_there_are_all_of_them_in_the_order_of_their_tabs(file: P
     assert "panels" not in document(config)
 
 
-def test_what_a_file_says_of_panels_is_read_overridden_and_written_again(file: Path) -> None:
+def test_panels_of_a_file_are_read_overridden_and_written_again(file: Path) -> None:
     config = parse(LISTED, "x.yaml")
     assert panels(config) == [("Notes", 7)]
     assert document(config)["panels"] == [{"type": "Notes", "most": 7}]
@@ -136,14 +136,14 @@ def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Ben
         assert wired.heard == []
         b.do(OpenPanels(frozenset({"Wired"})))
         assert b.source.wanted["/words"].type == "std_msgs/msg/String"
-        assert "/answers" in {advertisement.topic for advertisement in b.source.graph.advertised}
+        assert "/answers" in {advertisement.topic for advertisement in b.graph.advertised}
         b.publish(*text)
         b.publish("/words", "std_msgs/msg/String", {"data": "two"})
         b.source.put("/words", "std_msgs/msg/String", b"\x00\x01\x00\x00\xff")
         b.turn()
         assert wired.heard == [("/words", "one"), ("/words", "two")]
         b.do(Publish("/answers", "std_msgs/msg/String", {"data": "yes"}))
-        ((advertisement, message),) = b.source.graph.published
+        ((advertisement, message),) = b.graph.published
         assert (advertisement.topic, message.data) == ("/answers", "yes")
         b.do(OpenPanels(frozenset()))
         assert "/words" not in b.source.wanted
@@ -188,7 +188,7 @@ def test_panels_with_names_from_before_go_on(tmp_path: Path, bench: Benches) -> 
         registry.register(str(path), {})
 
 
-def test_a_service_answers_or_says_why_not(bench: Benches) -> None:
+def test_a_service_answers_or_has_a_reason(bench: Benches) -> None:
     b = bench(graph=RememberingGraph())
     answers: list[Any] = []
     call = CallService(
@@ -197,7 +197,7 @@ def test_a_service_answers_or_says_why_not(bench: Benches) -> None:
     b.do(call)
     assert answers.pop() == "No node offers /start. Start one."
     response = encode("std_srvs/srv/Trigger_Response", {"success": True, "message": "on"})
-    b.source.graph.responses["/start"] = response
+    b.graph.responses["/start"] = response
     b.do(call)
     assert (answers[0].success, answers[0].message) == (True, "on")
     unknown = b.refused(CallService("/start", "std_srvs/srv/Nothing", {}))

@@ -34,7 +34,7 @@ class Answer:
         self.__dict__.update(fields)
 
 
-class Node:
+class ParameterNode:
     """A node with parameters: texts are refused.
 
     Args:
@@ -43,10 +43,10 @@ class Node:
 
     def __init__(self, **values: tuple[int, Any]) -> None:
         self.values: dict[str, tuple[int, Any]] = dict(values)
-        self.sent: list[CallService] = []
+        self.requests: list[CallService] = []
 
     def __call__(self, command: Any, browser: int | None = None) -> None:
-        self.sent.append(command)
+        self.requests.append(command)
         encode(interfaces.service(command.type).request, command.request)
         service = command.service.rpartition("/")[2]
         request: Mapping[str, Any] = command.request
@@ -57,10 +57,10 @@ class Node:
             fields = {"description": f"About {HOSTILE}", "floating_point_range": limits}
             response = Answer(descriptors=[DESCRIPTOR(**fields) for _ in request["names"]])
         elif service == "get_parameters":
-            found = [self.values[name] for name in request["names"]]
+            pairs = [self.values[name] for name in request["names"]]
             values = [
                 VALUE(type=kind, **({KINDS[kind][1]: value} if kind else {}))
-                for kind, value in found
+                for kind, value in pairs
             ]
             response = Answer(values=values)
         else:
@@ -76,26 +76,26 @@ class Node:
 
 
 @pytest.fixture
-def opened() -> Callable[..., tuple[Parameters, Node, Callable[[], dict[str, Any]]]]:
+def opened() -> Callable[..., tuple[Parameters, ParameterNode, Callable[[], dict[str, Any]]]]:
     """Open the panel on a node."""
 
     def open_(**values: tuple[int, Any]) -> Any:
-        node, panel, ui = Node(**values), Parameters(node="/base"), RecordedUi()
+        node, panel, ui = ParameterNode(**values), Parameters(node="/base"), RecordedUi()
         panel.build(ui, node)
         offer = Offer((Publisher("/base", "", "reliable", "volatile"),))
 
-        def shown() -> dict[str, Any]:
+        def values_of() -> dict[str, Any]:
             show_panel(panel, State(offers={"/parameter_events": offer}))
             return dict(ui.widgets["1"].values["values"])
 
-        return panel, node, shown
+        return panel, node, values_of
 
     return open_
 
 
 def test_parameters_are_shown_set_refused_and_taken_back(opened: Any) -> None:
-    panel, node, shown = opened(speed=(3, 0.5), name=(4, "x"), unset=(0, None))
-    rows = {row["name"]: row for row in shown()["rows"]}
+    panel, node, values = opened(speed=(3, 0.5), name=(4, "x"), unset=(0, None))
+    rows = {row["name"]: row for row in values()["rows"]}
     assert (rows["speed"]["text"], rows["speed"]["kind"]) == ("0.5", "double")
     assert rows["speed"]["range"] == "0 to 2"
     assert "\u202e" not in rows["speed"]["about"]
@@ -103,24 +103,24 @@ def test_parameters_are_shown_set_refused_and_taken_back(opened: Any) -> None:
     panel.use({"set": ["speed", "1"]}, 1)
     assert node.values["speed"] == (3, 1.0)
     panel.use({"set": ["name", "new"]}, 1)
-    assert shown()["outcome"] == "The node refused name: No texts."
-    assert [row["refused"] for row in shown()["rows"]] == ["No texts.", "", ""]
-    assert shown()["undo"] == 1
+    assert values()["outcome"] == "The node refused name: No texts."
+    assert [row["refused"] for row in values()["rows"]] == ["No texts.", "", ""]
+    assert values()["undo"] == 1
     panel.use({"undo": True}, 1)
     assert node.values["speed"] == (3, 0.5)
     with pytest.raises(Error, match="nothing to undo"):
         panel.use({"undo": True}, 1)
 
 
-def test_a_file_sets_what_it_names_and_is_what_the_panel_saves(opened: Any) -> None:
-    panel, node, shown = opened(**{"a.b": (2, 1), "a.c": (8, [1.0, math.inf]), "on": (1, True)})
-    yaml = shown()["yaml"]
+def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(opened: Any) -> None:
+    panel, node, values = opened(**{"a.b": (2, 1), "a.c": (8, [1.0, math.inf]), "on": (1, True)})
+    yaml = values()["yaml"]
     assert yaml == (
         '/base:\n  ros__parameters:\n    a:\n      b: 1\n      c: [1.0, .inf]\n    "on": true\n'
     )
     panel.use({"load": yaml.replace("b: 1", "b: 7") + "    other: 1\n"}, 1)
     assert node.values["a.b"] == (2, 7)
-    assert shown()["outcome"] == "3 parameters set. The node does not have other."
+    assert values()["outcome"] == "3 parameters set. The node does not have other."
     assert flat(read_yaml(yaml)["/base"]["ros__parameters"]) == {
         "a.b": 1,
         "a.c": [1.0, math.inf],
@@ -153,8 +153,8 @@ def test_a_value_that_does_not_fit_is_refused(
     opened: Any, kind: int, text: str, reason: str
 ) -> None:
     values = {1: True, 2: 1, 3: 1.0, 7: [1], 9: ["a"]}
-    panel, node, shown = opened(x=(kind, values[kind]))
-    shown()
+    panel, node, show = opened(x=(kind, values[kind]))
+    show()
     with pytest.raises(Error) as error:
         panel.use({"set": ["x", text]}, 1)
     assert reason in str(error.value)
@@ -162,8 +162,8 @@ def test_a_value_that_does_not_fit_is_refused(
 
 
 def test_many_and_long_parameters_are_bounded(opened: Any) -> None:
-    _, _, shown = opened(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
-    result = shown()
+    _, _, values = opened(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
+    result = values()
     assert len(str(result)) < 400_000
     assert result["rows"][0]["locked"]
     assert "more." in result["note"]

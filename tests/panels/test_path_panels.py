@@ -33,10 +33,10 @@ def built(panel: Any) -> Any:
     customs = [each for each in ui.widgets.values() if isinstance(each, CustomWidget)]
     heads = ("own path", "own fields")
     panel.own = next(each for each in customs if each.values["kind"] not in heads)
-    return shown(panel)
+    return update(panel)
 
 
-def shown(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
+def update(panel: Any, ros_ns: int = 100 * SECOND) -> Any:
     offer = Offer((Publisher("/node", "std_msgs/msg/String", "reliable", "volatile"),))
     show_panel(panel, State(offers={"/t": offer}, clock=PanelTimes(ros_ns=ros_ns)))
     return panel
@@ -58,7 +58,7 @@ def test_rows_of_a_table_are_elements_and_its_columns_their_fields() -> None:
     assert table_of([]) == {"columns": [], "rows": [], "note": ""}
 
 
-def test_a_large_table_is_cut_and_says_so() -> None:
+def test_a_large_table_is_shortened_with_a_note() -> None:
     scan = LaserScan(ranges=np.ones(100_000, np.float32))
     table = table_of([scan.ranges])
     assert len(table["rows"]) == MAX_ROWS
@@ -91,7 +91,7 @@ def test_the_first_rule_that_fits_chooses_the_lamp(value: Any, color: str, label
 def test_a_rule_that_cannot_be_read_is_named(text: str) -> None:
     panel = built(Indicator(path="/t.data", rules=[text]))
     panel.take("/t", String("IDLE"))
-    assert "is not a rule" in values(shown(panel))["problem"]
+    assert "is not a rule" in values(update(panel))["problem"]
 
 
 @pytest.mark.parametrize("kind", [RawMessage, MessageTable, Indicator])
@@ -104,7 +104,7 @@ def test_a_rule_that_cannot_be_read_is_named(text: str) -> None:
         ("/t.data", "No message yet."),
     ],
 )
-def test_a_path_without_values_says_why(kind: type, path: str, problem: str) -> None:
+def test_a_path_without_values_has_a_reason(kind: type, path: str, problem: str) -> None:
     assert problem in values(built(kind(path=path)))["problem"]
 
 
@@ -112,51 +112,51 @@ def test_a_field_that_is_missing_is_named_and_a_new_path_starts_over() -> None:
     panel = built(RawMessage(path="/t.text"))
     assert panel.subscriptions() == {"/t": "std_msgs/msg/String"}
     panel.take("/t", String("x" * 100_000))
-    assert "No field `text`" in values(shown(panel))["problem"]
+    assert "No field `text`" in values(update(panel))["problem"]
     panel.path = "/t"
-    assert values(shown(panel))["tree"] is None
+    assert values(update(panel))["tree"] is None
     panel.take("/t", String("x" * 100_000))
-    assert len(values(shown(panel))["tree"]["fields"]["data"]) < 1000
+    assert len(values(update(panel))["tree"]["fields"]["data"]) < 1000
     panel.refuse("/t", "Not a String.")
-    assert values(shown(panel))["problem"] == "Not a String."
+    assert values(update(panel))["problem"] == "Not a String."
 
 
 def test_a_band_has_only_changes_and_a_bounded_number() -> None:
     panel = built(StateTimeline(paths=["/t.data"], window=50.0))
     for i in range(10):
         panel.take("/t", String("idle" if i < 5 else "go"), (90 + i) * SECOND)
-    (track,) = values(shown(panel))["tracks"]
+    (track,) = values(update(panel))["tracks"]
     assert (track["times"], track["states"]) == ([90.0, 95.0], ["idle", "go"])
-    assert values(shown(panel, 200 * SECOND))["tracks"][0]["states"] == ["go"]
+    assert values(update(panel, 200 * SECOND))["tracks"][0]["states"] == ["go"]
     for i in range(3 * MAX_CHANGES):
         panel.take("/t", String(f"{i}" * 100), 200 * SECOND + i)
-    (track,) = values(shown(panel, 200 * SECOND))["tracks"]
+    (track,) = values(update(panel, 200 * SECOND))["tracks"]
     assert len(track["states"]) == MAX_CHANGES
     panel.take("/t", String("back"), 5 * SECOND)
-    assert values(shown(panel, 6 * SECOND))["tracks"][0]["times"] == [5.0]
+    assert values(update(panel, 6 * SECOND))["tracks"][0]["times"] == [5.0]
 
 
 def test_bands_are_added_by_topic_and_field_and_removed() -> None:
-    panel, sent = StateTimeline(paths=["/t.data"]), list[Any]()
-    panel.build(RecordedUi(), lambda command, browser=None: sent.append(command))
+    panel, commands = StateTimeline(paths=["/t.data"]), list[Any]()
+    panel.build(RecordedUi(), lambda command, browser=None: commands.append(command))
     panel.chooser.topic = "/t"
-    shown(panel)
+    update(panel)
     assert set(panel.subscriptions()) == {"/t"}
     panel.take("/t", STATUS(values=[KEY(key="a")]), SECOND)
     ui = RecordedUi()
     panel.chooser.build(ui, "band")
-    shown(panel)
+    update(panel)
     chooser = ui.widgets["0"]
     offered = ["level", "name", "message", "hardware_id", "values[0].key", "values[0].value"]
     assert chooser.values["values"]["fields"] == offered
     chooser.use('{"add": "/t.name"}', 1)
     panel.use("/t.data", 1)
-    assert [each.value for each in sent] == [["/t.data", "/t.name"], []]
+    assert [each.value for each in commands] == [["/t.data", "/t.name"], []]
     for useless in ('{"add": 5}', "{}", "[]", "7", '{"topic": ["/t"]}'):
         chooser.use(useless, 1)
-    assert len(sent) == 2
+    assert len(commands) == 2
     chooser.use('{"topic": ""}', 1)
-    shown(panel)
+    update(panel)
     assert chooser.values["values"]["fields"] == []
 
 
@@ -165,7 +165,7 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
     status = [STATUS(name=f"n: {i}", level=255, message="m" * 9999) for i in range(10**5)]
     status[0] = STATUS(name="n: 0", values=[KEY(key="\x00" * 500, value="\\" * 9999)] * 1000)
     panel.take("/diagnostics", ARRAY(status=status), 99 * SECOND)
-    shown(panel)
+    update(panel)
     results = [each for part in panel.own.parts.values() for each in part["statuses"]]
     assert len(results) == MAX_STATUSES
     assert results[1]["path"] == ["/diagnostics", "n", "1"]
@@ -173,15 +173,15 @@ def test_diagnostics_are_bounded_and_grow_stale() -> None:
     assert "not shown; the limit is" in values(panel)["problem"]
     before = dict(panel.own.parts)
     panel.take("/diagnostics", ARRAY(status=[STATUS(name="n: 25")]), 100 * SECOND)
-    shown(panel)
+    update(panel)
     assert [key for key, part in panel.own.parts.items() if before[key] is not part] == ["1"]
-    shown(panel, 999 * SECOND)
+    update(panel, 999 * SECOND)
     results = [each for part in panel.own.parts.values() for each in part["statuses"]]
     assert {each["level"] for each in results} == {3}
     panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
     panel.start_over()
     panel.take("/diagnostics_agg", ARRAY(status=[STATUS(name="/Robot/Arm//x")]), SECOND)
-    assert next(iter(panel.known.values())).shown["path"] == [
+    assert next(iter(panel.devices.values())).row["path"] == [
         "/diagnostics_agg",
         "Robot",
         "Arm",
@@ -194,8 +194,8 @@ def test_states_and_raw_values_have_the_names_of_constants() -> None:
     bands = built(StateTimeline(paths=["/t.power_supply_status"]))
     bands.take("/t", battery(power_supply_status=2), 99 * SECOND)
     bands.take("/t", battery(power_supply_status=77), 100 * SECOND)
-    [track] = values(shown(bands))["tracks"]
+    [track] = values(update(bands))["tracks"]
     assert track["states"] == ["DISCHARGING (2)", "77"]
     raw = built(RawMessage(path="/t.power_supply_status"))
     raw.take("/t", battery(power_supply_status=4))
-    assert values(shown(raw))["tree"] == {"fields": {"value": "FULL (4)"}}
+    assert values(update(raw))["tree"] == {"fields": {"value": "FULL (4)"}}

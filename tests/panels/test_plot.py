@@ -103,7 +103,7 @@ def test_times_may_be_those_of_the_headers() -> None:
         ("/joints.data", String("text"), "`/joints.data` is not a number."),
     ],
 )
-def test_a_curve_without_values_says_why(curve: str, message: Any, reason: str) -> None:
+def test_a_curve_without_values_has_a_reason(curve: str, message: Any, reason: str) -> None:
     bench = LonePlot(curve)
     if message is not None:
         bench.panel.take("/joints", message, SECOND)
@@ -157,23 +157,23 @@ def test_a_fast_topic_keeps_the_extremes_of_each_interval_and_no_more_than_promi
         history.add(time, value)
     size, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    kept = np.array(history.points())
-    assert len(kept) <= MAX_POINTS
+    points = np.array(history.points())
+    assert len(points) <= MAX_POINTS
     assert size < 2_000_000
-    assert kept[0, 0] == pytest.approx(6.0, abs=0.2)
-    assert (np.diff(kept[:, 0]) >= 0).all()
-    window = values[times >= kept[0, 0]]
-    assert (kept[:, 1].min(), kept[:, 1].max()) == (window.min(), 99.0)
+    assert points[0, 0] == pytest.approx(6.0, abs=0.2)
+    assert (np.diff(points[:, 0]) >= 0).all()
+    window = values[times >= points[0, 0]]
+    assert (points[:, 1].min(), points[:, 1].max()) == (window.min(), 99.0)
 
 
-def test_values_and_gaps_in_turns_are_no_way_around_the_bound() -> None:
+def test_alternating_values_and_gaps_stay_within_the_bound() -> None:
     history = CurveHistory(window_s=1.0)
     for i in range(100_000):
         history.add(i * 1e-5 * 5, math.nan if i % 2 else 1.0)
     assert len(history.points()) <= MAX_POINTS
 
 
-def test_only_what_is_new_is_made_anew() -> None:
+def test_a_new_point_replaces_only_the_last_part_of_a_curve() -> None:
     bench = LonePlot("/joints.position[0]", window=4.0)
     for i in range(200):
         bench.send(1.0, 90.0 + 0.02 * i)
@@ -209,9 +209,9 @@ def test_a_curve_is_added_by_topic_and_field_and_removed_in_the_legend() -> None
     assert chooser.values["values"]["fields"] == ["header.stamp", "position[left]"]
     chooser.use('{"add": "/joints.position[left]"}', 7)
     curves = ["/joints.position[0]", "/joints.position[left]"]
-    assert bench.sent.pop() == SetPanelProperty("id", "curves", curves)
+    assert bench.commands.pop() == SetPanelProperty("id", "curves", curves)
     bench.chart.use("/joints.position[0]", 7)
-    assert bench.sent.pop() == SetPanelProperty("id", "curves", [])
+    assert bench.commands.pop() == SetPanelProperty("id", "curves", [])
     with pytest.raises(ValueError, match="removed already"):
         bench.chart.use("/other.x", 7)
 
@@ -223,8 +223,8 @@ def test_a_curve_may_be_on_the_right_or_stand_in_place_of_time() -> None:
     assert [each["axis"] for each in bench.chart.values["curves"]] == [0, 1]
     assert bench.chart.values["across"] == bench.curve(0)["key"]
     bench.chart.use(right, 7)
-    assert bench.sent.pop() == SetPanelProperty("id", "across", "")
-    assert bench.sent == []
+    assert bench.commands.pop() == SetPanelProperty("id", "across", "")
+    assert bench.commands == []
     bench.panel.across = ""
     bench.show()
     assert bench.chart.values["across"] == -1
@@ -237,7 +237,7 @@ def test_curves_may_have_axes_of_their_own() -> None:
     assert axes == [1, 0, 2, 3, 4, 5, 0, 0]
 
 
-def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
+def test_a_click_on_a_chart_seeks_within_the_recording() -> None:
     bench = LonePlot("/joints.position[0]")
     with pytest.raises(Error, match="no recording"):
         bench.chart.use("95", 7)
@@ -254,15 +254,15 @@ def test_a_time_of_a_chart_is_gone_to_within_what_is_recorded() -> None:
         first_s=2.0,
     )
     bench.show(playback=past)
-    for wanted, at_s in (("95.5", 5.5), ("-7", 2.0), ("1e9", 10.0)):
-        bench.chart.use(wanted, 7)
-        sent = bench.sent.pop()
-        assert isinstance(sent, Seek)
-        assert sent.at_s == pytest.approx(at_s)
+    for place, at_s in (("95.5", 5.5), ("-7", 2.0), ("1e9", 10.0)):
+        bench.chart.use(place, 7)
+        seek = bench.commands.pop()
+        assert isinstance(seek, Seek)
+        assert seek.at_s == pytest.approx(at_s)
     for hostile in ("nan", "inf", "-1e308", "", None, True, "9" * 400):
-        with pytest.raises(ValueError, match=r"removed already|no such time"):
+        with pytest.raises(ValueError, match=r"removed already|outside of the chart"):
             bench.chart.use(hostile, 7)
-    assert bench.sent == []
+    assert bench.commands == []
 
 
 def test_units_are_those_of_the_types_that_a_bag_defines() -> None:
@@ -285,7 +285,8 @@ def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: 
     b.do(AddPanel("Plot", {"curves": ["/cmd_vel.linear.x"]}))
     (tab,) = b.viewer.state().panels
     plot = tab.panel
-    plot.build(RecordedUi(), lambda *_: None)
+    assert isinstance(plot, Plot)
+    plot.build(RecordedUi(), lambda command, browser=None: None)
     publisher = Publisher("/driver", TWIST, "reliable", "volatile")
     b.source.known["/cmd_vel"] = Offer((publisher,))
     b.do(OpenPanels(frozenset({"Plot"})))

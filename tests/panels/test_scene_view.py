@@ -59,6 +59,6 @@ def test_a_camera_that_a_page_has_moved_becomes_its_own_through_a_command() -> N
 
 
 @pytest.mark.parametrize("view", [{"distance": 0}, {"pitch": 2.0}, {"type": "FPS"}, {"fov": 1}])
-def test_a_camera_that_is_none_is_refused(view: dict[str, Any]) -> None:
+def test_an_invalid_camera_is_refused(view: dict[str, Any]) -> None:
     with pytest.raises(msgspec.ValidationError):
         make(SceneView, {"view": view})

@@ -11,7 +11,7 @@ from webviz.api.errors import Error
 from webviz.api.status import Level, Status
 from webviz.commands import AddPanel, CallService, OpenPanels, Publish, SendGoal, SetPanelProperty
 from webviz.data.messages import encode
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import State
 from webviz.files.config import Config
@@ -49,7 +49,7 @@ def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
     assert "x: 1.5" in opened.values()["yaml"]
     assert 'frame_id: "true"' in opened.values()["yaml"]
     opened.panel.use({}, 1)
-    (publish,) = opened.sent
+    (publish,) = opened.commands
     assert isinstance(publish, Publish)
     assert publish.values["pose"]["position"]["x"] == 1.5
     assert opened.values()["history"] == [opened.values()["yaml"]]
@@ -68,7 +68,7 @@ def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
         ("x" * (MAX_CHARACTERS + 1), "the limit is"),
     ],
 )
-def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reason: str) -> None:
+def test_an_invalid_message_is_not_sent_and_stays_for_correction(yaml: str, reason: str) -> None:
     opened = on_topics(PublishMessage(topic="/name"))
     opened.panel.use({"yaml": yaml}, 1)
     assert reason in opened.values()["problem"]
@@ -77,7 +77,7 @@ def test_what_does_not_fit_is_not_sent_and_stays_to_be_corrected(yaml: str, reas
         opened.panel.use({}, 1)
     with pytest.raises(Error):
         opened.panel.use({"repeat": True}, 1)
-    assert opened.sent == []
+    assert opened.commands == []
 
 
 def test_a_field_that_does_not_fit_is_corrected_in_the_form() -> None:
@@ -94,7 +94,7 @@ def test_presets_are_properties_and_history_is_bounded() -> None:
     assert opened.values()["fields"] == [{"path": "data", "text": "hello"}]
     opened.panel.use({"keep": "again"}, 1)
     presets = {"hello": "data: hello", "again": "data: hello"}
-    assert opened.sent.pop() == SetPanelProperty("id", "presets", presets)
+    assert opened.commands.pop() == SetPanelProperty("id", "presets", presets)
     opened.panel.presets = {str(i): "" for i in range(MAX_PRESETS)}
     for refused in ("more", " "):
         with pytest.raises(Error):
@@ -105,14 +105,14 @@ def test_presets_are_properties_and_history_is_bounded() -> None:
     assert len(opened.values()["history"]) == HISTORY
 
 
-def test_a_message_repeats_until_it_is_stopped_or_nobody_looks(
+def test_a_message_repeats_until_stopped_or_no_page_shows_the_panel(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     opened = on_topics(PublishMessage(topic="/name", rate=0.001))
     opened.panel.use({"repeat": True}, 1)
     for _ in range(5):
         assert opened.values()["repeats"]
-    assert [type(each) for each in opened.sent] == [Publish]
+    assert [type(each) for each in opened.commands] == [Publish]
     monkeypatch.setattr("webviz.panels.publish.PAUSE_S", -1.0)
     assert not opened.values()["repeats"]
 
@@ -121,46 +121,46 @@ def test_a_refused_message_is_not_repeated_and_its_reason_goes_with_the_next_edi
     opened = on_topics(PublishMessage(topic="/name"))
     opened.panel.use({"repeat": True}, 1)
     opened.values()
-    opened.sent[0].report(Status(Level.ERROR, "Not allowed."))
-    shown = opened.values()
-    assert (shown["outcome"], shown["failed"], shown["repeats"]) == ("Not allowed.", True, False)
+    opened.commands[0].report(Status(Level.ERROR, "Not allowed."))
+    values = opened.values()
+    assert (values["outcome"], values["failed"], values["repeats"]) == ("Not allowed.", True, False)
     opened.panel.use({"yaml": "data: again"}, 1)
     assert (opened.values()["outcome"], opened.values()["failed"]) == ("", False)
 
 
 def test_a_panel_of_the_config_may_publish_also_before_the_type_is_known() -> None:
     panel = PublishMessage(topic="/later")
-    assert own_names(Config(panels=[panel]), Guard("", strict=True)).count("/later") == 1
-    assert "/later" not in own_names(Config(), Guard("", strict=True))
+    assert own_names(Config(panels=[panel]), ErrorBoundary("", strict=True)).count("/later") == 1
+    assert "/later" not in own_names(Config(), ErrorBoundary("", strict=True))
 
 
 def test_a_service_and_an_action_have_forms_of_their_requests() -> None:
     call = on_topics(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
     call.panel.use({"field": ["data", "true"]}, 1)
     call.panel.use({}, 1)
-    (sent,) = call.sent
-    assert isinstance(sent, CallService)
-    assert (sent.service, sent.request) == ("/light", {"data": True})
-    sent.failed("Nobody answers.")
+    (call_service,) = call.commands
+    assert isinstance(call_service, CallService)
+    assert (call_service.service, call_service.request) == ("/light", {"data": True})
+    call_service.failed("Nobody answers.")
     assert call.values()["outcome"] == "Nobody answers."
     goal = on_topics(ActionGoal(action="/undock", action_type="nav2_msgs/action/UndockRobot"))
     goal.panel.use({"field": ["max_undocking_time", "1"]}, 1)
     goal.panel.use({}, 1)
-    assert isinstance(goal.sent[0], SendGoal)
+    assert isinstance(goal.commands[0], SendGoal)
     state = State(services={"/light": "std_srvs/srv/SetBool", "/a/list_parameters": "x/srv/Y"})
     untyped = on_topics(ServiceCall(service="/light"))
     show_panel(untyped.panel, state)
-    shown = untyped.ui.widgets["0"].values["values"]
-    assert (shown["about"], shown["names"]) == ("std_srvs/srv/SetBool", ["/light"])
+    values = untyped.ui.widgets["0"].values["values"]
+    assert (values["about"], values["names"]) == ("std_srvs/srv/SetBool", ["/light"])
     untyped.panel.use({}, 1)
-    assert untyped.sent[0].type == "std_srvs/srv/SetBool"
+    assert untyped.commands[0].type == "std_srvs/srv/SetBool"
     unnamed = on_topics(ActionGoal(action="/undock"))
     server = Publisher("/dock", "nav2_msgs/action/UndockRobot_FeedbackMessage", *RELIABLE)
     show_panel(unnamed.panel, State(offers={"/undock/_action/feedback": Offer((server,))}))
-    shown = unnamed.ui.widgets["0"].values["values"]
-    assert (shown["about"], shown["names"]) == ("nav2_msgs/action/UndockRobot", ["/undock"])
+    values = unnamed.ui.widgets["0"].values["values"]
+    assert (values["about"], values["names"]) == ("nav2_msgs/action/UndockRobot", ["/undock"])
     unnamed.panel.use({}, 1)
-    assert unnamed.sent[0].request.type == "nav2_msgs/action/UndockRobot"
+    assert unnamed.commands[0].request.type == "nav2_msgs/action/UndockRobot"
     for panel in (
         ServiceCall(service="/such", service_type="no/srv/Such"),
         ActionGoal(action="/such", action_type="no/action/Such"),

@@ -14,7 +14,7 @@ from webviz.api.errors import Error
 from webviz.api.panel import Panel
 from webviz.commands import Refresh, SetProperty
 from webviz.data.messages import decode, encode, interfaces
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.own_names import own_names
 from webviz.engine.state import Row, State
 from webviz.files.config import Config
@@ -59,7 +59,7 @@ def test_each_button_presses_its_own(tools: ServicePanel) -> None:
     assert keys["Visual Tools: Next"] == "x"
 
 
-def test_a_press_that_nobody_hears_is_said(tools: ServicePanel) -> None:
+def test_a_press_without_a_subscription_is_reported(tools: ServicePanel) -> None:
     tools.graph.subscriptions = 0
     tools.widget("Next").use(None, 1)
     assert "No subscription to /rviz_visual_tools_gui" in tools.text()
@@ -91,7 +91,7 @@ def test_plug_ins_are_those_of_the_servers_and_the_choice_is_latched(
     assert b.widget("Controller").value == "RPP"
 
 
-def test_the_end_of_a_goal_that_was_replaced_is_not_told(bench: Benches) -> None:
+def test_the_end_of_a_replaced_goal_is_not_shown(bench: Benches) -> None:
     b = ServicePanel(bench, Docking)
     b.widget("Dock id").use("home", 1)
     for _ in range(2):
@@ -124,16 +124,16 @@ def test_a_robot_docks_by_id_and_at_a_pose_and_undocks(
     b.viewer.do(Refresh())
     feedback = {"feedback": {"state": 3, "docking_time": {"sec": 4}, "num_retries": 1}}
     goal.feedback(encode("nav2_msgs/action/DockRobot_FeedbackMessage", feedback))
-    (shown,) = b.viewer.do(Refresh()).goals
-    assert (shown.title, shown.label) == ("Docking", "home")
-    assert shown.values.get("State") == "controlling"
+    (progress,) = b.viewer.do(Refresh()).goals
+    assert (progress.title, progress.label) == ("Docking", "home")
+    assert progress.values.get("State") == "controlling"
     result = {"status": 6, "result": {"error_code": 904}}
     answer = encode("nav2_msgs/action/DockRobot_GetResult_Response", result)
     goal.result.set_result((6, answer))
-    (shown,) = b.viewer.do(Refresh()).goals
-    assert shown.status is not None
-    assert "Failed (904): the dock was not detected" in shown.status.text
-    assert shown.status.text in b.text(), "it no longer says that the goal is accepted"
+    (progress,) = b.viewer.do(Refresh()).goals
+    assert progress.status is not None
+    assert "Failed (904): the dock was not detected" in progress.status.text
+    assert progress.status.text in b.text(), "it no longer says that the goal is accepted"
 
     b.offers("/docking_server/get_parameters", ["simple"])
     b.show()
@@ -166,7 +166,7 @@ def slam(bench: Benches, monkeypatch: pytest.MonkeyPatch) -> ServicePanel:
     return ServicePanel(bench, SlamToolbox)
 
 
-def asked(b: ServicePanel) -> Any:
+def last_request(b: ServicePanel) -> Any:
     """Name and decoded request of the newest call that is not for the state."""
     service, type_, request = next(
         each for each in reversed(b.graph.requests) if each[1] != PARAMETERS
@@ -178,7 +178,7 @@ def response(name: str, values: dict[str, Any]) -> bytes:
     return encode(interfaces.service(f"slam_toolbox/srv/{name}").response, values)
 
 
-def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: ServicePanel) -> None:
+def test_the_buttons_of_slam_toolbox_follow_its_state(slam: ServicePanel) -> None:
     assert "No node offers /slam_toolbox/get_parameters" in slam.text()
     values = {"values": [{"type": 1, "bool_value": True}, {"type": 1}]}
     answer = encode(f"{PARAMETERS}_Response", values)
@@ -191,7 +191,7 @@ def test_the_state_of_slam_toolbox_names_what_its_buttons_do(slam: ServicePanel)
     )
     slam.widget("Use new scans").use(None, 1)
     assert "Done." in slam.text()
-    assert asked(slam)[0] == "/slam_toolbox/pause_new_measurements"
+    assert last_request(slam)[0] == "/slam_toolbox/pause_new_measurements"
 
 
 @pytest.mark.parametrize(
@@ -208,7 +208,7 @@ def test_a_button_of_slam_toolbox_calls_its_service(
     button: str, service: str, slam: ServicePanel
 ) -> None:
     slam.widget(button).use(None, 1)
-    assert asked(slam)[0] == f"/slam_toolbox/{service}"
+    assert last_request(slam)[0] == f"/slam_toolbox/{service}"
     assert f"No node offers /slam_toolbox/{service}" in slam.text()
 
 
@@ -220,20 +220,20 @@ def test_maps_and_pose_graphs_are_saved_and_loaded(slam: ServicePanel) -> None:
     result = response("SaveMap", {"result": 1})
     slam.graph.responses["/slam_toolbox/save_map"] = result
     slam.widget("Save map").use(None, 1)
-    assert asked(slam)[1].name.data == "office"
+    assert last_request(slam)[1].name.data == "office"
     assert "Failed: slam_toolbox has no map yet." in slam.text()
 
     slam.widget("Pose graph").use("/maps/office", 1)
     slam.widget("Serialize").use(None, 1)
-    assert asked(slam)[1].filename == "/maps/office"
+    assert last_request(slam)[1].filename == "/maps/office"
     slam.widget("Deserialize").use(None, 1)
-    assert asked(slam)[1].match_type == 1
+    assert last_request(slam)[1].match_type == 1
     pose = {"position": {"x": 1.0, "y": -2.0}, "orientation": {"z": 2.0, "w": 0.0}}
     message = decode(INITIAL_POSE, encode(INITIAL_POSE, {"pose": {"pose": pose}}))
     assert slam.panel.subscriptions() == {"/initialpose": INITIAL_POSE}
     slam.panel.take("/initialpose", message)
     slam.widget("Deserialize").use(None, 1)
-    request = asked(slam)[1]
+    request = last_request(slam)[1]
     assert (request.match_type, request.initial_pose.x, request.initial_pose.y) == (2, 1.0, -2.0)
     assert request.initial_pose.theta == pytest.approx(3.14)
     slam.widget("yaw (rad)").use("north", 1)
@@ -241,11 +241,11 @@ def test_maps_and_pose_graphs_are_saved_and_loaded(slam: ServicePanel) -> None:
         slam.widget("Deserialize").use(None, 1)
     slam.widget("Submap").use("hall", 1)
     slam.widget("Add submap").use(None, 1)
-    assert asked(slam)[1].filename == "hall"
+    assert last_request(slam)[1].filename == "hall"
 
 
-def test_what_the_panels_send_to_may_be_sent_to() -> None:
-    names = own_names(Config(), Guard("", strict=True))
+def test_names_the_panels_send_to_are_allowed() -> None:
+    names = own_names(Config(), ErrorBoundary("", strict=True))
     for name in ("/rviz_visual_tools_gui", "/planner_selector", "/dock_robot", "/undock_robot"):
         assert name in names
     assert "/docking_server/get_parameters" in names
@@ -259,16 +259,16 @@ def test_the_solution_to_play_is_chosen_among_those_of_the_stages() -> None:
     ui, panel = RecordedUi(), MotionPlanningTasks()
     panel.build(ui, lambda command, browser=None: messages.append((command, browser)))
 
-    def shown(*rows: Row) -> str:
+    def chosen(*rows: Row) -> str:
         show_panel(panel, State(rows=rows))
         return str([widget.values for widget in ui.widgets.values()])
 
-    assert "Add one to see the stages" in shown()
+    assert "Add one to see the stages" in chosen()
     display = displays.MotionPlanningTasks()
     row = Row("d1", "MotionPlanningTasks", display, "Tasks", {})
-    assert "No task received" in shown(row)
+    assert "No task received" in chosen(row)
     offered = {"solution": {"7: pick": 7}, "stages": {"1 pick": 1}, "failed": {"1 pick": 4}}
-    text = shown(msgspec.structs.replace(row, offered=offered))
+    text = chosen(msgspec.structs.replace(row, offered=offered))
     assert all(each in text for each in ("7: pick", "1 pick", "4", "Newest"))
     choice = next(w for w in ui.widgets.values() if w.values.get("label") == "Solution")
     choice.use("7: pick", 3)

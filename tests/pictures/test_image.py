@@ -47,9 +47,9 @@ def test_texts_are_beside_the_scene(webviz_harness: Stages) -> None:
 
 def test_annotations_are_over_the_image(webviz_harness: Stages) -> None:
     camera = Image(name="Camera", annotations_topic=Topic("/found"))
-    drawn = Image(name="Drawn", topic=Topic("/depth"), annotations_topic=Topic("/drawn"))
+    annotated = Image(name="Drawn", topic=Topic("/depth"), annotations_topic=Topic("/drawn"))
     view = Orbit(distance=9.0, yaw=-1.2, pitch=0.6)
-    harness = webviz_harness(camera, drawn, Grid(plane_cell_count=6), view=view)
+    harness = webviz_harness(camera, annotated, Grid(plane_cell_count=6), view=view)
     colors, depths = photos.room()
     results = [{"hypothesis": {"class_id": "box", "score": 0.93}}]
     center = {"position": {"x": 96.0, "y": 72.0}}

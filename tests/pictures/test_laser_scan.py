@@ -19,11 +19,11 @@ LASER = Pose2D(-2.0, 0.0, 0.3)
 VIEW = Orbit(distance=13.5, yaw=-1.5708, pitch=1.2, focal_point=(0.0, -0.2, 0.0))
 
 
-def send(seen: Harness, laser: Pose2D = LASER) -> None:
+def send(harness: Harness, laser: Pose2D = LASER) -> None:
     """A scan of the building, by a laser 0.3 m above the floor."""
-    seen.transform("map", "laser", (laser.x, laser.y, 0.3), turned(yaw=laser.yaw))
-    seen.publish("/scan", "sensor_msgs/msg/LaserScan", building.scan(laser), frame="laser")
-    seen.turn()
+    harness.transform("map", "laser", (laser.x, laser.y, 0.3), turned(yaw=laser.yaw))
+    harness.publish("/scan", "sensor_msgs/msg/LaserScan", building.scan(laser), frame="laser")
+    harness.turn()
 
 
 def axes() -> Axes:

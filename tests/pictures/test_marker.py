@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from marker_fields import colors, named, points
 from PIL import Image
 from trimesh.visual import ColorVisuals
 
@@ -34,18 +35,10 @@ def marker(type_: int, x: float, y: float, scale: Any, rgba: Any, **more: Any) -
         "id": round(100 * x + 7 * y) + 1000 * type_,
         "type": type_,
         "pose": {"position": {"x": x, "y": y, "z": 0.3}, "orientation": TURN},
-        "scale": dict(zip("xyz", map(float, scale), strict=True)),
-        "color": dict(zip("rgba", map(float, rgba), strict=True)),
+        "scale": named("xyz", scale),
+        "color": named("rgba", rgba),
         **more,
     }
-
-
-def points(*xyz: tuple[float, float, float]) -> list[dict[str, float]]:
-    return [dict(zip("xyz", map(float, each), strict=True)) for each in xyz]
-
-
-def colors(*rgba: tuple[float, float, float, float]) -> list[dict[str, float]]:
-    return [dict(zip("rgba", map(float, each), strict=True)) for each in rgba]
 
 
 ZIGZAG = points((0, 0, 0), (0.3, 0.5, 0), (0.6, 0, 0), (0.9, 0.5, 0.2))

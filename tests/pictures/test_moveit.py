@@ -64,10 +64,10 @@ def solid(name: str, kind: int, sizes: list[float], pose: dict[str, Any]) -> dic
 
 
 def state(values: np.ndarray) -> dict[str, Any]:
-    held = solid("rod", 3, [0.3, 0.02], at(0.0, 0.0, 0.3)) | {"header": {"frame_id": "part2"}}
+    rod = solid("rod", 3, [0.3, 0.02], at(0.0, 0.0, 0.3)) | {"header": {"frame_id": "part2"}}
     return {
         "joint_state": {"header": HEADER, "name": NAMES, "position": values},
-        "attached_collision_objects": [{"link_name": "part2", "object": held}],
+        "attached_collision_objects": [{"link_name": "part2", "object": rod}],
     }
 
 
@@ -123,7 +123,7 @@ SOLUTION = {
         }
     ],
 }
-SHOWN = {
+DISPLAY_STATE = {
     "state": state(GOAL),
     "highlight_links": [{"id": "part1", "color": {"r": 1.0, "g": 0.1, "b": 0.1, "a": 1.0}}],
 }
@@ -131,7 +131,7 @@ URDF = Topic("/robot_description")
 
 
 def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Harness]) -> None:
-    shown = {
+    displays = {
         "planning_scene": PlanningScene(),
         "trajectory": Trajectory(paused=True, position=1.0, show_trail=True, trail_step_size=2),
         "robot_state": RobotState(),
@@ -142,18 +142,18 @@ def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Har
             planned_path=PlannedPath(paused=True, position=0.5),
         ),
     }
-    for display in shown.values():
+    for display in displays.values():
         display.enabled = False
     view = Orbit(distance=3.2, yaw=-1.1, pitch=0.45, focal_point=(0.1, 0.0, 0.45))
-    harness = webviz_harness(*shown.values(), Grid(plane_cell_count=4), view=view)
+    harness = webviz_harness(*displays.values(), Grid(plane_cell_count=4), view=view)
     harness.transform("map", "foot")
-    for picture, display in shown.items():
+    for picture, display in displays.items():
         name = type(display).__name__
         harness.set("enabled", True, name)
         harness.publish("/robot_description", "std_msgs/msg/String", {"data": arm()})
         harness.publish("/monitored_planning_scene", "moveit_msgs/msg/PlanningScene", SCENE)
         harness.publish("/display_planned_path", "moveit_msgs/msg/DisplayTrajectory", PATH)
-        harness.publish("/display_robot_state", "moveit_msgs/msg/DisplayRobotState", SHOWN)
+        harness.publish("/display_robot_state", "moveit_msgs/msg/DisplayRobotState", DISPLAY_STATE)
         harness.publish("/solution", "moveit_task_constructor_msgs/msg/Solution", SOLUTION)
         harness.settle()
         harness.wait_until_drawn(name)

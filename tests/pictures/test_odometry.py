@@ -19,15 +19,15 @@ ARROW = PoseShape(shaft_length=0.5, shaft_radius=0.03, head_length=0.2, head_rad
 NONE = Covariance(value=False)
 
 
-def drive(seen: Harness, variances: tuple[float, ...], steps: int = 9) -> None:
+def drive(harness: Harness, variances: tuple[float, ...], steps: int = 9) -> None:
     """A robot drives along an arc and gets less sure of where it is.
 
     Args:
-        seen: where.
+        harness: where.
         variances: of x, y, z, roll, pitch, yaw at the end.
         steps: how many poses.
     """
-    seen.transform("map", "elsewhere")
+    harness.transform("map", "elsewhere")
     for i in range(steps):
         angle = -1.2 + 2.0 * i / (steps - 1)
         x, y, z, w = turned(yaw=angle + math.pi / 2)
@@ -37,11 +37,11 @@ def drive(seen: Harness, variances: tuple[float, ...], steps: int = 9) -> None:
         }
         grown = np.diag(variances) * (i + 1) / steps
         values = {"pose": {"pose": pose, "covariance": grown.ravel()}}
-        seen.publish("/odom", "nav_msgs/msg/Odometry", values, frame="map")
-    seen.turn()
+        harness.publish("/odom", "nav_msgs/msg/Odometry", values, frame="map")
+    harness.turn()
 
 
-def test_poses_are_arrows_or_axes_and_are_as_many_as_wanted(webviz_harness: Stages) -> None:
+def test_poses_are_arrows_or_axes_up_to_the_history_length(webviz_harness: Stages) -> None:
     view = Orbit(distance=5.5, yaw=-0.3, pitch=0.8, focal_point=(0.4, 0.0, 0.0))
     harness = webviz_harness(Odometry(covariance=NONE), Grid(plane_cell_count=6), view=view)
     drive(harness, (0.0,) * 6)

@@ -17,13 +17,13 @@ Stages = Callable[..., Harness]
 VIEW = Orbit(distance=6.5, yaw=-1.3, pitch=0.9)
 
 
-def send(seen: Harness, height: float) -> None:
+def send(harness: Harness, height: float) -> None:
     """A path like a wave, `height` metres high."""
     x = np.linspace(-2.5, 2.5, 14)
-    seen.transform("map", "elsewhere")
+    harness.transform("map", "elsewhere")
     points = np.column_stack([x, height * np.sin(2.0 * x)])
-    seen.publish("/path", "nav_msgs/msg/Path", building.path(points), frame="map")
-    seen.turn()
+    harness.publish("/path", "nav_msgs/msg/Path", building.path(points), frame="map")
+    harness.turn()
 
 
 def test_a_path_has_a_line_and_poses(webviz_harness: Stages) -> None:

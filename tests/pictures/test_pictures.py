@@ -71,20 +71,20 @@ def test_a_shade_does_not_count_but_a_shift_does() -> None:
         assert share_of_difference(pixels, np.roll(pixels, 2, axis=1)) > TOLERANCE
 
 
-def everything(seen: Harness) -> None:
+def everything(harness: Harness) -> None:
     """Something to see for every display."""
     place = Pose2D(-2.0, 0.0, 0.5)
-    seen.transform("map", "base_link", (place.x, place.y, 0.0), turned(yaw=place.yaw))
-    place_links(seen, DEMO, below="base_link")
-    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
-    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
+    harness.transform("map", "base_link", (place.x, place.y, 0.0), turned(yaw=place.yaw))
+    place_links(harness, DEMO, below="base_link")
+    harness.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    harness.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
     measured = building.scan(place)
-    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
+    harness.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
     line = building.path([(-2.0, 0.0), (-1.0, 0.3), (0.0, 0.3)])
-    seen.publish("/path", "nav_msgs/msg/Path", line, frame="map")
+    harness.publish("/path", "nav_msgs/msg/Path", line, frame="map")
     pose = {"position": {"x": -3.0}, "orientation": {"w": 1.0}}
-    seen.publish("/odom", "nav_msgs/msg/Odometry", {"pose": {"pose": pose}}, frame="map")
-    seen.settle()
+    harness.publish("/odom", "nav_msgs/msg/Odometry", {"pose": {"pose": pose}}, frame="map")
+    harness.settle()
 
 
 def test_without_any_one_of_its_displays_a_scene_has_another_picture(

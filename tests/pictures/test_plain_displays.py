@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -13,13 +12,14 @@ import numpy as np
 import photos
 from autoware_scenes import expected, followed, pose_at, thing, unaccelerated
 from grid_maps import grid_map
-from octrees import Node, binary, full
+from octrees import OctreeNode, binary, full
 from perception_scenes import ZED_SCENE
 from rtabmap_scenes import map_data, rgbd
 
 from webviz import Display
-from webviz.api.display import inputs_of
+from webviz.api.display import inputs
 from webviz.api.views import Orbit
+from webviz.shell.docs import snake_case
 from webviz.shell.testing import TOLERANCE, Harness, share_of_difference, turned
 from webviz.shell.testing.comparing import load
 from webviz_displays.areas import GridCells, Polygon
@@ -76,21 +76,6 @@ from webviz_displays.zed import ZedOdDisplay
 Values = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Case:
-    """A display, alone in its picture.
-
-    Args:
-        picture: folder of its picture.
-        display: with what the picture shows best.
-        messages: the values of some, each in the frame sensor.
-    """
-
-    picture: str
-    display: Display
-    messages: tuple[Values, ...]
-
-
 def pose(x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> Values:
     return {
         "position": {"x": x, "y": y, "z": z},
@@ -137,9 +122,9 @@ def summit(x: float, y: float) -> float:
     return 0.8 * math.exp(-2.0 * distance**2) - 0.4 * math.exp(-30.0 * distance**2)
 
 
-def landscape() -> Node:
+def landscape() -> OctreeNode:
     """The hill as voxels of 0.1 m, down to the ground below it."""
-    root = Node()
+    root = OctreeNode()
     for x, y in product(STEPS, STEPS):
         top = int(10 * summit(x / 10, y / 10))
         for z in range(-1, top + 1):
@@ -147,9 +132,9 @@ def landscape() -> Node:
     return root
 
 
-def room() -> Node:
+def room() -> OctreeNode:
     """Walls of three voxels above a free floor, with a door."""
-    root = Node()
+    root = OctreeNode()
     for x, y in product(STEPS, STEPS):
         if max(abs(x), abs(y)) < 10 or (y == -10 and abs(x) < 3):
             root.place((x, y, 0), log_odds=-2.0)
@@ -213,8 +198,8 @@ TRAFFIC = (
 
 def visited() -> Values:
     """The room, seen from two places."""
-    seen = rgbd(*photos.room())
-    return map_data({1: (-1.6, -0.5), 2: (-1.0, 0.6)}, {1: seen, 2: seen})
+    images = rgbd(*photos.room())
+    return map_data({1: (-1.6, -0.5), 2: (-1.0, 0.6)}, {1: images, 2: images})
 
 
 def reconstructed() -> tuple[Values, Values]:
@@ -269,72 +254,59 @@ def detection(x: float, y: float, size: tuple[float, ...], kind: str, score: flo
     return {"bbox": box, "results": [{"hypothesis": {"class_id": kind, "score": score}}]}
 
 
-FOUND = [
+BOXES = [
     detection(-0.3, 0.6, (1.6, 0.7, 0.5), "car", 0.93),
     detection(0.7, -0.6, (0.3, 0.3, 0.8), "person", 0.71),
     detection(-0.8, -0.7, (0.4, 0.6, 0.4), "box", 0.4),
 ]
 
-CASES = [
-    Case("pose", Pose(shaft_length=0.8), ({"pose": pose(-0.5, 0.0, yaw=0.5)},)),
-    Case(
-        "pose_with_covariance",
+ALONE: list[tuple[Display, Sequence[Values]]] = [
+    (Pose(shaft_length=0.8), ({"pose": pose(-0.5, 0.0, yaw=0.5)},)),
+    (
         PoseWithCovariance(shaft_length=0.6),
         ({"pose": {"pose": pose(-0.3, 0.0, yaw=0.5), "covariance": COVARIANCE}},),
     ),
-    Case("pose_array", PoseArray(shape="Arrow (3D)"), ({"poses": around(9, 0.7)},)),
-    Case(
-        "particle_cloud",
+    (PoseArray(shape="Arrow (3D)"), ({"poses": around(9, 0.7)},)),
+    (
         ParticleCloud(max_arrow_length=1.0),
         ({"particles": [{"pose": p, "weight": 0.1 * i} for i, p in enumerate(around(11, 0.3))]},),
     ),
-    Case(
-        "point_stamped",
+    (
         PointStamped(history_length=3, alpha=0.7),
         tuple({"point": vector(0.5 * i - 0.5, 0.3 * i, 0.2)} for i in range(3)),
     ),
-    Case("polygon", Polygon(), ({"polygon": {"points": STAR}},)),
-    Case("grid_cells", GridCells(), ({"cell_width": 0.28, "cell_height": 0.28, "cells": CELLS},)),
-    Case("wrench", Wrench(), ({"wrench": PUSH},)),
-    Case("twist_stamped", TwistStamped(), ({"twist": MOTION},)),
-    Case("accel_stamped", AccelStamped(linear_color=(80, 160, 255)), ({"accel": MOTION},)),
-    Case("twist", Twist(reference_frame="sensor"), (OTHER_MOTION,)),
-    Case("effort", Effort(scale=2.0, width=0.06), ({"name": ["elbow"], "effort": [6.0]},)),
-    Case("range", Range(), (SONAR,)),
-    Case("temperature", Temperature(**BIG), ({"temperature": 20.0},)),
-    Case("fluid_pressure", FluidPressure(**BIG), ({"fluid_pressure": 101_325.0},)),
-    Case("illuminance", Illuminance(**BIG), ({"illuminance": 900.0},)),
-    Case("relative_humidity", RelativeHumidity(**BIG), ({"relative_humidity": 0.65},)),
-    Case("point_cloud", PointCloud(size=0.06), ({"points": HILL},)),
-    Case("occupancy_grid", OccupancyGrid(), (binary(landscape()),)),
-    Case(
-        "color_occupancy_grid",
-        ColorOccupancyGrid(voxel_coloring="Cell Color"),
-        (full(landscape(), kind="ColorOcTree"),),
-    ),
-    Case(
-        "occupancy_grid_stamped",
-        OccupancyGridStamped(max_octree_depth=15),
-        (full(landscape(), kind="OcTreeStamped"),),
-    ),
-    Case("occupancy_map", OccupancyMap(), (binary(room()),)),
-    Case("occupancy_map_stamped", OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
-    Case("grid_map", GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
-    Case("voxel_grid", VoxelGrid(show_unknown=True), (obstacles(),)),
-    Case("map_cloud", MapCloud(size=0.02, cloud_decimation=1), (visited(),)),
-    Case("map_graph", MapGraph(), (loop(),)),
-    Case("nvblox_mesh", NvbloxMesh(), reconstructed()[:1]),
-    Case("nvblox_voxel_block_layer", NvbloxVoxelBlockLayer(), reconstructed()[1:]),
-    Case("costmap", Costmap(), (inflated(),)),
-    Case(
-        "autoware_path",
+    (Polygon(), ({"polygon": {"points": STAR}},)),
+    (GridCells(), ({"cell_width": 0.28, "cell_height": 0.28, "cells": CELLS},)),
+    (Wrench(), ({"wrench": PUSH},)),
+    (TwistStamped(), ({"twist": MOTION},)),
+    (AccelStamped(linear_color=(80, 160, 255)), ({"accel": MOTION},)),
+    (Twist(reference_frame="sensor"), (OTHER_MOTION,)),
+    (Effort(scale=2.0, width=0.06), ({"name": ["elbow"], "effort": [6.0]},)),
+    (Range(), (SONAR,)),
+    (Temperature(**BIG), ({"temperature": 20.0},)),
+    (FluidPressure(**BIG), ({"fluid_pressure": 101_325.0},)),
+    (Illuminance(**BIG), ({"illuminance": 900.0},)),
+    (RelativeHumidity(**BIG), ({"relative_humidity": 0.65},)),
+    (PointCloud(size=0.06), ({"points": HILL},)),
+    (OccupancyGrid(), (binary(landscape()),)),
+    (ColorOccupancyGrid(voxel_coloring="Cell Color"), (full(landscape(), kind="ColorOcTree"),)),
+    (OccupancyGridStamped(max_octree_depth=15), (full(landscape(), kind="OcTreeStamped"),)),
+    (OccupancyMap(), (binary(room()),)),
+    (OccupancyMapStamped(), (full(room(), kind="OcTreeStamped"),)),
+    (GridMap(), (grid_map({"elevation": summit}, (11, 11), 0.19, (3, 4)),)),
+    (VoxelGrid(show_unknown=True), (obstacles(),)),
+    (MapCloud(size=0.02, cloud_decimation=1), (visited(),)),
+    (MapGraph(), (loop(),)),
+    (NvbloxMesh(), reconstructed()[:1]),
+    (NvbloxVoxelBlockLayer(), reconstructed()[1:]),
+    (Costmap(), (inflated(),)),
+    (
         AutowarePath(
             view_path=LaneView(constant_width=True, width=0.5, alpha=0.6, fade_out_distance=0.6)
         ),
         (curve(),),
     ),
-    Case(
-        "autoware_trajectory",
+    (
         AutowareTrajectory(
             view_path=LaneView(value=False),
             view_footprint=FootprintView(
@@ -344,65 +316,51 @@ CASES = [
         ),
         ({"points": curve()["points"][::5]},),
     ),
-    Case(
-        "detected_objects",
+    (
         DetectedObjects(shape=ShapeView(shape_type="Fill"), color=(255, 138, 128)),
         ({"objects": list(map(unaccelerated, TRAFFIC))},),
     ),
-    Case(
-        "tracked_objects",
+    (
         TrackedObjects(per_class_color=ClassColors(value=True)),
         ({"objects": [followed(each, number) for number, each in enumerate(TRAFFIC)]},),
     ),
-    Case(
-        "predicted_objects",
+    (
         PredictedObjects(per_class_color=ClassColors(value=True)),
         ({"objects": [expected(each, number) for number, each in enumerate(TRAFFIC[:2])]},),
     ),
-    Case(
-        "pose_history",
-        PoseHistory(),
-        tuple({"pose": each["pose"]} for each in curve()["points"]),
-    ),
-    Case("bounding_box3d", BoundingBox3D(color=(90, 200, 255), alpha=0.8), (FOUND[0]["bbox"],)),
-    Case(
-        "bounding_box3darray",
-        BoundingBox3DArray(only_edge=True),
-        ({"boxes": [each["bbox"] for each in FOUND]},),
-    ),
-    Case("detection3d", Detection3D(show_class=True), (FOUND[1],)),
-    Case(
-        "detection3darray",
-        Detection3DArray(alpha=0.7, show_class=True, show_score=True),
-        ({"detections": FOUND},),
-    ),
-    Case("zed_od_display", ZedOdDisplay(), (ZED_SCENE,)),
-    Case("imu", Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
-    Case("mag", Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),
+    (PoseHistory(), tuple({"pose": each["pose"]} for each in curve()["points"])),
+    (BoundingBox3D(color=(90, 200, 255), alpha=0.8), (BOXES[0]["bbox"],)),
+    (BoundingBox3DArray(only_edge=True), ({"boxes": [each["bbox"] for each in BOXES]},)),
+    (Detection3D(show_class=True), (BOXES[1],)),
+    (Detection3DArray(alpha=0.7, show_class=True, show_score=True), ({"detections": BOXES},)),
+    (ZedOdDisplay(), (ZED_SCENE,)),
+    (Imu(box_properties=BOX, acceleration_properties=ACCELERATION), (TILTED,)),
+    (Mag(scale=0.6), ({"magnetic_field": vector(2e-5, 1e-5, -4e-5)},)),
 ]
+"""Displays with what their picture shows best, and their messages in the frame sensor."""
 
 
 def test_each_display_has_a_picture_of_its_own(webviz_harness: Callable[..., Harness]) -> None:
     view = Orbit(distance=4.5, yaw=-0.7, pitch=0.8, focal_point=(0.2, 0.0, 0.2))
-    for case in CASES:
-        case.display.enabled = False
-    shown = (case.display for case in CASES)
-    harness = webviz_harness(*shown, Grid(plane_cell_count=4), view=view)
+    for display, _ in ALONE:
+        display.enabled = False
+    displays = (display for display, _ in ALONE)
+    harness = webviz_harness(*displays, Grid(plane_cell_count=4), view=view)
     harness.transform("map", "sensor")
     without = harness.picture()
-    for case in CASES:
-        name = type(case.display).__name__
+    for display, messages in ALONE:
+        name = type(display).__name__
         harness.set("enabled", True, name)
         harness.publish("/robot_description", "std_msgs/msg/String", {"data": ARM})
         harness.settle()
-        topic = case.display.topic.name  # pyright: ignore[reportAttributeAccessIssue]
-        spec = inputs_of(type(case.display))["topic"]
-        for values in case.messages:
-            frame = None if case.picture in ("bounding_box3d", "twist") else "sensor"
-            harness.publish(topic, spec.type, values, frame=frame)
+        ((_, spec, topic), *_) = inputs(display)
+        for values in messages:
+            frame = None if isinstance(display, BoundingBox3D | Twist) else "sensor"
+            harness.publish(topic.name, spec.type, values, frame=frame)
             harness.turn()
         harness.wait_until_drawn(name)
-        harness.check_picture(f"{case.picture}/default", each_display=False)
-        picture = load(Path(__file__).parent / case.picture / "default.png")
-        assert share_of_difference(picture, without) > TOLERANCE, f"{name} is not to be seen"
+        picture = f"{snake_case(name)}/default"
+        harness.check_picture(picture, each_display=False)
+        pixels = load(Path(__file__).parent / f"{picture}.png")
+        assert share_of_difference(pixels, without) > TOLERANCE, f"{name} is not to be seen"
         harness.set("enabled", False, name)

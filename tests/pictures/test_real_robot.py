@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import PIL.Image
-import pytest
-from rosbags.highlevel import AnyReader
-from rosbags.typesys import Stores, get_typestore
+from turtlebot import MAP, ORIGIN, RESOLUTION, START, messages, needs_bag, needs_map
 
 from webviz import Level
 from webviz.api.views import Orbit
@@ -21,29 +18,11 @@ from webviz_displays.map import Map
 from webviz_displays.odometry import Odometry
 from webviz_displays.shared.pose_properties import Covariance
 
-DATA = Path(__file__).parents[3] / "shared/data"
-BAG = DATA / "bags/macfirst_floor_take_2"
-MAP = DATA / "maps/mac_1st_floor_final.pgm"
-RESOLUTION, ORIGIN = 0.03, (-1.12, -39.4)
-"""Resolution and origin as its .yaml says, in metres."""
 OCCUPIED, FREE = 90, 190
 """Grey at most and at least, by occupied_thresh 0.65 and free_thresh 0.25 of its .yaml."""
-ODOM = (-0.27, 0.045, 0.0), (0.0, 0.0, 0.0341, 0.9994)
-"""Pose in the map at which its odometry began, found by fitting a scan to the walls."""
 SCANS = 60
 
-pytestmark = pytest.mark.skipif(
-    not (BAG.exists() and MAP.exists()), reason="the bag and the map of the TurtleBot are not here"
-)
-
-
-def messages() -> Iterator[tuple[str, str, int, bytes]]:
-    """Topic, type, time of arrival and bytes, in order."""
-    topics = ("/tf", "/tf_static", "/scan", "/odom")
-    with AnyReader([BAG], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
-        connections = [c for c in reader.connections if c.topic in topics]
-        for connection, time_ns, data in reader.messages(connections):
-            yield connection.topic, connection.msgtype, time_ns, bytes(data)
+pytestmark = [needs_bag, needs_map]
 
 
 def cells() -> np.ndarray:
@@ -62,11 +41,11 @@ def test_the_scan_lies_on_the_walls_of_the_map(webviz_harness: Callable[..., Har
     odometry = Odometry(keep=1, covariance=Covariance(value=False))
     view = Orbit(distance=16.0, yaw=-1.5708, pitch=1.3, focal_point=(6.0, -9.0, 0.0))
     harness = webviz_harness(Grid(), LaserScan(size=0.05), odometry, Map(), view=view)
-    harness.transform("map", "odom", *ODOM)
+    harness.transform("map", "odom", *START)
     map_ = {"info": info, "data": grid.ravel()}
     harness.publish("/map", "nav_msgs/msg/OccupancyGrid", map_, frame="map")
     scans = itertools.count(1)
-    for topic, type_name, time_ns, data in messages():
+    for topic, type_name, time_ns, data in messages("/tf", "/tf_static", "/scan", "/odom"):
         harness.source.now = time_ns
         harness.publish_bytes(topic, type_name, data)
         harness.turn()

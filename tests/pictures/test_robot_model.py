@@ -39,7 +39,7 @@ ROBOTS: dict[str, tuple[str, Orbit]] = {
 }
 
 
-def test_the_demo_robot_shows_what_is_chosen_of_it(webviz_harness: Stages) -> None:
+def test_the_demo_robot_follows_its_properties(webviz_harness: Stages) -> None:
     view = Orbit(distance=1.1, yaw=0.7, pitch=0.4, focal_point=(0.0, 0.0, 0.1))
     harness = webviz_harness(RobotModel(), Grid(cell_size=0.1, plane_cell_count=8), view=view)
     place_links(harness, DEMO)
@@ -94,5 +94,5 @@ def test_real_robots_are_whole_and_coloured(webviz_harness: Stages, name: str) -
 
 
 def test_every_robot_has_a_picture_and_the_other_way_round() -> None:
-    shown = {path.stem for path in (Path(__file__).parent / "robot_model/robots").iterdir()}
-    assert shown == ROBOTS.keys()
+    pictures = {path.stem for path in (Path(__file__).parent / "robot_model/robots").iterdir()}
+    assert pictures == ROBOTS.keys()

@@ -34,29 +34,29 @@ def displays() -> tuple[Map, RobotModel, LaserScan, TF]:
     return Map(), RobotModel(), scan, frames
 
 
-def robot(seen: Harness, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
+def robot(harness: Harness, odom: Pose2D = START, laser_yaw: float = 0.0) -> None:
     """The demo robot with its map, its laser and its description.
 
     Args:
-        seen: where.
+        harness: where.
         odom: what somebody publishes as the pose of odom in map.
         laser_yaw: what somebody publishes as the direction of the laser on the robot.
     """
-    seen.transform("map", "odom", (odom.x, odom.y, 0.0), turned(yaw=odom.yaw))
-    seen.transform("odom", "base_link", stamp_ns=seen.source.now)
-    place_links(seen, DEMO, below="base_link")
-    seen.transform("base_link", "base_scan", (0.0, 0.0, 0.2), turned(yaw=laser_yaw))
-    seen.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
-    seen.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
-    look_around(seen)
+    harness.transform("map", "odom", (odom.x, odom.y, 0.0), turned(yaw=odom.yaw))
+    harness.transform("odom", "base_link", stamp_ns=harness.source.now)
+    place_links(harness, DEMO, below="base_link")
+    harness.transform("base_link", "base_scan", (0.0, 0.0, 0.2), turned(yaw=laser_yaw))
+    harness.publish("/map", "nav_msgs/msg/OccupancyGrid", building.grid(), frame="map")
+    harness.publish("/robot_description", "std_msgs/msg/String", {"data": DEMO.read_text()})
+    look_around(harness)
 
 
-def look_around(seen: Harness) -> None:
+def look_around(harness: Harness) -> None:
     """A scan from where the robot really is."""
     measured = building.scan(START)
-    seen.clock += 1.0
-    seen.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
-    seen.turn()
+    harness.clock += 1.0
+    harness.publish("/scan", "sensor_msgs/msg/LaserScan", measured, frame="base_scan")
+    harness.turn()
 
 
 def test_a_robot_misplaced_by_a_static_transform(webviz_harness: Stages) -> None:
@@ -68,9 +68,9 @@ def test_a_robot_misplaced_by_a_static_transform(webviz_harness: Stages) -> None
         "In 'map' (static): position (0.000, -2.000, 0.000) m, "
         "roll, pitch and yaw (0.0, 0.0, 0.0) degrees.",
     )
-    told = harness.statuses("LaserScan")["Map"]
-    assert told.level is Level.WARN
-    assert "a shift by (-2.0, 2.0) m" in told.text
+    status = harness.statuses("LaserScan")["Map"]
+    assert status.level is Level.WARN
+    assert "a shift by (-2.0, 2.0) m" in status.text
     harness.transform("map", "odom", (START.x, START.y, 0.0))
     look_around(harness)
     harness.check_picture("stories/in_place")
@@ -84,9 +84,9 @@ def test_a_laser_turned_on_the_robot(webviz_harness: Stages) -> None:
     text = harness.statuses("TF")["base_scan"].text
     assert text.startswith("In 'base_link' (static)")
     assert "yaw (0.0, 0.0, 15.0) degrees" in text
-    told = harness.statuses("LaserScan")["Map"]
-    assert told.level is Level.WARN
-    assert "rotating 'base_scan' by -15°" in told.text
+    status = harness.statuses("LaserScan")["Map"]
+    assert status.level is Level.WARN
+    assert "rotating 'base_scan' by -15°" in status.text
     # None is missing: one is wrong.
     assert harness.statuses("LaserScan")["Transform"] == Status(Level.OK, "Transform OK")
 

@@ -14,13 +14,13 @@ from webviz_displays.tf import TF
 Stages = Callable[..., Harness]
 
 
-def frames(seen: Harness, stamp_ns: int) -> None:
+def frames(harness: Harness, stamp_ns: int) -> None:
     """A robot that moves, with what is fixed to it, and a dock that stands still."""
-    seen.transform("map", "dock", (1.0, 0.8, 0.0), turned(yaw=2.2))
-    seen.transform("map", "base", (0.3, -0.6, 0.0), turned(yaw=0.5), stamp_ns=stamp_ns)
-    seen.transform("base", "mast", (-0.2, 0.0, 0.7))
-    seen.transform("mast", "camera", (0.3, 0.0, 0.2), turned(roll=-1.5708, yaw=-1.5708))
-    seen.turn()
+    harness.transform("map", "dock", (1.0, 0.8, 0.0), turned(yaw=2.2))
+    harness.transform("map", "base", (0.3, -0.6, 0.0), turned(yaw=0.5), stamp_ns=stamp_ns)
+    harness.transform("base", "mast", (-0.2, 0.0, 0.7))
+    harness.transform("mast", "camera", (0.3, 0.0, 0.2), turned(roll=-1.5708, yaw=-1.5708))
+    harness.turn()
 
 
 def test_frames_have_axes_arrows_and_names(webviz_harness: Stages) -> None:

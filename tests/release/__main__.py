@@ -38,12 +38,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         for path in _reproducible(Path(folder)):
             shutil.copy(path, dist)
-    made = sorted(dist.iterdir())
+    archives = sorted(dist.iterdir())
     for tool in (["twine", "check", "--strict"], ["check_wheel_contents"]):
-        files = [path for path in made if tool[0] == "twine" or path.suffix == ".whl"]
+        files = [path for path in archives if tool[0] == "twine" or path.suffix == ".whl"]
         subprocess.run([sys.executable, "-m", *tool, *files], check=True)
-    tried = [version for version in PYTHONS if _is_tried(version, made)]
-    for path in made:
+    tried = [version for version in PYTHONS if _is_tried(version, archives)]
+    for path in archives:
         print(f"{digest(path)}  {path.relative_to(ROOT)}")
     print(
         f"Tried with Python {', '.join(tried)}." if tried else "No Python to try it with was found."
@@ -62,13 +62,13 @@ def _reproducible(folder: Path) -> list[Path]:
     return once
 
 
-def _is_tried(version: str, made: list[Path]) -> bool:
+def _is_tried(version: str, archives: list[Path]) -> bool:
     """Install each archive with a Python and run the demo, or return False without that Python."""
     python = _python(version)
     if python is None:
         print(f"Python {version} was not found, so the release is not tried with it.")
         return False
-    for archive in made:
+    for archive in archives:
         print(f"Trying {archive.name} with Python {version} ...", flush=True)
         with tempfile.TemporaryDirectory() as folder:
             _run_demo(python, archive, Path(folder))

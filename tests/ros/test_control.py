@@ -108,7 +108,7 @@ def open_viewer(webviz_domain: int) -> Iterator[Viewers]:
     def open_viewer(
         config: Path | None = None, parameters: Sequence[str] = (), **options: Any
     ) -> webviz.Viewer:
-        ros_args = ["--ros-args", *(word for given in parameters for word in ("-p", given))]
+        ros_args = ["--ros-args", *(word for parameter in parameters for word in ("-p", parameter))]
         return webviz.Viewer(config, port=0, ros_args=ros_args, **options)
 
     with several(open_viewer) as opened:
@@ -167,7 +167,7 @@ def test_a_file_at_the_start_that_is_missing_is_refused(open_viewer: Viewers) ->
         open_viewer(parameters=["config_file:=/nowhere.yaml"])
 
 
-def test_any_fixed_frame_is_accepted_and_the_status_says_whether_it_exists(
+def test_any_fixed_frame_is_accepted_and_a_missing_one_reported(
     open_viewer: Viewers, client: Client
 ) -> None:
     viewer = open_viewer()
@@ -261,7 +261,7 @@ def test_a_config_is_loaded_again_and_saved_by_services(
     assert "cell_size: 5.0" in config.read_text()
 
 
-def test_without_a_file_the_services_say_what_to_do(open_viewer: Viewers, client: Client) -> None:
+def test_services_without_a_file_name_the_remedy(open_viewer: Viewers, client: Client) -> None:
     open_viewer()
     for name in ("load_config", "save_config"):
         answer = client.call(f"/webviz/{name}")
@@ -354,15 +354,15 @@ def test_messages_arrive_while_a_service_works(
     publisher = client.node.create_publisher(Int32, "/count", 5)
     client.until(publisher.get_subscription_count, "the subscription")
     publisher.publish(Int32(data=7))
-    heard: list[int] = []
+    numbers: list[int] = []
 
     def hears() -> list[int]:
         raws = source.inbox.drain().get("/count", ())
-        heard.extend(decode("std_msgs/msg/Int32", raw.cdr).data for raw in raws)
-        return heard
+        numbers.extend(decode("std_msgs/msg/Int32", raw.cdr).data for raw in raws)
+        return numbers
 
     client.until(hears, "the message arrives")
-    assert heard == [7]
+    assert numbers == [7]
     assert client.get("fixed_frame") == "map"
     assert not picture.done()
     viewer.ready.set()
@@ -431,7 +431,7 @@ def test_a_view_at_the_start_that_is_not_saved_is_refused(open_viewer: Viewers) 
         open_viewer(parameters=["view:=Above"])
 
 
-def test_the_program_of_the_readme_does_what_it_says(
+def test_the_program_of_the_readme_runs_as_described(
     webviz_domain: int, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     readme = (Path(__file__).parents[2] / "displays/docs/python/README.md").read_text()

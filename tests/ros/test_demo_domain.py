@@ -19,7 +19,7 @@ def test_a_second_demo_takes_a_domain_of_its_own(monkeypatch: pytest.MonkeyPatch
     assert VARIABLE not in os.environ
 
 
-def test_a_domain_that_is_named_stays_and_the_mixing_is_told() -> None:
+def test_an_explicit_domain_is_kept_and_mixed_robots_are_reported() -> None:
     with isolated_domain() as domain, demo_domain() as first:
         with demo_domain() as second:
             assert "the robots of both mix" in second

@@ -97,7 +97,7 @@ def names_that_some_lack() -> tuple[set[str], set[str], set[str]]:
     )
 
 
-def test_other_modules_use_what_rclpy_of_each_distribution_has() -> None:
+def test_other_modules_use_only_names_of_every_rclpy() -> None:
     lacked, attributes, keywords = names_that_some_lack()
     results = set()
     for path, tree in modules():
@@ -123,7 +123,7 @@ def test_other_modules_use_what_rclpy_of_each_distribution_has() -> None:
     }
 
 
-def test_no_other_module_asks_which_distribution_it_is() -> None:
+def test_no_other_module_asks_for_the_distribution() -> None:
     named, asking = set(), set()
     for path, tree in modules():
         texts = docstrings(tree)
@@ -235,14 +235,14 @@ def test_the_default_executor_serves_a_viewer_too(
     monkeypatch.setitem(sys.modules, "rclpy.experimental.events_executor", None)
     spun.node.create_service(Empty, "/reset", lambda _, response: response)
     publisher = spun.node.create_publisher(String, "/text", 1)
-    made: list[object] = []
+    executors: list[object] = []
     choose = distribution.executor
     monkeypatch.setattr(
-        distribution, "executor", lambda context: made.append(choose(context)) or made[-1]
+        distribution, "executor", lambda context: executors.append(choose(context)) or executors[-1]
     )
     source = RosSource(domain_id=webviz_domain)
     try:
-        assert [type(each) for each in made] == [SingleThreadedExecutor]
+        assert [type(each) for each in executors] == [SingleThreadedExecutor]
         source.want({"/text": Subscription("std_msgs/msg/String", Topic("/text"))})
 
         def is_received() -> bool:

@@ -72,11 +72,11 @@ def networks() -> Iterator[Networks]:
     if os.name != "posix" or os.geteuid() != 0 or not shutil.which("ip"):
         pytest.skip("networks of its own need root and iproute2")
     try:
-        made = Networks()
+        networks = Networks()
     except subprocess.CalledProcessError as error:
         pytest.skip(f"no networks can be made here: {error.stderr.decode().strip()}")
-    yield made
-    made.close()
+    yield networks
+    networks.close()
 
 
 @pytest.fixture

@@ -103,10 +103,10 @@ def order(number: int) -> bytes:
 def test_a_message_reaches_a_subscription_that_knew_the_publisher(
     source: RosSource, peer: SpunNode
 ) -> None:
-    heard: list[str] = []
+    texts: list[str] = []
 
     def hear(message: String) -> None:
-        heard.append(message.data)
+        texts.append(message.data)
 
     peer.node.create_subscription(String, "/said", hear, 10)
     advertisement = Advertisement("/said", STRING)
@@ -114,10 +114,10 @@ def test_a_message_reaches_a_subscription_that_knew_the_publisher(
     peer.until(lambda: peer.node.count_publishers("/said"))
     hello = encode(STRING, {"data": "hello"})
     peer.until(lambda: source.graph.publish(advertisement, hello).result(30.0) == 1)
-    peer.until(lambda: "hello" in heard)
+    peer.until(lambda: "hello" in texts)
 
 
-def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
+def test_the_publisher_of_an_unadvertised_topic_is_destroyed(
     source: RosSource, peer: SpunNode
 ) -> None:
     old, new = Advertisement("/old_goal", STRING), Advertisement("/new_goal", STRING)
@@ -129,7 +129,7 @@ def test_the_publisher_of_a_topic_that_is_no_longer_advertised_is_destroyed(
     peer.until(lambda: not peer.node.count_publishers("/old_goal"))
 
 
-def test_a_message_does_not_wait_for_what_arrives(
+def test_publishing_does_not_wait_for_incoming_messages(
     webviz_domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.ros.node.LOOK_S", 3600.0)
@@ -142,7 +142,7 @@ def test_a_message_does_not_wait_for_what_arrives(
     source.close()
 
 
-def test_a_message_that_no_subscription_gets_says_so(source: RosSource) -> None:
+def test_publishing_without_a_subscription_is_reported(source: RosSource) -> None:
     assert source.graph.publish(Advertisement("/lonely", STRING), encode(STRING)).result(30.0) == 0
 
 
@@ -198,7 +198,7 @@ def test_a_goal_can_be_cancelled(source: RosSource) -> None:
 
 
 @pytest.mark.usefixtures("counter")
-def test_a_goal_that_is_rejected_says_so(source: RosSource) -> None:
+def test_a_rejected_goal_is_reported(source: RosSource) -> None:
     goal = source.graph.send_goal("/count", FIBONACCI, order(-1), lambda _: None)
     assert goal.accepted.result(60.0) is False
     with pytest.raises(NotConnected, match="/count rejected the goal"):
@@ -214,7 +214,7 @@ SUCCESS = b"\0\1\0\0\4\0\0\0"
 def offer(peer: SpunNode, action: str, answers: dict[str, bytes]) -> dict[str, int]:
     """Offer an action that gives these answers, whatever they are; counts requests by service."""
     interfaces.action(FOLLOW)
-    asked = dict.fromkeys(answers, 0)
+    requests = dict.fromkeys(answers, 0)
     for name, type, part in (
         ("send_goal", f"{FOLLOW}_SendGoal", "send_goal"),
         ("get_result", f"{FOLLOW}_GetResult", "get_result"),
@@ -223,22 +223,22 @@ def offer(peer: SpunNode, action: str, answers: dict[str, bytes]) -> dict[str, i
         cls = composed_service(type)
 
         def answer(_: Any, response: Any, part: str = part, cls: Any = cls) -> Any:
-            asked[part] += 1
+            requests[part] += 1
             return cls.Response(answers[part])
 
         peer.node.create_service(cls, f"{action}/_action/{name}", answer)
     feedback = message_class(f"{FOLLOW}_FeedbackMessage")
     peer.node.create_publisher(feedback, f"{action}/_action/feedback", 1)
-    return asked
+    return requests
 
 
-def test_a_malformed_answer_to_a_goal_ends_it_and_cancels_what_may_have_started(
+def test_a_malformed_answer_to_a_goal_ends_and_cancels_it(
     source: RosSource, peer: SpunNode
 ) -> None:
     answers = {"send_goal": MALFORMED, "get_result": MALFORMED, "cancel_goal": MALFORMED}
-    asked = offer(peer, "/liar", answers)
+    requests = offer(peer, "/liar", answers)
     goal = source.graph.send_goal("/liar", FOLLOW, encode(f"{FOLLOW}_Goal"), lambda _: None)
-    peer.until(lambda: goal.accepted.done() and asked["cancel_goal"])
+    peer.until(lambda: goal.accepted.done() and requests["cancel_goal"])
     for future in (goal.accepted, goal.result):
         with pytest.raises(NotConnected, match=r"An answer of /liar cannot be read: .* Correct"):
             future.result(0.0)
@@ -256,7 +256,7 @@ def test_a_truncated_result_ends_a_goal(source: RosSource, peer: SpunNode, resul
         goal.result.result(0.0)
 
 
-def test_a_goal_that_is_no_longer_followed_frees_its_place(
+def test_a_goal_without_observers_frees_its_place(
     source: RosSource, peer: SpunNode, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.ros.calls.MAX_CALLS", 2)
@@ -288,7 +288,7 @@ def test_a_graph_that_only_reads_refuses_in_one_sentence() -> None:
             future.result(1.0)
 
 
-def test_what_waits_is_refused_when_the_node_ends(webviz_domain: int) -> None:
+def test_pending_calls_are_refused_when_the_node_ends(webviz_domain: int) -> None:
     source = RosSource(domain_id=webviz_domain)
     interfaces.service("std_srvs/srv/Trigger")
     request = encode("std_srvs/srv/Trigger_Request")

@@ -87,12 +87,12 @@ def test_its_messages_arrive(source: RosSource) -> None:
     distribution.name() == "kilted",
     reason="Range of this Cyclone DDS does not arrive at Kilted's Fast DDS 3; the cause is unknown",
 )
-def test_what_its_messages_lack_has_its_default(source: RosSource) -> None:
+def test_fields_missing_in_its_messages_have_defaults(source: RosSource) -> None:
     distance = last_messages(source, "/humble_range")["/humble_range"]
     assert (distance.header.frame_id, distance.range, distance.variance) == ("sonar", 2.0, 0.0)
 
 
-def test_it_receives_what_the_viewer_publishes(source: RosSource, robot: Program) -> None:
+def test_it_receives_messages_of_the_viewer(source: RosSource, robot: Program) -> None:
     advertisement = Advertisement("/to_humble", STRING)
     source.graph.advertise([advertisement]).result(10)
     cdr = encode(STRING, {"data": "from the viewer"})

@@ -53,9 +53,9 @@ def position(viewer: LiveViewer, key: str) -> list[float]:
 
 
 def boxed(name: str, x: float = 0.0, frame: str = "map") -> Any:
-    made = marker(name, x, 0.0, frame)
-    add(made, Control.MOVE_PLANE, shapes=True)
-    return made
+    interactive_marker = marker(name, x, 0.0, frame)
+    add(interactive_marker, Control.MOVE_PLANE, shapes=True)
+    return interactive_marker
 
 
 def status(viewer: LiveViewer, key: str = "Server") -> str:
@@ -90,7 +90,7 @@ def test_updates_are_applied_in_order_and_gaps_ask_again(
     viewer.wait_for(lambda: position(viewer, "m1")[:2] == [0.0, 2.0], "the new pose")
 
     server.erase("c")
-    server.apply(lost=True)
+    server.apply(dropped=True)
     pose = Pose()
     pose.position.y = 5.0
     server.set_pose("a", pose)
@@ -141,9 +141,9 @@ def test_faulty_servers_are_reported_and_the_rest_is_shown(
     webviz_viewer: Viewers, serve: Serve
 ) -> None:
     viewer = webviz_viewer(InteractiveMarkers(interactive_markers_namespace="/arm"))
-    bad, lost = boxed("bad"), boxed("lost", frame="nowhere")
+    bad, unplaced = boxed("bad"), boxed("lost", frame="nowhere")
     bad.pose.position.x = NAN
-    server = serve("/arm", boxed("good"), bad, lost, marker("empty", 0.0, 0.0, "map"))
+    server = serve("/arm", boxed("good"), bad, unplaced, marker("empty", 0.0, 0.0, "map"))
     connected(viewer, 3)
     assert status(viewer, "good") == "Locked to frame map."
     assert "not finite" in status(viewer, "bad")
@@ -165,11 +165,14 @@ def test_faulty_servers_are_reported_and_the_rest_is_shown(
     viewer.wait_for(lambda: position(viewer, "m4")[:2] == [4.0, 0.0], "its group")
 
     mesh, broken = boxed("mesh"), boxed("broken")
-    for made, data in ((mesh, trimesh.creation.box().export(file_type="stl")), (broken, b"no")):
-        (shape,) = made.controls[0].markers
+    for interactive_marker, data in (
+        (mesh, trimesh.creation.box().export(file_type="stl")),
+        (broken, b"no"),
+    ):
+        (shape,) = interactive_marker.controls[0].markers
         shape.type, shape.mesh_resource = 10, "embedded://file.stl"
         shape.mesh_file.filename, shape.mesh_file.data = "file.stl", data
-        server.insert(made)
+        server.insert(interactive_marker)
     server.apply()
     viewer.wait_for(lambda: "file.stl" in status(viewer, "broken"), lambda: status(viewer))
     viewer.wait_for(lambda: any(key.startswith("c0/m5/") for key in viewer.nodes()), "the mesh")

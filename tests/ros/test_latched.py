@@ -27,7 +27,7 @@ TOPIC = "/robot_description"
 STRING = "std_msgs/msg/String"
 
 
-class Looking:
+class DescriptionViewer:
     """A viewer on ROS that shows a robot of the topic."""
 
     def __init__(self, domain: int) -> None:
@@ -72,34 +72,34 @@ def urdf(link: str) -> str:
 
 
 @pytest.fixture
-def looking(webviz_domain: int) -> Iterator[Looking]:
-    looking = Looking(webviz_domain)
+def viewer(webviz_domain: int) -> Iterator[DescriptionViewer]:
+    viewer = DescriptionViewer(webviz_domain)
     try:
-        looking.loop.turn()
-        looking.until(lambda: looking.shows(0, "box") and looking.shows(1, "box"))
-        yield looking
+        viewer.loop.turn()
+        viewer.until(lambda: viewer.shows(0, "box") and viewer.shows(1, "box"))
+        yield viewer
     finally:
-        looking.close()
+        viewer.close()
 
 
-def test_a_panel_gets_what_a_display_has_read_before(looking: Looking) -> None:
-    looking.do(AddPanel("Joints"))
-    panel = looking.states[-1].panels[0].panel
+def test_a_panel_gets_the_latched_message_of_a_display(viewer: DescriptionViewer) -> None:
+    viewer.do(AddPanel("Joints"))
+    panel = viewer.states[-1].panels[0].panel
     assert isinstance(panel, Joints)
-    panel.build(RecordedUi(), looking.send)
-    looking.do(OpenPanels(frozenset({"Joints"})))
-    looking.until(lambda: panel.text == urdf("box"))
+    panel.build(RecordedUi(), viewer.send)
+    viewer.do(OpenPanels(frozenset({"Joints"})))
+    viewer.until(lambda: panel.text == urdf("box"))
 
 
-def test_the_panel_of_topics_gets_what_a_display_has_read_before(looking: Looking) -> None:
-    looking.do(InspectTopics(frozenset({TOPIC})))
-    looking.until(lambda: looking.states[-1].inspected[TOPIC].message is not None)
+def test_the_topics_panel_gets_the_latched_message_of_a_display(viewer: DescriptionViewer) -> None:
+    viewer.do(InspectTopics(frozenset({TOPIC})))
+    viewer.until(lambda: viewer.states[-1].inspected[TOPIC].message is not None)
 
 
-def test_a_display_that_was_disabled_gets_what_it_missed(looking: Looking) -> None:
-    rows = looking.states[-1].rows
-    looking.do(SetProperty(rows[0].id, "enabled", False))
-    looking.describe("ball")
-    looking.until(lambda: looking.shows(1, "ball"))
-    looking.do(SetProperty(rows[0].id, "enabled", True))
-    looking.until(lambda: looking.shows(0, "ball"))
+def test_an_enabled_display_gets_the_latched_message_it_missed(viewer: DescriptionViewer) -> None:
+    rows = viewer.states[-1].rows
+    viewer.do(SetProperty(rows[0].id, "enabled", False))
+    viewer.describe("ball")
+    viewer.until(lambda: viewer.shows(1, "ball"))
+    viewer.do(SetProperty(rows[0].id, "enabled", True))
+    viewer.until(lambda: viewer.shows(0, "ball"))

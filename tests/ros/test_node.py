@@ -26,11 +26,11 @@ from webviz.api.frames import Frames
 from webviz.api.status import Level
 from webviz.data.messages import decode
 from webviz.data.transforms import TransformBuffer
-from webviz.engine.guard import Guard
+from webviz.engine.error_boundary import ErrorBoundary
 from webviz.engine.pipeline.inputs import Inputs
 from webviz.ros import node
 from webviz.ros.node import RosSource
-from webviz.sources import Advertisement, Gate, Rights, Subscription, merged
+from webviz.sources import Advertisement, RestrictedGraph, Rights, Subscription, merged
 
 RANGE = "sensor_msgs/msg/Range"
 STRING = "std_msgs/msg/String"
@@ -72,7 +72,7 @@ def requested(source: RosSource) -> tuple[str, str] | None:
 
 @pytest.mark.parametrize("reliability", ["reliable", "best_effort"])
 @pytest.mark.parametrize("durability", ["volatile", "transient_local"])
-def test_auto_asks_for_what_the_publisher_offers(
+def test_auto_requests_the_qos_of_the_publisher(
     talker: Node, listen: Listen, reliability: str, durability: str
 ) -> None:
     publisher = talker.create_publisher(String, "/words", qos(reliability, durability))
@@ -160,10 +160,12 @@ def test_the_qos_of_each_display_is_judged_by_itself(
     publisher = talker.create_publisher(String, "/words", qos("best_effort", "volatile"))
     source = listen()
     displays = Words(topic=Topic("/words", reliability="reliable")), Words()
-    strict, easy = (Inputs(each, Guard("", strict=True), source.resolve) for each in displays)
+    strict, easy = (
+        Inputs(each, ErrorBoundary("", strict=True), source.resolve) for each in displays
+    )
     both = (strict, easy)[:: 1 - 2 * first]
 
-    def told(inputs: Inputs) -> tuple[Level, str]:
+    def status_of(inputs: Inputs) -> tuple[Level, str]:
         frames, offers = Frames(TransformBuffer(), "map", 0), source.offers()
         inputs.take(source.inbox.drain() if inputs is easy else {}, frames, offers, 1.0)
         status = inputs.statuses(offers, frames, lambda _: 0, 1.0)["Topic"]
@@ -171,18 +173,18 @@ def test_the_qos_of_each_display_is_judged_by_itself(
 
     source.want(merged([strict.subscriptions()]))
     until(lambda: requested(source) == ("reliable", "volatile"))
-    alone = told(strict)
+    alone = status_of(strict)
     assert alone[0] is Level.ERROR
     source.want(merged(each.subscriptions() for each in both))
     until(lambda: requested(source) == ("best_effort", "volatile"))
 
     def is_heard() -> bool:
         publisher.publish(String(data="again"))
-        return told(easy)[0] is Level.OK
+        return status_of(easy)[0] is Level.OK
 
     until(is_heard)
     remark = " Messages arrive only because another display reads the topic."
-    assert told(strict) == (Level.ERROR, alone[1] + remark)
+    assert status_of(strict) == (Level.ERROR, alone[1] + remark)
 
 
 def test_a_topic_of_another_type_is_reported_and_not_subscribed(
@@ -202,7 +204,7 @@ def test_a_topic_of_another_type_is_reported_and_not_subscribed(
     until(lambda: talker.count_subscribers("/words") == 0)
 
 
-def test_what_is_no_longer_wanted_is_unsubscribed(talker: Node, listen: Listen) -> None:
+def test_a_released_topic_is_unsubscribed(talker: Node, listen: Listen) -> None:
     publisher = talker.create_publisher(String, "/words", 5)
     source = listen()
     want(source)
@@ -232,8 +234,8 @@ def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
         publisher.publish(String(data=text))
         return source.offers()["/words"].problem
 
-    said = "a message of 3 MB is above the limit of 1 MB; publish smaller ones"
-    until(lambda: problem_after("x" * (3 << 20)) == said)
+    problem = "a message of 3 MB is above the limit of 1 MB; publish smaller ones"
+    until(lambda: problem_after("x" * (3 << 20)) == problem)
     assert heard(source) == []
     until(lambda: not problem_after("short"))
     assert "short" in heard(source)
@@ -246,10 +248,12 @@ def test_names_are_resolved_and_remapped_those_that_may_be_published_too(listen:
     for wrong in ("", "/a b", "9lives", "/a//b"):
         with pytest.raises(ValueError, match="is not a valid topic name: "):
             source.resolve(wrong)
-    gate = Gate(source, Rights(publish=("/scan", "odom", "arm/*", "~/*")), lambda: ("/*",))
+    restricted_graph = RestrictedGraph(
+        source, Rights(publish=("/scan", "odom", "arm/*", "~/*")), lambda: ("/*",)
+    )
     names = ("/front/scan", "/robot/odom", "/robot/arm/goal", "/robot/webviz/x")
-    assert [gate.refusal(name) for name in names] == [""] * 4
-    assert all(map(gate.refusal, ("/scan", "/odom", "/arm/goal", "/webviz/x")))
+    assert [restricted_graph.refusal(name) for name in names] == [""] * 4
+    assert all(map(restricted_graph.refusal, ("/scan", "/odom", "/arm/goal", "/webviz/x")))
 
 
 def test_simulated_time_is_the_clock_topic(talker: Node, listen: Listen) -> None:
@@ -288,11 +292,13 @@ def test_subscriptions_end_while_events_of_incompatible_publishers_wait(
     own = set(own_node.waitables)
     all_names = {name: Subscription(STRING, Topic(name, reliability="reliable")) for name in names}
     for _ in range(8):
-        for wanted in (all_names, {}):
-            source.want(wanted)
+        for subscriptions in (all_names, {}):
+            source.want(subscriptions)
             # Its thread would have ended, which fails the test.
             until(
-                lambda wanted=wanted: wanted.keys() == {*filter(talker.count_subscribers, names)},
+                lambda subscriptions=subscriptions: (
+                    subscriptions.keys() == {*filter(talker.count_subscribers, names)}
+                ),
                 seconds=20,
             )
     # Publishers, too, are destroyed while the node spins.
@@ -309,7 +315,7 @@ def test_close_leaves_no_thread_and_no_node(talker: Node, webviz_domain: int) ->
     until(lambda: "webviz" not in talker.get_node_names())
 
 
-def test_messages_of_an_older_distribution_have_defaults_for_what_they_lack(
+def test_messages_of_an_older_distribution_have_defaults_for_missing_fields(
     talker: Node, listen: Listen
 ) -> None:
     """Its Range has no variance; DDS compares the names of types alone."""
@@ -331,5 +337,5 @@ def test_messages_of_an_older_distribution_have_defaults_for_what_they_lack(
         return bool(arrived)
 
     until(is_received)
-    found = decode(RANGE, arrived[0].cdr)
-    assert (found.header.frame_id, found.range, found.variance) == ("sonar", 2.5, 0.0)
+    decoded = decode(RANGE, arrived[0].cdr)
+    assert (decoded.header.frame_id, decoded.range, decoded.variance) == ("sonar", 2.5, 0.0)

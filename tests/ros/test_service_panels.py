@@ -24,7 +24,7 @@ from webviz.panels import selector
 from webviz.panels.selector import Selector
 
 
-class Server(SpunNode):
+class PlannerServer(SpunNode):
     """A node that spins in a thread, as Nav2's do."""
 
     def __init__(self, domain: int) -> None:
@@ -34,14 +34,14 @@ class Server(SpunNode):
 
 
 @pytest.fixture
-def server(webviz_domain: int) -> Iterator[Server]:
-    server = Server(webviz_domain)
+def server(webviz_domain: int) -> Iterator[PlannerServer]:
+    server = PlannerServer(webviz_domain)
     yield server
     server.close()
 
 
 def test_a_behavior_tree_that_comes_later_gets_the_choice(
-    server: Server, webviz_domain: int, monkeypatch: pytest.MonkeyPatch
+    server: PlannerServer, webviz_domain: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(selector, "ASK_S", 0.2)
     with webviz.Viewer(port=0, ros_args=[]) as viewer:
@@ -62,8 +62,8 @@ def test_a_behavior_tree_that_comes_later_gets_the_choice(
 
         until(is_offered)
         choice.use("Smac", None)
-        heard: list[Any] = []
+        messages: list[Any] = []
         qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        server.node.create_subscription(String, "/planner_selector", heard.append, qos)
-        until(lambda: heard)
-        assert heard[0].data == "Smac"
+        server.node.create_subscription(String, "/planner_selector", messages.append, qos)
+        until(lambda: messages)
+        assert messages[0].data == "Smac"

@@ -61,36 +61,36 @@ def test_segments_of_killed_processes_are_removed_and_those_of_others_kept(
     start: Callable[[], subprocess.Popen[str]],
 ) -> None:
     running, killed = start(), start()
-    kept, abandoned = files(running), files(killed)
-    assert kept
+    own, abandoned = files(running), files(killed)
+    assert own
     assert abandoned
-    assert not kept & abandoned
+    assert not own & abandoned
     killed.kill()
     killed.wait()
     for lock in abandoned:
         os.utime(lock)
     remove_abandoned()
     assert existing(abandoned) == abandoned  # they may be about to be locked
-    for lock in abandoned | kept:
+    for lock in abandoned | own:
         os.utime(lock, (0, lock.stat().st_mtime - MIN_AGE_S))
     remove_abandoned()
     # Another process may remove them at this moment, as each does that starts a node.
     until(lambda: not existing(abandoned))
-    assert existing(kept) == kept
+    assert existing(own) == own
     running.communicate("\n")
-    assert existing(kept) == set()
+    assert existing(own) == set()
 
 
 def test_segments_of_a_process_that_is_killed_are_removed_at_once(
     start: Callable[[], subprocess.Popen[str]],
 ) -> None:
     running, killed = start(), start()
-    kept, abandoned = files(running), files(killed)
+    own, abandoned = files(running), files(killed)
     segments = segments_of(killed.pid)
     assert {path for path in abandoned if not path.name.endswith("_el")} == segments
     killed.kill()
     killed.wait()
     remove_unused(segments | segments_of(running.pid) | segments_of(killed.pid))
     assert existing(abandoned) == set()
-    assert existing(kept) == kept
+    assert existing(own) == own
     running.communicate("\n")

@@ -2,7 +2,6 @@ import json
 import os
 import subprocess
 import sys
-from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from waiting import until
 
 pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
 
-from nodes import SpunNode
+from nodes import SpunNode, response_of
 
 from webviz.data.messages import (
     UnknownTypeError,
@@ -122,12 +121,12 @@ def test_a_malformed_name_is_refused_in_one_sentence(name):
         message_class(name)
 
 
-def test_an_unknown_type_says_what_to_install():
+def test_an_unknown_type_names_the_package_to_install():
     with pytest.raises(MessageTypeError, match=r"no_msgs/msg/No is known\. Install its package"):
         message_class("no_msgs/msg/No")
 
 
-def test_a_missing_package_under_another_rmw_says_how_to_install_it():
+def test_a_missing_package_under_another_rmw_names_the_command_to_install_it():
     script = (
         "import webviz.ros.types.classes as t\n"
         "t.get_rmw_implementation_identifier = lambda: 'rmw_cyclonedds_cpp'\n"
@@ -159,9 +158,9 @@ def installed_hashes(kind):
 
 
 def test_hashes_equal_those_of_every_installed_message():
-    known = {name: found for name, found in installed_hashes("msg").items() if type_exists(name)}
-    assert {name: type_hash(name) for name in known} == known
-    assert len(known) > 100
+    hashes = {name: hash_ for name, hash_ in installed_hashes("msg").items() if type_exists(name)}
+    assert {name: type_hash(name) for name in hashes} == hashes
+    assert len(hashes) > 100
 
 
 def test_a_composed_class_has_no_instances():
@@ -220,16 +219,16 @@ def test_a_real_package_and_a_composed_class_understand_each_other(ros):
 
     node, executor = ros
     received = []
-    sent = PointStamped()
-    sent.header.frame_id = "map"
-    sent.point.y = 2.5
+    point = PointStamped()
+    point.header.frame_id = "map"
+    point.point.y = 2.5
     composed = composed_message("geometry_msgs/msg/PointStamped")
     node.create_subscription(PointStamped, "/point", received.append, 10)
     publisher = node.create_publisher(composed, "/point", 10)
     spin_until(executor, lambda: publisher.get_subscription_count() > 0)
-    publisher.publish(serialize_message(sent))
+    publisher.publish(serialize_message(point))
     spin_until(executor, lambda: received)
-    assert received == [sent]
+    assert received == [point]
 
 
 def test_the_node_describes_a_composed_type_on_request(ros):
@@ -238,11 +237,8 @@ def test_the_node_describes_a_composed_type_on_request(ros):
     node, executor = ros
     node.create_publisher(message_class("tf2_msgs/msg/TFMessage"), "/tf", 10)
     client = node.create_client(GetTypeDescription, "/types_test/get_type_description")
-    spin_until(executor, client.service_is_ready)
     request = GetTypeDescription.Request(type_name="tf2_msgs/msg/TFMessage", type_hash=TF_HASH)
-    future = client.call_async(request)
-    spin_until(executor, future.done)
-    answer = future.result()
+    answer = response_of(client, request, executor)
     assert answer.successful, answer.failure_reason
     [field] = answer.type_description.type_description.fields
     assert (field.name, field.type.type_id) == ("transforms", 145)
@@ -265,9 +261,9 @@ def test_a_subscription_without_raw_raises_instead_of_crashing(ros):
 
 
 def test_hashes_equal_those_of_every_installed_service():
-    for name, found in installed_hashes("srv").items():
+    for name, hash_ in installed_hashes("srv").items():
         learn(name)  # with the messages that the service holds
-        assert type_hash(name) == found, name
+        assert type_hash(name) == hash_, name
 
 
 SERVER = """
@@ -293,17 +289,9 @@ def test_a_service_without_its_package_answers_over_the_wire(ros, peer):
     peer("server")
     cls = service_class("nav2_msgs/srv/ManageLifecycleNodes")
     client = node.create_client(cls, "/manage")
-    spin_until(executor, client.service_is_ready)
     for command in (1, 0):
         request = cls.Request(bytes([0, 1, 0, 0, command]))
-        future = client.call_async(request)
-        # A client is ready before the server can answer it: DDS may lose the first response.
-        with suppress(AssertionError):
-            spin_until(executor, future.done, seconds=10.0)
-        if not future.done():
-            future = client.call_async(request)
-            spin_until(executor, future.done)
-        assert future.result().cdr[:5] == bytes([0, 1, 0, 0, command])
+        assert response_of(client, request, executor).cdr[:5] == bytes([0, 1, 0, 0, command])
 
 
 def test_a_real_service_and_a_composed_client_understand_each_other(ros):

@@ -6,10 +6,12 @@ import math
 import socket
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any, Protocol
 
 import msgspec
+import numpy as np
 import playwright.sync_api as playwright
 import pytest
 import viser
@@ -28,6 +30,11 @@ SIZE = (320, 240)
 """Size of a tab in pixels."""
 
 
+def floats(*values: Any) -> np.ndarray:
+    """Values as a node has them: float32."""
+    return np.array(values, np.float32)
+
+
 @pytest.fixture
 def server() -> Iterator[viser.ViserServer]:
     server = open_server(port=0)
@@ -40,25 +47,29 @@ def scene(server: viser.ViserServer) -> ViserScene:
     return ViserScene(server)
 
 
-@pytest.fixture(scope="package")
-def tab(browser: playwright.Browser) -> Iterator[View]:
-    """One tab for the tests of all modules: opening it takes seconds."""
+@contextmanager
+def opened_view(browser: playwright.Browser) -> Iterator[View]:
+    """Open a server of its own, and a tab of it."""
     server = open_server(port=0)
     view = View(browser, ViserScene(server))
     yield view
     view.close()
     server.stop()
+
+
+@pytest.fixture(scope="package")
+def tab(browser: playwright.Browser) -> Iterator[View]:
+    """One tab for the tests of all modules: opening it takes seconds."""
+    with opened_view(browser) as view:
+        yield view
 
 
 @pytest.fixture(scope="package")
 def still(browser: playwright.Browser) -> Iterator[View]:
     """A tab that draws only when it is looked at, which costs less."""
-    server = open_server(port=0)
-    view = View(browser, ViserScene(server))
-    view.hold()
-    yield view
-    view.close()
-    server.stop()
+    with opened_view(browser) as view:
+        view.hold()
+        yield view
 
 
 @pytest.fixture

@@ -108,16 +108,14 @@ def test_a_blank_image_is_added_as_viser_adds_one(scene: ViserScene) -> None:
             assert np.asarray(picture).tolist() == one.tolist()
 
 
-def test_of_a_thousand_moves_a_joining_browser_is_sent_the_last_one(
-    scene: ViserScene, call: Make
-) -> None:
+def test_a_joining_browser_gets_only_the_last_of_many_moves(scene: ViserScene, call: Make) -> None:
     for x in range(1000):
         scene.link.set_position("/webviz/a", (float(x), 0.0, 0.0))
     moves = [m for m in call().replay() if m["type"] == "SetPositionMessage"]
     assert [m["position"] for m in moves if m["name"] == "/webviz/a"] == [[999.0, 0.0, 0.0]]
 
 
-def test_many_moves_at_once_leave_what_single_ones_leave(scene: ViserScene) -> None:
+def test_batched_moves_equal_single_ones(scene: ViserScene) -> None:
     link, turned = scene.link, (0.6, 0.8, 0.0, 0.0)
     for _ in range(2):
         link.set_position("/webviz/a", (1.0, 0.0, 0.0))
@@ -172,7 +170,7 @@ def test_the_replay_comes_in_windows_and_in_order(scene: ViserScene, call: Make)
     assert names[-300:] == [f"/webviz/{index}" for index in range(300)]
 
 
-def test_what_is_queued_atomically_arrives_in_one_frame(scene: ViserScene, call: Make) -> None:
+def test_messages_queued_atomically_arrive_in_one_frame(scene: ViserScene, call: Make) -> None:
     peer = call()
     peer.replay()
     with scene.link.atomic():
@@ -205,12 +203,12 @@ def test_a_browser_that_never_hears_of_removed_nodes_is_let_go(
     call()  # reads nothing
     cursors = message_buffer(scene.link.server).generator_cursors
     blob = np.zeros(20_000_000, np.uint8)
-    seen = [-2]
-    while len(seen) < 10 or len(set(seen[-10:])) > 1:  # it goes on, or has not begun
+    positions = [-2]
+    while len(positions) < 10 or len(set(positions[-10:])) > 1:  # it goes on, or has not begun
         scene.link.update("/webviz/a", {"points": blob})
         scene.link.flush()
         time.sleep(0.05)  # long enough to be sent, if the browser reads
-        seen.append(min(cursors.values(), default=-len(seen)))
+        positions.append(min(cursors.values(), default=-len(positions)))
     for index in range(MAX_TOMBSTONES + 1000):
         queue_message(scene.link.server, wire.RemoveSceneNodeMessage(f"/webviz/{index}"))
         scene.link.count_removals(1)

@@ -26,7 +26,7 @@ from webviz.scene import ViserScene, open_server
 from webviz.scene.adapter.greeting import greet
 from webviz.server.access import rules
 from webviz.server.access.roles import LIMITS
-from webviz.server.channel.messages import Answer, Ask, FromPage, ToPage
+from webviz.server.channel.messages import FromPage, SyncReply, SyncRequest, ToPage
 from webviz.server.channel.outgoing import MAX_WAITING
 from webviz.server.http.viser_server import Server
 from webviz.shell.pictures.browser import Page
@@ -71,7 +71,7 @@ def key_of(peer: Any) -> tuple[int, str]:
 
 def receive(page: Connection) -> dict[str, Any]:
     """The next message that is not only a sign of life."""
-    while (message := msgspec.json.decode(page.recv(60)))["type"] == "Beat":
+    while (message := msgspec.json.decode(page.recv(60)))["type"] == "Heartbeat":
         pass
     return message
 
@@ -95,9 +95,7 @@ def test_a_message_reaches_the_listener_with_the_browser_that_sent_it(
     assert acknowledged == [(browser, Wish("rain"))]
 
 
-def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
-    server: Server, call: Make
-) -> None:
+def test_a_page_receives_its_queue_and_the_newest_of_each_store(server: Server, call: Make) -> None:
     server.channel.send(Weather("rain"))
     server.channel.send(News("no browser is here"))
     server.channel.send(Weather("sun"))
@@ -109,7 +107,7 @@ def test_a_page_receives_what_waited_for_it_and_only_the_newest_of_what_is_kept(
     with channel(server) as page:
         page.send(hello(key))
         you, *got = (receive(page) for _ in range(3))
-    assert you == {"type": "You", "role": "owner", "name": ""}
+    assert you == {"type": "Identity", "role": "owner", "name": ""}
     assert got == [{"type": "News", "text": "for you"}, {"type": "Weather", "text": "wind"}]
 
 
@@ -119,7 +117,7 @@ def test_a_page_measures_its_way_before_the_viewer_is_ready(
     _, key = key_of(call())
     with channel(server) as page:
         page.send(hello(key))
-        assert receive(page)["type"] == "You"
+        assert receive(page)["type"] == "Identity"
         page.send('{"type":"Ping"}')
         assert receive(page) == {"type": "Pong"}
     assert "ignored" not in caplog.text
@@ -187,7 +185,7 @@ def test_nonsense_is_ignored(server: Server, call: Make, nonsense: str | bytes) 
 
 
 @pytest.mark.parametrize(("count", "size"), [(40 * MAX_WAITING, 10_000), (60, 1 << 20)])
-def test_a_page_that_reads_nothing_has_to_connect_anew(
+def test_a_page_that_reads_nothing_is_disconnected(
     server: Server,
     call: Make,
     count: int,
@@ -254,17 +252,17 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
     server: Server,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    answers: list[tuple[int, Answer]] = []
+    answers: list[tuple[int, SyncReply]] = []
 
     def listen(server: Server) -> None:
         ViserScene(server)
-        server.channel.on(Answer, lambda *answer: answers.append(answer))
+        server.channel.on(SyncReply, lambda *answer: answers.append(answer))
 
     listen(server)
     page = Page(browser, f"http://127.0.0.1:{server.get_port()}", 320, 240)
-    server.channel.send(Ask("first"))
+    server.channel.send(SyncRequest("first"))
     page.wait_for(lambda: answers, "the page answers")
-    assert answers == [(page.evaluate("() => window.webviz.browser"), Answer("first"))]
+    assert answers == [(page.evaluate("() => window.webviz.browser"), SyncReply("first"))]
     port = server.get_port()
     server.stop()
 
@@ -280,8 +278,10 @@ def test_a_real_page_answers_and_is_back_when_the_server_is_another(
         page.wait_for(again.get_clients, "the page is back")
 
         def answers_again() -> bool:
-            again.channel.send(Ask("second"))  # again, as a slow page may have to connect twice
-            return answers[-1][1] == Answer("second")
+            again.channel.send(
+                SyncRequest("second")
+            )  # again, as a slow page may have to connect twice
+            return answers[-1][1] == SyncReply("second")
 
         page.wait_for(answers_again, "the page answers again")
     finally:
@@ -295,7 +295,7 @@ def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channe
 ) -> None:
     ViserScene(server)
     answers: list[int] = []
-    server.channel.on(Answer, lambda browser, _: answers.append(browser))
+    server.channel.on(SyncReply, lambda browser, _: answers.append(browser))
 
     async def forward(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         head = await reader.readuntil(b"\r\n\r\n")
@@ -317,7 +317,7 @@ def test_a_page_below_a_folder_of_a_proxy_loads_its_modules_and_opens_the_channe
     ).result(60)
     port = proxy.sockets[0].getsockname()[1]
     page = Page(browser, f"http://127.0.0.1:{port}/robot", 320, 240)
-    server.channel.send(Ask("below"))
+    server.channel.send(SyncRequest("below"))
     page.wait_for(lambda: answers, "the page answers")
     page.close()
     loop.call_soon_threadsafe(proxy.close)

@@ -55,16 +55,16 @@ def test_connections_that_never_ask_keep_no_browser_out(
         client.close()
 
 
-@pytest.mark.parametrize("sent", [b"", PAGE[:10]])
+@pytest.mark.parametrize("partial_request", [b"", PAGE[:10]])
 def test_requests_that_are_not_complete_end_none_of_another_address(
-    server: viser.ViserServer, sent: bytes
+    server: viser.ViserServer, partial_request: bytes
 ) -> None:
     address = ("127.0.0.1", server.get_port())
     with socket.create_connection(address, timeout=60) as asking, contextlib.ExitStack() as stack:
         asking.sendall(PAGE[:10])
         for _ in range(2 * MAX_BROWSERS):
             other = socket.create_connection(address, timeout=60, source_address=("127.0.0.2", 0))
-            stack.enter_context(other).sendall(sent)
+            stack.enter_context(other).sendall(partial_request)
         asking.sendall(PAGE[10:])
         assert asking.recv(12) == b"HTTP/1.1 200"
 
@@ -144,7 +144,7 @@ def test_a_browser_that_connects_again_has_no_new_burst() -> None:
     assert later.spend(5.0, now=200.0) == 0.0
 
 
-def test_of_too_many_browsers_those_with_most_left_are_forgotten() -> None:
+def test_over_the_limit_the_browsers_that_spent_least_are_forgotten() -> None:
     spent = SpentRates()
     for number in range(MAX_REMEMBERED + 1):
         before = RateLimit(rate=10.0, burst=5.0)
@@ -160,7 +160,7 @@ def test_of_too_many_browsers_those_with_most_left_are_forgotten() -> None:
     assert [number for number, wait in enumerate(waits) if wait == 0.0] == [1]
 
 
-def test_who_floods_again_stays_away_twice_as_long_and_is_forgiven_later() -> None:
+def test_the_back_off_doubles_with_each_flood_and_is_forgiven_later() -> None:
     back_off, now, waits = BackOff(), 100.0, []
     for _ in range(7):
         back_off.send_away("a", now)
@@ -173,7 +173,7 @@ def test_who_floods_again_stays_away_twice_as_long_and_is_forgiven_later() -> No
     assert back_off.wait_s("a", now + FORGIVEN_S + 1.0) == FIRST_S
 
 
-def test_of_too_many_that_stay_away_the_first_may_come_back() -> None:
+def test_over_the_limit_the_first_browser_in_back_off_is_forgotten() -> None:
     back_off = BackOff()
     back_off.send_away(0, 0.0)
     back_off.send_away(0, FIRST_S)  # for 20 s
@@ -192,13 +192,13 @@ def test_a_browser_that_sends_too_much_waits_and_others_do_not(
     eager, other = call(), call()
     for number in range(1, 6):
         eager.look(float(number))
-    until(lambda: seen(server) == [3.0])
+    until(lambda: cameras_x(server) == [3.0])
     other.look(9.0)
     until(lambda: len(server.get_clients()) == 2)
-    assert seen(server) == [3.0, 9.0]
+    assert cameras_x(server) == [3.0, 9.0]
 
 
-def seen(server: viser.ViserServer) -> list[float]:
+def cameras_x(server: viser.ViserServer) -> list[float]:
     """The x of every camera that the server has heard of."""
     cameras = [client.camera for client in server.get_clients().values()]
     return sorted(float(camera.position[0]) for camera in cameras)
@@ -207,7 +207,7 @@ def seen(server: viser.ViserServer) -> list[float]:
 @pytest.mark.parametrize(
     "frame", [Frame(Opcode.PING, 125 * b"x"), Frame(Opcode.CONT, b"x", fin=False)], ids=str
 )
-def test_who_floods_with_what_cannot_wait_is_let_go(
+def test_a_flood_of_pings_or_fragments_ends_the_connection(
     server: viser.ViserServer, call: Make, frame: Frame
 ) -> None:
     peer = call()
@@ -283,7 +283,7 @@ def test_a_server_that_stops_waits_for_no_browser(
     eager = call()  # must wait for ages, and does not read, so that it never answers a farewell
     eager.look(1.0)
     eager.look(2.0)
-    until(lambda: seen(server) == [1.0])
+    until(lambda: cameras_x(server) == [1.0])
     with socket.create_connection(("127.0.0.1", server.get_port())) as client:
         client.sendall(b"GET / HT")
         assert ask(PAGE)[0] == 200

@@ -11,7 +11,7 @@ import viser
 from webviz.scene import ViserScene, open_server
 from webviz.shell.pictures.browser import Page
 
-LOST = re.compile(
+BANNER = re.compile(
     r"Connection to webviz lost\. The picture is \d+ s old\. "
     r"Check that webviz is running; this page reconnects by itself\."
 )
@@ -20,16 +20,16 @@ LOST = re.compile(
 TWO_BEATS = """async () => {
   const { on } = await import("webviz/channel.js");
   let beats = 0;
-  await new Promise((resolve) => on("Beat", () => ++beats === 2 && resolve()));
+  await new Promise((resolve) => on("Heartbeat", () => ++beats === 2 && resolve()));
 }"""
 
 
-def test_a_page_says_that_its_server_is_gone_until_it_is_back_and_not_how_it_draws(
+def test_a_page_reports_a_lost_server_until_it_is_back(
     browser: playwright.Browser, server: viser.ViserServer, scene: ViserScene
 ) -> None:
     port = server.get_port()
     page = Page(browser, f"http://127.0.0.1:{port}", 600, 400)
-    banner = page.tab.get_by_role("alert").filter(has_text=LOST)
+    banner = page.tab.get_by_role("alert").filter(has_text=BANNER)
     page.tab.evaluate(TWO_BEATS)
     assert banner.count() == 0  # nothing happens, and all is well
     word = page.tab.get_by_text("Software WebGL rendering detected")  # of viser

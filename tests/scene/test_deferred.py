@@ -13,48 +13,48 @@ from webviz.scene import ViserScene
 from webviz.scene.deferred import DeferredMessages
 
 
-def test_of_one_name_only_the_newest_work_is_sent() -> None:
-    late, begun, go, sent = DeferredMessages(), threading.Event(), threading.Event(), list[int]()
+def test_only_the_newest_work_of_a_name_is_sent() -> None:
+    late, begun, go, results = DeferredMessages(), threading.Event(), threading.Event(), list[int]()
 
     def slow() -> int:
         begun.set()
         go.wait(60)
         return 1
 
-    late.put("/map", slow, sent.append)
+    late.put("/map", slow, results.append)
     assert begun.wait(60)
-    late.put("/map", lambda: 2, sent.append)
-    late.put("/map", lambda: 3, sent.append)
+    late.put("/map", lambda: 2, results.append)
+    late.put("/map", lambda: 3, results.append)
     assert not late.wait(0.0)
     go.set()
     late.finish(10)
-    assert sent == [3]
+    assert results == [3]
 
 
-def test_dropped_work_is_never_sent_nor_that_of_what_lies_below() -> None:
-    late, begun, go, sent = DeferredMessages(), threading.Event(), threading.Event(), list[str]()
+def test_dropped_work_and_work_below_it_is_never_sent() -> None:
+    late, begun, go, results = DeferredMessages(), threading.Event(), threading.Event(), list[str]()
 
     def slow() -> str:
         begun.set()
         go.wait(60)
         return "running"
 
-    late.put("/map/a", slow, sent.append)
-    late.put("/map/b", lambda: "waiting", sent.append)
-    late.put("/map2", lambda: "other", sent.append)
+    late.put("/map/a", slow, results.append)
+    late.put("/map/b", lambda: "waiting", results.append)
+    late.put("/map2", lambda: "other", results.append)
     assert begun.wait(60)
     late.drop("/map")
     go.set()
     late.finish(10)
-    assert sent == ["other"]
+    assert results == ["other"]
 
 
 def test_work_that_fails_is_logged_and_does_not_stop_the_rest(caplog: Any) -> None:
-    late, sent = DeferredMessages(), list[int]()
-    late.put("/bad", lambda: 1 // 0, sent.append)
-    late.put("/good", lambda: 1, sent.append)
+    late, results = DeferredMessages(), list[int]()
+    late.put("/bad", lambda: 1 // 0, results.append)
+    late.put("/good", lambda: 1, results.append)
     late.finish(10)
-    assert sent == [1]
+    assert results == [1]
     assert "/bad could not be drawn" in caplog.text
 
 

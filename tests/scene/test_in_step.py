@@ -8,16 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.scene.conftest import floats
 from webviz.api.nodes import Arrows, Axes, Instances, Labels, Lines, Mesh, Node, Points, Pose
 
 CORNERS = np.array([(-0.3, -0.2, 0), (0.3, -0.2, 0), (0, 0.3, 0)], np.float32)
 YELLOW = (255, 255, 0)
 STEP_M = 0.2
 PICTURES = 12
-
-
-def floats(*values: Any) -> np.ndarray:
-    return np.array(values, np.float32)
 
 
 def nodes_at(x: float) -> dict[str, Node]:
@@ -77,8 +74,8 @@ def test_poses_and_data_are_seen_in_the_same_picture(view: Any, slower: int) -> 
     chrome = view.tab.context.new_cdp_session(view.tab)
     chrome.send("Emulation.setCPUThrottlingRate", {"rate": slower})
     view.evaluate(WATCH.replace("BANDS", str(len(nodes_at(0.0)) + 1)))
-    seen = "() => window.pictures.at(-1)?.every((middle) => middle >= 0)"
-    view.wait_for(lambda: view.evaluate(seen), "everything", 60)
+    is_visible = "() => window.pictures.at(-1)?.every((middle) => middle >= 0)"
+    view.wait_for(lambda: view.evaluate(is_visible), "everything", 60)
     view.evaluate("() => { window.pictures.length = 0; }")
     steps = itertools.count(1)
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.scene.conftest import floats
 from webviz.api.nodes import Instances, Pose
 from webviz.scene.schemes import BACKGROUND
 from webviz.scene.solids import SOLIDS
@@ -15,15 +16,11 @@ COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (200, 0, 0), (0, 200, 0), (0, 0, 200)
 
 
-def floats(*values: Any) -> np.ndarray:
-    return np.array(values, dtype=np.float32)
-
-
 ORIGIN, UNIT = floats((0, 0, 0)), floats((1, 1, 1))
 
 
-def is_near(color: tuple[int, int, int], wanted: tuple[int, int, int], by: int = 20) -> bool:
-    return bool(np.abs(np.subtract(color, wanted)).max() <= by)
+def is_near(color: tuple[int, int, int], expected: tuple[int, int, int], by: int = 20) -> bool:
+    return bool(np.abs(np.subtract(color, expected)).max() <= by)
 
 
 @pytest.mark.parametrize("shape", ["box", "cylinder", "sphere"])
@@ -97,8 +94,8 @@ def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
         view.scene.upsert("room", "solids", Instances(places, np.full_like(places, 0.5), colors))
         view.show()
         colors_at = view.colors_at(*((x, 0.0, 0.0) for x in range(5)))
-        shown = [color != BACKGROUND for color in colors_at]
-        assert shown == [True] * count + [False] * (5 - count)
+        visible = [color != BACKGROUND for color in colors_at]
+        assert visible == [True] * count + [False] * (5 - count)
     assert is_near(view.color_at((2.0, 0.0, 0.0)), BLUE)
     corner = (0.45, 0.45, 0.0)
     view.scene.upsert("room", "solids", Instances(ORIGIN, UNIT, RED, "box"))
@@ -109,7 +106,7 @@ def test_solids_change_in_number_place_colour_and_shape(view: Any) -> None:
     assert view.color_at(corner) == BACKGROUND
 
 
-def test_opacity_of_all_or_of_each_shows_what_is_behind(view: Any) -> None:
+def test_transparent_instances_show_the_background(view: Any) -> None:
     places, sizes = floats((-1, 0, 0), (1, 0, 0)), floats((1, 1, 1), (1, 1, 1))
     white = (255, 255, 255)
     view.scene.upsert("room", "solids", Instances(places, sizes, white, opacity=0.5))
@@ -138,7 +135,7 @@ def test_solids_that_fade_leave_nothing_in_the_graphics_card(view: Any) -> None:
     assert counts[-1] == counts[0]
 
 
-def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(view: Any) -> None:
+def test_non_finite_instances_are_dropped(view: Any) -> None:
     places = floats((0, 0, np.nan), (1, 0, 0))
     colors = np.array((RED, GREEN), np.uint8)
     node = Instances(places, floats((1, 1, 1), (1, 1, 1)), colors, opacity=floats(1.0, 1.0))

@@ -18,7 +18,7 @@ def labels(texts: list[str], x: float = 0.0) -> Labels:
     return Labels(np.full((len(texts), 3), x, np.float32), tuple(texts), 0.1)
 
 
-def sent(scene: ViserScene) -> list[str]:
+def label_texts(scene: ViserScene) -> list[str]:
     """The texts that browsers have been sent and keep."""
     handles = scene_handles(scene.link.server)
     return sorted(each.text for each in handles if isinstance(each, LabelHandle))
@@ -36,11 +36,11 @@ def test_many_texts_are_added_over_several_flushes(scene: Any) -> None:
     texts = [f"{number:04}" for number in range(2 * AT_ONCE + 1)]
     scene.upsert("m", "texts", labels(texts))
     scene.flush()
-    assert sent(scene) == texts[:AT_ONCE]
+    assert label_texts(scene) == texts[:AT_ONCE]
     assert woken == [True]
     scene.flush()
     scene.flush()
-    assert sent(scene) == texts
+    assert label_texts(scene) == texts
     assert woken == [True, True]
 
 
@@ -52,18 +52,18 @@ def test_texts_of_several_nodes_are_limited_and_room_is_given_back(
     scene.upsert("a", "texts", labels(["1", "2"]))
     scene.upsert("b", "texts", labels(["3", "4", "5"]))
     settle(scene)
-    assert sent(scene) == ["1", "2", "3"]
+    assert label_texts(scene) == ["1", "2", "3"]
     scene.upsert("a", "texts", labels(["1"]))
     settle(scene)
     settle(scene)
-    assert sent(scene) == ["1", "3", "4"]
+    assert label_texts(scene) == ["1", "3", "4"]
     scene.remove_group("a")
     settle(scene)
-    assert sent(scene) == ["3", "4", "5"]
+    assert label_texts(scene) == ["3", "4", "5"]
     scene.remove("b", "texts")
     scene.upsert("c", "texts", labels(["6", "7", "8", "9"]))
     settle(scene)
-    assert sent(scene) == ["6", "7", "8"]
+    assert label_texts(scene) == ["6", "7", "8"]
 
 
 def test_the_characters_of_all_texts_are_limited(
@@ -73,16 +73,16 @@ def test_the_characters_of_all_texts_are_limited(
     monkeypatch.setattr(scene.link, "label_budget", LabelBudget())
     scene.upsert("a", "texts", labels(["12345", "123456"]))
     settle(scene)
-    assert sent(scene) == ["12345"]
+    assert label_texts(scene) == ["12345"]
     scene.upsert("a", "texts", labels(["1234", "123456"]))
     settle(scene)
-    assert len(sent(scene)) == 2
+    assert len(label_texts(scene)) == 2
     scene.upsert("a", "texts", labels(["12345", "123456"]))
     settle(scene)
-    assert sent(scene) == ["12345"]
+    assert label_texts(scene) == ["12345"]
     scene.upsert("a", "texts", labels([]))
     settle(scene)
-    assert sent(scene) == []
+    assert label_texts(scene) == []
     scene.upsert("a", "texts", labels(["1234567890"]))
     settle(scene)
-    assert sent(scene) == ["1234567890"]
+    assert label_texts(scene) == ["1234567890"]

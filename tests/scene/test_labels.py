@@ -18,7 +18,7 @@ def light(view: Any) -> np.ndarray:
     return np.array(np.nonzero((view.pixels() > 200).all(axis=2)))
 
 
-def test_a_text_hangs_below_its_position_when_asked_from_wherever_one_looks(view: Any) -> None:
+def test_a_text_below_its_position_stays_below_from_any_side(view: Any) -> None:
     for below in (False, True, False):
         view.scene.upsert("tf", "names", Labels(CENTER, ("HHH",), 2.0, below))
         for position in ((0.0, -0.01, 10.0), (10.0, 0.0, 0.0)):

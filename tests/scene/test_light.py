@@ -67,7 +67,7 @@ def test_axes_are_shaded_and_as_long_as_they_should_be(view: Any) -> None:
 
 
 @pytest.mark.parametrize("kind", ["mesh", "batch"])
-def test_what_is_transparent_shows_no_inside(view: Any, kind: str) -> None:
+def test_transparent_shapes_show_no_inside(view: Any, kind: str) -> None:
     node: Node = Mesh(*box(2.0), COLOR, opacity=0.5)
     if kind == "batch":
         at, size = np.zeros((1, 3), np.float32), np.full((1, 3), 2, np.float32)
@@ -80,7 +80,7 @@ def test_what_is_transparent_shows_no_inside(view: Any, kind: str) -> None:
 
 
 @pytest.mark.parametrize("sizes", [(1.0, 2.0), (2.0, 1.0)], ids=["inner first", "outer first"])
-def test_a_transparent_shape_does_not_hide_what_of_it_lies_behind(view: Any, sizes: Any) -> None:
+def test_a_transparent_shape_does_not_hide_its_farther_parts(view: Any, sizes: Any) -> None:
     (a, i), (b, j) = box(sizes[0]), box(sizes[1], corners=24)
     mesh = Mesh(np.concatenate((a, b)), np.concatenate((i, j)), COLOR, opacity=0.5)
     view.scene.upsert("room", "boxes", mesh)

@@ -5,7 +5,7 @@ import socket
 from webviz.server.http.listener import listen
 
 
-def test_what_is_written_to_a_browser_does_not_wait_for_acknowledgements() -> None:
+def test_accepted_connections_have_tcp_nodelay() -> None:
     with listen("127.0.0.1", 0) as listener, socket.create_connection(listener.getsockname()):
         accepted, _ = listener.accept()
         with accepted:

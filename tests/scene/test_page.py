@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 from pages import let_keys_in
 
+from tests.scene.conftest import floats
 from webviz.api.nodes import Arrows, Axes, Image, Labels, Lines, Mesh, Node, Points
 
 TRIANGLE = np.eye(3, dtype=np.float32)
-
-
-def floats(*values: Any) -> np.ndarray:
-    return np.array(values, dtype=np.float32)
 
 
 EVERYTHING: dict[str, Callable[[int], Node]] = {

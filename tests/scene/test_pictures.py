@@ -6,16 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from tests.scene.conftest import floats
 from webviz.api.nodes import Image, Lines, Pose
 from webviz.api.views import Orbit, TopDownOrtho
 from webviz.scene.schemes import BACKGROUND
 
 COLOR = (200, 100, 50)
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
-
-
-def floats(*values: Any) -> np.ndarray:
-    return np.array(values, dtype=np.float32)
 
 
 def checker() -> np.ndarray:
@@ -90,9 +87,9 @@ def test_a_picture_that_changes_never_blanks(view: Any) -> None:
         view.scene.upsert("map", "grid", Image(cells, 2.0, 2.0))
         view.show()
     view.wait_for(lambda: view.draw(1) or view.color_at((0.0, 0.0, 0.0)) == (0, 200, 255))
-    seen = view.evaluate("() => { stop(); return seen; }")
-    assert len(seen) > 20
-    assert {(red, blue) for red, _, blue in seen} == {(0, 255)}
+    colors = view.evaluate("() => { stop(); return seen; }")
+    assert len(colors) > 20
+    assert {(red, blue) for red, _, blue in colors} == {(0, 255)}
 
 
 def greenness(view: Any) -> list[int]:
@@ -124,7 +121,7 @@ def test_a_picture_a_centimetre_above_a_line_hides_it(view: Any) -> None:
     assert greenness(view) == [0] * 9
 
 
-def test_of_two_pictures_in_one_plane_the_higher_layer_is_on_top_from_everywhere(
+def test_the_higher_layer_of_two_images_in_one_plane_is_on_top_from_everywhere(
     view: Any,
 ) -> None:
     for name, color, corner, layer in (("costmap", BLUE, -1.0, 3), ("map", RED, -2.0, -100_000)):

@@ -78,7 +78,7 @@ def hidden(view: View) -> Iterator[View]:
     view.evaluate("() => { delete document.hidden; }")
 
 
-def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(hidden: View) -> None:
+def test_a_large_cloud_is_drawn_up_to_the_limit_of_the_page(hidden: View) -> None:
     blocks = 16
     rng = np.random.default_rng(0)
     xyz = np.zeros((blocks, POINTS_PER_BLOCK, 3), np.float32)
@@ -86,11 +86,11 @@ def test_of_a_large_cloud_as_many_points_are_drawn_as_the_page_holds(hidden: Vie
     xyz[1:, :, 0] += 10.0 * np.arange(1 - blocks // 2, blocks // 2)[:, None]
     hidden.scene.upsert("map", "more", Points(xyz.reshape(-1, 3), RED, 0.01, thins=True))
     hidden.look((0.0, -0.01, 10.0), (0.0, 0.0, 0.0))
-    drawn = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.render"
-    near = hidden.evaluate(drawn)
+    render_info = "() => window.__viserMutable.scene.__r3f.root.getState().gl.info.render"
+    near = hidden.evaluate(render_info)
     assert near["points"] == 2 * POINTS_PER_BLOCK + 8, "one block is in sight, the first always"
     hidden.look((0.0, -0.1, 200.0), (0.0, 0.0, 0.0))
     hidden.draw()  # what else is drawn is known from the picture before
-    far = hidden.evaluate(drawn)
+    far = hidden.evaluate(render_info)
     assert far["calls"] == near["calls"] + blocks - 2
     assert FEWEST_POINTS - blocks <= far["points"] <= POINTS_HELD

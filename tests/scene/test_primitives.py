@@ -13,7 +13,7 @@ import numpy as np
 import PIL.Image
 import pytest
 
-from tests.scene.conftest import View
+from tests.scene.conftest import View, floats
 from webviz.api.nodes import (
     Arrows,
     Axes,
@@ -40,10 +40,6 @@ RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
 def tab(still: View) -> View:
     """None of these ask what is seen while something changes."""
     return still
-
-
-def floats(*values: Any) -> np.ndarray:
-    return np.array(values, dtype=np.float32)
 
 
 def square(size: float) -> tuple[np.ndarray, np.ndarray]:
@@ -173,14 +169,14 @@ def test_labels_follow_their_texts_in_number_and_place(view: Any) -> None:
     ],
     ids=lambda node: type(node).__name__,
 )
-def test_what_is_not_finite_is_left_out_and_the_rest_is_drawn(node: Node, view: Any) -> None:
+def test_non_finite_items_are_dropped(node: Node, view: Any) -> None:
     view.scene.upsert("base_link", "it", node)
     view.show()
     assert np.abs(np.subtract(view.color_at((0.0, 0.0, 0.0)), COLOR)).max() <= 12
 
 
 @pytest.mark.parametrize("unit", ["px", "m"])
-def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) -> None:
+def test_transparent_lines_blend_with_the_background(unit: Any, view: Any) -> None:
     """Once, also in the bend of a line with a width in metres."""
     cells = np.full((2, 2, 4), (230, 240, 250, 128), np.uint8)
     width = 0.8 if unit == "m" else 40.0
@@ -192,17 +188,17 @@ def test_transparent_lines_blend_with_what_is_behind_them(unit: Any, view: Any) 
     view.show()
     tile = (0.75, 0.5, 0.0)
     view.wait_for(lambda: view.draw(1) or view.color_at(tile) != BACKGROUND)
-    empty, drawn = (-1.5, 0.0, 0.0), (0.0, 0.7, 0.0)
-    places = [empty, drawn] + ([(0.25, -0.1, 0.0), (-0.1, 0.3, 0.0)] if unit == "m" else [])
+    empty, covered = (-1.5, 0.0, 0.0), (0.0, 0.7, 0.0)
+    places = [empty, covered] + ([(0.25, -0.1, 0.0), (-0.1, 0.3, 0.0)] if unit == "m" else [])
     below = [BACKGROUND] + [view.color_at(tile)] * (len(places) - 1)
     for color, behind in zip(view.colors_at(*places), below, strict=True):
         assert color == near(0.25 * np.array(COLOR) + 0.75 * np.array(behind))
     view.scene.upsert("base_link", "it", replace(lines, opacity=1.0))
     view.show()
-    assert view.color_at(drawn) == COLOR
+    assert view.color_at(covered) == COLOR
 
 
-def test_translucent_points_blend_with_what_is_behind_them(view: Any) -> None:
+def test_translucent_points_blend_with_the_background(view: Any) -> None:
     """Both the first points of a node and those after a change of its opacity."""
     sheet = Mesh(*square(1.0), (230, 240, 250), is_flat=True)
     view.scene.upsert("base_link", "sheet", sheet)
@@ -292,27 +288,27 @@ def test_colours_of_corners_and_ends_are_mixed_as_in_rviz(view: Any) -> None:
     ends = np.array([[(200, 0, 0), (0, 200, 0)]], np.uint8)
     middle = (100, 100, 0)
 
-    def shown(node: Node) -> Any:
+    def color_of(node: Node) -> Any:
         view.scene.upsert("base_link", "it", node)
         view.show()
         return view.color_at((0.0, 0.0, 0.0))
 
-    assert shown(Lines(floats(((-1, 0, 0), (1, 0, 0))), ends, 0.5, "m")) == near(middle)
-    assert shown(Mesh(vertices, faces, COLOR, colors=rgba)) == near(middle)
+    assert color_of(Lines(floats(((-1, 0, 0), (1, 0, 0))), ends, 0.5, "m")) == near(middle)
+    assert color_of(Mesh(vertices, faces, COLOR, colors=rgba)) == near(middle)
     twice = np.concatenate((vertices, vertices + floats(0, 0, 0.01)))
     both, blue = np.concatenate((faces, faces + np.uint32(4))), rgba[:, [2, 1, 0, 3]]
     mesh = Mesh(twice, both, COLOR, colors=np.concatenate((rgba, blue)))
-    assert shown(mesh) == near((0, 100, 100))
+    assert color_of(mesh) == near((0, 100, 100))
     clear = rgba * np.array((1, 1, 1, 0), np.uint8)
-    assert shown(Mesh(vertices, faces, COLOR, colors=clear)) == BACKGROUND
-    assert shown(Mesh(vertices, faces, COLOR)) == near(COLOR)
+    assert color_of(Mesh(vertices, faces, COLOR, colors=clear)) == BACKGROUND
+    assert color_of(Mesh(vertices, faces, COLOR)) == near(COLOR)
 
 
 def near(color: Any) -> Any:
     return pytest.approx(color, abs=12)
 
 
-def test_the_opacity_of_a_mesh_shows_what_is_behind(view: Any) -> None:
+def test_a_transparent_mesh_blends_with_the_background(view: Any) -> None:
     view.scene.upsert("base_link", "it", Mesh(*square(1.0), (255, 255, 255), opacity=0.5))
     view.show()
     assert 100 < view.color_at((0.0, 0.0, 0.0))[0] < 220
@@ -388,7 +384,7 @@ def test_equal_textures_of_models_are_in_the_graphics_card_once(view: Any) -> No
     textures(1.0)
 
 
-def test_what_is_no_gltf_is_an_error_in_words(view: Any) -> None:
+def test_an_invalid_gltf_is_an_error(view: Any) -> None:
     view.scene.upsert("base_link", "it", Glb(b"solid ascii stl"))
     with pytest.raises(ValueError, match=r"not a binary glTF 2\.0"):
         view.scene.flush()

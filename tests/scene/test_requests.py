@@ -13,10 +13,11 @@ import pytest
 import viser
 import websockets.sync.server
 from pages import COARSE
+from serving import serving
 from waiting import until
 
 from webviz.scene import ViserScene
-from webviz.server.http.guard import rate_limited_log
+from webviz.server.http.middleware import rate_limited_log
 
 Ask = Callable[[bytes], tuple[int, bytes, bytes]]
 HOST = b"Host: localhost\r\n"
@@ -52,7 +53,7 @@ def test_head_is_answered_like_get_without_the_page(ask: Ask) -> None:
     ],
     ids=lambda value: str(value)[:60],
 )
-def test_what_cannot_be_answered_is_refused_in_a_sentence(
+def test_invalid_requests_are_refused_in_one_sentence(
     ask: Ask, request_: bytes, expected: int
 ) -> None:
     status, head, body = ask(request_)
@@ -61,7 +62,7 @@ def test_what_cannot_be_answered_is_refused_in_a_sentence(
     assert b"\r\nX-Content-Type-Options: nosniff" in head
 
 
-def test_one_who_sends_nothing_more_is_answered(
+def test_a_client_that_closes_its_sending_side_is_answered(
     server: viser.ViserServer, caplog: pytest.LogCaptureFixture
 ) -> None:
     for path, status in ((b"/", b"200"), (b"/nothing", b"404")):
@@ -73,7 +74,7 @@ def test_one_who_sends_nothing_more_is_answered(
     assert caplog.messages == []
 
 
-def test_two_headers_of_one_name_are_no_error(ask: Ask) -> None:
+def test_duplicate_headers_are_accepted(ask: Ask) -> None:
     twice = b"Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"
     status, head, _ = ask(b"GET / HTTP/1.1\r\n" + HOST + twice + b"\r\n")
     assert status == 200
@@ -121,8 +122,7 @@ def test_a_link_cannot_make_the_page_obey_another_server(
     scene: ViserScene,
 ) -> None:
     called = threading.Event()
-    with websockets.sync.server.serve(lambda _: called.set(), "127.0.0.1", 0) as other:
-        threading.Thread(target=other.serve_forever).start()
+    with serving(websockets.sync.server.serve(lambda _: called.set(), "127.0.0.1", 0)) as other:
         port = other.socket.getsockname()[1]
         page = browser.new_page()
         link = f"?fixedDpr={COARSE}&websocket=ws://127.0.0.1:{port}"
@@ -130,7 +130,6 @@ def test_a_link_cannot_make_the_page_obey_another_server(
         # It connects to one server only: to this one, although the link names another.
         until(lambda: len(server.get_clients()) == 1)
         page.close()
-        other.shutdown()
     assert not called.is_set()
 
 
@@ -151,7 +150,7 @@ def test_clients_that_only_connect_do_not_fill_the_log(
     assert not any(record.exc_info for record in caplog.records)
 
 
-def test_a_rate_limited_log_counts_what_it_leaves_out(caplog: pytest.LogCaptureFixture) -> None:
+def test_a_rate_limited_log_counts_omitted_lines(caplog: pytest.LogCaptureFixture) -> None:
     log = rate_limited_log("webviz.server")
 
     def at(seconds: float, message: str) -> None:

@@ -31,7 +31,7 @@ def test_browsers_that_lack_the_same_receive_the_same_bytes(scene: ViserScene, c
         assert len({peer.frame() for peer in peers}) == 1
 
 
-def test_a_browser_is_not_sent_what_it_is_excluded_from(scene: ViserScene, call: Make) -> None:
+def test_a_browser_is_not_sent_messages_that_exclude_it(scene: ViserScene, call: Make) -> None:
     peers = [call(), call()]
     for peer in peers:
         peer.replay()

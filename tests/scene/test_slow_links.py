@@ -71,7 +71,7 @@ def with_parts(queue: Queue, version: int, names: str) -> None:
         queue.push(wire.SceneNodeUpdateMessage(name, updates))
 
 
-def test_what_is_small_goes_before_what_is_large_and_was_queued_before() -> None:
+def test_small_messages_go_before_large_ones_queued_earlier() -> None:
     queue = Queue()
     for name in ("/a", "/b", "/c"):
         queue.cloud(name)
@@ -112,7 +112,7 @@ def test_a_cloud_that_was_begun_is_finished_before_the_newest_is_sent() -> None:
     assert queue.outbox.progress.begun == {}
 
 
-def test_of_a_cloud_that_was_begun_and_removed_nothing_more_is_sent() -> None:
+def test_the_rest_of_a_removed_cloud_is_not_sent() -> None:
     queue = Queue()
     with_parts(queue, 0, "abc")
     assert queue.versions() == ["a0"]
@@ -123,7 +123,7 @@ def test_of_a_cloud_that_was_begun_and_removed_nothing_more_is_sent() -> None:
     assert queue.outbox.progress.begun == {}
 
 
-def test_what_was_removed_or_replaced_is_not_sent() -> None:
+def test_removed_and_replaced_messages_are_not_sent() -> None:
     queue = Queue()
     for name in ("/a", "/b"):
         queue.cloud(name)
@@ -133,7 +133,7 @@ def test_what_was_removed_or_replaced_is_not_sent() -> None:
     assert not queue.outbox.is_waiting()
 
 
-def test_the_question_whether_all_arrived_is_asked_after_all() -> None:
+def test_an_acknowledgement_request_is_sent_in_the_end() -> None:
     queue = Queue()
     for name in ("/a", "/b"):
         queue.cloud(name)
@@ -208,10 +208,10 @@ def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
     return messages
 
 
-def completed(sent: list[Any]) -> list[tuple[str, dict[str, np.ndarray]]]:
+def completed(messages: list[Any]) -> list[tuple[str, dict[str, np.ndarray]]]:
     """Names and properties of all updates, whose pieces are put together as in the page."""
     updates, slots = [], {}
-    for message in sent:
+    for message in messages:
         if not isinstance(message, Piece):
             updates.append((message.name, message.updates))
             continue
@@ -265,9 +265,9 @@ def image(name: str, size: int, value: int = 0) -> wire.SceneNodeUpdateMessage:
     return wire.SceneNodeUpdateMessage(name, {"png": bytes([value]) * size})
 
 
-def named(sent: list[Any]) -> list[tuple[str, int]]:
+def named(messages: list[Any]) -> list[tuple[str, int]]:
     """The images that are complete, and their values."""
-    return [(name, int(values["png"][0])) for name, values in completed(sent)]
+    return [(name, int(values["png"][0])) for name, values in completed(messages)]
 
 
 def test_pieces_of_four_messages_are_under_way_at_most() -> None:
@@ -315,7 +315,7 @@ def test_the_question_whether_all_arrived_follows_the_last_piece() -> None:
     assert messages[-2].update is not None
 
 
-def test_what_waits_before_the_question_whether_all_arrived_is_not_thinned() -> None:
+def test_messages_before_an_acknowledgement_request_are_not_thinned() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
     queue.push(AcknowledgementRequest("1"))
@@ -369,7 +369,7 @@ def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
     assert not queue.outbox.is_waiting()
 
 
-def test_a_link_that_makes_nobody_wait_reduces_nothing() -> None:
+def test_a_fast_link_is_not_throttled() -> None:
     now = [0.0]
     window = InFlightWindow(CongestionControl(None, lambda: now[0]))
     for _ in range(100):

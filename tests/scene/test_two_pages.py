@@ -53,10 +53,10 @@ def test_a_page_that_joins_late_begins_with_rvizs_orbit_view_and_sees_the_same(
     late.wait_for(lambda: late.draw(2) or bool((late.pixels() == view.pixels()).mean() > 0.999))
 
 
-def look(view: View, place: tuple[float, float, float], wanted: Rgb) -> None:
+def look(view: View, place: tuple[float, float, float], expected: Rgb) -> None:
     view.wait_for(
-        lambda: view.draw(1) or np.abs(np.subtract(view.color_at(place), wanted)).max() <= 2,
-        f"{wanted} at {place}",
+        lambda: view.draw(1) or np.abs(np.subtract(view.color_at(place), expected)).max() <= 2,
+        f"{expected} at {place}",
     )
 
 

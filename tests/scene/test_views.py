@@ -379,8 +379,8 @@ def test_moving_xy_orbit_keeps_the_point_of_the_ground_under_the_mouse(window: W
     before = window.evaluate(under, HANDLE)
     window.drag(30, 20, "middle")
     window.tell(lambda view: math.dist(view.focal_point, (1.0, 0.5, 0.0)) > 0.3, "it moved")
-    now, kept = [HANDLE[0] + 30, HANDLE[1] + 20], pytest.approx(before, abs=1e-2)
-    window.wait_for(lambda: window.evaluate(under, now) == kept, "it is under the mouse again")
+    now, point = [HANDLE[0] + 30, HANDLE[1] + 20], pytest.approx(before, abs=1e-2)
+    window.wait_for(lambda: window.evaluate(under, now) == point, "it is under the mouse again")
     window.tell(lambda view: abs(view.focal_point[2]) < 1e-5, "on the ground")
 
 
@@ -393,7 +393,7 @@ def test_moving_xy_orbit_keeps_the_point_of_the_ground_under_the_mouse(window: W
     ],
     ids=lambda view: type(view).__name__,
 )
-def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
+def test_f_focuses_the_point_under_the_mouse(window: Window, view: View) -> None:
     window.scene.upsert("box", "b", box(-1.5, -0.5, 0.5, 1.0, 1.0, 1.0))
     window.look(view)
     left, top, right, bottom = window.red()
@@ -416,7 +416,7 @@ def test_f_looks_at_what_is_under_the_mouse(window: Window, view: View) -> None:
 # Pictures
 
 
-def test_a_picture_of_what_is_seen_is_downloaded(view: conftest.View, tmp_path: Any) -> None:
+def test_a_screenshot_of_the_view_is_downloaded(view: conftest.View, tmp_path: Any) -> None:
     """Of a page that draws all the time."""
     view.scene.upsert("box", "b", box(0.0, 0.0, 0.5, 1.0, 1.0, 1.0))
     view.show()

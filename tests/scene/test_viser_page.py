@@ -40,7 +40,7 @@ WITHOUT = """async (names) => {
 }"""
 
 
-def test_what_another_viser_lacks_is_reported_with_what_needs_it(view: View) -> None:
+def test_parts_missing_in_another_viser_are_reported_with_their_purpose(view: View) -> None:
     assert view.evaluate(WITHOUT, ["sendCamera", "messageQueue"]) == [
         "viser's page has no messageQueue.push(), which is needed for controls that go, and "
         "noticing that the server is silent.",

@@ -45,7 +45,7 @@ def of_python(text: str) -> set[str]:
 
 
 @functools.cache
-def found() -> dict[str, set[str]]:
+def viser_references() -> dict[str, set[str]]:
     """Parts that are used, by file."""
     reaches: dict[str, set[str]] = {}
     for folder in ("webviz", "displays", "sim"):
@@ -61,10 +61,10 @@ def found() -> dict[str, set[str]]:
 
 def test_all_that_reaches_into_viser_is_in_the_table_with_a_reason() -> None:
     listed = {row.file: set(row.parts) for row in (*SERVER, *CLIENT)}
-    assert found() == listed
+    assert viser_references() == listed
     assert all(row.why and row.upstream for row in (*SERVER, *CLIENT))
 
 
 def test_only_three_rooms_reach_into_viser() -> None:
-    outside = {name for name in found() if not name.startswith(ROOMS)}
+    outside = {name for name in viser_references() if not name.startswith(ROOMS)}
     assert outside == ALONE

@@ -1,8 +1,15 @@
 import numpy as np
 import pytest
 
+from webviz_sim.options import BUILDING
 from webviz_sim.pose import Pose2D
-from webviz_sim.world import World
+from webviz_sim.world import World, load_world
+
+
+@pytest.fixture(scope="module")
+def building() -> World:
+    """The building of the demo."""
+    return load_world(BUILDING)
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from rclpy.experimental.events_executor import EventsExecutor
 from test_msgs.action import Fibonacci
 
 from webviz.ros.types import learn
-from webviz_sim.action_server import KEPT, ActionServer, ServerGoal
+from webviz_sim.action_server import MAX_ENDED, ActionServer, ServerGoal
 
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
@@ -54,15 +54,15 @@ def bench(webviz_domain: int) -> Iterator[FibonacciNode]:
 
 
 def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: FibonacciNode) -> None:
-    heard: list[Any] = []
-    handle = bench.send(3, heard.append)
+    feedback: list[Any] = []
+    handle = bench.send(3, feedback.append)
     assert handle.accepted
     goal = bench.begun[-1]
     assert goal.request.order == 3
     ended = handle.get_result_async()
     goal.report({"sequence": [0, 1]})
-    bench.until(lambda: heard)
-    assert list(heard[0].feedback.sequence) == [0, 1]
+    bench.until(lambda: feedback)
+    assert list(feedback[0].feedback.sequence) == [0, 1]
     assert not ended.done()
     goal.succeed({"sequence": [0, 1, 1]})
     outcome = bench.result_of(ended)
@@ -70,7 +70,7 @@ def test_a_client_gets_feedback_and_the_result_when_the_goal_ends(bench: Fibonac
     assert list(outcome.result.sequence) == [0, 1, 1]
     # A result is kept for those who ask later, but not for ever.
     assert bench.result_of(handle.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
-    for _ in range(KEPT):
+    for _ in range(MAX_ENDED):
         bench.send(1)
         bench.begun[-1].abort({})
     assert bench.result_of(handle.get_result_async()).status == GoalStatus.STATUS_UNKNOWN

@@ -106,14 +106,14 @@ class Demo:
 @pytest.fixture
 def demo(context: Context) -> Iterator[Callable[..., Demo]]:
     with benches() as bench:
-        made: list[Demo] = []
+        demos: list[Demo] = []
 
         def make(**faults: float) -> Demo:
-            made.append(Demo(context, bench(*(display() for display in DISPLAYS)), **faults))
-            return made[-1]
+            demos.append(Demo(context, bench(*(display() for display in DISPLAYS)), **faults))
+            return demos[-1]
 
         yield make
-        for each in made:
+        for each in demos:
             each.close()
 
 

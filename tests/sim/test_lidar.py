@@ -22,7 +22,7 @@ def test_beams_begin_behind_and_go_round_to_the_left(room):
     assert turned[[0, 2, 4, 6]] == pytest.approx([0.9, 3.1, 3.1, 1.9], abs=1e-6)
 
 
-def test_what_is_too_near_or_too_far_is_infinite(room):
+def test_ranges_outside_the_limits_are_infinite(room):
     settings = LidarSettings(beams=8, noise=0.0, range_min=1.0, range_max=2.5)
     ranges, intensities = measure(room, Pose2D(2.0, 1.0), settings=settings)
     assert ranges[0] == pytest.approx(1.9, abs=1e-6)

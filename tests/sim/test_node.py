@@ -15,6 +15,7 @@ pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportErr
 
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
+from nodes import response_of
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -40,6 +41,8 @@ pytestmark = [
 
 ROOT = Path(__file__).parents[2]
 STORE = get_typestore(Stores.ROS2_JAZZY)
+ODOMETRY_S = 0.02
+"""Period of /odom."""
 LATCHED = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 TOPICS = {
     "/tf": "tf2_msgs/msg/TFMessage",
@@ -82,7 +85,7 @@ def sim():
         assert "Traceback" not in errors
 
 
-class Robot(Node):
+class RobotClient(Node):
     """A node that receives what the robot publishes, and sends it commands."""
 
     def __init__(self, context):
@@ -122,22 +125,28 @@ class Robot(Node):
     def spin_until(self, condition):
         until(condition, turn=lambda: self.executor_.spin_once(timeout_sec=0.05))
 
-    def drive(self, kind, twist, seconds):
-        """Send a velocity at 20 Hz for a while, then 0."""
-        publisher = self.create_publisher(kind, "/cmd_vel", 10)
-        self.spin_until(lambda: publisher.get_subscription_count() > 0)
-        for _ in range(round(20 * seconds)):
+    def drive(self, twist, seconds):
+        """Send a velocity at 20 Hz until /odom has had it for so long, then 0."""
+        publisher = self.create_publisher(Twist, "/cmd_vel", 10)
+        odometry = self.received["/odom"]
+        before = len(odometry)
+
+        def is_driven():
             publisher.publish(twist)
             self.spin(0.05)
-        publisher.publish(kind())
-        self.spin(0.2)
+            moved = [each for each in odometry[before:] if each.twist.twist == twist]
+            return len(moved) * ODOMETRY_S >= seconds
+
+        self.spin_until(is_driven)
+        publisher.publish(Twist())
+        self.spin_until(lambda: odometry[-1].twist.twist == Twist())
 
 
 @pytest.fixture
 def robot(webviz_domain):
     context = Context()
     context.init(domain_id=webviz_domain)
-    node = Robot(context)
+    node = RobotClient(context)
     yield node
     node.executor_.shutdown()
     node.destroy_node()
@@ -164,7 +173,7 @@ def twist(linear, angular):
     return message
 
 
-def test_it_publishes_what_a_turtlebot_with_nav2_publishes(sim, robot):
+def test_it_publishes_the_topics_of_a_turtlebot_with_nav2(sim, robot):
     sim("scan_beams:=180", "seed:=7")
     robot.listen_tf()
     odometry = robot.listen("/odom", Odometry)
@@ -243,18 +252,18 @@ def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
     odometry = robot.listen("/odom", Odometry, 1000)
     robot.spin_until(lambda: odometry)
     assert robot.pose() == pytest.approx(Pose2D())
-    robot.drive(Twist, twist(0.3, 0.0), 2.0)
+    robot.drive(twist(0.3, 0.0), 2.0)
     moved = robot.pose()
     driving = [message for message in odometry if message.twist.twist.linear.x == 0.3]
-    # For as long as it was told to, which is longer than 2 s where the sender is slow.
-    assert moved == pytest.approx((0.3 * 0.02 * len(driving), 0.0, 0.0))
-    assert moved.x > 0.55
+    # As long as the command lasted, which is longer than 2 s where the sender is slow.
+    assert moved == pytest.approx((0.3 * ODOMETRY_S * len(driving), 0.0, 0.0))
+    assert moved.x > 0.59
     robot.spin(0.5)
     assert robot.pose() == moved
-    robot.drive(Twist, twist(0.0, 0.5), 2.0)
+    robot.drive(twist(0.0, 0.5), 2.0)
     turning = [message for message in odometry if message.twist.twist.angular.z == 0.5]
-    assert robot.pose() == pytest.approx((moved.x, 0.0, 0.5 * 0.02 * len(turning)))
-    assert robot.pose().yaw > 0.9
+    assert robot.pose() == pytest.approx((moved.x, 0.0, 0.5 * ODOMETRY_S * len(turning)))
+    assert robot.pose().yaw > 0.99
 
 
 def test_a_stale_command_stops_it(sim, robot):
@@ -273,12 +282,10 @@ def test_resetting_the_odometry_moves_odom_and_not_the_robot(sim, robot):
     robot.listen_tf()
     odometry = robot.listen("/odom", Odometry)
     robot.spin_until(lambda: odometry)
-    robot.drive(Twist, twist(0.4, 0.0), 1.0)
+    robot.drive(twist(0.4, 0.0), 1.0)
     before = robot.pose()
     client = robot.create_client(Empty, "/reset_odom")
-    robot.spin_until(client.service_is_ready)
-    done = client.call_async(Empty.Request())
-    robot.spin_until(done.done)
+    response_of(client, Empty.Request(), robot.executor_)
     robot.spin(0.5)
     assert robot.pose() == pytest.approx(Pose2D())
     correction = [t for _, _, child, t in robot.transforms() if child == "odom"][-1]
@@ -333,21 +340,19 @@ def test_parameters_change_while_it_runs_and_bad_ones_are_refused(sim, robot):
     sim("tour:=false")
     scans = robot.listen("/scan", LaserScan, qos_profile_sensor_data)
     client = robot.create_client(SetParameters, "/sim/set_parameters")
-    robot.spin_until(lambda: client.service_is_ready() and scans)
+    robot.spin_until(lambda: scans)
 
     def set_parameter(name, value):
         parameter = Parameter(name, value=value).to_parameter_msg()
-        future = client.call_async(SetParameters.Request(parameters=[parameter]))
-        robot.spin_until(future.done)
-        [result] = future.result().results
+        request = SetParameters.Request(parameters=[parameter])
+        [result] = response_of(client, request, robot.executor_).results
         return result.successful, result.reason
 
     describing = robot.create_client(DescribeParameters, "/sim/describe_parameters")
-    robot.spin_until(describing.service_is_ready)
     names = [*OPTIONS, "use_sim_time"]
-    answer = describing.call_async(DescribeParameters.Request(names=names))
-    robot.spin_until(answer.done)
-    assert all(each.description for each in answer.result().descriptors)
+    request = DescribeParameters.Request(names=names)
+    descriptors = response_of(describing, request, robot.executor_).descriptors
+    assert all(each.description for each in descriptors)
 
     assert set_parameter("scan_beams", 90) == (True, "")
     robot.spin_until(lambda: len(scans[-1].ranges) == 90)
@@ -443,7 +448,7 @@ def test_help_lists_the_parameters(refused):
     assert "stamped_cmd_vel" in output
 
 
-def test_without_rclpy_it_says_how_to_get_it(refused, monkeypatch):
+def test_a_missing_rclpy_is_explained(refused, monkeypatch):
     monkeypatch.setitem(sys.modules, "rclpy", None)
     status, _, errors = refused()
     assert status == 1

@@ -36,9 +36,9 @@ def test_the_scanner_sees_a_person_before_the_wall(room):
     person = np.array([[3.6, 2.1, 0.2]])
     random = np.random.default_rng(0)
     without = scan(room, middle, middle, settings, random).ranges
-    seen = scan(room, middle, middle, settings, random, person).ranges
-    assert seen[2] == pytest.approx(0.8, abs=1e-4)  # ahead
-    assert np.delete(seen, 2) == pytest.approx(np.delete(without, 2))
+    ranges = scan(room, middle, middle, settings, random, person).ranges
+    assert ranges[2] == pytest.approx(0.8, abs=1e-4)  # ahead
+    assert np.delete(ranges, 2) == pytest.approx(np.delete(without, 2))
 
 
 def test_a_robot_stops_in_front_of_a_person(room):
@@ -72,26 +72,26 @@ def test_people_walk_on_free_ground_and_the_same_way_for_a_seed(room):
     assert not np.array_equal(crowds[0].circles, crowds[2].circles)
 
 
-def test_options_refuse_what_they_do_not_know():
+def test_unknown_values_of_options_are_refused():
     assert refusal({"localization": "gps"}) == "localization must be perfect, amcl or slam."
     faults = [name for name in OPTIONS if name.startswith(FAULT)]
     assert len(faults) == 4
     assert all(refusal({name: math.nan}) for name in faults)
 
 
-class Unread:
+class UnreadPublisher:
     """A publisher that nobody reads."""
 
     def publish(self, cdr: bytes) -> None:
         """Do nothing."""
 
 
-def test_the_map_of_slam_is_what_the_scanner_saw(room):
+def test_the_map_of_slam_grows_with_the_scans(room):
     pytest.importorskip("rclpy", reason="rclpy is not installed", exc_type=ImportError)
     from webviz_sim.localization import Slam
 
     settings = LidarSettings(beams=720, noise=0.0, range_max=1.5)
-    slam = Slam(room, Unread())
+    slam = Slam(room, UnreadPublisher())
     shares = [slam.share]
     for x in (1.0, 2.0, 3.0, 4.0):
         place = Pose2D(x, 2.1, 0.3)

@@ -18,11 +18,6 @@ MAPS = Path(__file__).parents[2] / "../shared/data/maps"
 
 
 @pytest.fixture(scope="module")
-def building():
-    return load_world(BUILDING)
-
-
-@pytest.fixture(scope="module")
 def planner(building):
     return Planner(building)
 
@@ -67,7 +62,7 @@ def test_a_path_is_not_much_longer_than_it_must_be(draw):
     assert np.hypot(*np.diff(path, axis=0).T).sum() < 1.1 * math.hypot(4.0, 2.0)
 
 
-def test_there_is_no_path_through_a_wall_or_through_what_is_unknown(draw):
+def test_there_is_no_path_through_walls_or_unknown_cells(draw):
     for wall in "#?":
         rows = ["." * 20 + wall * 2 + "." * 20] * 20
         planner = Planner(draw("\n".join(rows), resolution=0.1))

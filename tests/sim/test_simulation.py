@@ -3,18 +3,12 @@ import math
 import numpy as np
 import pytest
 
-from webviz_sim.options import BUILDING
 from webviz_sim.pose import Pose2D
 from webviz_sim.robot import MAX_LINEAR, RADIUS, drive
 from webviz_sim.simulation import RESUME_AFTER, Simulation, SimulationSettings
-from webviz_sim.world import WorldError, load_world
+from webviz_sim.world import WorldError
 
 STEP = 0.02
-
-
-@pytest.fixture(scope="module")
-def building():
-    return load_world(BUILDING)
 
 
 @pytest.fixture
@@ -54,7 +48,7 @@ def test_a_command_holds_for_its_timeout_only(simulate):
     assert simulation.robot.linear == 0.0
 
 
-def test_commands_beyond_what_the_robot_can_do_are_limited(simulation):
+def test_commands_are_clamped_to_the_limits_of_the_robot(simulation):
     simulation.command(100.0, 0.0)
     run(simulation, 0.4)
     assert simulation.robot.pose.x == pytest.approx(0.4 * MAX_LINEAR)
@@ -117,7 +111,7 @@ def test_a_goal_goes_before_the_tour(simulate):
     assert min(distances) < 0.15
 
 
-def test_a_goal_without_a_way_is_refused_and_changes_nothing(draw):
+def test_a_goal_without_a_path_is_refused_and_changes_nothing(draw):
     rows = [("." * 30 + "##" + "." * 30)] * 40
     simulation = Simulation(
         draw("\n".join(rows), 0.1), SimulationSettings(tour=False), Pose2D(1.0, 1.0)

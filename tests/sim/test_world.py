@@ -45,7 +45,7 @@ def test_trinary_mode_compares_strictly_with_both_thresholds(write):
     assert world.cells.tolist() == [[100, 100, -1, -1, 0, 0]]
 
 
-def test_scale_mode_puts_what_is_between_in_proportion(write):
+def test_scale_mode_interpolates_between_the_thresholds(write):
     world = load_world(write([[0, 128, 191, 255]], mode="scale"))
     # (1 - 128/255 - 0.25) / 0.4 * 100 = 62.01, (1 - 191/255 - 0.25) / 0.4 * 100 = 0.25
     assert world.cells.tolist() == [[100, 62, 0, 0]]
@@ -74,7 +74,7 @@ def test_alpha_counts_as_a_fourth_channel_in_trinary_mode(write):
     assert load_world(write(pixels, "RGBA")).cells.tolist() == [[100, 100, 0, -1]]
 
 
-def test_what_is_transparent_is_unknown_in_scale_mode(write):
+def test_transparent_pixels_are_unknown_in_scale_mode(write):
     pixels = [[[0, 255], [0, 254], [255, 255], [255, 0]]]
     path = write(None, mode="scale")
     array = np.array(pixels, dtype=np.uint8)
@@ -142,7 +142,7 @@ def test_a_wrong_entry_is_refused_in_one_sentence(write, changes, message):
         ('<svg width="4m" viewBox="0 0 4 2"><rect/></svg>', "expected the keys"),
     ],
 )
-def test_a_yaml_that_is_no_map_is_refused_in_one_sentence(tmp_path, text, message):
+def test_an_invalid_map_is_refused_in_one_sentence(tmp_path, text, message):
     path = tmp_path / "map.yaml"
     path.write_text(text)
     with pytest.raises(WorldError, match=message):

@@ -118,8 +118,8 @@ def build(folder: Path) -> Path:
 def _nav() -> list[Entry]:
     """The pages in the order of the menu; those of no chapter are found by links and search."""
     chapters: Entry = {**TASKS, "Displays": _displays(), "About": ABOUT}
-    known = {**pages(), example.NAME: example.NAME}
-    return [_entry(title, what, known) for title, what in chapters.items()]
+    pages_by_name = {**pages(), example.NAME: example.NAME}
+    return [_entry(title, what, pages_by_name) for title, what in chapters.items()]
 
 
 def _displays() -> Entry:
@@ -132,12 +132,16 @@ def _displays() -> Entry:
     return result
 
 
-def _entry(title: str, what: object, known: Mapping[str, str]) -> Entry:
+def _entry(title: str, what: object, pages_by_name: Mapping[str, str]) -> Entry:
     if isinstance(what, dict):
-        return {title: [_entry(str(each), path, known) for each, path in what.items()]}
+        return {title: [_entry(str(each), path, pages_by_name) for each, path in what.items()]}
     name = str(what)
     is_home = title == "Home"
-    return {title: known[name] if is_home or f"{DOCS}{name}" not in known else known[DOCS + name]}
+    return {
+        title: pages_by_name[name]
+        if is_home or f"{DOCS}{name}" not in pages_by_name
+        else pages_by_name[DOCS + name]
+    }
 
 
 def _toml(value: object) -> str:

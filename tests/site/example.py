@@ -57,8 +57,8 @@ def write(folder: Path) -> None:
     """Write the page and the run to the sources of the site."""
     (folder / NAME).write_text(PAGE, encoding="utf-8")
     (folder / "runs").mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory() as made:
-        bag, config = Path(made) / "building", Path(made) / "building.yaml"
+    with tempfile.TemporaryDirectory() as scratch:
+        bag, config = Path(scratch) / "building", Path(scratch) / "building.yaml"
         drive().write(bag)
         config.write_text(CONFIG, encoding="utf-8")
         options = ["-d", config, "--max-size", MAX_SIZE, "-o", folder / "runs/building.html"]

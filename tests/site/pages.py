@@ -24,11 +24,11 @@ LINK_OR_CODE = re.compile(rf"(?P<code>```.*?```)|{LINK.pattern}|(?P<word>`[^`\n]
 
 def pages() -> Mapping[str, str]:
     """Paths on the site by path in the repository."""
-    found = dict(RENAMED)
+    targets = dict(RENAMED)
     for path in sorted((ROOT / DOCS).rglob("*.md")):
         name = path.relative_to(ROOT).as_posix()
-        found[name] = _page(name.removeprefix(DOCS))
-    return found
+        targets[name] = _page(name.removeprefix(DOCS))
+    return targets
 
 
 def _page(name: str) -> str:
@@ -39,15 +39,15 @@ def _page(name: str) -> str:
 
 def write(folder: Path) -> None:
     """Write all pages and their pictures to a folder."""
-    known = pages()
-    for name, target in known.items():
+    targets = pages()
+    for name, target in targets.items():
         path = folder / target
         path.parent.mkdir(parents=True, exist_ok=True)
         text = (ROOT / name).read_text(encoding="utf-8")
-        path.write_text(_linked(text, name, known, folder), encoding="utf-8")
+        path.write_text(_linked(text, name, targets, folder), encoding="utf-8")
 
 
-def _linked(text: str, name: str, known: Mapping[str, str], folder: Path) -> str:
+def _linked(text: str, name: str, targets: Mapping[str, str], folder: Path) -> str:
     """The text of a page with links as they are on the site."""
 
     def replaced(match: re.Match[str]) -> str:
@@ -59,12 +59,12 @@ def _linked(text: str, name: str, known: Mapping[str, str], folder: Path) -> str
         if not path or ":" in path:
             return f"{mark}[{label}]({link})"
         inside = posixpath.normpath(posixpath.join(posixpath.dirname(name), path))
-        target = known.get(inside) or known.get(f"{inside}/README.md")
+        target = targets.get(inside) or targets.get(f"{inside}/README.md")
         if target is None:
             if not mark:
                 return label  # of code, which only a clone has
             target = _picture(inside, folder)
-        relative = posixpath.relpath(target, posixpath.dirname(known[name]) or ".")
+        relative = posixpath.relpath(target, posixpath.dirname(targets[name]) or ".")
         return f"{mark}[{label}]({relative}{'#' if anchor else ''}{anchor})"
 
     return LINK_OR_CODE.sub(replaced, text)

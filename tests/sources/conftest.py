@@ -22,9 +22,12 @@ class PlayedBag:
     def __init__(self, source: Player) -> None:
         self.source = source
 
-    def want(self, *topics: str, type_name: str = STRING, asked: int = 0) -> None:
+    def want(self, *topics: str, type_name: str = STRING, resubscriptions: int = 0) -> None:
         self.source.want(
-            {name: Subscription(type_name, Topic(name), asked=asked) for name in topics}
+            {
+                name: Subscription(type_name, Topic(name), resubscriptions=resubscriptions)
+                for name in topics
+            }
         )
 
     def play(self, to_s: float) -> None:

@@ -26,7 +26,7 @@ KINDS = [
 
 
 @pytest.mark.parametrize(("storage", "compression"), KINDS, ids=lambda kind: kind.name.lower())
-def test_what_was_recorded_arrives_up_to_the_time_played(tmp_path, opened, storage, compression):
+def test_messages_arrive_up_to_the_time_played(tmp_path, opened, storage, compression):
     bag = opened(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
     bag.want("/words")
     assert bag.heard() == []
@@ -60,7 +60,7 @@ def test_a_damaged_compressed_message_is_skipped(tmp_path, opened):
         strings(0, 1, 2).write(tmp_path / "bag", compression=CompressionMode.MESSAGE), ".mcap"
     )
     data = file.read_bytes()
-    places = [found.start() for found in re.finditer(re.escape(b"\x28\xb5\x2f\xfd"), data)]
+    places = [match.start() for match in re.finditer(re.escape(b"\x28\xb5\x2f\xfd"), data)]
     assert len(places) == 3
     at = places[1] + 5
     file.write_bytes(data[:at] + b"\xff" * 4 + data[at + 4 :])
@@ -111,34 +111,34 @@ def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, opened):
     assert bag.source.reached_ns == START_NS + ns(1.5)
 
 
+def steps(bag):
+    """The number of messages of each step in which a bag is played to its end."""
+    bag.want("/words")
+    counts = []
+    while bag.source.reached_ns < bag.source.history.end_ns:
+        bag.source.play_step(bag.source.history.end_ns)
+        counts.append(len(bag.heard()))
+    return counts
+
+
 def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, opened):
     day_s = 86_400.0
     bag = opened(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
-    bag.want("/words")
-    steps = []
-    while bag.source.reached_ns < bag.source.history.end_ns:
-        bag.source.play_step(bag.source.history.end_ns)
-        steps.append(len(bag.heard()))
-    assert steps == [1, 1, 1, 1, 1]
+    assert steps(bag) == [1, 1, 1, 1, 1]
 
 
 def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, opened):
     bag = opened(strings(*[0.01 * number for number in range(80)]).write(tmp_path / "bag"))
-    bag.want("/words")
-    steps = []
-    while bag.source.reached_ns < bag.source.history.end_ns:
-        bag.source.play_step(bag.source.history.end_ns)
-        steps.append(len(bag.heard()))
-    assert steps == [10] * 8
+    assert steps(bag) == [10] * 8
 
 
-def test_a_topic_that_is_wanted_late_begins_with_the_newest_message(tmp_path, opened):
+def test_a_late_subscription_begins_with_the_newest_message(tmp_path, opened):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.play(1)
     assert bag.words_until(2) == ["1", "2"]
 
 
-def test_another_topic_that_is_wanted_meanwhile_loses_nothing_of_the_first(tmp_path, opened):
+def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, opened):
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
     recorded.put(2, "/more", {"data": "more"})
@@ -151,7 +151,7 @@ def test_another_topic_that_is_wanted_meanwhile_loses_nothing_of_the_first(tmp_p
     assert [len(arrived["/words"]), len(arrived["/more"])] == [4, 1]
 
 
-def test_another_topic_that_is_wanted_after_a_seek_loses_nothing_of_the_first(tmp_path, opened):
+def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_path, opened):
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
     bag = opened(recorded.write(tmp_path / "bag"))
@@ -162,7 +162,7 @@ def test_another_topic_that_is_wanted_after_a_seek_loses_nothing_of_the_first(tm
     assert bag.heard() == ["2", "3"]
 
 
-def test_a_topic_that_is_no_longer_wanted_is_silent(tmp_path, opened):
+def test_an_unsubscribed_topic_is_silent(tmp_path, opened):
     bag = opened(strings(0, 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(0)  # of which the message waits
@@ -171,19 +171,19 @@ def test_a_topic_that_is_no_longer_wanted_is_silent(tmp_path, opened):
     assert bag.heard() == []
 
 
-def test_what_was_latched_is_repeated_for_who_comes_late(tmp_path, opened):
+def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, opened):
     bag = opened(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
     bag.play(5)
     bag.want("/words")
     assert bag.heard() == ["1", "2"]
-    bag.want("/words", asked=1)
+    bag.want("/words", resubscriptions=1)
     assert bag.heard() == ["1", "2"]
     bag.play(9)
     assert bag.heard() == ["9"]
 
 
 @pytest.mark.parametrize(("max_bytes", "heard"), [(20, ["2", "3"]), (1, ["3"])])
-def test_of_what_was_latched_no_more_is_repeated_than_fits(
+def test_repeated_latched_messages_are_limited_by_the_inbox(
     tmp_path, opened, monkeypatch, max_bytes, heard
 ):
     inbox = functools.partial(Inbox, max_bytes=max_bytes)  # each message has 10
@@ -192,11 +192,11 @@ def test_of_what_was_latched_no_more_is_repeated_than_fits(
     bag.play(3)
     bag.want("/words")
     bag.heard()
-    bag.want("/words", asked=1)
+    bag.want("/words", resubscriptions=1)
     assert bag.heard() == heard
 
 
-def test_all_static_transforms_are_repeated_for_nobody_knows_who_published_them(tmp_path, opened):
+def test_all_static_transforms_are_repeated(tmp_path, opened):
     recorded = Bag()
     for at_s, child in enumerate(("a", "b", "c")):
         recorded.transform(at_s, "map", child, static=True)
@@ -223,7 +223,7 @@ def test_topics_are_offered_as_they_were_published(tmp_path, opened):
     assert bag.source.offers()["/words"].requested == ("best_effort", "volatile")
 
 
-def test_a_type_that_nobody_knows_is_learnt_from_the_bag(tmp_path, opened):
+def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, opened):
     text = "string data\nint32 number\n"
     recorded = strings(0)
     recorded.add("/own", "learnt_msgs/msg/Own", definition=text)
@@ -250,7 +250,7 @@ def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, op
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
-def test_a_type_without_a_definition_is_skipped_and_told_if_it_is_wanted(tmp_path, opened, text):
+def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path, opened, text):
     recorded = strings(0, 1)
     recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
     recorded.put(0, "/odd", b"\x00\x01\x00\x00")
@@ -381,7 +381,7 @@ def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp
     assert bag.source.now_ns() == ns(102.5)
 
 
-def test_a_subscription_that_is_made_anew_reads_no_beginning_again(tmp_path, opened, monkeypatch):
+def test_a_renewed_subscription_does_not_read_the_beginning_again(tmp_path, opened, monkeypatch):
     bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
     read = []
     messages = BagHistory.messages
@@ -394,6 +394,6 @@ def test_a_subscription_that_is_made_anew_reads_no_beginning_again(tmp_path, ope
     bag.want("/words")
     bag.source.offers()
     before = len(read)
-    bag.want("/words", asked=1)
+    bag.want("/words", resubscriptions=1)
     bag.source.offers()
     assert read[before:] == []

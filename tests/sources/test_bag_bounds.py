@@ -193,7 +193,7 @@ def test_messages_that_are_a_view_are_refused(tmp_path, opened):
         " SELECT id, 1 AS topic_id, id AS timestamp, zeroblob(1000000) AS data FROM n;"
     )
     database.close()
-    with pytest.raises(BagError, match="a database of something else"):
+    with pytest.raises(BagError, match="is not a bag"):
         opened(file)
 
 

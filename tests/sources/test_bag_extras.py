@@ -38,7 +38,7 @@ def test_a_map_of_a_file_is_that_of_map_server(tmp_path):
     assert 2 * math.atan2(orientation.z, orientation.w) == pytest.approx(0.5)
 
 
-def test_a_transform_says_where_the_child_is():
+def test_a_static_transform_has_the_pose_of_the_child():
     extra = static_transform("map", "odom", 1.0, -2.0, math.pi / 2, 3.0)
     message: TFMessage = decode(extra.type, extra.cdr)
     (transform,) = message.transforms
@@ -61,7 +61,7 @@ def test_extras_arrive_at_the_start(tmp_path, opened):
 @pytest.mark.parametrize(
     ("parent", "child", "x"), [("map", "map", 0.0), ("", "odom", 0.0), ("map", "odom", math.nan)]
 )
-def test_a_transform_that_is_none_is_refused(parent, child, x):
+def test_an_invalid_transform_is_refused(parent, child, x):
     with pytest.raises(ExtraError):
         static_transform(parent, child, x, 0.0)
 

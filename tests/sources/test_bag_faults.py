@@ -70,7 +70,7 @@ def test_a_folder_whose_file_is_missing(tmp_path):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_bag_is_closed_while_somebody_still_reads(tmp_path, storage):
+def test_a_bag_is_closed_while_being_read(tmp_path, storage):
     recording = open_recording(strings(0, 1, 2).write(tmp_path / "bag", storage))
     assert recording.span_ns is not None
     messages = recording.messages(recording.channels, *recording.span_ns)
@@ -93,12 +93,12 @@ def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage)
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-@pytest.mark.parametrize("lost", ["deadline:", "depth:", "durability:", "history:"])
-def test_a_qos_profile_may_lack_a_policy(tmp_path, opened, storage, lost):
+@pytest.mark.parametrize("key", ["deadline:", "depth:", "durability:", "history:"])
+def test_a_qos_profile_may_lack_a_policy(tmp_path, opened, storage, key):
     folder = strings(0, 1, best_effort=True).write(tmp_path / "bag", storage)
     for file in folder.iterdir():  # the length must not change
-        other = f"_{lost[1:]}"
-        file.write_bytes(file.read_bytes().replace(lost.encode(), other.encode()))
+        other = f"_{key[1:]}"
+        file.write_bytes(file.read_bytes().replace(key.encode(), other.encode()))
     bag = opened(folder)
     (publisher,) = bag.source.offers()["/words"].publishers
     assert publisher.reliability == "best_effort"
@@ -131,7 +131,7 @@ def test_a_database_that_ends_within_its_header(tmp_path, size):
 
 
 @pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.STORAGE])
-def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, opened, compression):
+def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, opened, compression):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.MCAP, compression), ".mcap")
     data = file.read_bytes()
@@ -152,7 +152,7 @@ def test_of_an_mcap_file_that_was_cut_off_everything_before_is_shown(tmp_path, o
     assert counts[-1] == 300
 
 
-def test_of_a_database_that_was_cut_off_everything_before_is_shown(tmp_path, opened):
+def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, opened):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     data = file.read_bytes()
@@ -162,10 +162,10 @@ def test_of_a_database_that_was_cut_off_everything_before_is_shown(tmp_path, ope
         bag = opened(file)
         bag.want("/noise")
         bag.play(300)
-        heard = bag.heard("/noise")
+        texts = bag.heard("/noise")
         # Pages of a later message may come before those of an earlier one.
-        assert heard == [text for text in _texts(recorded) if text in set(heard)]
-        counts.append(len(heard))
+        assert texts == [text for text in _texts(recorded) if text in set(texts)]
+        counts.append(len(texts))
         (warning,) = bag.source.warnings
         assert warning.startswith((f"{file.name} is damaged: ", f"{file.name} has no end: "))
     assert counts == sorted(counts)
@@ -213,16 +213,16 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
         topic = "/noise" if kind == "db3" else "/words"
         bag.want(topic)
         bag.source.play_until(bag.source.history.end_ns)
-        heard = []
+        texts = []
         for raw in bag.source.inbox.drain().get(topic, ()):
             try:
-                heard.append(decode(STRING, raw.cdr).data)
+                texts.append(decode(STRING, raw.cdr).data)
             except DecodeError:
-                heard.append("wrong")
-        assert len(set(heard) - set(expected)) <= wrong, place
-        if len(heard) < 60 - wrong:
+                texts.append("wrong")
+        assert len(set(texts) - set(expected)) <= wrong, place
+        if len(texts) < 60 - wrong:
             assert "is damaged" in bag.source.warnings[0], place
-        least = min(least, len(heard))
+        least = min(least, len(texts))
         bag.source.close()
     assert least >= 50  # one of six chunks
 
@@ -242,10 +242,10 @@ def _noisy(count: int, kilobytes: int = 8) -> Bag:
     return recorded
 
 
-def _beginning(recorded: Bag, heard: Sequence[str]) -> int:
+def _beginning(recorded: Bag, texts: Sequence[str]) -> int:
     """Return the number of messages received, which are the first of the recording."""
-    assert list(heard) == _texts(recorded)[: len(heard)]
-    return len(heard)
+    assert list(texts) == _texts(recorded)[: len(texts)]
+    return len(texts)
 
 
 def _texts(recorded: Bag) -> list[str]:
@@ -266,7 +266,7 @@ def _texts(recorded: Bag) -> list[str]:
         (zstandard.compress(random.Random(1).randbytes(999))[:500], "is not a bag"),
     ],
 )
-def test_a_file_is_named_for_what_it_is(tmp_path, name, content, named):
+def test_other_kinds_of_files_are_refused_by_their_kind(tmp_path, name, content, named):
     file = tmp_path / name
     file.write_bytes(content)
     assert named in refusal(file)
@@ -357,9 +357,9 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
     bag = opened(file)
     bag.want("/noise")
     bag.play(60)
-    heard = bag.heard("/noise")
+    texts = bag.heard("/noise")
     expected = _texts(recorded)
-    assert heard == expected[:26] + expected[52:]
+    assert texts == expected[:26] + expected[52:]
     (warning,) = bag.source.warnings
     assert warning == (
         f"{file.name} is damaged: 1 chunk is incomplete (its zstd data is damaged); everything "
@@ -368,21 +368,23 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
 
 
 @pytest.mark.parametrize(("name", "why"), [("flip1", "is damaged"), ("trunc70", "has no end")])
-def test_of_a_real_damaged_bag_the_beginning_is_shown(opened, name, why):
+def test_the_beginning_of_a_real_damaged_bag_is_shown(opened, name, why):
     if not DAMAGED.exists():
         pytest.skip("shared data is missing")
     whole, bag = opened(DAMAGED.parent / "nav2_turtlebot.mcap"), opened(DAMAGED / f"{name}.mcap")
-    heard = []
+    payloads = []
     for each in (whole, bag):
         each.want("/tf", type_name=TF)
         each.play(100)
-        heard.append([raw.cdr for raw in each.source.inbox.drain()["/tf"]])
-    assert 1000 < len(heard[1]) < len(heard[0])
-    assert heard[1] == heard[0][: len(heard[1])]
+        payloads.append([raw.cdr for raw in each.source.inbox.drain()["/tf"]])
+    assert 1000 < len(payloads[1]) < len(payloads[0])
+    assert payloads[1] == payloads[0][: len(payloads[1])]
     assert why in bag.source.warnings[0]
 
 
-def test_an_mcap_file_that_grows_while_it_is_played_shows_what_it_had(tmp_path, opened):
+def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_opened(
+    tmp_path, opened
+):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag"), ".mcap")
     data = file.read_bytes()
@@ -402,7 +404,9 @@ def test_an_mcap_file_that_grows_while_it_is_played_shows_what_it_had(tmp_path, 
 
 
 @pytest.mark.parametrize("journal_mode", ["wal", "delete"])
-def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, journal_mode):
+def test_a_database_that_is_still_written_shows_its_committed_messages(
+    tmp_path, opened, journal_mode
+):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as recorder:
         recorder.execute(f"PRAGMA journal_mode = {journal_mode}")
@@ -418,7 +422,7 @@ def test_a_database_that_is_still_written_shows_what_it_had(tmp_path, opened, jo
         recorder.rollback()
 
 
-def test_a_topic_whose_qos_is_no_text_is_read_all_the_same(tmp_path, opened):
+def test_a_topic_with_invalid_qos_text_is_read(tmp_path, opened):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE topics SET offered_qos_profiles = CAST(x'2d0a20ff0a' AS TEXT)")
@@ -426,7 +430,7 @@ def test_a_topic_whose_qos_is_no_text_is_read_all_the_same(tmp_path, opened):
     assert bag.words_until(1) == ["0", "1"]
 
 
-def test_what_a_database_cites_of_itself_stays_short_and_on_one_line(tmp_path):
+def test_an_error_of_sqlite_is_cited_short_and_on_one_line(tmp_path):
     error = damaged(tmp_path / "bag.db3", f"malformed database schema (a\n\nb{500 * ' c'})")
     assert str(error).splitlines() == [str(error)]
     assert " (malformed database schema (a b c c" in str(error)

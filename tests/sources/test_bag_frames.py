@@ -37,7 +37,7 @@ def test_links_are_those_of_all_transforms_the_static_ones_first(source: Any) ->
     assert source.links() == [("base", "laser"), ("map", "odom"), ("odom", "base")]
 
 
-def test_frames_are_those_of_the_topics_that_are_asked_for(source: Any) -> None:
+def test_frames_are_those_of_the_requested_topics(source: Any) -> None:
     assert source.frames(["/a"]) == ["late", "map"]
     assert sorted(source.frames(["/a", "/b", "/silent", "/none"])) == ["late", "map", "odom"]
     assert source.frames([]) == []

@@ -61,7 +61,7 @@ def test_transforms_around_an_older_message_are_read_too(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("count", "is_all"), [(100, False), (101, True)])
-def test_of_more_than_100_older_messages_all_transforms_since_are_read(
+def test_all_transforms_are_read_if_more_than_100_messages_are_older(
     tmp_path: Path, count: int, is_all: bool
 ) -> None:
     bag = moving(120)

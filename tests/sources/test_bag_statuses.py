@@ -43,7 +43,7 @@ def path(tmp_path: Path) -> Path:
     return bag.write_file(tmp_path / "bag.mcap")
 
 
-def test_before_its_first_messages_a_bag_says_when_they_come(path):
+def test_statuses_before_the_first_messages_of_a_bag_give_their_times(path):
     result = texts(path, 0.0)
     assert "No transforms yet, so map is unknown: the bag's first is at 0.8 s." in result
     assert "No transforms yet: the bag's first is at 0.8 s." in result
@@ -53,11 +53,11 @@ def test_before_its_first_messages_a_bag_says_when_they_come(path):
     assert not [text for text in result if "Start" in text]
 
 
-def test_later_nothing_of_that_is_left(path):
+def test_statuses_of_missing_messages_end_with_the_first_message(path):
     assert not [text for text in texts(path, 1.3) if "yet" in text]
 
 
-def test_a_bag_without_transforms_says_so(tmp_path):
+def test_a_bag_without_transforms_is_reported(tmp_path):
     bag = Bag()
     bag.add("/odom", "nav_msgs/msg/Odometry")
     bag.add("/tf", "tf2_msgs/msg/TFMessage")

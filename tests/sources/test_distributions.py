@@ -136,7 +136,7 @@ def test_messages_of_each_distribution_have_the_values_that_were_written(
             check_same(store, name, one, other)
 
 
-def test_what_an_older_distribution_lacks_has_its_default(
+def test_fields_missing_in_an_older_distribution_have_defaults(
     tmp_path: Path, opened: Callable[[Path], BagFile]
 ) -> None:
     store = get_typestore(Stores.ROS2_GALACTIC)
@@ -174,8 +174,8 @@ def test_types_of_newer_distributions_are_read_from_bags_without_definitions(
     written = filled(store, name, count(1))
     file = opened(write(tmp_path / "run", store, [(name, written)], StoragePlugin.SQLITE3))
     assert not file.skipped
-    (found,) = messages_of(file)[name]
-    check_same(store, name, written, found)
+    (message,) = messages_of(file)[name]
+    check_same(store, name, written, message)
 
 
 @pytest.mark.parametrize("distribution", [Stores.ROS2_GALACTIC, Stores.ROS2_HUMBLE])
@@ -208,8 +208,8 @@ def test_fields_of_a_newer_definition_are_left_out(
     store.register({MARKER: (constants, newer)})
     written = filled(store, MARKER, count(1))
     file = opened(write(tmp_path / "run", store, [(MARKER, written)], StoragePlugin.MCAP))
-    (found,) = messages_of(file)[MARKER]
-    assert (found.id, found.text) == (written.id, written.text)
+    (marker,) = messages_of(file)[MARKER]
+    assert (marker.id, marker.text) == (written.id, written.text)
 
 
 def test_a_message_that_is_followed_by_more_than_padding_is_not_whole() -> None:
@@ -252,7 +252,7 @@ def test_types_that_contain_a_changed_one_may_differ() -> None:
 
 @pytest.mark.skipif(not REPORTS.is_dir(), reason="needs ../shared/data/reports/B1")
 @pytest.mark.parametrize("storage", ["db3", "mcap"])
-def test_bags_of_galactic_and_humble_show_what_they_show_there(
+def test_bags_of_galactic_and_humble_are_decoded(
     opened: Callable[[Path], BagFile], storage: str
 ) -> None:
     result = messages_of(opened(REPORTS / f"galactic_marker_{storage}"))

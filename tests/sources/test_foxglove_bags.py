@@ -59,15 +59,15 @@ def test_schemas_of_foxglove_are_read_as_messages_of_ros(tmp_path: Path) -> None
         add(writer, "/rosout", "json", "foxglove.Log", json.dumps(LOG).encode())
 
     file = bag(tmp_path / "run.mcap", fill)
-    found = {message.topic: message for message in file.messages(file.channels, 0)}
-    assert found["/tf"].type == "tf2_msgs/msg/TFMessage"
-    (transform,) = decode(found["/tf"].type, found["/tf"].cdr).transforms
+    messages = {message.topic: message for message in file.messages(file.channels, 0)}
+    assert messages["/tf"].type == "tf2_msgs/msg/TFMessage"
+    (transform,) = decode(messages["/tf"].type, messages["/tf"].cdr).transforms
     assert (transform.parent, transform.child, transform.stamp_ns) == (
         "odom",
         "base",
         7_000_000_008,
     )
-    assert decode(found["/rosout"].type, found["/rosout"].cdr).msg == "hello"
+    assert decode(messages["/rosout"].type, messages["/rosout"].cdr).msg == "hello"
     assert [each.topic for each in file.newest(file.channels, 10)][-1] in ("/tf", "/rosout")
     assert not file.warnings
     copied = copy(file, tmp_path / "copy.mcap")
@@ -76,13 +76,13 @@ def test_schemas_of_foxglove_are_read_as_messages_of_ros(tmp_path: Path) -> None
         ("rcl_interfaces/msg/Log", "cdr"),
     }
     assert {each.cdr for each in copied.messages(copied.channels, 0)} == {
-        each.cdr for each in found.values()
+        each.cdr for each in messages.values()
     }
     copied.close()
     file.close()
 
 
-def test_what_does_not_convert_is_left_out_and_said(tmp_path: Path) -> None:
+def test_unconvertible_messages_are_skipped_and_reported(tmp_path: Path) -> None:
     def fill(writer: Writer) -> None:
         add(writer, "/tf", "protobuf", "foxglove.FrameTransform", b"\xff\xff", TRANSFORM)
 
@@ -94,7 +94,7 @@ def test_what_does_not_convert_is_left_out_and_said(tmp_path: Path) -> None:
     file.close()
 
 
-def test_what_has_no_equal_is_listed_with_the_reason(
+def test_unsupported_channels_are_listed_with_the_reason(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fill(writer: Writer) -> None:

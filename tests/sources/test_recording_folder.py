@@ -103,7 +103,7 @@ def test_foxglove_reads_messages_types_and_qos(folder: RecordingFolder) -> None:
     assert read == contents(folder.path)
 
 
-def test_what_was_flushed_is_read_before_the_recording_ends(folder: RecordingFolder) -> None:
+def test_flushed_messages_are_read_before_the_recording_ends(folder: RecordingFolder) -> None:
     for second in range(3):
         put(folder, "/words", second, f"{second}")
         folder.flush()
@@ -164,7 +164,7 @@ def test_files_are_split_by_size(tmp_path: Path) -> None:
     assert len(contents(folder.path)) == 100
 
 
-def test_a_full_disk_is_one_sentence_and_what_was_written_is_read(tmp_path: Path) -> None:
+def test_a_full_disk_is_one_sentence_and_earlier_messages_are_read(tmp_path: Path) -> None:
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)
     ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     folder = RecordingFolder(tmp_path / "run", "webviz test")

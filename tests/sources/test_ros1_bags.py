@@ -50,11 +50,11 @@ def test_its_messages_are_those_of_ros_2(
     assert result["/harvest"][0].ripe.sec == -2
 
 
-def test_a_seek_shows_what_playing_shows(tmp_path: Path) -> None:
+def test_seeking_equals_playing(tmp_path: Path) -> None:
     check_seeks(written(tmp_path / "run.bag"), count=5)
 
 
-def test_what_was_latched_is_known_as_such(tmp_path: Path) -> None:
+def test_latched_topics_are_transient_local(tmp_path: Path) -> None:
     source = Player(BagHistory(written(tmp_path / "run.bag")))
     (publisher,) = source.offers()["/tf_static"].publishers
     assert publisher.durability == "transient_local"
@@ -79,7 +79,7 @@ def test_warnings_of_rosout_are_events(tmp_path: Path) -> None:
 
 def test_one_flipped_bit_ends_in_a_sentence(tmp_path: Path) -> None:
     path = written(tmp_path / "run.bag", seconds=2)
-    good, said = path.read_bytes(), set[int]()
+    good, line_breaks = path.read_bytes(), set[int]()
     for place in range(0, len(good), 61):
         data = bytearray(good)
         data[place] ^= 1 << place % 8
@@ -87,12 +87,12 @@ def test_one_flipped_bit_ends_in_a_sentence(tmp_path: Path) -> None:
         try:
             recording = open_recording(path)
         except RecordingError as error:
-            said.add(str(error).count("\n"))
+            line_breaks.add(str(error).count("\n"))
             continue
         if recording.span_ns:
             list(recording.messages(recording.channels, *recording.span_ns))
         recording.close()
-    assert said <= {0}
+    assert line_breaks <= {0}
 
 
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:

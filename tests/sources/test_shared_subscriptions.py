@@ -60,13 +60,15 @@ def test_readers_that_disagree_on_durability_follow_the_publishers(
 
 
 @pytest.mark.parametrize(("type_", "other"), [(TYPE, OTHER), (OTHER, TYPE)])
-def test_the_first_reader_decides_on_the_type_and_whoever_asks_last_counts(
-    type_: str, other: str
-) -> None:
+def test_the_first_reader_sets_the_type_and_the_last_request_counts(type_: str, other: str) -> None:
     strict = Topic("/a", reliability="reliable")
     subscriptions = (
-        Subscription(type_, strict, asked=1),
-        Subscription(other, Topic("/a", reliability="best_effort"), latched=True, asked=3),
+        Subscription(type_, strict, resubscriptions=1),
+        Subscription(
+            other, Topic("/a", reliability="best_effort"), latched=True, resubscriptions=3
+        ),
     )
-    assert shared(*subscriptions) == Subscription(type_, strict, asked=3)
-    assert shared(*subscriptions, Subscription(type_, strict, asked=2)).asked == 3
+    assert shared(*subscriptions) == Subscription(type_, strict, resubscriptions=3)
+    assert (
+        shared(*subscriptions, Subscription(type_, strict, resubscriptions=2)).resubscriptions == 3
+    )

@@ -18,7 +18,7 @@ TIME = Path(__file__).parents[3] / "shared/data/reports/time/syn/topic_names.mca
 ODD = ["/front-lidar/words", "/words.raw", "/2d_words", "/a b", "/words/"]
 
 
-def shown(bag: Path, topic: str) -> dict[str, str]:
+def display_statuses(bag: Path, topic: str) -> dict[str, str]:
     """Return the levels and texts of a display of strings at the end of a bag."""
     viewer = BagViewer(bag, f"displays: [{{type: Text, topic: {topic!r}}}]")
     try:
@@ -45,14 +45,14 @@ def mcap(path: Path, topics: list[str]) -> Path:
 
 @pytest.mark.parametrize("name", ODD)
 def test_a_name_that_is_in_the_bag_is_valid_there(tmp_path: Path, name: str) -> None:
-    result = shown(mcap(tmp_path / "run.mcap", ODD), name)
+    result = display_statuses(mcap(tmp_path / "run.mcap", ODD), name)
     assert result["Topic"].startswith("OK 1 message")
 
 
 @pytest.mark.parametrize("written", ["words", "/words"])
 def test_a_name_without_a_slash_is_that_of_a_topic_with_one(tmp_path: Path, written: str) -> None:
     path = mcap(tmp_path / "run.mcap", ["words"])
-    assert shown(path, written)["Topic"].startswith("OK 1 message")
+    assert display_statuses(path, written)["Topic"].startswith("OK 1 message")
     source = Player(BagHistory(path))
     assert list(source.offers()) == ["/words"]
     source.close()
@@ -60,8 +60,8 @@ def test_a_name_without_a_slash_is_that_of_a_topic_with_one(tmp_path: Path, writ
 
 def test_topics_that_differ_by_a_slash_stay_apart(tmp_path: Path) -> None:
     path = mcap(tmp_path / "run.mcap", ["words", "/words"])
-    assert shown(path, "words")["Topic"].startswith("OK 1 message")
-    assert shown(path, "/words")["Topic"].startswith("OK 1 message")
+    assert display_statuses(path, "words")["Topic"].startswith("OK 1 message")
+    assert display_statuses(path, "/words")["Topic"].startswith("OK 1 message")
 
 
 def test_names_of_ros_1_are_valid(tmp_path: Path) -> None:
@@ -73,11 +73,11 @@ def test_names_of_ros_1_are_valid(tmp_path: Path) -> None:
         String = store.types["std_msgs/msg/String"]
         data = store.serialize_ros1(String("hello"), "std_msgs/msg/String")
         writer.write(connection, 10**18, data)
-    assert shown(path, "/front-lidar/words")["Topic"].startswith("OK 1 message")
+    assert display_statuses(path, "/front-lidar/words")["Topic"].startswith("OK 1 message")
 
 
 def test_names_that_are_not_in_the_bag_are_still_refused(tmp_path: Path) -> None:
-    result = shown(strings(0, 1).write_file(tmp_path / "run.mcap"), "/front-lidar/words")
+    result = display_statuses(strings(0, 1).write_file(tmp_path / "run.mcap"), "/front-lidar/words")
     assert "is not a valid topic name" in result["Topic"]
 
 

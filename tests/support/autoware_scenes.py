@@ -82,10 +82,10 @@ def moving(pose: Values, initial: str = "") -> Values:
     }
 
 
-def unaccelerated(given: Values) -> Values:
+def unaccelerated(values: Values) -> Values:
     """An object as detectors have it, whose front may be its back."""
-    kinematics = {k: v for k, v in given["kinematics"].items() if "acceleration" not in k}
-    return {**given, "kinematics": {**kinematics, "orientation_availability": 1}}
+    kinematics = {k: v for k, v in values["kinematics"].items() if "acceleration" not in k}
+    return {**values, "kinematics": {**kinematics, "orientation_availability": 1}}
 
 
 CAR = thing(1, pose_at(0.0, 0.0, 0.5, math.pi / 2), 2.0, 1.0, 1.0)
@@ -95,27 +95,27 @@ THINGS = (CAR, MAN, HEAP)
 """A car along y, a pedestrian, and a polygon of no known class."""
 
 
-def identified(given: Values, number: int) -> Values:
+def identified(values: Values, number: int) -> Values:
     """An object with an id."""
-    return {**given, "object_id": {"uuid": [16 * number + number] * 16}}
+    return {**values, "object_id": {"uuid": [16 * number + number] * 16}}
 
 
-def expected(given: Values, number: int) -> Values:
+def expected(values: Values, number: int) -> Values:
     """An object with two paths ahead."""
-    place = given["kinematics"]["pose_with_covariance"]["pose"]
+    place = values["kinematics"]["pose_with_covariance"]["pose"]
     x, y = place["position"]["x"], place["position"]["y"]
     paths = [
         {"path": [pose_at(x + i / 2, y + side * i * i, 0.5) for i in range(5)], "confidence": 0.5}
         for side in (0.0, 0.1)
     ]
     kinematics = {**moving(place, "initial_"), "predicted_paths": paths}
-    return {**identified(given, number), "kinematics": kinematics}
+    return {**identified(values, number), "kinematics": kinematics}
 
 
-def followed(given: Values, number: int) -> Values:
+def followed(values: Values, number: int) -> Values:
     """An object whose front is known; the second stands."""
     kinematics = {"is_stationary": number == 1, "orientation_availability": 2}
-    return identified({**given, "kinematics": {**given["kinematics"], **kinematics}}, number)
+    return identified({**values, "kinematics": {**values["kinematics"], **kinematics}}, number)
 
 
 def messages_of(things: tuple[Values, ...]) -> tuple[Values, Values, Values]:
@@ -128,7 +128,7 @@ def messages_of(things: tuple[Values, ...]) -> tuple[Values, Values, Values]:
     )
 
 
-FOUND, FOLLOWED, FORESEEN = messages_of(THINGS)
+DETECTED_OBJECTS, FOLLOWED, FORESEEN = messages_of(THINGS)
 ALL_FOUND, ALL_FOLLOWED, ALL_FORESEEN = messages_of(
     (*THINGS, *(thing(label, pose_at(0.0, float(label)), 1.0, 1.0, 1.0) for label in range(10)))
 )
@@ -138,7 +138,7 @@ ALL_FOUND, ALL_FOLLOWED, ALL_FORESEEN = messages_of(
 AUTOWARE_MESSAGES: dict[str, Values] = {
     PATH: BOUNDED,
     TRAJECTORY: TIMED,
-    DETECTED: FOUND,
+    DETECTED: DETECTED_OBJECTS,
     TRACKED: FOLLOWED,
     PREDICTED: FORESEEN,
 }

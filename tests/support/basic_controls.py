@@ -34,33 +34,33 @@ def box(scale: float) -> Marker:
 
 def marker(name: str, x: float, y: float, frame: str = FRAME) -> InteractiveMarker:
     """A marker without controls, that moves with its frame."""
-    made = InteractiveMarker(name=name, description=name.replace("_", " "), scale=1.0)
-    made.header.frame_id = frame
-    made.pose.position.x, made.pose.position.y = x, y
-    return made
+    message = InteractiveMarker(name=name, description=name.replace("_", " "), scale=1.0)
+    message.header.frame_id = frame
+    message.pose.position.x, message.pose.position.y = x, y
+    return message
 
 
-def add(made: InteractiveMarker, mode: int, *, shapes: bool = False, **fields: Any) -> Control:
+def add(message: InteractiveMarker, mode: int, *, shapes: bool = False, **fields: Any) -> Control:
     """Add a control to a marker, with a box or with generated handles."""
     control = Control(interaction_mode=mode, **fields)
     if shapes:
-        control.markers = [box(made.scale)]
+        control.markers = [box(message.scale)]
         control.always_visible = True
-    made.controls = [*made.controls, control]
+    message.controls = [*message.controls, control]
     return control
 
 
-def rings(made: InteractiveMarker, orientation_mode: int) -> None:
+def rings(message: InteractiveMarker, orientation_mode: int) -> None:
     """Add rings and arrows for all three axes."""
     for way, quaternion in (("x", ALONG_X), ("z", ALONG_Z), ("y", ALONG_Y)):
         for verb, mode in (("rotate", Control.ROTATE_AXIS), ("move", Control.MOVE_AXIS)):
-            control = add(made, mode, name=f"{verb}_{way}", orientation=quaternion)
+            control = add(message, mode, name=f"{verb}_{way}", orientation=quaternion)
             control.orientation_mode = orientation_mode
 
 
 def basic_controls() -> list[InteractiveMarker]:
     """Thirteen markers, three metres apart."""
-    made = []
+    messages = []
     kinds = (
         (Control.NONE, True, Control.FIXED, (-3.0, 3.0)),
         (Control.NONE, True, Control.INHERIT, (0.0, 3.0)),
@@ -73,41 +73,41 @@ def basic_controls() -> list[InteractiveMarker]:
         add(six, mode, shapes=True)
         if has_rings:
             rings(six, turned)
-        made.append(six)
+        messages.append(six)
 
     odd = marker("random_axes", 3.0, 0.0)
     add(odd, Control.NONE, shapes=True)
     for quaternion in (Quaternion(w=0.9, x=0.3, y=0.2, z=0.1), Quaternion(w=0.2, x=-0.5, y=0.8)):
         add(odd, Control.ROTATE_AXIS, orientation=quaternion)
         add(odd, Control.MOVE_AXIS, orientation=quaternion)
-    made.append(odd)
+    messages.append(odd)
 
     facing = marker("view_facing", -3.0, -3.0)
     add(facing, Control.ROTATE_AXIS, orientation_mode=Control.VIEW_FACING)
     moved = add(facing, Control.MOVE_PLANE, shapes=True, name="move")
     moved.orientation_mode, moved.independent_marker_orientation = Control.VIEW_FACING, True
-    made.append(facing)
+    messages.append(facing)
 
     flying = marker("quadrocopter", 0.0, -3.0)
     add(flying, Control.MOVE_ROTATE, shapes=True, orientation=ALONG_Z)
     add(flying, Control.MOVE_AXIS, orientation=ALONG_Z)
-    made.append(flying)
+    messages.append(flying)
 
     chess = marker("chess_piece", 3.0, -3.0)
     add(chess, Control.MOVE_PLANE, shapes=True, orientation=ALONG_Z)
     add(chess, Control.MOVE_PLANE, orientation=ALONG_Z)
-    made.append(chess)
+    messages.append(chess)
 
     head = marker("pan_tilt", -3.0, -6.0)
     add(head, Control.NONE, shapes=True)
     add(head, Control.ROTATE_AXIS, orientation=ALONG_Z, orientation_mode=Control.FIXED)
     add(head, Control.ROTATE_AXIS, orientation=ALONG_Y)
-    made.append(head)
+    messages.append(head)
 
     moving = marker("moving", 0.0, -6.0, frame="moving_frame")
     add(moving, Control.ROTATE_AXIS, orientation=ALONG_X)
     add(moving, Control.MOVE_PLANE, shapes=True, orientation=ALONG_Z)
-    made.append(moving)
+    messages.append(moving)
 
     menu = marker("menu", 3.0, -6.0)
     add(menu, Control.MENU, shapes=True, name="menu_only_control")
@@ -118,9 +118,9 @@ def basic_controls() -> list[InteractiveMarker]:
         MenuEntry(id=4, parent_id=3, title="[ ] First Subentry"),
         MenuEntry(id=5, parent_id=3, title="Format the disk", command="rm", command_type=1),
     ]
-    made.append(menu)
+    messages.append(menu)
 
     button = marker("button", 0.0, -9.0)
     add(button, Control.BUTTON, shapes=True, name="button_control")
-    made.append(button)
-    return made
+    messages.append(button)
+    return messages

@@ -6,26 +6,33 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from several import several
 from waiting import until
 
+from webviz.api.display import Display
+from webviz.api.nodes import Node
 from webviz.data.messages import encode
 from webviz.engine.commands import PROGRAM, Command, Sender
 from webviz.engine.loop import FrameLoop
-from webviz.engine.parts import Core, Part
+from webviz.engine.parts import Part, PartContext
 from webviz.engine.pipeline.scene import Cameras, NoCameras
 from webviz.engine.state import State
 from webviz.files.config import Config, Item, Settings
 from webviz.files.config.model import MemorySettings
 from webviz.shell.testing.messages import header, stamped_transform
 from webviz.shell.testing.recording import RecordingScene
+from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
+from webviz.sources.player import Player
+
+N = TypeVar("N", bound=Node)
+D = TypeVar("D", bound=Display)
 
 
 class Bench:
-    """A viewer on a hand-fed source and a recording scene."""
+    """A viewer on a hand-fed source, or the recording of a player, and a recording scene."""
 
     def __init__(
         self,
@@ -37,16 +44,18 @@ class Bench:
         session: Path | None = None,
         restore: bool = True,
         cameras: Cameras | None = None,
-        parts: Sequence[Callable[[Core], Part]] = (),
+        scene: RecordingScene | None = None,
+        parts: Sequence[Callable[[PartContext], Part]] = (),
         publish: tuple[str, ...] | None = ("/*",),
         allow_publish: Sequence[str] = (),
         may_publish: bool = True,
         graph: Any = None,
         robots: tuple[str, ...] = (),
         memory: MemorySettings | None = None,
+        player: Player | None = None,
     ) -> None:
         self.source = HandFedSource(**({"graph": graph} if graph else {}))
-        self.scene = RecordingScene(cameras=cameras or NoCameras())
+        self.scene = scene or RecordingScene(cameras=cameras or NoCameras())
         self.states: list[State] = []
         self.clock = 1000.0
         settings = Settings(fixed_frame=fixed_frame, publish=publish, robots=robots)
@@ -54,9 +63,9 @@ class Bench:
         config = Config(settings, list(displays))
         self.viewer = FrameLoop(
             config,
-            self.source,
+            player or self.source,
             self.scene,
-            lambda: self.states.append(self.viewer.last_state()),
+            self._note_state,
             may_publish=may_publish,
             allow_publish=allow_publish,
             autosave=autosave,
@@ -68,6 +77,10 @@ class Bench:
             clock=lambda: self.clock,
         )
         self.turn()
+
+    def _note_state(self) -> None:
+        """Note what panels show."""
+        self.states.append(self.viewer.last_state())
 
     def publish(self, topic: str, type_name: str, values: Mapping[str, Any]) -> None:
         self.source.put(topic, type_name, encode(type_name, values))
@@ -90,6 +103,21 @@ class Bench:
         pose = {"position": {"x": x}, "orientation": {"w": 1.0}}
         values = {"header": header(frame, stamp_ns), "pose": pose}
         self.publish(topic, "geometry_msgs/msg/PoseStamped", values)
+
+    @property
+    def graph(self) -> RememberingGraph:
+        """The graph of a bench that was given one."""
+        assert isinstance(self.source.graph, RememberingGraph)
+        return self.source.graph
+
+    def nodes(self, kind: type[N], display: str = "") -> list[N]:
+        """The visible nodes of a kind, of all displays or of one by its id."""
+        return [node for _, _, node in self.scene.visible(display) if isinstance(node, kind)]
+
+    def display(self, kind: type[D]) -> D:
+        """The first display of a kind."""
+        displays = (row.display for row in self.viewer.state().rows)
+        return next(display for display in displays if isinstance(display, kind))
 
     def turn(self, keep_up: bool = False) -> None:
         self.viewer.turn(keep_up)
@@ -123,8 +151,8 @@ class Bench:
         return {key: (status.level.name, status.text) for key, status in row.statuses.items()}
 
 
-Benches = Callable[..., Any]
-"""The fixture `bench`, which makes a `Bench`; `Any`, for tests know the kinds of what is drawn."""
+Benches = Callable[..., Bench]
+"""The fixture `bench`, which makes a `Bench`."""
 
 
 def benches() -> AbstractContextManager[Benches]:

@@ -44,23 +44,23 @@ class FoxgloveServer:
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
-        self._said: queue.Queue[dict[str, Any]] = queue.Queue()
+        self._lines: queue.Queue[dict[str, Any]] = queue.Queue()
         self._listening = threading.Thread(target=self._listen, daemon=True)
         self._listening.start()
-        self.url: str = self.said("url")
+        self.url: str = self.receive("url")
         self.port = int(self.url.rpartition(":")[2])
 
     def _listen(self) -> None:
         assert self._process.stdout
         with self._process.stdout as lines:
             for line in lines:
-                self._said.put(json.loads(line))
+                self._lines.put(json.loads(line))
 
-    def said(self, key: str, value: Any = None) -> Any:
+    def receive(self, key: str, value: Any = None) -> Any:
         """Wait until the server says something, and skip what comes before."""
         until = time.monotonic() + PATIENCE_S
         while True:
-            fact = self._said.get(timeout=until - time.monotonic())
+            fact = self._lines.get(timeout=until - time.monotonic())
             if key in fact and value in (None, fact[key]):
                 return fact[key]
 
@@ -93,7 +93,7 @@ def foxglove_server(port: int = 0, *options: str) -> Iterator[FoxgloveServer]:
         server.kill()
 
 
-class Reader:
+class BridgeReader:
     """A source that is connected to a bridge, and what arrived.
 
     Args:
@@ -109,11 +109,11 @@ class Reader:
         (bridge,) = self.source.bridges
         return bridge
 
-    def want(self, asked: int = 0, **types: str) -> None:
+    def want(self, resubscriptions: int = 0, **types: str) -> None:
         """Subscribe to topics, named without their slash, by type."""
         self.source.want(
             {
-                f"/{name}": Subscription(t, Topic(f"/{name}"), asked=asked)
+                f"/{name}": Subscription(t, Topic(f"/{name}"), resubscriptions=resubscriptions)
                 for name, t in types.items()
             }
         )
@@ -146,9 +146,9 @@ class Reader:
 
 
 @contextmanager
-def reading(url: str, **options: Any) -> Iterator[Reader]:
+def reading(url: str, **options: Any) -> Iterator[BridgeReader]:
     """Connect to a bridge."""
-    reader = Reader(url, **options)
+    reader = BridgeReader(url, **options)
     try:
         yield reader
     finally:

@@ -49,7 +49,7 @@ class BuiltInChecks(DisplayChecks):
         else:
             scene(bench)
 
-    def test_several_extreme_values_at_once_are_no_worse(
+    def test_several_extreme_values_at_once_are_drawn_or_reported(
         self,
         webviz_bench: Benches,
         made: Callable[[], Display],
@@ -59,9 +59,9 @@ class BuiltInChecks(DisplayChecks):
         """Messages with several of them follow each other."""
         monkeypatch.setattr(PATIENCE_S, -1.0)
         type_name = inputs_of(type(made()))[name].type
-        known = list(cases(type_name, self.messages[type_name]))
+        all_cases = list(cases(type_name, self.messages[type_name]))
         results = []
-        hands = dealt(known)
+        hands = dealt(all_cases)
         while row := list(islice(hands, IN_A_ROW)):
             bench = self.at_work(webviz_bench, made, name)
             for hand in row:
@@ -71,14 +71,14 @@ class BuiltInChecks(DisplayChecks):
         assert results == []
 
 
-def dealt(known: Sequence[Case]) -> Iterator[Sequence[Case]]:
+def dealt(all_cases: Sequence[Case]) -> Iterator[Sequence[Case]]:
     """Deal values like cards, so that each comes before one comes again."""
     draw = random.Random(0)
     pack: list[Case] = []
     for _ in range(HANDS):
         size = draw.randint(1, MOST)
         if len(pack) < size:
-            pack += draw.sample(known, len(known))
+            pack += draw.sample(all_cases, len(all_cases))
         yield [pack.pop() for _ in range(size)]
 
 

@@ -19,8 +19,8 @@ def authority() -> trustme.CA:
 
 def certificate(folder: Path, name: str = "robot", ends: datetime | None = None) -> Path:
     """Write NAME.pem and NAME.key; returns the former."""
-    made = authority().issue_cert(*NAMES, not_after=ends)
+    leaf = authority().issue_cert(*NAMES, not_after=ends)
     path = folder / f"{name}.pem"
-    path.write_bytes(b"".join(blob.bytes() for blob in made.cert_chain_pems))
-    made.private_key_pem.write_to_path(path.with_suffix(".key"))
+    path.write_bytes(b"".join(blob.bytes() for blob in leaf.cert_chain_pems))
+    leaf.private_key_pem.write_to_path(path.with_suffix(".key"))
     return path

@@ -18,7 +18,7 @@ from webviz.shell.pictures.browser import Page, launched
 
 PATH = Path(__file__).parents[1] / "pictures/demo.webp"
 WIDTH, HEIGHT = 1280, 800
-SHOWN = 960, 600
+SIZE = 960, 600
 FRAMES, INTERVAL_S, SHOWN_MS = 60, 0.5, 120
 """The picture plays about four times as fast as the robot drives."""
 QUALITY = 60
@@ -70,7 +70,7 @@ def record(page: Page, frames: int, interval_s: float) -> list[PIL.Image.Image]:
 
 def save(pictures: list[PIL.Image.Image], path: Path) -> None:
     """Write an animation that repeats."""
-    small = [picture.resize(SHOWN, PIL.Image.Resampling.LANCZOS) for picture in pictures]
+    small = [picture.resize(SIZE, PIL.Image.Resampling.LANCZOS) for picture in pictures]
     small[0].save(
         path,
         save_all=True,

@@ -201,8 +201,8 @@ def markers(bench: Any) -> None:
             "color": {"a": 1.0},
         }
         values = {"markers": [marker]} if topic else marker
-        known = {each.name for _, _, each in inputs(bench.display)}
-        if f"/visualization_marker{topic}" in known or "" in known:
+        topics = {each.name for _, _, each in inputs(bench.display)}
+        if f"/visualization_marker{topic}" in topics or "" in topics:
             type_name = f"visualization_msgs/msg/{name}"
             bench.send(type_name, values, topic=f"/visualization_marker{topic}")
     bench.turn()

@@ -44,8 +44,8 @@ class Firefox:
 
     def run(self, script: str, *arguments: object) -> Any:
         """The result of a function's body in the page."""
-        told = {"script": script, "args": list(arguments), "sandbox": None}
-        return self._do("WebDriver:ExecuteScript", told)["value"]
+        parameters = {"script": script, "args": list(arguments), "sandbox": None}
+        return self._do("WebDriver:ExecuteScript", parameters)["value"]
 
     def wait_for(self, script: str, *arguments: object) -> None:
         """Wait until a function's body in the page returns something true."""
@@ -58,8 +58,8 @@ class Firefox:
         """A picture of an element, uint8 (H, W, 3)."""
         result = self._do("WebDriver:FindElement", {"using": "css selector", "value": selector})
         (element,) = result["value"].values()
-        told = self._do("WebDriver:TakeScreenshot", {"id": element, "full": False})
-        image = PIL.Image.open(io.BytesIO(base64.b64decode(told["value"])))
+        response = self._do("WebDriver:TakeScreenshot", {"id": element, "full": False})
+        image = PIL.Image.open(io.BytesIO(base64.b64decode(response["value"])))
         return np.asarray(image.convert("RGB"))
 
     def close(self) -> None:
@@ -121,8 +121,8 @@ def _screen(program: str) -> Iterator[str]:
         command, pass_fds=[theirs], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
     os.close(theirs)
-    with os.fdopen(own) as told:
-        number = told.readline().strip()
+    with os.fdopen(own) as output:
+        number = output.readline().strip()
     try:
         yield f":{number}"
     finally:

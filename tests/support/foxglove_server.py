@@ -125,7 +125,7 @@ def say(**fact: Any) -> None:
     print(json.dumps(fact) + "\n", end="", flush=True)
 
 
-class Robot(foxglove.websocket.ServerListener):
+class RobotChannels(foxglove.websocket.ServerListener):
     """Channels, and what clients do with them."""
 
     def __init__(self, namespace: str) -> None:
@@ -211,7 +211,7 @@ def main(port: int, *options: str) -> None:
     settings = {name: value for name, _, value in (each.partition("=") for each in options)}
     ahead_ns = round(float(settings.get("ahead", 0)) * 1e9)
     register(CUSTOM, BATTERY_IDL)
-    robot = Robot(settings.get("named", ""))
+    robot = RobotChannels(settings.get("named", ""))
     for topic, type in TYPES.items():
         robot.add(topic, type)
     schema = ServiceSchema(
@@ -299,7 +299,7 @@ def main(port: int, *options: str) -> None:
         time.sleep(PERIOD_S)
 
 
-def follow(robot: Robot, server: Any) -> None:
+def follow(robot: RobotChannels, server: Any) -> None:
     """Carry out the commands of the test."""
     for line in sys.stdin:
         command, _, rest = line.strip().partition(" ")

@@ -35,7 +35,7 @@ PLUGINS = tuple(
     )
 )
 """Plugins that show something on the page."""
-SIZE, SHOWN, QUALITY = (1100, 680), (468, 362), 70
+SIZE, THUMBNAIL, QUALITY = (1100, 680), (468, 362), 70
 SCENE: playwright.FloatRect = {"x": 320, "y": 0, "width": 780, "height": 604}
 """Area without panels and timeline."""
 PANEL: playwright.FloatRect = {"x": 0, "y": 0, "width": 468, "height": 362}
@@ -119,7 +119,7 @@ def save(tab: playwright.Page, name: str, clip: playwright.FloatRect = SCENE) ->
     """Write what the page shows."""
     tab.wait_for_timeout(1000)  # until tooltips and camera rest
     picture = PIL.Image.open(io.BytesIO(tab.screenshot(clip=clip))).convert("RGB")
-    small = picture.resize(SHOWN, PIL.Image.Resampling.LANCZOS)
+    small = picture.resize(THUMBNAIL, PIL.Image.Resampling.LANCZOS)
     small.save(PICTURES / f"{name}.webp", quality=QUALITY, method=6)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from tests.support.stand_ins import stand_in
+from tests.support.stand_in import stand_in
 from webviz.engine.parts.config import ConfigPart
 from webviz.engine.parts.display_rows import TreeRows
 from webviz.engine.parts.displays import DisplaysPart
@@ -37,17 +37,19 @@ class GivenParts:
 
     def __init__(self) -> None:
         self._state = State()
-        self._core: Any = SimpleNamespace(
+        self._context: Any = SimpleNamespace(
             player=SimpleNamespace(is_seeking=False),
             get=lambda kind: self._by_kind[kind],
             fact=lambda name, other: getattr(self._state, name, other),
             state=lambda: self._state,
         )
-        self._by_kind: dict[type[Part], Any] = {k: stand_in(k, core=self._core) for k in KINDS}
+        self._by_kind: dict[type[Part], Any] = {
+            k: stand_in(k, context=self._context) for k in KINDS
+        }
         self._give(PanelsPart, tabs=lambda: self._state.panels)
-        self._undo: Any = stand_in(UndoFeature, core=self._core)
-        others = PluginPanels(self._core), ViewsFeature(self._core)
-        self.features = (People(self._core), *others, self._undo)
+        self._undo: Any = stand_in(UndoFeature, context=self._context)
+        others = PluginPanels(self._context), ViewsFeature(self._context)
+        self.features = (People(self._context), *others, self._undo)
         """Features that show what the parts have, too."""
         displays, settings = self._by_kind[DisplaysPart], self._by_kind[SettingsPart]
         self._give(DisplaysPart, tree=TreeRows())
@@ -64,8 +66,8 @@ class GivenParts:
     def show(self, state: State) -> None:
         """Let them have the values of a state."""
         self._state = state
-        self._core.offers, self._core.statuses = state.offers, state.statuses
-        self._core.buffer = SimpleNamespace(frames=lambda: state.frames)
+        self._context.offers, self._context.statuses = state.offers, state.statuses
+        self._context.buffer = SimpleNamespace(frames=lambda: state.frames)
         self._give(DisplaysPart, rows=state.rows)
         self._give(SettingsPart, settings=state.settings)
         self._give(

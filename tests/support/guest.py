@@ -75,8 +75,8 @@ class Guest(Connections):
 
     def do(self, command: str, **arguments: Any) -> str:
         """The answer to a command."""
-        self.send("Do", number=1, command=command, arguments=arguments)
-        return self.receive("Done")["text"]
+        self.send("CommandRequest", number=1, command=command, arguments=arguments)
+        return self.receive("CommandResult")["text"]
 
     def drop(self) -> None:
         """End what is sent on the channel without a word, as a browser that is killed."""

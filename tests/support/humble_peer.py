@@ -29,7 +29,7 @@ def named(package: str, kind: str, name: str) -> dict[str, str]:
 
 
 @dataclass
-class Text(IdlStruct, **named("std_msgs", "msg", "String")):
+class StringMessage(IdlStruct, **named("std_msgs", "msg", "String")):
     data: str
 
 
@@ -46,7 +46,7 @@ class Head(IdlStruct, **named("std_msgs", "msg", "Header")):
 
 
 @dataclass
-class Sonar(IdlStruct, **named("sensor_msgs", "msg", "Range")):
+class RangeMessage(IdlStruct, **named("sensor_msgs", "msg", "Range")):
     """Without `variance`, which Iron added."""
 
     header: Head
@@ -100,25 +100,28 @@ def main(domain: int, seconds: float) -> None:
     def reader(name: str, kind: Any) -> DataReader:
         return DataReader(participant, Topic(participant, name, kind), qos=USUAL)
 
-    text, latched = writer("rt/humble_text", Text), writer("rt/humble_latched", Text, LATCHED)
-    sonar = writer("rt/humble_range", Sonar)
-    heard, asked = reader("rt/to_humble", Text), reader("rq/humble_switchRequest", Ask)
+    text, latched = (
+        writer("rt/humble_text", StringMessage),
+        writer("rt/humble_latched", StringMessage, LATCHED),
+    )
+    sonar = writer("rt/humble_range", RangeMessage)
+    heard, requests = reader("rt/to_humble", StringMessage), reader("rq/humble_switchRequest", Ask)
     replies = writer("rr/humble_switchReply", Reply)
     records = writer("ros_discovery_info", ParticipantRecord, LATCHED)
     node = NodeRecord(
         "/",
         "humble_robot",
-        [gid(each) for each in (heard, asked)],
+        [gid(each) for each in (heard, requests)],
         [gid(each) for each in (text, latched, sonar, replies)],
     )
     records.write(ParticipantRecord(gid(participant), [node]))
-    latched.write(Text("latched"))
+    latched.write(StringMessage("latched"))
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        text.write(Text("moving"))
+        text.write(StringMessage("moving"))
         now = time.time_ns()
         head = Head(Stamp(now // 10**9, now % 10**9), "sonar")
-        sonar.write(Sonar(head, 0, 0.5, 0.25, 4.0, 2.0))
+        sonar.write(RangeMessage(head, 0, 0.5, 0.25, 4.0, 2.0))
         for message in heard.take(N=10):
             print("heard", message.data, flush=True)
         time.sleep(0.1)

@@ -7,6 +7,11 @@ import re
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
+from webviz.api.nodes import Instances, Points, has_content
+from webviz.shell.testing import DisplayBench
+
 Benches = Callable[..., Any]
 """The fixtures `bench`, `shown` and `turned`, which make the bench of a display."""
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -19,3 +24,17 @@ POSE_TOLD = {
         "Roll, pitch, yaw": "0.00, 0.00, 0.00 °",
     }
 }
+
+
+def colors(bench: DisplayBench) -> list[list[int]]:
+    """The colours of the points that a display draws."""
+    node = bench.nodes()["points"]
+    assert isinstance(node, Points | Instances)
+    return np.asarray(node.colors).tolist()
+
+
+def check_empty(bench: DisplayBench, level: str, words: str) -> None:
+    """Check that a display of points draws none, and that its status has these words."""
+    statuses = bench.statuses()["Points"]
+    assert (statuses[0], words in statuses[1]) == (level, True), statuses
+    assert not any(map(has_content, bench.nodes().values()))

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from grid_maps import GRID_MAP, grid_map
-from octrees import OCTOMAP, Node, full
+from octrees import OCTOMAP, OctreeNode, full
 
 SECOND = 1_000_000_000
 
 
 def hill(kind: str) -> dict[str, Any]:
     """Ground of four voxels with one on top, in free air."""
-    root = Node()
+    root = OctreeNode()
     for x in range(-1, 1):
         for y in range(-1, 1):
             root.place((x, y, 0), log_odds=2.0 + x, color=(200, 50 * x + 60, 0))

@@ -101,8 +101,8 @@ class MarkerServer:
             del self.markers[name]
             self._erased.append(name)
 
-    def apply(self, *, lost: bool = False) -> None:
-        """Send the changes as an update; a lost one is counted but not sent."""
+    def apply(self, *, dropped: bool = False) -> None:
+        """Send the changes as an update; a dropped one is counted but not sent."""
         with self._lock:
             if not (self._changed or self._poses or self._erased):
                 return
@@ -115,7 +115,7 @@ class MarkerServer:
                 erases=self._erased,
             )
             self._changed, self._poses, self._erased = {}, {}, []
-            if not lost:
+            if not dropped:
                 self._updates.publish(update)
 
     def send(self, update: InteractiveMarkerUpdate | bytes) -> None:

@@ -73,9 +73,9 @@ class Memory:
 
     def look_back(self, guest: Guest) -> str:
         """Have a page look back on its own; the path of its page, or why there is none."""
-        guest.send("Do", number=1, command="LookBackAlone", arguments={"at_s": 1.0})
-        done = guest.receive("Done")
-        return done["result"].get("address", "").removeprefix(".") or done["text"]
+        guest.send("CommandRequest", number=1, command="LookBackAlone", arguments={"at_s": 1.0})
+        message = guest.receive("CommandResult")
+        return message["result"].get("address", "").removeprefix(".") or message["text"]
 
     def status(self, path: str, role: Role = Role.OWNER, method: str = "GET") -> int:
         """Return the status of a request for a page; `body` is its answer."""

@@ -29,9 +29,9 @@ def at(x: float) -> dict[str, Any]:
     return {"position": {"x": x}, "orientation": UNTURNED}
 
 
-def state(position: float, *held: dict[str, Any]) -> dict[str, Any]:
+def state(position: float, *objects: dict[str, Any]) -> dict[str, Any]:
     joints = {"header": {"frame_id": "base"}, "name": ["slide"], "position": [position]}
-    return {"joint_state": joints, "attached_collision_objects": [*held]}
+    return {"joint_state": joints, "attached_collision_objects": [*objects]}
 
 
 def box(name: str, x: float, frame: str = "base") -> dict[str, Any]:
@@ -42,10 +42,10 @@ def box(name: str, x: float, frame: str = "base") -> dict[str, Any]:
 ROOT = octree([(0, 0, 0), (3, 0, 5)])
 ROOT.place((9, 0, 0), log_odds=-2.0)
 TREE = full(ROOT)
-HELD = {"link_name": "rider", "object": box("cup", 0.5, "rider")}
+ATTACHED_CUP = {"link_name": "rider", "object": box("cup", 0.5, "rider")}
 SCENE = {
     "name": "cell",
-    "robot_state": state(1.0, HELD),
+    "robot_state": state(1.0, ATTACHED_CUP),
     "world": {
         "collision_objects": [box("table", 2.0), box("door", 3.0)],
         "octomap": {"header": {"frame_id": "base"}, "octomap": TREE},
@@ -53,7 +53,7 @@ SCENE = {
     "object_colors": [{"id": "door", "color": {"g": 1.0, "a": 0.5}}],
 }
 PATH = {
-    "trajectory_start": state(1.0, HELD),
+    "trajectory_start": state(1.0, ATTACHED_CUP),
     "trajectory": [
         {
             "joint_trajectory": {
@@ -111,15 +111,15 @@ NUMBERS = {
         {"id": 3, "num_failed": 9},
     ],
 }
-SHOWN = {
-    "state": state(1.0, HELD),
+DISPLAY_STATE = {
+    "state": state(1.0, ATTACHED_CUP),
     "highlight_links": [{"id": "base", "color": {"r": 1.0, "a": 0.5}}],
 }
 
 MOVEIT_MESSAGES: dict[str, dict[str, Any]] = {
     "moveit_msgs/msg/PlanningScene": SCENE,
     "moveit_msgs/msg/DisplayTrajectory": PATH,
-    "moveit_msgs/msg/DisplayRobotState": SHOWN,
+    "moveit_msgs/msg/DisplayRobotState": DISPLAY_STATE,
     "moveit_msgs/msg/RobotState": state(1.0),
     "moveit_task_constructor_msgs/msg/Solution": SOLUTION,
     "moveit_task_constructor_msgs/msg/TaskDescription": TASK,
@@ -139,7 +139,7 @@ def moveit(bench: Any) -> None:
     topics = {
         "/monitored_planning_scene": ("moveit_msgs/msg/PlanningScene", scene),
         "/display_planned_path": ("moveit_msgs/msg/DisplayTrajectory", PATH),
-        "display_robot_state": ("moveit_msgs/msg/DisplayRobotState", SHOWN),
+        "display_robot_state": ("moveit_msgs/msg/DisplayRobotState", DISPLAY_STATE),
     }
     for topic, (type_name, values) in topics.items():
         bench.send(type_name, values, topic=topic)
@@ -176,14 +176,14 @@ def plan_task(bench: Any) -> None:
     for x in (1.0, 1.5, 2.0):  # of the link that leaves a trail
         bench.transform("map", "base", (x, 0.0, 0.0))
         bench.turn(100.0)
-    shown = bench.display
-    if shown.use_sim_time:
+    display = bench.display
+    if display.use_sim_time:
         bench.send("moveit_task_constructor_msgs/msg/Solution", SOLUTION, topic="/solution")
     for seconds in (0.0, 2100.0, 400.0):
         bench.turn(seconds)
     settle(bench)
-    if shown.state_display_time == "0.05 s" and not (
-        shown.use_sim_time or shown.paused or shown.loop_animation
+    if display.state_display_time == "0.05 s" and not (
+        display.use_sim_time or display.paused or display.loop_animation
     ):
         while "Point 8 of 8" not in bench.statuses()["Path"][1]:  # in 0.4 s
             time.sleep(0.01)

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import functools
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from waiting import until
+
+RESEND_S = 10.0
+"""Patience in seconds for a response, after which its request is sent again."""
 
 
 @contextmanager
@@ -23,6 +29,30 @@ def node_of(domain: int, name: str, kind: Callable[..., Node] = Node) -> Iterato
     finally:
         node.destroy_node()
         context.try_shutdown()
+
+
+def response_of(client: Client, request: object, executor: Executor) -> Any:
+    """Call a service and return its response.
+
+    A client is ready before the server knows where to send its responses, and DDS may lose the
+    first one ("failed to send response"): such a request is sent again.
+    """
+    spin = functools.partial(executor.spin_once, timeout_sec=0.05)
+    until(client.service_is_ready, turn=spin)
+    futures = [client.call_async(request)]
+    sent_at = time.monotonic()
+
+    def response() -> Any:
+        nonlocal sent_at
+        if time.monotonic() > sent_at + RESEND_S:
+            futures.append(client.call_async(request))
+            sent_at = time.monotonic()
+        return next((future for future in futures if future.done()), None)
+
+    answered = until(response, lambda: f"no response of {client.srv_name}", turn=spin)
+    for future in futures:
+        client.remove_pending_request(future)
+    return answered.result()
 
 
 class SpunNode:

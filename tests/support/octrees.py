@@ -12,7 +12,7 @@ Key = tuple[int, int, int]
 
 
 @dataclass
-class Node:
+class OctreeNode:
     """A node of a tree.
 
     Args:
@@ -23,7 +23,7 @@ class Node:
 
     log_odds: float = 0.0
     color: Key = (255, 255, 255)
-    children: dict[int, Node] = field(default_factory=dict)
+    children: dict[int, OctreeNode] = field(default_factory=dict)
 
     def place(self, key: Key, depth: int = 16, **values: Any) -> None:
         """Put a voxel at a depth into the tree of this root.
@@ -36,7 +36,7 @@ class Node:
         node, (x, y, z) = self, (each + (1 << (depth - 1)) for each in key)
         for level in range(depth - 1, -1, -1):
             number = (x >> level & 1) | (y >> level & 1) << 1 | (z >> level & 1) << 2
-            node = node.children.setdefault(number, Node())
+            node = node.children.setdefault(number, OctreeNode())
         for name, value in values.items():
             setattr(node, name, value)
 
@@ -47,21 +47,21 @@ class Node:
         return self.log_odds
 
 
-def octree(voxels: Iterable[Key], log_odds: float = 3.5, depth: int = 16) -> Node:
+def octree(voxels: Iterable[Key], log_odds: float = 3.5, depth: int = 16) -> OctreeNode:
     """A tree of voxels of one depth."""
-    root = Node()
+    root = OctreeNode()
     for key in voxels:
         root.place(key, depth, log_odds=log_odds)
     return root
 
 
-def binary(root: Node, resolution: float = 0.1, kind: str = "OcTree") -> dict[str, Any]:
+def binary(root: OctreeNode, resolution: float = 0.1, kind: str = "OcTree") -> dict[str, Any]:
     """The tree as a binary message."""
     root.settle()
     return {"id": kind, "binary": True, "resolution": resolution, "data": _binary(root)}
 
 
-def full(root: Node, resolution: float = 0.1, kind: str = "OcTree") -> dict[str, Any]:
+def full(root: OctreeNode, resolution: float = 0.1, kind: str = "OcTree") -> dict[str, Any]:
     """The tree as a full message; the kind decides whether it has colours."""
     root.settle()
     data = _full(root, kind.startswith("Color"))
@@ -73,7 +73,7 @@ def signed(data: bytes) -> list[int]:
     return list(struct.unpack(f"{len(data)}b", data))
 
 
-def _binary(node: Node) -> list[int]:
+def _binary(node: OctreeNode) -> list[int]:
     """Bytes as int8."""
     bits = 0
     for number, child in node.children.items():
@@ -86,7 +86,7 @@ def _binary(node: Node) -> list[int]:
     return data
 
 
-def _full(node: Node, has_color: bool) -> bytes:
+def _full(node: OctreeNode, has_color: bool) -> bytes:
     data = struct.pack("<f", node.log_odds)
     if has_color:
         data += bytes(node.color)

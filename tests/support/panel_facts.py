@@ -31,8 +31,8 @@ class LonePanel(Generic[P]):
     def __init__(self, panel: P, **facts: Any) -> None:
         self.panel = panel
         self.ui = RecordedUi()
-        self.sent: list[Any] = []
-        panel.build(self.ui, lambda command, browser=None: self.sent.append(command))
+        self.commands: list[Any] = []
+        panel.build(self.ui, lambda command, browser=None: self.commands.append(command))
         self.state = State(panels=(PanelTab("id", "Panel", panel),), **facts)
         self.show()
 

@@ -19,9 +19,9 @@ def zed_box(center: tuple[float, float, float], size: tuple[float, float, float]
     return {"corners": [{"kp": corner} for corner in corners]}
 
 
-def zed_keypoints(found: Iterable[tuple[float, float, float]]) -> Values:
+def zed_keypoints(keypoints: Iterable[tuple[float, float, float]]) -> Values:
     """The joints of a skeleton; the rest of the 70 are zero, as the SDK's wrapper sends them."""
-    points = [{"kp": each} for each in found]
+    points = [{"kp": each} for each in keypoints]
     return {"keypoints": points + [{"kp": (0.0, 0.0, 0.0)}] * (70 - len(points))}
 
 

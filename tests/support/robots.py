@@ -15,12 +15,20 @@ from webviz_urdf import Robot, load_file
 DEMO = Path(webviz_urdf.__file__).parent / "demo/robot.urdf"
 
 
-def robots_folder() -> Path:
+def find_robots() -> Path | None:
+    """The folder of example-robot-data, if it is installed."""
     try:
         package = metadata.distribution("example-robot-data")
     except metadata.PackageNotFoundError:
-        pytest.skip("example-robot-data is not installed (it is in the extra 'test')")
+        return None
     return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))
+
+
+def robots_folder() -> Path:
+    """The folder of example-robot-data; skips the test if it is not installed."""
+    if (folder := find_robots()) is None:
+        pytest.skip("example-robot-data is not installed (it is in the extra 'test')")
+    return folder
 
 
 def link_poses(robot: Robot) -> dict[str, Pose]:
@@ -37,9 +45,9 @@ def link_poses(robot: Robot) -> dict[str, Pose]:
     return poses
 
 
-def place_links(seen: Shown, file: Path, below: str = "map") -> None:
+def place_links(harness: Shown, file: Path, below: str = "map") -> None:
     """Transforms of a robot with all joints at zero, its root on the origin of a frame."""
     for link, pose in link_poses(load_file(file)).items():
         w, x, y, z = pose.wxyz
         if link != below:
-            seen.transform(below, link, pose.position, (x, y, z, w))
+            harness.transform(below, link, pose.position, (x, y, z, w))

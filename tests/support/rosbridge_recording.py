@@ -23,7 +23,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from bridges import SCAN, STRING, TF, Reader, reading
+from bridges import SCAN, STRING, TF, BridgeReader, reading
+from serving import serving
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
@@ -65,16 +66,16 @@ class Replay:
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
     def _load(self, path: Path) -> None:
-        asked: dict[str, str] = {}
+        calls: dict[str, str] = {}
         for is_client, frame in read(path):
             if isinstance(frame, bytes):
                 self._messages.setdefault(_topic(frame), []).append(frame)
                 continue
             text = json.loads(frame)
             if is_client and text["op"] == "call_service":
-                asked[text["id"]] = _call(text)
-            elif not is_client and text["id"] in asked:
-                self._answers.setdefault(asked[text["id"]], []).append(text)
+                calls[text["id"]] = _call(text)
+            elif not is_client and text["id"] in calls:
+                self._answers.setdefault(calls[text["id"]], []).append(text)
 
     def _talk(self, connection: ServerConnection) -> None:
         self._connections.add(connection)
@@ -154,12 +155,11 @@ def recording(url: str, frames: list[tuple[bool, Frame]]) -> Iterator[str]:
         except ConnectionClosed:
             return
 
-    with serve(talk, "127.0.0.1", 0, compression=None, max_size=None) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
+    with serving(serve(talk, "127.0.0.1", 0, compression=None, max_size=None)) as server:
         yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
 
 
-def do_all(reader: Reader, count: int = EACH) -> None:
+def do_all(reader: BridgeReader, count: int = EACH) -> None:
     """Do what tests compare with the recording, after so many messages of /odom."""
     reader.until_up()
     types: dict[str, Any] = {"scan": SCAN, "tf": TF, "tf_static": TF, "map": MAP, "odom": ODOMETRY}

@@ -13,7 +13,7 @@ EMPTY = ("", "~", "null", [])
 """RViz writes empty lists as ~."""
 
 
-def lost(before: Any, after: Any, path: str = "") -> Iterator[str]:
+def differences(before: Any, after: Any, path: str = "") -> Iterator[str]:
     """Paths of `before` that `after` has not, or not with this value; trees of `texts`.
 
     Scalars are the same if they are the same text, or numbers equal in single precision, which is
@@ -22,12 +22,12 @@ def lost(before: Any, after: Any, path: str = "") -> Iterator[str]:
     if isinstance(before, dict) and isinstance(after, dict):
         for key, value in before.items():
             if key in after:
-                yield from lost(value, after[key], f"{path}/{key}")
+                yield from differences(value, after[key], f"{path}/{key}")
             else:
                 yield f"{path}/{key}"
     elif isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
         for index, (a, b) in enumerate(zip(before, after, strict=True)):
-            yield from lost(a, b, f"{path}[{index}]")
+            yield from differences(a, b, f"{path}[{index}]")
     elif not _is_same_scalar(before, after):
         yield path
 

@@ -66,10 +66,10 @@ def _part(node: ast.expr) -> str:
 
 
 def _in_script(source: str) -> Iterator[tuple[int, str]]:
-    for found in SCRIPT.finditer(source):
-        text = found[1] or found[2]
+    for match in SCRIPT.finditer(source):
+        text = match[1] or match[2]
         if text and " " in text:
-            yield source.count("\n", 0, found.start()) + 1, re.sub(r"\$\{[^}]*\}", "{...}", text)
+            yield source.count("\n", 0, match.start()) + 1, re.sub(r"\$\{[^}]*\}", "{...}", text)
 
 
 if __name__ == "__main__":

@@ -19,9 +19,9 @@ def several(
     """Let `make` be called again and again, and end all that it made, the newest first."""
     with ExitStack() as stack:
 
-        def made(*args: Any, **options: Any) -> T:
+        def make_one(*args: Any, **options: Any) -> T:
             one = make(*args, **options)
             stack.callback(end, one)
             return one
 
-        yield made
+        yield make_one

@@ -13,8 +13,10 @@ from webviz.engine.state import State
 
 def shown_by(store: str, state: State, argument: str = "") -> dict[str, Any]:
     """Return the values of a store by key, as JSON brings them to a page."""
-    given = GivenParts()
-    given.show(state)
-    (part,) = (each for each in given.parts if store in stores_of(type(each)))
-    made = stores_of(type(part))[store].make(part, argument)
-    return {} if made is None else msgspec.json.decode(msgspec.json.encode(made.by_key()))
+    given_parts = GivenParts()
+    given_parts.show(state)
+    (part,) = (each for each in given_parts.parts if store in stores_of(type(each)))
+    page_store = stores_of(type(part))[store].make(part, argument)
+    return (
+        {} if page_store is None else msgspec.json.decode(msgspec.json.encode(page_store.by_key()))
+    )

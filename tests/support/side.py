@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import playwright.sync_api as playwright
 import pytest
 
@@ -9,6 +11,8 @@ from webviz.shell.pictures.browser import Page
 
 GLOBAL_OPTIONS = "Global Options"
 PATIENCE_S = 60.0
+SELECTED_S = 5.0
+"""Time in seconds in which a page shows what a click selected."""
 
 
 class Side:
@@ -20,9 +24,19 @@ class Side:
         self.properties = page.tab.get_by_role("region", name="Properties", exact=True)
 
     def select(self, name: str) -> None:
-        """Click on a display."""
-        self.tab.get_by_role("treeitem", name=name, exact=True).click(timeout=PATIENCE_S * 1000)
-        playwright.expect(self.properties.get_by_role("heading")).to_have_text(name)
+        """Click on a display, again if a card above the list has moved another one there."""
+        row = self.tab.get_by_role("treeitem", name=name, exact=True)
+        heading = self.properties.get_by_role("heading").and_(
+            self.tab.get_by_text(name, exact=True)
+        )
+
+        def is_selected() -> bool:
+            row.click(timeout=PATIENCE_S * 1000)
+            with contextlib.suppress(playwright.TimeoutError):
+                heading.wait_for(timeout=SELECTED_S * 1000)
+            return heading.is_visible()
+
+        self.page.wait_for(is_selected, f"the properties of {name}", PATIENCE_S)
 
     def field(self, path: str) -> playwright.Locator:
         """The control of a property of the selected display."""

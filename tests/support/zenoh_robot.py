@@ -65,16 +65,16 @@ def config(mode: str, connect: str = "", listen: str = "", **values: Any) -> zen
         connect, listen: endpoints.
         values: further ones, with `__` for slashes.
     """
-    made = zenoh.Config()
-    made.insert_json5("mode", json.dumps(mode))
-    made.insert_json5("scouting/multicast/enabled", "false")
-    made.insert_json5("timestamping/enabled", "true")  # as rmw_zenoh_cpp, for caches
-    made.insert_json5("connect/endpoints", json.dumps([connect] if connect else []))
+    zenoh_config = zenoh.Config()
+    zenoh_config.insert_json5("mode", json.dumps(mode))
+    zenoh_config.insert_json5("scouting/multicast/enabled", "false")
+    zenoh_config.insert_json5("timestamping/enabled", "true")  # as rmw_zenoh_cpp, for caches
+    zenoh_config.insert_json5("connect/endpoints", json.dumps([connect] if connect else []))
     if listen:
-        made.insert_json5("listen/endpoints", json.dumps([listen]))
+        zenoh_config.insert_json5("listen/endpoints", json.dumps([listen]))
     for key, value in values.items():
-        made.insert_json5(key.replace("__", "/"), json.dumps(value))
-    return made
+        zenoh_config.insert_json5(key.replace("__", "/"), json.dumps(value))
+    return zenoh_config
 
 
 class ZenohRouter:
@@ -111,14 +111,14 @@ class ZenohRobot:
         self.namespace, _, self.name = node.rpartition("/")
         self._ids = itertools.count(1)
         self._sequence = itertools.count(1)
-        self._kept: list[Any] = []
+        self._entities: list[Any] = []
         mangled = pamoja.percent_mangle(self.namespace or "/")
         self.declare(f"@ros2_lv/{domain}/{self.zid}/0/0/NN/%/{mangled}/{self.name}")
 
     def declare(self, token: str) -> Any:
         """Declare a token, whatever it says."""
         declared = self.session.liveliness().declare_token(token)
-        self._kept.append(declared)
+        self._entities.append(declared)
         return declared
 
     def token(self, kind: str, topic: str, type: str, hash: str = "", qos: str = "") -> str:
@@ -160,14 +160,14 @@ class ZenohRobot:
             if is_blocking
             else zenoh.CongestionControl.DROP,
         )
-        self._kept.append(declared)
+        self._entities.append(declared)
         token = self.token("MP", topic, type, hash, f":{1 if is_latched else ''}:,10:,:,:,,")
         gid = xxhash.xxh3_128_intdigest(token.encode()).to_bytes(16, "little")
 
         def publish(values: Mapping[str, Any] | bytes) -> None:
             cdr = values if isinstance(values, bytes) else encode(type, values)
-            sent = robot_attachment(next(self._sequence), time.time_ns(), gid)
-            declared.put(cdr, attachment=sent)
+            attachment = robot_attachment(next(self._sequence), time.time_ns(), gid)
+            declared.put(cdr, attachment=attachment)
 
         return publish
 
@@ -181,7 +181,7 @@ class ZenohRobot:
             assert sample.attachment is not None, "rmw_zenoh_cpp drops messages without one"
             results.append((decode(type, sample.payload.to_bytes()), sample.attachment.to_bytes()))
 
-        self._kept.append(self.session.declare_subscriber(key, take))
+        self._entities.append(self.session.declare_subscriber(key, take))
         self.token("MS", topic, type)
         return results
 
@@ -203,7 +203,7 @@ class ZenohRobot:
             response = encode(f"{type}_Response", answer(request))
             query.reply(key, response, attachment=query.attachment)
 
-        self._kept.append(self.session.declare_queryable(key, reply, complete=True))
+        self._entities.append(self.session.declare_queryable(key, reply, complete=True))
         self.token("SS", name, type, hash)
 
     def action(
@@ -274,14 +274,14 @@ class BridgedRobot:
         self.zid = str(self.session.zid())
         self._prefix = f"{namespace}/" if namespace else ""
         own = self.session.liveliness().declare_token(f"@/{self.zid}/@ros2_lv")
-        self._kept: list[Any] = [own]
+        self._entities: list[Any] = [own]
 
     def token(self, kind: str, name: str, type: str, qos: str = "") -> str:
         """Declare a route; return its key."""
         key = f"{self._prefix}{name.removeprefix('/')}"
         token = f"@/{self.zid}/@ros2_lv/{kind}/{key.replace('/', '§')}/{type.replace('/', '§')}"
         token += f"/{qos}" if qos else ""
-        self._kept.append(self.session.liveliness().declare_token(token))
+        self._entities.append(self.session.liveliness().declare_token(token))
         return key
 
     def publisher(
@@ -293,14 +293,14 @@ class BridgedRobot:
         declared = zenoh.ext.declare_advanced_publisher(
             self.session, key, cache=cache, publisher_detection=is_latched
         )
-        self._kept.append(declared)
+        self._entities.append(declared)
         return lambda values: declared.put(encode(type, values))
 
     def subscription(self, topic: str, type: str) -> list[Any]:
         """Return the messages of a topic, as they arrive."""
         key = self.token("MS", topic, type, ":1:0:0,10")
         results: list[Any] = []
-        self._kept.append(
+        self._entities.append(
             self.session.declare_subscriber(
                 key, lambda sample: results.append(decode(type, sample.payload.to_bytes()))
             )
@@ -319,7 +319,7 @@ class BridgedRobot:
             request = decode(f"{type}_Request", query.payload.to_bytes())
             query.reply(key, encode(f"{type}_Response", answer(request)))
 
-        self._kept.append(self.session.declare_queryable(key, reply))
+        self._entities.append(self.session.declare_queryable(key, reply))
 
     def close(self) -> None:
         """End it."""

@@ -16,7 +16,11 @@ from zenoh_robot import ZenohRobot, ZenohRouter
 def main() -> None:
     """Publish until the standard input ends."""
     endpoint = sys.argv[1]
-    alone: Any = {"transport__shared_memory__enabled": False}
+    alone: Any = {
+        "transport__shared_memory__enabled": False,
+        # Zenoh ends a connection that takes nothing for five seconds, as a busy machine may.
+        "transport__link__tx__queue__congestion_control__block__wait_before_close": 60_000_000,
+    }
     router = ZenohRouter(**alone) if endpoint == "0" else None
     robot = ZenohRobot(router.endpoint if router else endpoint, **alone)
     type = "std_msgs/msg/String"

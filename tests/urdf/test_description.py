@@ -51,7 +51,7 @@ def test_shapes_of_one_name_get_names_of_their_own(load):
     assert [shape.name for shape in robot.links["l"].visuals] == ["a_2", "a", "a_2_2"]
 
 
-def test_collisions_are_left_out_when_not_wanted():
+def test_collisions_are_loaded_only_on_request():
     robot = load_robot(ARM, Resolver(ament_prefix_path=""), collisions=False)
     assert robot.links["tip"].collisions == ()
     assert len(robot.links["tip"].visuals) == 2
@@ -60,7 +60,7 @@ def test_collisions_are_left_out_when_not_wanted():
 def test_progress_counts_every_shape_up_to_the_total():
     calls = []
     load_robot(
-        ARM, Resolver(ament_prefix_path=""), lambda done, total, link: calls.append((done, total))
+        ARM, Resolver(ament_prefix_path=""), lambda count, total, link: calls.append((count, total))
     )
     assert calls == [(0, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
 
@@ -109,7 +109,7 @@ def test_a_real_robot_with_an_undeclared_prefix_is_read(load):
     assert (robot.name, len(robot.links), len(robot.joints)) == ("fetch", 25, 24)
 
 
-def test_what_follows_a_nul_is_not_read(load):
+def test_text_after_a_nul_is_ignored(load):
     assert load(ARM + "\0</robot>").name == "arm"
 
 

@@ -3,29 +3,18 @@
 from __future__ import annotations
 
 import functools
-from importlib import metadata
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from robots import link_poses
+from robots import find_robots, link_poses
 
 from webviz import compose
 from webviz.api.nodes import Glb, Mesh
 from webviz.data.rotations import matrices
 from webviz_urdf import RobotDescriptionError, inertia_box, load_file, mass_sphere
 
-
-def robots_folder() -> Path | None:
-    try:
-        package = metadata.distribution("example-robot-data")
-    except metadata.PackageNotFoundError:
-        return None
-    return Path(str(package.locate_file("cmeel.prefix/share/example-robot-data/robots")))
-
-
-ROBOTS = robots_folder()
+ROBOTS = find_robots()
 FILES = sorted(str(f.relative_to(ROBOTS)) for f in ROBOTS.rglob("*.urdf")) if ROBOTS else []
 pytestmark = pytest.mark.skipif(
     not FILES, reason="example-robot-data is not installed (it is in the extra 'test')"
@@ -44,7 +33,7 @@ def test_there_are_69_robots():
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_every_visual_is_drawn_or_said_to_be_missing(file):
+def test_every_visual_is_drawn_or_reported_as_missing(file):
     assert ROBOTS is not None
     declared = ElementTree.parse(ROBOTS / file).getroot()
     if declared.find("link") is None:
@@ -53,9 +42,9 @@ def test_every_visual_is_drawn_or_said_to_be_missing(file):
         return
     robot = load(file)
     for kind in ("visual", "collision"):
-        drawn = sum(len(getattr(link, f"{kind}s")) for link in robot.links.values())
+        count = sum(len(getattr(link, f"{kind}s")) for link in robot.links.values())
         missing = [m for m in robot.missing if m.kind == kind]
-        assert drawn + len(missing) == len(declared.findall(f"link/{kind}"))
+        assert count + len(missing) == len(declared.findall(f"link/{kind}"))
         # romeo_laas_small names meshes in Ogre's format on its author's disk.
         assert not missing or "romeo_laas" in file
     assert link_poses(robot).keys() == robot.links.keys()

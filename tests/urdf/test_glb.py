@@ -108,13 +108,13 @@ def test_recolouring_keeps_the_geometry_and_the_original(two_parts):
 
 
 @pytest.mark.parametrize("data", [b"", b"glTF", b"x" * 100])
-def test_what_is_no_glb_is_refused(data):
+def test_an_invalid_glb_is_refused(data):
     with pytest.raises(ValueError, match="not a binary glTF"):
         glb_with(data, alpha=0.5)
 
 
 @pytest.mark.parametrize("text", [b"{", b'{"a": "\xff"}', b"[" * 100_000])
-def test_what_is_no_json_in_a_glb_is_refused(text):
+def test_invalid_json_in_a_glb_is_refused(text):
     data = b"glTF\x02\0\0\0" + struct.pack("<II", 20 + len(text), len(text)) + b"JSON" + text
     with pytest.raises(ValueError, match="JSON of the binary glTF is invalid"):
         glb_with(data, alpha=0.5)

@@ -69,7 +69,7 @@ def test_the_box_of_a_cube_keeps_the_axes_of_the_description():
         (1e-300, np.eye(3)),
     ],
 )
-def test_what_no_body_has_is_not_drawn(mass, inertia):
+def test_impossible_inertias_are_not_drawn(mass, inertia):
     assert inertia_box(link(mass, inertia)) is None
 
 

@@ -57,11 +57,11 @@ def test_composing_poses_is_multiplying_their_matrices(a, b):
 
 
 @pytest.mark.parametrize(
-    ("given", "axis"),
+    ("element", "axis"),
     [("", (1, 0, 0)), ("<axis xyz='0 2 0'/>", (0, 1, 0)), ("<axis xyz='0 0 0'/>", (0, 0, 0))],
 )
-def test_an_axis_is_x_by_default_has_length_one_and_may_be_zero(given, axis):
-    assert chain(f"revolute {given}").joints["j1"].axis == axis
+def test_an_axis_is_x_by_default_has_length_one_and_may_be_zero(element, axis):
+    assert chain(f"revolute {element}").joints["j1"].axis == axis
 
 
 @pytest.mark.parametrize(

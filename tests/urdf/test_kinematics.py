@@ -48,7 +48,7 @@ def test_links_are_where_yourdfpy_places_them(file: str) -> None:
             np.testing.assert_allclose(turn[:3, :3], expected[:3, :3], atol=1e-9)
 
 
-def test_a_joint_moves_what_hangs_below_it_and_nothing_else() -> None:
+def test_a_joint_moves_only_its_descendants() -> None:
     links = "".join(f"<link name='{name}'/>" for name in "abcdef")
     robot = loaded(
         links

@@ -149,7 +149,7 @@ def test_loading_waits_for_the_memory_that_it_may_take(start, slow_dae, monkeypa
     assert last.result(60).name == "r"
 
 
-def test_what_finds_no_memory_beside_other_robots_is_refused(start, monkeypatch):
+def test_a_robot_over_the_memory_budget_is_refused(start, monkeypatch):
     monkeypatch.setattr(loading, "DECODING", MemoryBudget(1_000_000_000, 0))
     with pytest.raises(
         RobotDescriptionError,
@@ -167,14 +167,14 @@ def test_a_robot_gives_its_memory_back(start):
     assert DECODING.room >= before
 
 
-def test_a_description_at_which_the_process_hangs_is_refused(start, monkeypatch):
+def test_a_description_that_hangs_the_process_is_refused(start, monkeypatch):
     monkeypatch.setattr(loading, "START_S", 0.0)
     with pytest.raises(RobotDescriptionError, match="took longer than 0 s"):
         start(BOX)[1].result(60)
     assert processes() == []
 
 
-def test_what_is_wrong_with_a_description_is_said_and_the_process_kept(start):
+def test_an_invalid_description_is_reported_and_the_process_kept(start):
     with pytest.raises(RobotDescriptionError, match="is empty"):
         start("")[1].result(60)
     assert len(processes()) == 1

@@ -224,7 +224,7 @@ def test_a_broken_mesh_file_is_missing_with_a_reason_in_one_line(tmp_path, one_m
 @pytest.mark.parametrize(
     ("before", "after"), [(b"  \n", b""), (b"", b"\0\0 7 8 <"), (b"\n", b"\0")]
 )
-def test_space_before_a_collada_file_and_what_follows_a_nul_are_ignored(
+def test_space_before_a_collada_file_and_bytes_after_a_nul_are_ignored(
     tmp_path, one_mesh, only_node, tetrahedron_dae, before, after
 ):
     path = tmp_path / "a.dae"

@@ -90,7 +90,7 @@ def test_a_package_path_may_not_leave_its_package(tmp_path, path):
 
 
 @pytest.mark.parametrize("uri", ["package://../secret", "package://./secret", "package://.."])
-def test_dots_are_no_package(tmp_path, uri):
+def test_dots_are_not_a_package(tmp_path, uri):
     (tmp_path / "share").mkdir()
     (tmp_path / "secret").write_text("secret")
     with pytest.raises(ResolveError, match="neither on AMENT_PREFIX_PATH"):
@@ -108,7 +108,7 @@ def test_symbolic_links_of_a_symlink_install_are_followed(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["{}/secret", "file://{}/secret", "file://{}/pkg/../secret"])
-def test_what_lies_outside_is_refused_and_the_remedy_named(tmp_path, name):
+def test_a_file_outside_of_the_roots_is_refused_with_the_remedy(tmp_path, name):
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "secret").write_text("secret")
     resolver = Resolver([tmp_path / "pkg"], ament_prefix_path="")
@@ -201,7 +201,7 @@ def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
         ("file://[/a", "not a usable path"),
     ],
 )
-def test_what_cannot_be_found_is_refused_in_one_sentence(uri, words):
+def test_a_missing_file_is_refused_in_one_sentence(uri, words):
     with pytest.raises(ResolveError) as caught:
         Resolver(ament_prefix_path="").resolve(uri)
     assert words in str(caught.value)

@@ -58,7 +58,7 @@ def test_a_count_of_zero_is_that_of_the_bytes(tmp_path: Path, stl: bytes) -> Non
     assert triangles(path) == 12
 
 
-def test_a_file_that_was_cut_off_says_so(tmp_path: Path, stl: bytes) -> None:
+def test_a_truncated_file_is_reported(tmp_path: Path, stl: bytes) -> None:
     (path := tmp_path / "a.stl").write_bytes(stl[:-1])
     with pytest.raises(MeshError, match="cut off after 11 of 12 triangles"):
         triangles(path)

@@ -91,7 +91,7 @@ def test_a_xacro_file_is_bounded(path, running, monkeypatch, body, reason):
 
 
 @pytest.mark.parametrize("name", ["/proc/kmsg", "/proc/self/mem", "/dev/zero", "/proc/version"])
-def test_files_of_the_kernel_are_no_descriptions(name):
+def test_files_of_the_kernel_are_not_descriptions(name):
     if not Path(name).exists():
         pytest.skip(f"{name} is missing")
     with pytest.raises(RobotDescriptionError, match="cannot be read: "):

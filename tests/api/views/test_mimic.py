@@ -47,7 +47,7 @@ def seen_as(view: View, cls: type[Any]) -> Any:
     return mimic(view, rig_of(view, None), other, rig_of(other, None), HEIGHT)
 
 
-def seen(view: View) -> Camera:
+def camera_at(view: View) -> Camera:
     """Return the camera of a view in the fixed frame."""
     return rig_of(view, None).outward(camera_of(view, HEIGHT))
 
@@ -62,7 +62,7 @@ def same_picture(a: Camera, b: Camera) -> bool:
 def test_orbit_and_fps_show_the_same_picture(view: Orbit) -> None:
     fps = seen_as(view, FPS)
     assert isinstance(fps, FPS)
-    assert same_picture(seen(fps), seen(view))
+    assert same_picture(camera_at(fps), camera_at(view))
 
 
 @given(st.floats(1, 500), st.floats(0.1, 1.5), st.floats(-9, 9))
@@ -77,7 +77,7 @@ def test_a_view_of_the_ground_comes_back_from_fps(distance: float, pitch: float,
 def test_xy_orbit_shows_the_same_picture_with_its_focal_point_on_the_ground(view: Orbit) -> None:
     xy = seen_as(view, XYOrbit)
     assert isinstance(xy, XYOrbit)
-    assert same_picture(seen(xy), seen(view))
+    assert same_picture(camera_at(xy), camera_at(view))
 
 
 def test_the_focal_point_of_xy_orbit_is_on_the_ground() -> None:
@@ -129,7 +129,7 @@ def test_an_inverted_orbit_is_where_rviz_puts_it(view: Orbit) -> None:
     """RViz negates yaw and pitch and keeps the focal point."""
     inverted = msgspec.structs.replace(view, invert_z_axis=True)
     mirrored = msgspec.structs.replace(view, yaw=-view.yaw, pitch=-view.pitch, invert_z_axis=False)
-    assert same_picture(seen(inverted), seen(mirrored))
+    assert same_picture(camera_at(inverted), camera_at(mirrored))
 
 
 @given(ALIGNED_VIEWS, st.floats(-3.0, 3.0), st.floats(-1.5, 1.5))
@@ -158,11 +158,11 @@ def test_an_aligned_view_is_fixed_in_its_frame(
 def test_an_aligned_view_begins_5_m_behind_its_frame_along_an_axis(
     axis: str, forward: tuple[float, ...], is_inverted: bool
 ) -> None:
-    given = {"type": "FrameAligned", "point_towards": f"{axis} axis", "invert_z_axis": is_inverted}
-    view = zero(msgspec.convert(given | {"position": (1, 2, 3), "lock_camera": True}, View))
+    values = {"type": "FrameAligned", "point_towards": f"{axis} axis", "invert_z_axis": is_inverted}
+    view = zero(msgspec.convert(values | {"position": (1, 2, 3), "lock_camera": True}, View))
     assert isinstance(view, FrameAligned)
     assert (view.lock_camera, view.invert_z_axis) == (True, is_inverted)
-    camera = seen(view)
+    camera = camera_at(view)
     assert camera.position == pytest.approx(-5.0 * np.array(forward), abs=1e-5)
     line = (camera.look_at - camera.position) / camera.distance
     assert line == pytest.approx(np.array(forward), abs=2e-3)
@@ -177,8 +177,8 @@ BOXES = st.tuples(
 @given(st.one_of(ORBITS, FPS_VIEWS), RIGS, BOXES)
 def test_a_box_in_focus_is_all_in_the_picture(view: View, rig: Rig, box: Any) -> None:
     low, size = np.array(box[0]), np.array(box[1])
-    seen = focus(view, rig, low, low + size, WIDTH, HEIGHT)
-    camera = rig.outward(camera_of(seen, HEIGHT))
+    focused = focus(view, rig, low, low + size, WIDTH, HEIGHT)
+    camera = rig.outward(camera_of(focused, HEIGHT))
     forward = (camera.look_at - camera.position) / camera.distance
     right = np.cross(forward, (0.0, 0.0, 1.0))
     right /= np.linalg.norm(right)

@@ -25,7 +25,7 @@ from webviz.api.views import (
 
 
 @given(VIEWS)
-def test_a_camera_tells_the_view_it_was_placed_for(view: View) -> None:
+def test_a_camera_gives_back_the_view_it_was_placed_for(view: View) -> None:
     again = view_of(like(type(view), view), camera_of(view, 600), 600)
     assert type(again) is type(view)
     for field in view.__struct_fields__:
@@ -76,7 +76,7 @@ def test_a_camera_for_a_view_from_above_is_over_its_middle_and_leans_to_where_up
     np.testing.assert_allclose(back, (1e-5, 0, 1), atol=1e-9)  # up in the picture is -x
 
 
-def test_what_no_view_can_have_is_kept_within_limits() -> None:
+def test_cameras_outside_the_limits_of_a_view_are_clamped() -> None:
     straight_down = Camera(np.array((0.0, 0.0, 5.0)), np.zeros(3))
     view = view_of(Orbit(), straight_down, 600)
     assert view.pitch == 1.5698

@@ -51,8 +51,8 @@ def main() -> int:
                 if options.json:
                     options.json.write_text(f"{_report(options, cases, failures)}\n")
     if cases:
-        made = json.loads(_report(options, cases, failures))
-        print(report.facts(made), report.table([made], report.TITLES), sep="\n\n")
+        contents = json.loads(_report(options, cases, failures))
+        print(report.facts(contents), report.table([contents], report.TITLES), sep="\n\n")
     return 0 if cases else 1
 
 
@@ -66,8 +66,8 @@ def _report(options: argparse.Namespace, cases: Cases, failures: list[tuple[str,
         "rounds": options.rounds,
         "cores": options.cores,
     }
-    made = {**facts, "rows": rows(cases), "failures": failures}
-    return json.dumps(made, indent=1, default=asdict)
+    contents = {**facts, "rows": rows(cases), "failures": failures}
+    return json.dumps(contents, indent=1, default=asdict)
 
 
 def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
@@ -86,9 +86,9 @@ def _case(scene: str, system: str, options: argparse.Namespace) -> CaseResult:
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="side_by_side", description=__doc__)
 
-    def names(known: dict[str, Any], usual: Sequence[object] = ()) -> dict[str, Any]:
-        default, choices = [str(name) for name in usual or known], ", ".join(known)
-        return {"nargs": "+", "default": default, "choices": list(known), "help": choices}
+    def names(available: dict[str, Any], usual: Sequence[object] = ()) -> dict[str, Any]:
+        default, choices = [str(name) for name in usual or available], ", ".join(available)
+        return {"nargs": "+", "default": default, "choices": list(available), "help": choices}
 
     parser.add_argument("--scenes", **names(SCENES))
     parser.add_argument("--systems", **names(SYSTEMS))

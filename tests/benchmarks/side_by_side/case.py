@@ -103,12 +103,12 @@ class Case:
         python = [sys.executable, "-m", "side_by_side.publisher"]
         try:
             self._publisher = self._start([*python, self.scene.name, str(self._log)], "publisher")
-            _said(self._publisher, "publishing")
+            _line(self._publisher, "publishing")
             self.started = time.monotonic()
             self.program = self._start(self.system.command(self.scene, self.folder), "system")
             if self._computer is not None:
                 self._computer.take(self.program.process.pid)
-            self.port = int(_said(self.program, r"127\.0\.0\.1:(\d+)|listening").group(1) or 0)
+            self.port = int(_line(self.program, r"127\.0\.0\.1:(\d+)|listening").group(1) or 0)
             self.process = psutil.Process(self.program.process.pid)
         except BaseException:
             self._stack.close()
@@ -125,7 +125,7 @@ class Case:
 
     def wait_until_steady(self) -> None:
         """Until what is published in advance is out."""
-        _said(self._publisher, "steady")
+        _line(self._publisher, "steady")
 
     def log(self) -> Log:
         """Return the log of publications so far."""
@@ -280,7 +280,7 @@ def _machine_cpu() -> float:
     return times.user + times.nice + times.system
 
 
-def _said(program: Program, pattern: str) -> re.Match[str]:
+def _line(program: Program, pattern: str) -> re.Match[str]:
     try:
         return program.wait_for(pattern, GIVE_UP_S)
     except AssertionError as error:

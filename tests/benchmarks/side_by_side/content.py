@@ -24,11 +24,11 @@ def scans(frame: str, beams: int) -> list[Values]:
     rng = np.random.default_rng(1)
     step = math.tau / beams
     walls = 4 + np.abs(np.sin(np.arange(beams) * step * 2))
-    made = []
+    messages = []
     for _ in range(VARIANTS):
         ranges = (walls + rng.normal(0, 0.02, beams)).astype(np.float32)
         ranges[0] = NO_MARK
-        made.append(
+        messages.append(
             {
                 "header": header(frame),
                 "angle_min": 0.0,
@@ -40,7 +40,7 @@ def scans(frame: str, beams: int) -> list[Values]:
                 "intensities": rng.uniform(0, 100, beams).astype(np.float32),
             }
         )
-    return made
+    return messages
 
 
 def clouds(frame: str, count: int, variants: int = 2) -> list[Values]:
@@ -50,12 +50,12 @@ def clouds(frame: str, count: int, variants: int = 2) -> list[Values]:
     rng = np.random.default_rng(2)
     names = ("name", "offset", "datatype", "count")
     fields = [dict(zip(names, field, strict=True)) for field in [*XYZ, ("intensity", 12, 7, 1)]]
-    made = []
+    messages = []
     for _ in range(variants):
         points = rng.normal(0, 20, (count, 4)).astype(np.float32)
         points[:100] = (NO_MARK, 0, 0, 1)
         points[:, 3] = np.abs(points[:, 3])
-        made.append(
+        messages.append(
             {
                 "header": header(frame),
                 "height": 1,
@@ -67,22 +67,22 @@ def clouds(frame: str, count: int, variants: int = 2) -> list[Values]:
                 "is_dense": True,
             }
         )
-    return made
+    return messages
 
 
 def frames(prefix: str, root: str, count: int, branching: int = 6) -> list[Values]:
     """A tree of frames that all sway; the first is marked and has no children."""
     rng = np.random.default_rng(3)
     places = rng.uniform(-5, 5, (count, 3))
-    made = []
+    messages = []
     for variant in range(VARIANTS):
         angle = 0.05 * math.sin(math.tau * variant / VARIANTS)
         moved = [_moved(root, f"{prefix}mark", (NO_MARK, 0, FRAME_Z), angle)]
         for i in range(1, count):
             parent = root if i <= branching else f"{prefix}{(i - 1) // branching}"
             moved.append(_moved(parent, f"{prefix}{i}", np.abs(places[i]), angle + 0.001 * i))
-        made.append({"transforms": moved})
-    return made
+        messages.append({"transforms": moved})
+    return messages
 
 
 def passing_frames(groups: int, repeats: int, count: int = 8) -> list[Values]:
@@ -101,7 +101,7 @@ def passing_frames(groups: int, repeats: int, count: int = 8) -> list[Values]:
 
 def links(count: int) -> list[Values]:
     """Transforms of the robot of `robot`; its base is marked."""
-    made = []
+    messages = []
     for variant in range(VARIANTS):
         angle = 0.3 * math.sin(math.tau * variant / VARIANTS)
         moved = [_moved("map", "link_0", (NO_MARK, 0, LINK_Z), 0)]
@@ -109,8 +109,8 @@ def links(count: int) -> list[Values]:
             _moved(f"link_{(i - 1) // 3}", f"link_{i}", (0.3, 0.1 * (i % 3), 0.2), angle)
             for i in range(1, count)
         ]
-        made.append({"transforms": moved})
-    return made
+        messages.append({"transforms": moved})
+    return messages
 
 
 def robot(count: int) -> list[Values]:
@@ -144,7 +144,7 @@ def moving(parent: str, child: str) -> list[Values]:
 def maps(size: int, variants: int = 1) -> list[Values]:
     """Square maps of free, occupied and unknown blobs, with a strip in the midst."""
     rng = np.random.default_rng(4)
-    made = []
+    messages = []
     for _ in range(variants):
         coarse = rng.choice([0, 0, 0, 100, -1], (size // 20, size // 20))
         grid = np.kron(coarse, np.ones((20, 20))).astype(np.int8)
@@ -156,8 +156,8 @@ def maps(size: int, variants: int = 1) -> list[Values]:
             "height": size,
             "origin": {"orientation": {"w": 1.0}},
         }
-        made.append({"header": header("map"), "info": info, "data": grid.reshape(-1)})
-    return made
+        messages.append({"header": header("map"), "info": info, "data": grid.reshape(-1)})
+    return messages
 
 
 def map_updates(size: int, edge: int) -> list[Values]:
@@ -166,13 +166,13 @@ def map_updates(size: int, edge: int) -> list[Values]:
     None reaches over a multiple of 256 cells, where a viewer that sends tiles might cut its strip.
     """
     rng = np.random.default_rng(5)
-    made = []
+    messages = []
     for _ in range(VARIANTS):
         corner = rng.integers(0, size // 256, 2) * 256 + rng.integers(0, (256 - edge) // 8, 2) * 8
         x, y = corner.tolist()
         grid = rng.choice([0, 100, -1], (edge, edge)).astype(np.int8)
         grid[: strip.BLOCK, : strip.LENGTH * strip.BLOCK] = 77
-        made.append(
+        messages.append(
             {
                 "header": header("map"),
                 "x": x,
@@ -182,12 +182,12 @@ def map_updates(size: int, edge: int) -> list[Values]:
                 "data": grid.reshape(-1),
             }
         )
-    return made
+    return messages
 
 
 def paths(count: int) -> list[Values]:
     """Lines over ground; the first pose is marked."""
-    made = []
+    messages = []
     for variant in range(VARIANTS):
         along = np.arange(count) * 0.05
         across = np.sin(along + variant / VARIANTS)
@@ -199,17 +199,17 @@ def paths(count: int) -> list[Values]:
             }
             for x, y in rows
         ]
-        made.append({"header": header("map"), "poses": poses})
-    return made
+        messages.append({"header": header("map"), "poses": poses})
+    return messages
 
 
 def odometry() -> list[Values]:
     """A drive round and round, 12 cm a message, always at a new height, which is the mark."""
-    made = []
+    messages = []
     for angle in np.linspace(0, math.tau, 500, endpoint=False):
         position = {"x": 10 * math.cos(angle), "y": 10 * math.sin(angle), "z": NO_MARK}
         pose = {"position": position, "orientation": _yaw(angle)}
-        made.append(
+        messages.append(
             {
                 "header": header("map"),
                 "child_frame_id": "base_link",
@@ -217,7 +217,7 @@ def odometry() -> list[Values]:
                 "twist": {"covariance": np.zeros(36)},
             }
         )
-    return made
+    return messages
 
 
 def depths(width: int, height: int) -> list[Stream]:
@@ -230,11 +230,11 @@ def depths(width: int, height: int) -> list[Stream]:
     walls = 2000 + 1000 * np.sin(columns / 90) + 500 * np.cos(rows / 70)
     left = -FOCAL * 1000 / PER_METRE
     lane = Lane(0, Place.FIRST_POINT, DEPTHS)
-    made = []
+    messages = []
     for variant in range(DEPTHS):
         millimetres = (walls + rng.normal(0, 5, walls.shape)).astype(np.uint16)
         millimetres[0, 0] = round(lane.encode(variant) * PER_METRE)
-        made.append(
+        messages.append(
             {
                 "header": header("optical"),
                 "height": height,
@@ -257,7 +257,7 @@ def depths(width: int, height: int) -> list[Stream]:
     return [
         Stream("/tf_static", "tf2_msgs/msg/TFMessage", 0, static(("map", "optical"))),
         Stream("/depth/camera_info", "sensor_msgs/msg/CameraInfo", 30, [info]),
-        Stream("/depth/image", "sensor_msgs/msg/Image", 30, made, lane),
+        Stream("/depth/image", "sensor_msgs/msg/Image", 30, messages, lane),
     ]
 
 

@@ -22,8 +22,8 @@ class Figure:
     @classmethod
     def of(cls, values: Iterable[float | None]) -> Figure | None:
         """Of the rounds that have it; None if none has."""
-        known = [value for value in values if value is not None]
-        return cls(float(np.median(known)), min(known), max(known)) if known else None
+        numbers = [value for value in values if value is not None]
+        return cls(float(np.median(numbers)), min(numbers), max(numbers)) if numbers else None
 
 
 @dataclass(frozen=True)
@@ -50,14 +50,14 @@ def rows(cases: Sequence[tuple[str, str, CaseResult]]) -> list[Row]:
 
 def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
     late = result.latency
-    published, shown = sum(result.published.values()), sum(result.shown.values())
+    published, drawn_per_s = sum(result.published.values()), sum(result.shown.values())
     is_watched = bool(result.shown) or result.bytes > 0
     return {
         "p50_ms": float(np.percentile(late, 50)) if late else None,
         "p99_ms": float(np.percentile(late, 99)) if late else None,
         "published_per_s": published,
-        "shown_per_s": shown if is_watched else None,
-        "left_out_per_s": published - shown if is_watched else None,
+        "shown_per_s": drawn_per_s if is_watched else None,
+        "left_out_per_s": published - drawn_per_s if is_watched else None,
         "cpu_percent": 100 * result.cpu,
         "megabytes_per_s": result.bytes / 1e6 if is_watched else None,
         "resident_mb": result.rss,

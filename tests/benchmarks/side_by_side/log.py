@@ -63,19 +63,19 @@ class Log:
             if result is not None and since_ns <= result[3] < until_ns:
                 first.setdefault((int(result[0]), int(result[3])), sighting.time_ns)
         late: dict[int, list[tuple[int, float]]] = defaultdict(list)
-        for (lane, published), seen in first.items():
-            late[lane].append((published, (seen - published) / 1e6))
+        for (lane, published), sighted_ns in first.items():
+            late[lane].append((published, (sighted_ns - published) / 1e6))
         return late
 
     def gaps(self, sightings: Iterable[Sighting], until_ns: int) -> dict[int, float]:
         """Seconds of the longest time without a new publication, up to `until_ns`, by lane."""
-        seen: dict[int, dict[int, int]] = defaultdict(dict)
+        times_by_lane: dict[int, dict[int, int]] = defaultdict(dict)
         for sighting in sightings:
             if (result := self._find(sighting)) is not None:
-                seen[int(result[0])].setdefault(int(result[1]), sighting.time_ns)
+                times_by_lane[int(result[0])].setdefault(int(result[1]), sighting.time_ns)
         return {
             lane: max(np.diff([*sorted(times.values()), until_ns])) / 1e9
-            for lane, times in seen.items()
+            for lane, times in times_by_lane.items()
         }
 
     def _between(self, lane: int, since_ns: int, until_ns: int) -> NDArray[np.int64]:

@@ -32,7 +32,7 @@ CHOSEN = {
 TITLES = {name: system.title for name, system in SYSTEMS.items()}
 ALL = 0.98
 """Share of publications that counts as all: some are on their way at the end."""
-SHOWN = ("webviz", "plain viser", "foxglove-sdk")
+COMPARISON = ("webviz", "plain viser", "foxglove-sdk")
 CELL = re.compile(
     r"(?P<cpu>\S+ %)(, (?P<ms>\S+) / \S+ ms)?(, (?P<shown>\S+) of (?P<all>\S+) shown)?"
 )
@@ -83,7 +83,7 @@ def summary(benchmarks: str) -> str:
     head, _, *lines = [_cells(line) for line in lines if line.startswith("|")]
     rows = {line[0]: dict(zip(head, line, strict=True)) for line in lines}
     chosen = [
-        _line(title, *(_in_words(rows[scene][system]) for system in SHOWN))
+        _line(title, *(_in_words(rows[scene][system]) for system in COMPARISON))
         for scene, title in CHOSEN.items()
     ]
     titles = ("", "webviz", "plain viser viewer", "foxglove-sdk bridge, draws nothing")
@@ -114,10 +114,10 @@ def _cell(row: Mapping[str, Any] | None) -> str:
         return ""
     cpu, memory = (_short(_median(row, name)) for name in ("cpu_percent", "resident_mb"))
     p50, p99 = (_short(_median(row, name)) for name in ("p50_ms", "p99_ms"))
-    published, shown = _median(row, "published_per_s"), _median(row, "shown_per_s")
+    published, drawn_per_s = _median(row, "published_per_s"), _median(row, "shown_per_s")
     parts = [f"{cpu} %", *([f"{p50} / {p99} ms"] if p50 else ())]
-    if published and shown is not None and shown < ALL * published:
-        parts.append(f"{_short(shown)} of {_short(published)} shown")
+    if published and drawn_per_s is not None and drawn_per_s < ALL * published:
+        parts.append(f"{_short(drawn_per_s)} of {_short(published)} shown")
     return ", ".join([*parts, f"{memory} MB"])
 
 
@@ -144,8 +144,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="side_by_side.report", description=__doc__)
     parser.add_argument("files", nargs="+", type=Path)
     reports = [json.loads(file.read_text()) for file in parser.parse_args().files]
-    told = dict.fromkeys(map(facts, reports))
-    figures = "\n\n".join([*told, table(reports, TITLES)])
+    setups = dict.fromkeys(map(facts, reports))
+    figures = "\n\n".join([*setups, table(reports, TITLES)])
     BENCHMARKS.write_text(replaced(BENCHMARKS.read_text(), figures))
     README.write_text(replaced(README.read_text(), summary(BENCHMARKS.read_text())))
 

@@ -119,7 +119,7 @@ def run(minutes: float, folder: Path) -> tuple[NDArray[np.float64], NDArray[np.f
     """Times in s (N,), figures in the order of MAX_GROWTH (N, 7), and what went wrong."""
     failures: list[str] = []
     ended = threading.Event()
-    times, rows, seen = [], [], []
+    times, rows, counts = [], [], []
     with contextlib.ExitStack() as stack:
         case = stack.enter_context(Case(SYSTEMS["webviz"], SCENES["soak"], folder))
         page = stack.enter_context(launched()).new_page(viewport={"width": 320, "height": 240})
@@ -141,20 +141,20 @@ def run(minutes: float, folder: Path) -> tuple[NDArray[np.float64], NDArray[np.f
         while (now := time.monotonic() - start) < 60 * minutes:
             times.append(now)
             rows.append(sample(case.process, reader, page))
-            seen.append((time.time_ns(), len(reader.sightings)))
+            counts.append((time.time_ns(), len(reader.sightings)))
             page.wait_for_timeout(1000 * EVERY_S)
             if not reader.is_connected or case.program.process.poll() is not None:
                 failures.append(f"the viewer ended: {case.program.output()[-300:]}")
                 break
-        latencies = list(_latencies(case, reader, seen))
+        latencies = list(_latencies(case, reader, counts))
     figures = np.array(rows)
     return np.array(times), np.insert(figures, 4, latencies, axis=1), failures
 
 
-def _latencies(case: Case, reader: ViserWatcher, seen: list[tuple[int, int]]) -> Iterator[float]:
+def _latencies(case: Case, reader: ViserWatcher, counts: list[tuple[int, int]]) -> Iterator[float]:
     """The median latency in ms between each sample and the next, that of the last twice."""
     log, lane, median = case.log(), case.scene.lane, np.nan
-    for (since, first), (until, last) in itertools.pairwise(seen):
+    for (since, first), (until, last) in itertools.pairwise(counts):
         late = log.latencies(reader.sightings[first:last], since, until).get(lane)
         median = float(np.median(late)) if late else median
         yield median

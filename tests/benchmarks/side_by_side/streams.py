@@ -92,11 +92,11 @@ class Template:
 
 def _places(data: bytes, what: bytes) -> NDArray[np.intp]:
     """The index of every byte of every occurrence: (occurrences, length)."""
-    found, at = [], data.find(what)
+    starts, at = [], data.find(what)
     while at >= 0:
-        found.append(at)
+        starts.append(at)
         at = data.find(what, at + len(what))
-    return np.array(found, np.intp).reshape(-1, 1) + np.arange(len(what))
+    return np.array(starts, np.intp).reshape(-1, 1) + np.arange(len(what))
 
 
 def header(frame: str) -> dict[str, Any]:

@@ -85,7 +85,7 @@ def read(path: Path) -> list[Step]:
     return steps
 
 
-def told(title: str, messages: list[Message]) -> str:
+def summary(title: str, messages: list[Message]) -> str:
     """Say how late messages were."""
     if not messages:
         return f"{title}: none"
@@ -116,8 +116,8 @@ def main() -> int:
         steps = [*read(Path(folder) / "steps.txt"), *heartbeat.steps]
     first_ns = start_ns + FIRST_S * 1e9
     print(f"{published} published")
-    print(told("first minute", [each for each in messages if each.published_ns < first_ns]))
-    print(told("afterwards", [each for each in messages if each.published_ns >= first_ns]))
+    print(summary("first minute", [each for each in messages if each.published_ns < first_ns]))
+    print(summary("afterwards", [each for each in messages if each.published_ns >= first_ns]))
     for message in sorted(messages, key=lambda each: -each.late_ms)[:SLOWEST]:
         print(f"{message.late_ms:8.1f} ms, {(message.published_ns - start_ns) / 1e9:6.1f} s:")
         results = [each for each in steps if each.overlaps(message)]

@@ -54,7 +54,7 @@ class SocketWatcher:
     def __init__(self, socket: WebSocket, scene: Scene | None, stalls: bool = False) -> None:
         self.sightings: list[Sighting] = []
         self._stalls = stalls
-        self._left = threading.Event()
+        self._end = threading.Event()
         self._socket = socket
         self._scene = scene
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -72,7 +72,7 @@ class SocketWatcher:
 
     def close(self) -> None:
         """Leave."""
-        self._left.set()
+        self._end.set()
         self._socket.close()
         self._thread.join()
 
@@ -90,7 +90,7 @@ class SocketWatcher:
                 now_ns = time.time_ns()
                 self.hear(kind, data)
                 if self._stalls and kind == Opcode.BINARY:
-                    self._left.wait()
+                    self._end.wait()
                 if self._scene is not None and kind == Opcode.BINARY:
                     self.sightings += self.recognise(self._scene, data, now_ns)
         except Closed:

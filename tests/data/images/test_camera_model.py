@@ -63,7 +63,7 @@ def test_without_p_a_camera_has_k() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "sentence"),
     [
         ({"p": [0.0] * 12, "k": [0.0] * 9}, "not calibrated"),
         ({"p": [float("nan")] * 12}, "focal lengths nan"),
@@ -78,10 +78,10 @@ def test_without_p_a_camera_has_k() -> None:
         ({"width": 0}, "0 x 480"),
     ],
 )
-def test_what_no_camera_can_be_is_named(changes: dict[str, Any], told: str) -> None:
+def test_invalid_camera_infos_are_refused(changes: dict[str, Any], sentence: str) -> None:
     with pytest.raises(ImageError) as error:
         CameraModel.of(info(**changes))
-    assert told in str(error.value)
+    assert sentence in str(error.value)
 
 
 @pytest.mark.parametrize(

@@ -81,16 +81,16 @@ def bomb(edge: int) -> bytes:
 
 
 @pytest.mark.parametrize("format_", ["jpeg", "png", "webp"])
-def test_the_data_says_what_an_image_is(format_: str) -> None:
+def test_the_type_of_an_image_is_read_from_its_data(format_: str) -> None:
     data = encoded(np.zeros((20, 30, 3), np.uint8), format_)
-    for told in (format_, f"rgb8; {format_} compressed bgr8", "anything", ""):
-        info = inspect_compressed(told, data)
+    for name in (format_, f"rgb8; {format_} compressed bgr8", "anything", ""):
+        info = inspect_compressed(name, data)
         assert (info.mime, info.width, info.height) == (f"image/{format_}", 30, 20)
         assert not info.is_16_bit
         assert not info.swaps_red_and_blue
 
 
-def test_of_a_jpeg_with_more_pictures_behind_it_the_first_counts() -> None:
+def test_the_first_picture_of_a_jpeg_sequence_is_used() -> None:
     first, second = (Image.new("RGB", (6, 4), color) for color in ("red", "blue"))
     file = io.BytesIO()
     first.save(file, "MPO", save_all=True, append_images=[second])
@@ -126,7 +126,7 @@ def test_a_jpeg_is_not_decoded_at_another_size_than_it_has_in_front() -> None:
         open_compressed(data)
 
 
-def test_what_publishers_say_of_the_pixels() -> None:
+def test_the_format_string_gives_depth_and_colour_order() -> None:
     grey16 = encoded(DEPTHS, "png")
     assert inspect_compressed("16UC1; png compressed ", grey16).is_16_bit
     assert inspect_compressed("16UC1; png compressed ", grey16).encoding == "16UC1"
@@ -135,7 +135,7 @@ def test_what_publishers_say_of_the_pixels() -> None:
 
 
 @pytest.mark.parametrize(
-    ("format_", "data", "told"),
+    ("format_", "data", "sentence"),
     [
         ("jpeg", b"", "empty"),
         ("jpeg", b"\x00\x01\x02\x03abcdef", "begins with 00 01 02 03"),
@@ -150,10 +150,12 @@ def test_what_publishers_say_of_the_pixels() -> None:
         ("webp", b"RIFF\0\0\0\0WEBPVP8X", "The WEBP is damaged"),
     ],
 )  # fmt: skip
-def test_what_browsers_cannot_show_is_named(format_: str, data: bytes, told: str) -> None:
+def test_formats_that_browsers_cannot_show_are_refused(
+    format_: str, data: bytes, sentence: str
+) -> None:
     with pytest.raises(ImageError) as error:
         inspect_compressed(format_, np.frombuffer(data, np.uint8))
-    assert told in str(error.value)
+    assert sentence in str(error.value)
 
 
 @pytest.mark.parametrize("codec", ["png", "rvl"])

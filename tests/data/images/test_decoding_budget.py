@@ -52,7 +52,7 @@ def test_threads_that_decode_at_once_share_the_budget(kind: str, edge: int) -> N
     assert int(run.stdout) < 170  # MB; in turn they take 120, at once 240
 
 
-def test_what_claims_more_than_the_budget_is_refused_in_one_sentence() -> None:
+def test_a_header_that_claims_more_than_the_budget_is_refused() -> None:
     claim = HEADER.pack(0, 100.0, 1.0) + struct.pack("<II", 8192, 8192) + bytes(100)
     data = np.frombuffer(claim, np.uint8)
     with pytest.raises(ImageError, match=r"8192 x 8192 pixels takes \d+ MB to decode; the limit"):
@@ -91,14 +91,14 @@ class Owner:
     """Something that was loaded."""
 
 
-def test_what_is_loaded_has_its_part_until_it_is_gone() -> None:
+def test_loaded_data_uses_the_budget_until_it_is_freed() -> None:
     budget = MemoryBudget(100_000_000, 40_000_000)
     owner = Owner()
     budget.hold(owner, 30_000_000)
     with pytest.raises(OverBudgetError, match="takes 20 MB of memory; 10 MB of 40 MB are left"):
         budget.hold(Owner(), 20_000_000)
     with (
-        pytest.raises(OverBudgetError, match="the limit is 70 MB beside 30 MB of what is loaded"),
+        pytest.raises(OverBudgetError, match="the limit is 70 MB beside 30 MB already loaded"),
         budget.take(90_000_000),
     ):
         pass

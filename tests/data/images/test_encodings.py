@@ -37,7 +37,7 @@ def message(
 GREY = Tone()
 
 
-def shown(encoding: str, data: Any, width: int, height: int, tone: Tone = GREY) -> Any:
+def rgb_of(encoding: str, data: Any, width: int, height: int, tone: Tone = GREY) -> Any:
     image = RawImage.of(message(encoding, data, width, height))
     return to_rgb(values(image), image.layout, tone)
 
@@ -53,14 +53,14 @@ def test_colors_are_those_that_pillow_reads(encoding: str, order: str) -> None:
     wide = np.concatenate((NOISE, np.zeros((6, 8, len(order) - 3), np.uint8)), axis=2)
     mode = "RGBA" if len(order) == 4 else "RGB"
     expected = Image.frombytes(mode, (8, 6), wide.tobytes(), "raw", order).convert("RGB")
-    np.testing.assert_array_equal(shown(encoding, wide, 8, 6), np.asarray(expected))
+    np.testing.assert_array_equal(rgb_of(encoding, wide, 8, 6), np.asarray(expected))
 
 
 @pytest.mark.parametrize("encoding", ["rgb16", "rgba16", "bgr16", "bgra16"])
 def test_colors_of_16_bits_keep_their_upper_byte(encoding: str) -> None:
     pixel = [0x1234, 0x5678, 0x9ABC, 0xFFFF][: 4 if "a" in encoding else 3]
     rgb = (0x12, 0x56, 0x9A) if encoding.startswith("rgb") else (0x9A, 0x56, 0x12)
-    assert tuple(shown(encoding, np.array([pixel], "<u2"), 1, 1)[0, 0]) == rgb
+    assert tuple(rgb_of(encoding, np.array([pixel], "<u2"), 1, 1)[0, 0]) == rgb
 
 
 @pytest.mark.parametrize(("encoding", "places"), [
@@ -72,7 +72,7 @@ def test_pairs_that_share_their_colors(encoding: str, places: str) -> None:
     data = np.array([parts[name] for name in places.split()], np.uint8)
     yuv = np.array([[[180, 90, 200], [60, 90, 200]]], np.uint8)
     expected = np.asarray(Image.fromarray(yuv, "YCbCr").convert("RGB")).astype(int)
-    assert np.abs(shown(encoding, data, 2, 1).astype(int) - expected).max() <= 1
+    assert np.abs(rgb_of(encoding, data, 2, 1).astype(int) - expected).max() <= 1
 
 
 @pytest.mark.parametrize(("encoding", "u", "v"), [("nv21", 1, 0), ("nv24", 0, 1)])
@@ -103,14 +103,14 @@ def test_a_mosaic_of_one_color_is_that_color(pattern: str, depth: str, scale: in
     color = {"r": 200, "g": 100, "b": 50}
     tile = np.array([color[c] for c in pattern]).reshape(2, 2) * scale
     data = np.tile(tile, (3, 4)).astype(f"<u{int(depth) // 8}")
-    rgb = shown(f"bayer_{pattern}{depth}", data, 8, 6)
+    rgb = rgb_of(f"bayer_{pattern}{depth}", data, 8, 6)
     assert (rgb == (200, 100, 50)).all()
 
 
 def test_a_mosaic_is_interpolated_between_its_neighbours() -> None:
     # rggb; a red pixel in the middle of the third row and column
     data = np.array([[10, 1, 20, 1], [2, 30, 4, 50], [60, 3, 40, 5], [6, 70, 8, 90]], np.uint8)
-    rgb = shown("bayer_rggb8", data, 4, 4)
+    rgb = rgb_of("bayer_rggb8", data, 4, 4)
     assert tuple(rgb[2, 2]) == (40, (4 + 8 + 3 + 5) / 4, (30 + 50 + 70 + 90) / 4)
     assert tuple(rgb[1, 1]) == ((10 + 20 + 60 + 40 + 2) // 4, (1 + 3 + 2 + 4 + 2) // 4, 30)
     assert tuple(rgb[1, 2]) == ((20 + 40) / 2, 4, (30 + 50) / 2)
@@ -169,14 +169,14 @@ def test_depths_below_one_metre_use_all_of_the_range() -> None:
     depths = np.array([[0.2, 0.4], [np.nan, 0.6]], np.float32)
     limits = value_range(depths, zero_is_invalid=False)
     assert limits == pytest.approx((0.2, 0.6))
-    grey = shown("32FC1", depths, 2, 2, Tone(*limits or (0, 0)))
+    grey = rgb_of("32FC1", depths, 2, 2, Tone(*limits or (0, 0)))
     np.testing.assert_array_equal(grey, [[0, 127], [0, 255]])
 
 
-def test_millimetres_of_0_are_no_measurement() -> None:
+def test_a_depth_of_0_mm_is_invalid() -> None:
     depths = np.array([[0, 500], [1000, 1500]], np.uint16)
     assert value_range(depths, zero_is_invalid=True) == (500, 1500)
-    colors = shown("16UC1", depths, 2, 2, Tone(500, 1500, "Viridis"))
+    colors = rgb_of("16UC1", depths, 2, 2, Tone(500, 1500, "Viridis"))
     assert tuple(colors[0, 0]) == (0, 0, 0)
     assert tuple(colors[0, 1]) == (0x44, 0x01, 0x54)
     assert tuple(colors[1, 1]) == (0xFD, 0xE7, 0x25)
@@ -186,19 +186,19 @@ def test_millimetres_of_0_are_no_measurement() -> None:
 def test_a_picture_without_a_number_has_no_range(bad: float) -> None:
     depths = np.full((2, 2), bad, np.float32)
     assert value_range(depths, zero_is_invalid=False) is None
-    assert not shown("32FC1", depths, 2, 2).any()
+    assert not rgb_of("32FC1", depths, 2, 2).any()
 
 
 @pytest.mark.parametrize(("low", "high"), [(-1e308, 1e308), (0.0, 1e-310), (1e300, 1e301), (5, 5)])
 def test_extreme_ranges_have_pixels(low: float, high: float) -> None:
     data = np.array([[low, high, 0.0, np.inf, 1e308]])
-    grey = shown("64FC1", data, 5, 1, Tone(low, high))
+    grey = rgb_of("64FC1", data, 5, 1, Tone(low, high))
     assert grey[0, 3] == 0
     assert grey[0, 1] >= grey[0, 0]
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "sentence"),
     [
         ({"encoding": "rgb9"}, "Unsupported encoding 'rgb9': did you mean rgb8?"),
         ({"encoding": ""}, "The image names no encoding"),
@@ -210,14 +210,14 @@ def test_extreme_ranges_have_pixels(low: float, high: float) -> None:
         ({"step": 2**32 - 1}, "data has 12 bytes"),
     ],
 )
-def test_what_contradicts_itself_is_named(changes: dict[str, Any], told: str) -> None:
+def test_inconsistent_images_are_refused(changes: dict[str, Any], sentence: str) -> None:
     whole = message("rgb8", np.zeros(12, np.uint8), 2, 2)
     with pytest.raises(ImageError, match=r"^[ -~]*$") as error:
         RawImage.of(SimpleNamespace(**(vars(whole) | changes)))
-    assert told in str(error.value)
+    assert sentence in str(error.value)
 
 
-def test_what_is_suspicious_is_shown_and_named() -> None:
+def test_suspicious_images_are_shown_with_a_remark() -> None:
     without_step = SimpleNamespace(
         **(vars(message("rgb8", np.zeros(12, np.uint8), 2, 2)) | {"step": 0})
     )

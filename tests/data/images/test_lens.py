@@ -45,15 +45,17 @@ def test_an_image_that_is_rectified_already_needs_no_grid() -> None:
     assert Lens.of(camera).grid(CameraModel.whole(camera)) is None
 
 
-def test_what_a_polynomial_folds_back_is_not_seen() -> None:
+def test_rays_beyond_the_fold_of_the_polynomial_are_not_projected() -> None:
     lens = Lens.of(info("plumb_bob", d=[-0.5, 0.0, 0.0, 0.0, 0.0], r=[0.0] * 9))
     # r - 0.5 r^3 grows up to r = 0.816.
-    seen = np.isfinite(lens.project(np.array([(0.8, 0, 1.0), (0.9, 0, 1.0), (0.1, 0, -1.0)])))
-    assert seen.all(axis=1).tolist() == [True, False, False]
+    pixels_in_view = np.isfinite(
+        lens.project(np.array([(0.8, 0, 1.0), (0.9, 0, 1.0), (0.1, 0, -1.0)]))
+    )
+    assert pixels_in_view.all(axis=1).tolist() == [True, False, False]
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "sentence"),
     [
         ({"distortion_model": "kannala"}, "Unsupported distortion model 'kannala'"),
         ({"d": [0.1] * 14}, "'plumb_bob' with 14 coefficients"),
@@ -65,10 +67,10 @@ def test_what_a_polynomial_folds_back_is_not_seen() -> None:
         ({"d": [0.1] * 4}, ""),
     ],
 )
-def test_invalid_lenses_are_refused(changes: dict[str, Any], told: str) -> None:
+def test_invalid_lenses_are_refused(changes: dict[str, Any], sentence: str) -> None:
     camera = info("plumb_bob", **changes)
-    if told:
-        with pytest.raises(ImageError, match=told):
+    if sentence:
+        with pytest.raises(ImageError, match=sentence):
             Lens.of(camera).grid(CameraModel.whole(camera))
     else:
         Lens.of(camera).grid(CameraModel.whole(camera))

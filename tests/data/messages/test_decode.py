@@ -64,7 +64,7 @@ def test_every_known_type_is_decoded_as_rosbags_decodes_it(
 
 @pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")  # ROS's own imports
 @pytest.mark.parametrize("package", ROS_TYPES)
-def test_what_ros_itself_serialised_is_decoded(package, rosbags_store, random_message, plain):
+def test_messages_serialised_by_ros_are_decoded(package, rosbags_store, random_message, plain):
     serialization = pytest.importorskip("rclpy.serialization")
     for (type_name, ros_class), seed in product(ros_classes(package).items(), range(10)):
         message = random_message(type_name, Random(seed))
@@ -289,7 +289,7 @@ def test_markers_that_repeat_are_read_as_each_by_itself(
     ]
     name = "visualization_msgs/msg/Marker"
     array = encode(f"{name}Array", {"markers": markers})
-    found = decode(f"{name}Array", array).markers
-    assert [encode(name, each) for each in found] == [encode(name, each) for each in markers]
+    decoded = decode(f"{name}Array", array).markers
+    assert [encode(name, each) for each in decoded] == [encode(name, each) for each in markers]
     with contextlib.suppress(DecodeError):
         decode(f"{name}Array", array[: cut % len(array)])

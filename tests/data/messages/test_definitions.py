@@ -31,13 +31,13 @@ CDR = b"\x00\x01\x00\x00"
 WHEEL = "=" * 80 + "\nMSG: prepared_msgs/Wheel\n{} turns\n"
 
 
-def test_what_displays_need_is_known_without_ros():
+def test_types_of_displays_are_known_without_ros():
     for name in ["map_msgs/OccupancyGridUpdate", "tf2_msgs/msg/TFMessage", *OURS]:
         assert type_exists(name)
 
 
 @pytest.mark.parametrize("name", ["nowhere_msgs/msg/Nothing", "LaserScan", "a b/msg/C", ""])
-def test_what_nobody_defined_does_not_exist(name):
+def test_undefined_types_do_not_exist(name):
     assert not type_exists(name)
     for ask in (definition, type_hash, message_class):
         with pytest.raises(UnknownTypeError):
@@ -69,9 +69,9 @@ def test_hashes_are_those_that_ros_installs(name):
 
 
 def test_a_definition_is_msg_text_followed_by_the_types_it_holds():
-    own, *held = definition("geometry_msgs/PoseStamped").split("=" * 80 + "\nMSG: ")
+    own, *parts = definition("geometry_msgs/PoseStamped").split("=" * 80 + "\nMSG: ")
     assert own == "std_msgs/Header header\ngeometry_msgs/Pose pose\n"
-    assert held[0].startswith("std_msgs/Header\n")
+    assert parts[0].startswith("std_msgs/Header\n")
 
 
 def test_a_registered_type_is_decoded_with_its_constants_and_the_types_it_holds():
@@ -124,7 +124,7 @@ def test_a_definition_that_cannot_be_used_changes_nothing(text, reason):
     assert not type_exists("test_msgs/msg/Other")
 
 
-def test_a_type_that_is_registered_anew_is_decoded_as_it_is_now() -> None:
+def test_a_type_registered_again_is_decoded_by_its_new_definition() -> None:
     name = "changing_msgs/msg/Widening"
     cdr = b"\0\1\0\0" + bytes([1, 2, 0, 0])
     for kind, value in (("uint8", 1), ("uint16", 513)):
@@ -144,7 +144,7 @@ def test_a_type_that_loses_its_header_has_none_from_then_on() -> None:
     assert peek_header(name, cdr) == ("map", 3_000_000_000)
 
 
-def test_what_follows_from_a_definition_stays_until_it_is_replaced() -> None:
+def test_a_decoder_is_reused_until_its_definition_changes() -> None:
     register("prepared_msgs/msg/Wheel", "int32 turns")
     built = decoder("prepared_msgs/msg/Wheel", "<", KNOWN)
     register("prepared_msgs/msg/Axle", "prepared_msgs/Wheel[2] wheels\n" + WHEEL.format("int32"))
@@ -153,7 +153,7 @@ def test_what_follows_from_a_definition_stays_until_it_is_replaced() -> None:
     assert decode("prepared_msgs/msg/Wheel", b"\0\1\0\0\1\0").turns == 1
 
 
-def test_a_bridge_builds_the_decoder_of_what_is_wanted() -> None:
+def test_a_bridge_builds_decoders_in_its_own_thread() -> None:
     """In its thread: it takes a second, in which the frame loop would draw nothing."""
     text = "".join(f"int32 a{number}\n" for number in range(19_999))
     definitions = Definitions()

@@ -114,16 +114,14 @@ def assert_same_but_padding(ours: bytes, theirs: bytes) -> None:
         ("shape_msgs/msg/SolidPrimitive", {"dimensions": [1] * 4}, "expected at most 3 elements"),
     ],
 )
-def test_a_value_that_does_not_fit_is_refused_with_its_place_and_what_fits(
-    type_name, values, words
-):
+def test_an_invalid_value_is_refused_with_its_path_and_valid_values(type_name, values, words):
     with pytest.raises(EncodeError, match=re.escape(words)) as refusal:
         encode(type_name, values)
     assert str(refusal.value).startswith(type_name)
     assert str(refusal.value).endswith((".", "?"))
 
 
-def test_a_string_is_held_to_its_bound():
+def test_the_bound_of_a_string_is_enforced():
     register("odd_msgs/msg/Bounded", "string<=3 short")
     assert encode("odd_msgs/msg/Bounded", {"short": "abc"}).endswith(b"\4\0\0\0abc\0")
     with pytest.raises(EncodeError, match="short: expected text of at most 3 bytes, got 'four'"):
@@ -161,7 +159,7 @@ def test_poses_in_arrays_are_encoded_as_those_one_by_one(frame_ids):
         assert encode(type_name, values | {"poses": several}) == one_by_one
 
 
-def test_a_type_that_is_registered_anew_is_encoded_as_it_is_now():
+def test_a_type_registered_again_is_encoded_by_its_new_definition():
     register("odd_msgs/msg/Changing", "uint8 a")
     assert encode("odd_msgs/msg/Changing", {"a": 1}) == b"\0\1\0\0\1"
     register("odd_msgs/msg/Changing", "uint16 a")

@@ -72,7 +72,7 @@ def test_a_definition_that_would_take_too_much_is_refused_with_a_sentence(what: 
 
 @pytest.mark.parametrize("data", [b"", struct.pack("<I", 400_000), b"\1\0\0\0" * 64])
 @pytest.mark.parametrize("what", READ)
-def test_what_is_made_of_a_message_is_bounded(what: str, data: bytes) -> None:
+def test_decoding_a_hostile_definition_is_bounded(what: str, data: bytes) -> None:
     with bounded():
         register(NAME, READ[what])
         assert message_class(NAME)() is not None
@@ -174,7 +174,7 @@ def test_a_message_that_takes_the_rest_of_the_stack_is_refused() -> None:
         at(sys.getrecursionlimit() - 150)
 
 
-def test_what_ros_1_reads_without_bytes_has_a_limit() -> None:
+def test_elements_without_bytes_are_limited_in_ros_1() -> None:
     nothings = msg("A[] a", A="Nothing[] b", Nothing="")
     data = struct.pack("<I", 5000) + struct.pack("<I", 20_000) * 5000
     arrays = msg("A[] a", A="Nothing[99999] b", Nothing="")

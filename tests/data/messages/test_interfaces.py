@@ -62,7 +62,7 @@ def test_types_that_are_unknown_or_cut_off_are_refused() -> None:
         service("test_msgs/srv/Odd", "int32 = (\n---\n")
 
 
-def test_whatever_comes_of_a_call_is_taken_or_said() -> None:
+def test_each_outcome_of_a_call_is_handled_or_reported() -> None:
     name = "std_msgs/msg/String"
     results: list[str] = []
 
@@ -76,10 +76,10 @@ def test_whatever_comes_of_a_call_is_taken_or_said() -> None:
     ended: Future[bytes] = Future()
     ended.cancel()
     assert outcome(ended) == "The viewer has ended."
-    for error, said in (
+    for error, sentence in (
         (ValueError("It is full."), "It is full."),
         (KeyError(), "/save: KeyError."),
     ):
         failed: Future[bytes] = Future()
         failed.set_exception(error)
-        assert outcome(failed) == said
+        assert outcome(failed) == sentence

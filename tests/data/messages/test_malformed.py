@@ -160,7 +160,7 @@ def test_strings_of_a_message_have_a_limit_together(monkeypatch):
         decode(name, encode(name, {"name": [one, one]}))
 
 
-def test_what_becomes_objects_has_a_limit(monkeypatch):
+def test_elements_of_sequences_of_objects_are_limited(monkeypatch):
     monkeypatch.setattr(cdr_module, "MAX_ELEMENTS", 3)
     name = "sensor_msgs/msg/JointState"
     numbers = [0.0] * 100
@@ -180,7 +180,7 @@ def test_a_path_of_equal_frames_that_is_cut_off_is_refused(frame: str) -> None:
                 decode("nav_msgs/msg/Path", cdr[:size])
 
 
-def test_a_trajectory_that_is_cut_off_says_where() -> None:
+def test_the_error_of_a_truncated_trajectory_names_the_field() -> None:
     cdr = encode("trajectory_msgs/msg/JointTrajectory", {"points": [{"positions": [1.0, 2.0]}]})
     results = set[str]()
     for size in range(4, len(cdr)):

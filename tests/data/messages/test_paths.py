@@ -72,12 +72,12 @@ def test_a_number_is_found_by_its_path(message: Any, path: str, number: float) -
         (JOINTS, "position", "`position` is not a number. Choose one of its parts."),
         (JOINTS, "position[0].x", "No field `x` for `position[0].x`. Choose a path without it."),
         (POLYGON, "points.x", "No field `x` for `points.x`. Choose a path without it."),
-        (JOINTS, "header[0]", "`header[0]` asks for an element of what is not an array."),
-        (String("text"), "data[0]", "`data[0]` asks for an element of what is not an array."),
+        (JOINTS, "header[0]", "`header[0]` indexes a value that is not an array."),
+        (String("text"), "data[0]", "`data[0]` indexes a value that is not an array."),
         (String("text"), "data", "`data` is not a number. Choose one of its parts."),
     ],
 )
-def test_what_is_not_there_is_named_with_a_remedy(message: Any, path: str, reason: str) -> None:
+def test_a_missing_field_is_reported_with_a_remedy(message: Any, path: str, reason: str) -> None:
     with pytest.raises(PathError) as error:
         FieldPath(path).number(message)
     assert str(error.value).startswith(reason)
@@ -86,7 +86,7 @@ def test_what_is_not_there_is_named_with_a_remedy(message: Any, path: str, reaso
 @pytest.mark.parametrize(
     "text", ["", ".", "a.", "a..b", "[0]", "a[", "a[0", "a b", "é", "__x__.", "a[[0]]", "a" * 500]
 )
-def test_what_is_not_a_path_is_refused(text: str) -> None:
+def test_invalid_paths_are_refused(text: str) -> None:
     with pytest.raises(PathError, match="is not the path of a field"):
         FieldPath(text)
 
@@ -226,7 +226,7 @@ def test_a_message_path_has_functions(path: str, number: float) -> None:
         ("/odom.@abs(<b>)", "is not the path of a field"),
     ],
 )
-def test_a_message_path_that_cannot_be_read_says_why(text: str, reason: str) -> None:
+def test_an_unreadable_message_path_has_a_reason(text: str, reason: str) -> None:
     with pytest.raises(PathError) as error:
         MessagePath(text)
     assert reason in str(error.value)

@@ -36,11 +36,11 @@ def mixed(seconds: int = 5, nanoseconds: int = 6) -> bytes:
     )
 
 
-def made() -> Ros1Type:
-    known = Ros1Type(NAME, TEXT)
-    if text := known.definition():
+def example_type() -> Ros1Type:
+    ros1_type = Ros1Type(NAME, TEXT)
+    if text := ros1_type.definition():
         register(NAME, text)
-    return known
+    return ros1_type
 
 
 def read(cdr: bytes) -> Any:
@@ -48,7 +48,7 @@ def read(cdr: bytes) -> Any:
 
 
 def test_every_kind_of_field_is_converted() -> None:
-    message = read(made().to_cdr(mixed()))
+    message = read(example_type().to_cdr(mixed()))
     assert (message.at.ns, message.ripe.sec, message.ripe.nanosec) == (5_000_000_006, -3, 4)
     assert message.names == ["a\ufffd", "bcd"]
     assert bytes(message.rgb) == b"\1\2\3"
@@ -58,54 +58,54 @@ def test_every_kind_of_field_is_converted() -> None:
 
 
 def test_times_that_ros_2_does_not_have_are_the_nearest() -> None:
-    message = read(made().to_cdr(mixed(2**32 - 2, -1)))
+    message = read(example_type().to_cdr(mixed(2**32 - 2, -1)))
     assert (message.at.sec, message.at.nanosec) == (-2, 0)
 
 
 def test_a_message_that_is_cut_off_is_refused() -> None:
-    known, whole = made(), mixed()
+    ros1_type, whole = example_type(), mixed()
     for end in range(len(whole)):
         with pytest.raises(DecodeError, match=f"^{NAME} of ROS 1 is damaged"):
-            known.to_cdr(whole[:end])
+            ros1_type.to_cdr(whole[:end])
     for count in (100_000, 2**32 - 1):
         damaged = whole[:16] + struct.pack("<I", count) + whole[20:]
         with pytest.raises(DecodeError, match="damaged"):
-            known.to_cdr(damaged)
+            ros1_type.to_cdr(damaged)
 
 
 def test_lengths_that_lie_at_the_end_are_refused() -> None:
     nothing = "old_msgs/Nothing[] many\n" + "=" * 80 + "\nMSG: old_msgs/Nothing\n"
-    for known, data in (
+    for ros1_type, data in (
         (Ros1Type("std_msgs/msg/String", "string data\n"), struct.pack("<I", 4) + b"abc"),
         (Ros1Type("old_msgs/msg/Nothings", nothing), struct.pack("<I", 2**32 - 1)),
     ):
         with pytest.raises(DecodeError, match="damaged"):
-            known.to_cdr(data)
+            ros1_type.to_cdr(data)
 
 
-def test_what_ros_2_dropped_or_renamed_is_skipped_or_renamed() -> None:
+def test_fields_that_ros_2_dropped_or_renamed_are_converted() -> None:
     nested = "=" * 80 + f"\nMSG: std_msgs/Header\n{HEADER}"
-    known = Ros1Type(
+    ros1_type = Ros1Type(
         "geometry_msgs/msg/PointStamped",
         f"Header header\nPoint point\n{nested}"
         + ("=" * 80 + "\nMSG: geometry_msgs/Point\nfloat64 X\nfloat64 y\nfloat64 z\n"),
     )
-    assert known.definition() == ""
-    message = decode(known.name, known.to_cdr(HEAD + struct.pack("<3d", 1.0, 2.0, 3.0)))
+    assert ros1_type.definition() == ""
+    message = decode(ros1_type.name, ros1_type.to_cdr(HEAD + struct.pack("<3d", 1.0, 2.0, 3.0)))
     assert (message.header.frame_id, message.header.stamp_ns) == ("map", 1_000_000_002)
     assert (message.point.x, message.point.y, message.point.z) == (1.0, 2.0, 3.0)
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "sentence"),
     [
         ("old_msgs/Missing part\n", "contains a old_msgs/msg/Missing, whose definition is missing"),
         ("old_msgs/Odd part\n", "old_msgs/msg/Odd cannot contain itself"),
         ("float64 = (\n", "not valid .msg text"),
     ],
 )
-def test_a_definition_that_is_incomplete_or_endless_is_refused(text: str, said: str) -> None:
-    with pytest.raises(DefinitionError, match=said):
+def test_a_definition_that_is_incomplete_or_endless_is_refused(text: str, sentence: str) -> None:
+    with pytest.raises(DefinitionError, match=sentence):
         Ros1Type("old_msgs/msg/Odd", text)
 
 
@@ -162,17 +162,17 @@ def test_transforms_are_converted_the_fast_way_once_that_is_known_to_fit(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     general, fast = counted(monkeypatch, "encode"), counted(monkeypatch, "transforms_to_cdr")
-    known = Ros1Type(TRANSFORMS, TF_TEXT)
-    known.to_cdr(transforms())
+    ros1_type = Ros1Type(TRANSFORMS, TF_TEXT)
+    ros1_type.to_cdr(transforms())
     assert fast == []  # an empty message shows nothing
     data = transforms((b"map", b"base"))
-    first = known.to_cdr(data)
+    first = ros1_type.to_cdr(data)
     assert (len(general), len(fast)) == (2, 1)
-    assert known.to_cdr(data) == first
+    assert ros1_type.to_cdr(data) == first
     assert (len(general), len(fast)) == (2, 2)
     for size in range(len(data)):
         with pytest.raises(DecodeError):
-            known.to_cdr(data[:size])
+            ros1_type.to_cdr(data[:size])
 
 
 def test_transforms_of_another_definition_are_read_by_that(
@@ -184,6 +184,10 @@ def test_transforms_of_another_definition_are_read_by_that(
     data = data[:-56] + struct.pack("<i", 9) + data[-56:]
     other = Ros1Type(TRANSFORMS, text)
     for _ in range(2):
-        (found,) = decode(TRANSFORMS, other.to_cdr(data)).transforms
-        assert (found.parent, found.child, found.translation) == ("map", "base", (0.0, 1.0, 2.0))
+        (transform,) = decode(TRANSFORMS, other.to_cdr(data)).transforms
+        assert (transform.parent, transform.child, transform.translation) == (
+            "map",
+            "base",
+            (0.0, 1.0, 2.0),
+        )
     assert len(fast) == 1, "It was found not to fit."

@@ -101,6 +101,6 @@ def test_messages_of_many_sizes_are_known_and_all_forgotten_if_there_are_too_man
     assert [layouts.of(cdr) is not None for cdr in sizes] == [False] * MAX_SIZES + [True]
 
 
-def test_what_is_quickly_decoded_is_not_learnt() -> None:
+def test_the_layout_of_small_messages_is_not_learnt() -> None:
     cdr = message(NAMES[1:])
     assert learnt(cdr).of(cdr) is None

@@ -32,13 +32,13 @@ def fields(message: Any, **limits: Any) -> dict[str, Any]:
 
 
 def test_a_message_has_its_fields_in_the_order_of_its_definition() -> None:
-    found = fields(JointState(Header(Time(5, 7), "base"), ["left"], np.array([0.5, -1])))
-    assert list(found) == ["header", "name", "position", "velocity", "effort"]
-    assert found["header"]["fields"]["stamp"] == {"fields": {"sec": "5", "nanosec": "7"}}
-    assert found["header"]["fields"]["frame_id"] == "'base'"
-    assert found["name"] == {"length": 1, "type": "", "items": ["'left'"]}
-    assert found["position"] == {"length": 2, "type": "float64", "items": ["0.5", "-1"]}
-    assert found["effort"]["length"] == 0
+    tree = fields(JointState(Header(Time(5, 7), "base"), ["left"], np.array([0.5, -1])))
+    assert list(tree) == ["header", "name", "position", "velocity", "effort"]
+    assert tree["header"]["fields"]["stamp"] == {"fields": {"sec": "5", "nanosec": "7"}}
+    assert tree["header"]["fields"]["frame_id"] == "'base'"
+    assert tree["name"] == {"length": 1, "type": "", "items": ["'left'"]}
+    assert tree["position"] == {"length": 2, "type": "float64", "items": ["0.5", "-1"]}
+    assert tree["effort"]["length"] == 0
 
 
 def test_long_arrays_have_their_length_and_their_first_numbers() -> None:
@@ -53,7 +53,7 @@ def test_long_strings_are_cut_and_stay_on_one_line() -> None:
     assert "\n" not in text
 
 
-def test_of_many_messages_the_first_ten_are_kept() -> None:
+def test_the_first_ten_elements_of_a_list_are_kept() -> None:
     transform = FrameTransform("map", "odom", 12, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0))
     (transforms,) = fields(TFMessage([transform] * 25)).values()
     assert (transforms["length"], len(transforms["items"])) == (25, 10)
@@ -68,7 +68,7 @@ def test_poses_of_a_path_are_as_in_ros() -> None:
 
 
 @pytest.mark.parametrize("most", [1, 5, 100])
-def test_a_tree_has_no_more_nodes_than_asked(most: int) -> None:
+def test_the_number_of_nodes_of_a_tree_is_limited(most: int) -> None:
     poses = PoseStampedSequence(
         np.ones((500, 3)), np.ones((500, 4)), np.ones(500, np.int64), ["map"] * 500
     )
@@ -108,12 +108,10 @@ def test_rows_of_numbers_say_how_long_they_are() -> None:
     assert result["items"] == ["0"] * 4
 
 
-def test_digits_and_elements_are_as_many_as_asked() -> None:
-    found = fields(
-        JointState(name=["a"] * 9, position=np.array([1 / 3] * 9)), digits=2, max_items=3
-    )
-    assert found["name"]["items"] == ["'a'"] * 3
-    assert found["position"]["items"] == ["0.33"] * 3
+def test_digits_and_elements_are_limited() -> None:
+    tree = fields(JointState(name=["a"] * 9, position=np.array([1 / 3] * 9)), digits=2, max_items=3)
+    assert tree["name"]["items"] == ["'a'"] * 3
+    assert tree["position"]["items"] == ["0.33"] * 3
 
 
 def test_a_string_is_whole_up_to_its_limit() -> None:

@@ -59,7 +59,7 @@ def test_a_value_of_several_constants_has_no_name() -> None:
     assert solid[5] == "PRISM"
 
 
-def test_a_limit_is_no_name() -> None:
+def test_a_limit_does_not_name_a_value() -> None:
     types = DefinedTypes("a/msg/B", "uint8 MOST=10\nuint8 count\n", ())
     assert value_names("a/msg/B", types) == {}
 

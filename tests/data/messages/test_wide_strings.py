@@ -18,7 +18,7 @@ REPORT = Path(__file__).parents[4] / "shared/data/reports/B3w/wstring.mcap"
 
 
 @pytest.fixture(autouse=True)
-def known() -> None:
+def registered() -> None:
     register(NAME, "uint8 first\nwstring text\nuint8 last\nwstring[] more\nwstring<=9 short\n")
 
 
@@ -31,17 +31,17 @@ def wide(text: str, size: int) -> bytes:
 @pytest.mark.parametrize("text", TEXTS)
 def test_a_wstring_is_read_as_it_is_written(text: str) -> None:
     values = {"first": 1, "text": text, "last": 2, "more": [text, "", text], "short": text[:9]}
-    found: Any = decode(NAME, encode(NAME, values))
-    assert (found.first, found.text, found.last) == (1, text, 2)
-    assert (found.more, found.short) == ([text, "", text], text[:9])
+    message: Any = decode(NAME, encode(NAME, values))
+    assert (message.first, message.text, message.last) == (1, text, 2)
+    assert (message.more, message.short) == ([text, "", text], text[:9])
 
 
 @pytest.mark.parametrize("size", [2, 4])
 @pytest.mark.parametrize("text", ["", *TEXTS[2:]])
 def test_both_sizes_of_characters_are_read(text: str, size: int) -> None:
     cdr = b"\0\1\0\0" + b"\1\0\0\0" + wide(text, size) + b"\7" + bytes(40)
-    found: Any = decode(NAME, cdr)
-    assert (found.text, found.last) == (text, 7)
+    message: Any = decode(NAME, cdr)
+    assert (message.text, message.last) == (text, 7)
 
 
 @pytest.mark.parametrize("text", TEXTS)
@@ -61,12 +61,12 @@ def test_bytes_are_those_of_the_installed_ros(text: str) -> None:
         "wstring wstring_value_default3\nwstring[3] array_of_wstrings\n"
         "wstring[<=3] bounded_sequence_of_wstrings\nwstring[] unbounded_sequence_of_wstrings\n",
     )
-    found: Any = decode("test_msgs/msg/WStrings", raw)
-    assert found.wstring_value == text
-    assert found.wstring_value_default3 == "ハローワールド"
-    assert list(found.array_of_wstrings) == [text, "b", ""]
-    assert list(found.bounded_sequence_of_wstrings) == [text]
-    ours = encode("test_msgs/msg/WStrings", found)
+    strings: Any = decode("test_msgs/msg/WStrings", raw)
+    assert strings.wstring_value == text
+    assert strings.wstring_value_default3 == "ハローワールド"
+    assert list(strings.array_of_wstrings) == [text, "b", ""]
+    assert list(strings.bounded_sequence_of_wstrings) == [text]
+    ours = encode("test_msgs/msg/WStrings", strings)
     assert ours == raw[: len(ours)]  # which has room behind it
 
 
@@ -89,11 +89,11 @@ def test_all_fields_of_a_public_report_are_read() -> None:
     recording = open_recording(REPORT)
     (channel,) = recording.channels
     register(channel.type, channel.definition)
-    found: list[Any] = [
+    messages: list[Any] = [
         decode(channel.type, each.data) for each in recording.messages([channel], 0, 2**63)
     ]
     recording.close()
-    assert len(found) == 50
-    assert {(each.w, each.short, each.ok, each.header.frame_id) for each in found} == {
+    assert len(messages) == 50
+    assert {(each.w, each.short, each.ok, each.header.frame_id) for each in messages} == {
         ("gr\xfcn", "abc", True, "base_link")
     }

@@ -37,7 +37,7 @@ def test_a_type_is_read_from_the_workspace_that_one_is_in(
     assert (cart.wheels[0].speed, cart.on) == (2.5, True)
 
 
-def test_a_type_is_read_from_the_package_that_one_is_in_and_beside_what_is_built(
+def test_a_type_is_read_from_the_current_package_and_built_workspaces(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str
 ) -> None:
     write(tmp_path / "ws/src" / package, Cart=f"{package}_other/Wheel wheel\n")
@@ -49,7 +49,7 @@ def test_a_type_is_read_from_the_package_that_one_is_in_and_beside_what_is_built
     assert encode(f"{package}/msg/Cart", {})
 
 
-def test_a_folder_without_package_xml_is_no_package(
+def test_a_folder_without_package_xml_is_ignored(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str
 ) -> None:
     write(tmp_path / package, Wheel="float64 speed\n", Bad="float64\n")

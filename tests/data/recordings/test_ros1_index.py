@@ -58,12 +58,12 @@ def read(path: Path) -> tuple[Content, str]:
 @pytest.fixture(params=COMPRESSIONS, ids=str)
 def bag(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Path, Content]:
     path = written(tmp_path / "run.bag", request.param, SECONDS, CHUNK_BYTES)
-    content, lost = read(path)
+    content, warning = read(path)
     with Reader(path) as reader:
         expected = sorted((each.topic, stamp_ns) for each, stamp_ns, _ in reader.messages())
     assert [each[:2] for each in content] == expected
     assert len(content) == 3 + 20 * SECONDS
-    assert not lost
+    assert not warning
     return path, content
 
 
@@ -88,18 +88,18 @@ def test_chunks_that_lack_their_index_are_looked_into(bag: tuple[Path, Content])
     assert read(path) == (content, "")
 
 
-def test_wherever_a_bag_is_cut_off_what_is_whole_before_is_read(tmp_path: Path) -> None:
+def test_complete_records_of_a_truncated_bag_are_read(tmp_path: Path) -> None:
     path = written(tmp_path / "run.bag", None, 1, CHUNK_BYTES)
     data, (content, _) = path.read_bytes(), read(path)
     places = list(records(data))
     last = 0
     for at in range(places[0][1], len(data), 37):
         path.write_bytes(data[:at])
-        found, lost = read(path)
-        assert set(found) <= set(content)
-        assert len(found) >= last
-        assert END_MISSING in lost or at in {end for _, end, _ in places}
-        last = len(found)
+        messages, warning = read(path)
+        assert set(messages) <= set(content)
+        assert len(messages) >= last
+        assert END_MISSING in warning or at in {end for _, end, _ in places}
+        last = len(messages)
     assert last == len(content)
 
 
@@ -109,13 +109,13 @@ def test_a_record_that_is_damaged_loses_no_other_chunk(bag: tuple[Path, Content]
     chunks = [at for at, _, kind in records(data) if kind == CHUNK]
     middle = chunks[len(chunks) // 2]
     path.write_bytes(data[:middle] + b"\xff" * 6 + data[middle + 6 :])
-    found, lost = read(path)
-    assert set(found) < set(content)
-    assert len(content) - len(found) == 6
-    assert "a record is damaged" in lost
+    messages, warning = read(path)
+    assert set(messages) < set(content)
+    assert len(content) - len(messages) == 6
+    assert "a record is damaged" in warning
 
 
-def test_recover_writes_a_bag_of_what_was_recorded_before_the_end(
+def test_recover_writes_the_complete_records_of_a_bag(
     bag: tuple[Path, Content], capsys: pytest.CaptureFixture[str]
 ) -> None:
     path, content = bag
@@ -125,8 +125,8 @@ def test_recover_writes_a_bag_of_what_was_recorded_before_the_end(
     assert f"wrote {len(content)} messages to {whole}. The original has no end." in (
         capsys.readouterr().err
     )
-    found, lost = read(whole)
-    assert ([each[:2] for each in found], lost) == ([each[:2] for each in content], "")
+    messages, warning = read(whole)
+    assert ([each[:2] for each in messages], warning) == ([each[:2] for each in content], "")
 
 
 def test_a_bag_of_an_old_format_or_an_encrypted_one_is_refused(tmp_path: Path) -> None:

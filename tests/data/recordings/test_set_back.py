@@ -55,7 +55,7 @@ def set_times(path: Path) -> None:
     db.close()
 
 
-def test_topics_that_were_written_one_after_the_other_are_no_jump(tmp_path: Path) -> None:
+def test_topics_written_one_after_the_other_are_not_a_jump_of_time(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     file = McapFile(path, "webviz test")
     for topic in ("/one", "/two"):

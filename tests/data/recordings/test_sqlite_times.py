@@ -54,7 +54,7 @@ def hasten(monkeypatch: pytest.MonkeyPatch, chance: random.Random, share: float)
 
 @pytest.mark.parametrize("share", [0.0, 0.002, 0.05, 1.0])
 @pytest.mark.parametrize("seed", range(4))
-def test_all_messages_come_in_order_whatever_takes_long(
+def test_all_messages_come_in_order_at_any_speed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int, share: float
 ) -> None:
     path = written(tmp_path / "run", seed)
@@ -67,8 +67,8 @@ def test_all_messages_come_in_order_whatever_takes_long(
     hasten(monkeypatch, chance, share)
     monkeypatch.setattr(sqlite, "recorded_counts", functools.cache(sqlite.recorded_counts))
 
-    def plain(found: Iterable[RecordedMessage]) -> list[tuple[str, int, bytes]]:
-        return [(each.channel.topic, each.stamp_ns, each.data) for each in found]
+    def plain(messages: Iterable[RecordedMessage]) -> list[tuple[str, int, bytes]]:
+        return [(each.channel.topic, each.stamp_ns, each.data) for each in messages]
 
     for _ in range(20):
         recording = SqliteRecording(path)
@@ -101,31 +101,31 @@ def test_the_first_message_of_a_rare_topic_is_found_without_looking_for_the_next
     recording.close()
 
 
-def test_what_a_histogram_read_is_not_searched_again(
+def test_a_range_read_by_the_histogram_is_not_searched_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     recording = open_recording(written(tmp_path / "run", 1))
     assert recording.span_ns is not None
     recording.histogram(sqlite.TimeParts(*recording.span_ns, 10))
-    asked: list[tuple[int, int]] = []
+    spans: list[tuple[int, int]] = []
     sql = sqlite.Query.sql
 
     def noted(query: sqlite.Query, limit: int) -> Any:
-        asked.append((query.start_ns, query.end_ns))
+        spans.append((query.start_ns, query.end_ns))
         return sql(query, limit)
 
     monkeypatch.setattr(sqlite.Query, "sql", noted)
     channels = [channel for channel in recording.channels if channel.topic == "/bursts"]
     assert len(list(recording.messages(channels, *recording.span_ns))) == 150
-    assert sum(end - start for start, end in asked) < 3 * ns(15)  # in three bursts of 5 s
+    assert sum(end - start for start, end in spans) < 3 * ns(15)  # in three bursts of 5 s
     channels = [channel for channel in recording.channels if channel.topic == "/never"]
-    asked.clear()
+    spans.clear()
     assert list(recording.newest(channels, recording.span_ns[1])) == []
-    assert asked == []
+    assert spans == []
     recording.close()
 
 
-def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_waited_for(
+def test_a_topic_with_all_messages_counted_does_not_wait_for_the_rest_of_the_table(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bag = strings(*range(100))
@@ -150,7 +150,7 @@ def test_of_a_topic_whose_messages_are_all_found_the_rest_of_the_table_is_not_wa
     assert results == [START_NS + ns(1.5)]
 
 
-def test_a_message_that_is_no_valid_text_is_skipped(tmp_path: Path) -> None:
+def test_a_message_with_invalid_text_is_skipped(tmp_path: Path) -> None:
     (file,) = files(strings(0, 1, 2).write(tmp_path / "run", StoragePlugin.SQLITE3), ".db3")
     with closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE messages SET data = CAST(x'ff' AS TEXT) WHERE id = 2")

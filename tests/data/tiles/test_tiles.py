@@ -9,7 +9,6 @@ import io
 import os
 import sqlite3
 import struct
-import threading
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -25,6 +24,7 @@ from pmtiles.tile import (
     zxy_to_tileid,
 )
 from pmtiles.writer import Writer
+from serving import serving
 
 from webviz.data.tiles import TileError, decoded, open_tiles
 from webviz.data.tiles import mbtiles as mbtiles_file
@@ -112,7 +112,7 @@ def test_pixels_begin_in_the_south() -> None:
     ],
     ids=["empty", "vectors", "cut off", "too large"],
 )
-def test_what_is_no_picture_is_refused(content: bytes, reason: str) -> None:
+def test_a_tile_that_is_not_an_image_is_refused(content: bytes, reason: str) -> None:
     with pytest.raises(TileError, match=reason):
         decoded(content)
 
@@ -128,7 +128,7 @@ def test_what_is_no_picture_is_refused(content: bytes, reason: str) -> None:
         ("x" * 5000, "cannot be read"),
     ],
 )
-def test_what_is_no_source_is_refused(address: str, reason: str) -> None:
+def test_an_invalid_source_is_refused(address: str, reason: str) -> None:
     with pytest.raises(TileError, match=reason):
         open_tiles(address, TIMEOUT_S)
 
@@ -174,10 +174,10 @@ def test_a_pmtiles_file_that_is_cut_or_changed_anywhere_is_a_sentence(tmp_path: 
 class Answers(http.server.BaseHTTPRequestHandler):
     """A server of tiles, some of which are traps."""
 
-    asked: list[str]
+    requests: list[str]
 
     def do_GET(self) -> None:
-        self.asked.append(self.path)
+        self.requests.append(self.path)
         if self.path.startswith("/away/"):
             self.send_response(302)
             self.send_header("Location", "/tiles/2/1/0")
@@ -221,27 +221,23 @@ class Serving(http.server.ThreadingHTTPServer):
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[str, list[str]]]:
-    asked: list[str] = []
-    handler = type("Own", (Answers,), {"asked": asked})
-    with Serving(("127.0.0.1", 0), handler) as served:
-        threading.Thread(target=served.serve_forever, daemon=True).start()
+    requests: list[str] = []
+    handler = type("Own", (Answers,), {"requests": requests})
+    with serving(Serving(("127.0.0.1", 0), handler)) as served:
         address = f"http://127.0.0.1:{served.server_port}"
         monkeypatch.setenv(VARIABLE, f"https://other.example {address}/")
-        yield address, asked
-        served.shutdown()
+        yield address, requests
 
 
-def test_a_server_is_asked_once_for_each_tile(
-    server: tuple[str, list[str]], tmp_path: Path
-) -> None:
-    address, asked = server
+def test_each_tile_is_requested_once(server: tuple[str, list[str]], tmp_path: Path) -> None:
+    address, requests = server
     tiles = TileServer(f"{address}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
     assert [tiles.read(2, 1, 0), tiles.read(2, 1, 0)] == [picture()] * 2
-    assert asked == ["/tiles/2/1/0"]
+    assert requests == ["/tiles/2/1/0"]
     assert tiles.read(9, 9, 9) is None
     again = TileServer(f"{address}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
     assert again.read(2, 1, 0) == picture()
-    assert len(asked) == 2
+    assert len(requests) == 2
     assert tiles.attribution == "127.0.0.1"
 
 
@@ -254,7 +250,7 @@ def test_a_server_is_asked_once_for_each_tile(
         ("endless", "more than 4194304 bytes"),
     ],
 )
-def test_what_a_server_does_wrong_is_a_sentence(
+def test_errors_of_a_server_are_one_sentence(
     server: tuple[str, list[str]], tmp_path: Path, path: str, reason: str
 ) -> None:
     tiles = TileServer(f"{server[0]}/{path}/{{z}}/{{x}}/{{y}}", 0.3, tmp_path)
@@ -263,7 +259,7 @@ def test_what_a_server_does_wrong_is_a_sentence(
     assert len(server[1]) == 1, "a redirect is not followed"
 
 
-def test_nothing_is_loaded_from_a_server_that_nobody_allowed(
+def test_a_server_that_is_not_allowed_is_never_contacted(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delenv(VARIABLE, raising=False)
@@ -327,7 +323,7 @@ def test_a_tile_of_the_largest_size_is_read_and_a_larger_one_is_not(
 
 
 @pytest.mark.parametrize("status", [204, 404, 410])
-def test_a_server_without_a_tile_is_asked_again(
+def test_a_missing_tile_is_requested_again(
     server: tuple[str, list[str]], tmp_path: Path, status: int
 ) -> None:
     tiles = TileServer(f"{server[0]}/status/{status}/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
@@ -351,14 +347,16 @@ def test_the_maker_of_a_map_is_credited(
     assert tiles.attribution == credit
 
 
-def test_old_tiles_are_fetched_anew(server: tuple[str, list[str]], tmp_path: Path) -> None:
+def test_tiles_older_than_30_days_are_fetched_again(
+    server: tuple[str, list[str]], tmp_path: Path
+) -> None:
     tiles = TileServer(f"{server[0]}/tiles/{{z}}/{{x}}/{{y}}", TIMEOUT_S, tmp_path)
-    for age_days, asked in ((0, 1), (29, 1), (31, 2)):
+    for age_days, count in ((0, 1), (29, 1), (31, 2)):
         for path in filter(Path.is_file, tmp_path.rglob("*")):
             at = time.time() - age_days * 86_400
             os.utime(path, (at, at))
         assert tiles.read(2, 1, 0) == picture()
-        assert len(server[1]) == asked
+        assert len(server[1]) == count
 
 
 def test_the_cache_of_a_session_stays_within_its_limit(tmp_path: Path) -> None:
@@ -368,7 +366,7 @@ def test_the_cache_of_a_session_stays_within_its_limit(tmp_path: Path) -> None:
     assert sum(path.stat().st_size for path in tmp_path.rglob("0")) < 40_000
 
 
-def test_a_pmtiles_file_that_is_cut_off_says_where(tmp_path: Path) -> None:
+def test_the_error_of_a_truncated_pmtiles_file_names_the_place(tmp_path: Path) -> None:
     path = pmtiles(tmp_path / "map.pmtiles")
     tiles = PMTiles(path)
     size = path.stat().st_size - 1
@@ -394,7 +392,9 @@ def test_a_directory_of_pmtiles_unpacks_to_one_megabyte_at_most(tmp_path: Path) 
             assert PMTiles(path).read(2, 1, 0) == picture()
 
 
-def test_tiles_of_a_large_pmtiles_file_are_found_by_way_of_its_leaves(tmp_path: Path) -> None:
+def test_tiles_of_a_large_pmtiles_file_are_found_through_its_leaf_directories(
+    tmp_path: Path,
+) -> None:
     """The root has at most 16 kB; of more tiles, it names the directories that have them."""
     first = zxy_to_tileid(8, 0, 0)
     sizes = np.random.default_rng(0).integers(1, 128, 1 << 15).tolist()

@@ -1,7 +1,5 @@
 """Fixtures of the transform tests."""
 
-from collections.abc import Callable
-
 import pytest
 
 from webviz.data.transforms import TransformBuffer
@@ -9,16 +7,11 @@ from webviz.data.transforms import TransformBuffer
 S = 1_000_000_000
 
 
-@pytest.fixture
-def buffer() -> TransformBuffer:
-    return TransformBuffer()
+class HandFedBuffer(TransformBuffer):
+    """A buffer into which a test puts translations along x."""
 
-
-@pytest.fixture
-def put(buffer: TransformBuffer) -> Callable[..., bool]:
-    """Insert a pure translation along x; the stamp in seconds."""
-
-    def insert(
+    def put(
+        self,
         parent: str,
         child: str,
         stamp_s: float = 1.0,
@@ -26,14 +19,13 @@ def put(buffer: TransformBuffer) -> Callable[..., bool]:
         is_static: bool = False,
         authority: str = "",
     ) -> bool:
-        return buffer.set_transform(
-            parent,
-            child,
-            round(stamp_s * S),
-            (x, 0.0, 0.0),
-            (0.0, 0.0, 0.0, 1.0),
-            is_static,
-            authority,
+        """Insert one, with its stamp in seconds."""
+        stamp, rotation = round(stamp_s * S), (0.0, 0.0, 0.0, 1.0)
+        return self.set_transform(
+            parent, child, stamp, (x, 0.0, 0.0), rotation, is_static, authority
         )
 
-    return insert
+
+@pytest.fixture
+def buffer() -> HandFedBuffer:
+    return HandFedBuffer()

@@ -1,10 +1,10 @@
 """Insertions into the buffer: tf2's setTransform tests and its surprises."""
 
 import math
-from collections.abc import Callable
 
 import pytest
 
+from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import (
     ConnectivityException,
     LookupException,
@@ -16,7 +16,6 @@ from webviz.data.transforms.records import Surplus
 S = 1_000_000_000
 UNIT = (0.0, 0.0, 0.0, 1.0)
 ZERO = (0.0, 0.0, 0.0)
-Put = Callable[..., bool]
 
 
 @pytest.mark.parametrize(
@@ -49,11 +48,9 @@ def test_an_invalid_transform_is_refused_with_tf2s_reason(
     assert buffer.version == version
 
 
-def test_a_valid_transform_is_stored_and_changes_the_version(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_a_valid_transform_is_stored_and_changes_the_version(buffer: HandFedBuffer) -> None:
     version = buffer.version
-    assert put("parent", "child", 1.0, 3.0)
+    assert buffer.put("parent", "child", 1.0, 3.0)
     assert buffer.version != version
     assert buffer.lookup("parent", "child", S).translation == (3.0, 0.0, 0.0)
     assert not buffer.refusals.rejections
@@ -97,59 +94,51 @@ def test_one_leading_slash_is_stripped_on_insertion_and_only_one(buffer: Transfo
 
 
 def test_frames_are_listed_child_before_parent_in_order_of_first_mention(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
-    put("odom", "base")
-    put("map", "odom")
-    put("base", "laser")
+    buffer.put("odom", "base")
+    buffer.put("map", "odom")
+    buffer.put("base", "laser")
     assert buffer.frames() == ["base", "odom", "map", "laser"]
 
 
-def test_data_older_than_the_cache_is_refused_and_counted(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "odom", 100.0)
-    assert put("map", "odom", 90.0)
-    assert not put("map", "odom", 89.999)
-    assert not put("map", "odom", 1.0)
+def test_data_older_than_the_cache_is_refused_and_counted(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 100.0)
+    assert buffer.put("map", "odom", 90.0)
+    assert not buffer.put("map", "odom", 89.999)
+    assert not buffer.put("map", "odom", 1.0)
     rejection = buffer.refusals.rejections["odom"]
     assert (rejection.reason, rejection.count, rejection.stamp_ns) == ("TF_OLD_DATA", 2, S)
 
 
-def test_a_refused_transform_still_makes_its_parent_known(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "odom", 100.0)
-    assert not put("elsewhere", "odom", 1.0)
+def test_a_refused_transform_still_makes_its_parent_known(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 100.0)
+    assert not buffer.put("elsewhere", "odom", 1.0)
     with pytest.raises(ConnectivityException):
         buffer.lookup("elsewhere", "odom", 0)
 
 
-def test_changing_between_static_and_moving_loses_the_history(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("a", "b", 1.0, 1.0)
-    put("a", "b", 2.0, 2.0)
-    put("a", "b", 0.0, 7.0, is_static=True)
+def test_changing_between_static_and_moving_loses_the_history(buffer: HandFedBuffer) -> None:
+    buffer.put("a", "b", 1.0, 1.0)
+    buffer.put("a", "b", 2.0, 2.0)
+    buffer.put("a", "b", 0.0, 7.0, is_static=True)
     assert buffer.lookup("a", "b", 123 * S).translation[0] == 7.0
-    put("a", "b", 3.0, 3.0)
+    buffer.put("a", "b", 3.0, 3.0)
     with pytest.raises(NoDataForExtrapolationException):
         buffer.lookup("a", "b", 2 * S)
     assert buffer.lookup("a", "b", 3 * S).translation[0] == 3.0
 
 
-def test_the_later_static_parent_wins(buffer: TransformBuffer, put: Put) -> None:
-    put("a", "c", is_static=True)
-    put("b", "c", is_static=True)
+def test_the_later_static_parent_wins(buffer: HandFedBuffer) -> None:
+    buffer.put("a", "c", is_static=True)
+    buffer.put("b", "c", is_static=True)
     assert buffer.can_transform("b", "c", S)
     assert not buffer.can_transform("a", "c", S)
 
 
-def test_clear_keeps_static_transforms_names_and_publishers(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "odom", 1.0, authority="slam")
-    put("odom", "base", is_static=True)
+def test_clear_keeps_static_transforms_names_and_publishers(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 1.0, authority="slam")
+    buffer.put("odom", "base", is_static=True)
     buffer.clear()
     assert buffer.frames() == ["odom", "map", "base"]
     assert buffer.can_transform("odom", "base", 5 * S)
@@ -165,43 +154,41 @@ def test_clear_keeps_static_transforms_names_and_publishers(
 
 
 @pytest.mark.parametrize("before", [True, False])
-def test_a_cleared_frame_can_become_static(buffer: TransformBuffer, put: Put, before: bool) -> None:
-    put("map", "odom", 1.0, is_static=before)
+def test_a_cleared_frame_can_become_static(buffer: HandFedBuffer, before: bool) -> None:
+    buffer.put("map", "odom", 1.0, is_static=before)
     buffer.clear()
-    put("map", "odom", 1.0, 4.0, is_static=True)
+    buffer.put("map", "odom", 1.0, 4.0, is_static=True)
     assert buffer.lookup("map", "odom", 99 * S).translation[0] == 4.0
 
 
-def test_after_a_clear_older_data_is_welcome(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 100.0)
+def test_after_a_clear_older_data_is_welcome(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 100.0)
     buffer.clear()
-    assert put("map", "odom", 1.0)
+    assert buffer.put("map", "odom", 1.0)
 
 
 def test_the_structure_version_stands_while_only_poses_of_moving_frames_change(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
-    put("map", "odom", 1.0)
-    put("odom", "base", is_static=True)
+    buffer.put("map", "odom", 1.0)
+    buffer.put("odom", "base", is_static=True)
     structure, version = buffer.structure_version, buffer.version
-    put("map", "odom", 2.0, 5.0)
-    put("odom", "base", is_static=True)
+    buffer.put("map", "odom", 2.0, 5.0)
+    buffer.put("odom", "base", is_static=True)
     assert buffer.structure_version == structure
     assert buffer.version > version
-    put("odom", "base", x=1.0, is_static=True)
+    buffer.put("odom", "base", x=1.0, is_static=True)
     assert buffer.structure_version > structure
     structure = buffer.structure_version
-    put("world", "odom", 3.0)
+    buffer.put("world", "odom", 3.0)
     assert buffer.structure_version > structure
 
 
-def test_frames_joined_by_static_transforms_share_a_rigid_root(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "odom", 1.0)
-    put("odom", "base", 1.0)
-    put("base", "laser", is_static=True)
-    put("laser", "beam", is_static=True)
+def test_frames_joined_by_static_transforms_share_a_rigid_root(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 1.0)
+    buffer.put("odom", "base", 1.0)
+    buffer.put("base", "laser", is_static=True)
+    buffer.put("laser", "beam", is_static=True)
     roots = {frame: buffer.rigid_root(frame) for frame in (*buffer.frames(), "unknown")}
     assert roots == {
         "odom": "odom",
@@ -213,9 +200,9 @@ def test_frames_joined_by_static_transforms_share_a_rigid_root(
     }
 
 
-def test_a_loop_of_static_transforms_has_some_rigid_root(buffer: TransformBuffer, put: Put) -> None:
-    put("a", "b", is_static=True)
-    put("b", "a", is_static=True)
+def test_a_loop_of_static_transforms_has_some_rigid_root(buffer: HandFedBuffer) -> None:
+    buffer.put("a", "b", is_static=True)
+    buffer.put("b", "a", is_static=True)
     assert buffer.rigid_root("a") in ("a", "b")
 
 
@@ -224,31 +211,31 @@ def test_nothing_is_known_of_a_frame_never_mentioned(buffer: TransformBuffer) ->
         buffer.latest_common_time("a", "b")
 
 
-def test_of_too_many_frames_expired_ones_make_room_and_others_are_refused_and_counted(
-    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+def test_expired_frames_make_room_and_further_ones_are_refused_and_counted(
+    buffer: HandFedBuffer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.data.transforms.buffer.MAX_FRAMES", 4)
-    put("map", "odom", 1.0)
-    put("base", "laser", 1.0, is_static=True)
-    assert not put("map", "person_1", 1.5)
-    assert not put("person_2", "odom", 1.5), "a new parent is a new frame, too"
+    buffer.put("map", "odom", 1.0)
+    buffer.put("base", "laser", 1.0, is_static=True)
+    assert not buffer.put("map", "person_1", 1.5)
+    assert not buffer.put("person_2", "odom", 1.5), "a new parent is a new frame, too"
     assert buffer.refusals.surplus == Surplus("odom", 2, 0)
-    assert put("map", "odom", 2.0), "frames that are known still move"
-    assert put("map", "person_3", 13.0)
+    assert buffer.put("map", "odom", 2.0), "frames that are known still move"
+    assert buffer.put("map", "person_3", 13.0)
     assert buffer.frames() == ["laser", "base", "person_3", "map"]
     assert "odom" not in buffer.publishers
-    assert not put("map", "odom", 13.0)
+    assert not buffer.put("map", "odom", 13.0)
     buffer.forget()
     assert buffer.refusals.surplus is None
-    assert put("map", "odom", 1.0)
+    assert buffer.put("map", "odom", 1.0)
 
 
 def test_refusals_are_kept_of_the_frames_refused_last(
-    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+    buffer: HandFedBuffer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.data.transforms.refusals.MAX_REJECTIONS", 2)
     for frame in ("a", "b", "a", "c"):
-        put(frame, frame)
+        buffer.put(frame, frame)
     assert {frame: each.count for frame, each in buffer.refusals.rejections.items()} == {
         "a": 2,
         "c": 1,

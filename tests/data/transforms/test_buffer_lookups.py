@@ -1,11 +1,11 @@
 """Questions to the buffer: tf2's buffer_core_test, simple_tf2_core and test_buffer_core."""
 
 import math
-from collections.abc import Callable
 from itertools import pairwise
 
 import pytest
 
+from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import (
     BackwardExtrapolationException,
     ConnectivityException,
@@ -23,7 +23,6 @@ from webviz.data.transforms.errors import format_stamp
 S = 1_000_000_000
 UNIT = (0.0, 0.0, 0.0, 1.0)
 ZERO = (0.0, 0.0, 0.0)
-Put = Callable[..., bool]
 
 
 def refusal(buffer: TransformBuffer, target: str, source: str, stamp_ns: int) -> tuple[type, str]:
@@ -47,15 +46,14 @@ def refusal(buffer: TransformBuffer, target: str, source: str, stamp_ns: int) ->
 )
 @pytest.mark.parametrize("stamp_s", [1, 10, 0])
 def test_every_pair_of_frames_of_a_tree_sees_each_other(
-    buffer: TransformBuffer,
-    put: Put,
+    buffer: HandFedBuffer,
     shape: list[tuple[str, str]],
     positions: dict[str, float],
     stamp_s: int,
 ) -> None:
     for parent, child in shape:
-        put(parent, child, 1.0, 1.0)
-        put(parent, child, 10.0, 1.0)
+        buffer.put(parent, child, 1.0, 1.0)
+        buffer.put(parent, child, 10.0, 1.0)
     for target, x_target in positions.items():
         for source, x_source in positions.items():
             transform = buffer.lookup(target, source, stamp_s * S)
@@ -89,9 +87,9 @@ def test_a_ring_of_nine_frames_by_45_degrees_has_canonical_signs(
             assert transform.rotation == pytest.approx((0.0, 0.0, sign * z, sign * w), abs=1e-12)
 
 
-def test_two_trees_are_not_connected(buffer: TransformBuffer, put: Put) -> None:
-    put("a", "b", 1.0)
-    put("c", "d", 1.0)
+def test_two_trees_are_not_connected(buffer: HandFedBuffer) -> None:
+    buffer.put("a", "b", 1.0)
+    buffer.put("c", "d", 1.0)
     assert not buffer.can_transform("a", "d", S)
     for stamp in (0, S):
         assert refusal(buffer, "a", "d", stamp) == (
@@ -101,13 +99,11 @@ def test_two_trees_are_not_connected(buffer: TransformBuffer, put: Put) -> None:
         )
 
 
-def test_an_unknown_frame_is_a_lookup_error_of_its_argument(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_an_unknown_frame_is_a_lookup_error_of_its_argument(buffer: HandFedBuffer) -> None:
     text = '"a" passed to lookupTransform argument target_frame does not exist. '
     assert refusal(buffer, "a", "b", S) == (LookupException, text)
     assert not buffer.can_transform("a", "b", S)
-    put("c", "a")
+    buffer.put("c", "a")
     text = '"b" passed to lookupTransform argument source_frame does not exist. '
     assert refusal(buffer, "a", "b", S) == (LookupException, text)
     assert buffer.can_transform_error("a", "b", S) == (
@@ -119,9 +115,9 @@ def test_an_unknown_frame_is_a_lookup_error_of_its_argument(
     ("frame", "fault"), [("", "cannot be empty"), ("/a", "cannot start with a '/'")]
 )
 def test_an_empty_frame_or_a_leading_slash_is_an_invalid_argument(
-    buffer: TransformBuffer, put: Put, frame: str, fault: str
+    buffer: HandFedBuffer, frame: str, fault: str
 ) -> None:
-    put("a", "b")
+    buffer.put("a", "b")
     for target, source, argument in ((frame, "b", "target"), ("b", frame, "source")):
         assert refusal(buffer, target, source, S) == (
             InvalidArgumentException,
@@ -145,15 +141,15 @@ def test_a_frame_in_itself_is_the_identity_without_validation(
 
 
 def test_the_latest_time_of_a_frame_in_itself_is_its_newest_stamp_as_a_child(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
-    put("map", "odom", 3.0)
+    buffer.put("map", "odom", 3.0)
     assert buffer.lookup("odom", "odom", 0).stamp_ns == 3 * S
     assert buffer.lookup("map", "map", 0).stamp_ns == 0
 
 
-def test_one_sample_serves_only_its_own_stamp(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 2.0)
+def test_one_sample_serves_only_its_own_stamp(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 2.0)
     assert buffer.can_transform("map", "odom", 2 * S)
     assert refusal(buffer, "map", "odom", S) == (
         NoDataForExtrapolationException,
@@ -162,9 +158,9 @@ def test_one_sample_serves_only_its_own_stamp(buffer: TransformBuffer, put: Put)
     )
 
 
-def test_times_outside_the_data_are_refused_by_direction(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 2.0)
-    put("map", "odom", 3.0)
+def test_times_outside_the_data_are_refused_by_direction(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 2.0)
+    buffer.put("map", "odom", 3.0)
     tail = ", when looking up transform from frame [odom] to frame [map]"
     assert refusal(buffer, "map", "odom", S) == (
         BackwardExtrapolationException,
@@ -196,31 +192,29 @@ def test_the_exceptions_stand_in_tf2s_hierarchy() -> None:
         assert kind.__base__ is TransformException
 
 
-def test_siblings_below_a_stale_parent_still_see_each_other(
-    buffer: TransformBuffer, put: Put
-) -> None:
-    put("map", "base", 1.0, 5.0)
+def test_siblings_below_a_stale_parent_still_see_each_other(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "base", 1.0, 5.0)
     for stamp in (1.0, 60.0):
-        put("base", "left", stamp, -1.0)
-        put("base", "right", stamp, 1.0)
+        buffer.put("base", "left", stamp, -1.0)
+        buffer.put("base", "right", stamp, 1.0)
     assert buffer.lookup("left", "right", 30 * S).translation == (2.0, 0.0, 0.0)
     assert refusal(buffer, "map", "right", 30 * S)[0] is NoDataForExtrapolationException
 
 
-def test_an_error_on_the_side_of_the_target_is_told_before_one_on_the_side_of_the_source(
-    buffer: TransformBuffer, put: Put
+def test_an_error_of_the_target_is_reported_before_one_of_the_source(
+    buffer: HandFedBuffer,
 ) -> None:
-    put("root", "source", 1.0)
-    put("root", "target", 2.0)
+    buffer.put("root", "source", 1.0)
+    buffer.put("root", "target", 2.0)
     assert "only time 2.000000" in refusal(buffer, "target", "source", 3 * S)[1]
     assert "only time 1.000000" in refusal(buffer, "target", "source", 2 * S)[1]
 
 
-def test_a_loop_is_a_lookup_error_that_lists_the_frames(buffer: TransformBuffer, put: Put) -> None:
-    put("a", "b")
-    put("b", "c")
-    put("c", "a")
-    put("x", "y")
+def test_a_loop_is_a_lookup_error_that_lists_the_frames(buffer: HandFedBuffer) -> None:
+    buffer.put("a", "b")
+    buffer.put("b", "c")
+    buffer.put("c", "a")
+    buffer.put("x", "y")
     for stamp in (0, S):
         assert refusal(buffer, "y", "a", stamp) == (
             LookupException,
@@ -232,11 +226,11 @@ def test_a_loop_is_a_lookup_error_that_lists_the_frames(buffer: TransformBuffer,
 
 
 def test_the_full_question_looks_at_two_times_past_a_frame_that_did_not_move(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
     for stamp, x in ((1.0, 0.0), (2.0, 10.0)):
-        put("odom", "base", stamp, x)
-        put("base", "laser", stamp, 1.0)
+        buffer.put("odom", "base", stamp, x)
+        buffer.put("base", "laser", stamp, 1.0)
     transform = buffer.lookup_full("base", 2 * S, "laser", S, "odom")
     assert transform.translation == (-9.0, 0.0, 0.0)
     assert transform.stamp_ns == 2 * S
@@ -272,13 +266,11 @@ def test_times_are_printed_in_seconds_with_six_decimals(stamp_ns: int, text: str
     assert format_stamp(stamp_ns) == text
 
 
-def test_the_yaml_listing_names_parent_publisher_rate_and_age(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_the_yaml_listing_names_parent_publisher_rate_and_age(buffer: HandFedBuffer) -> None:
     assert buffer.all_frames_as_yaml() == "[]"
     for i in range(5):
-        put("map", "odom", 1.0 + i / 4, authority="slam")
-    put("odom", "laser", is_static=True)
+        buffer.put("map", "odom", 1.0 + i / 4, authority="slam")
+    buffer.put("odom", "laser", is_static=True)
     assert buffer.all_frames_as_yaml(2_500_000_000) == (
         "odom: \n  parent: 'map'\n  broadcaster: 'slam'\n  rate: 5.000\n"
         "  most_recent_transform: 2.000000\n  oldest_transform: 1.000000\n"

@@ -31,7 +31,7 @@ def samples(cache: TimeCache) -> list[ParentedPose]:
     return list(zip(map(PACKED.unpack, cache.poses), cache.parents, strict=True))
 
 
-def test_samples_are_ordered_whatever_the_order_of_arrival() -> None:
+def test_samples_are_ordered_by_stamp_in_any_order_of_arrival() -> None:
     assert list(filled([5, 1, 4, 2, 3]).stamps) == [1, 2, 3, 4, 5]
 
 
@@ -100,7 +100,7 @@ def test_the_first_sample_can_be_stamped_zero() -> None:
     assert newest[0][0] == 9.0  # a zero in a question means the newest
 
 
-def test_of_equal_stamps_the_newest_reads_last_inserted_and_the_oldest_first_inserted() -> None:
+def test_the_last_of_equal_newest_stamps_and_the_first_of_equal_oldest_are_read() -> None:
     cache = TimeCache(FAR)
     for stamp, x in ((1, 1.0), (1, 2.0), (5, 3.0), (5, 4.0), (9, 5.0), (9, 6.0)):
         cache.insert(stamp, (pose(x), "parent"))
@@ -160,7 +160,7 @@ def test_an_empty_cache_has_no_data() -> None:
     assert (cache.newest_stamp, cache.oldest_stamp) == (0, 0)
 
 
-def test_the_refusal_says_on_which_side_of_the_data_the_time_lies() -> None:
+def test_a_refusal_names_the_side_of_the_data_the_time_lies_on() -> None:
     single, several = filled([2_000_000_000]), filled([2_000_000_000, 3_500_000_000])
     assert single.at(1) is None
     assert single.refusal(1_000_000_000) == (

@@ -22,7 +22,7 @@ def hear_once(buffer: TransformBuffer, child: str, offset_s: float, received_ns:
 
 
 @pytest.mark.parametrize("offset_s", [-1.0, -0.03, 0.0, 1.0])
-def test_usual_delays_and_amcls_tolerance_are_no_fault(
+def test_usual_delays_and_the_tolerance_of_amcl_are_accepted(
     buffer: TransformBuffer, offset_s: float
 ) -> None:
     hear(buffer, "odom", offset_s)
@@ -67,20 +67,20 @@ def test_simulated_time_may_be_behind_simulated_time(buffer: TransformBuffer) ->
     assert "stamped 67 min behind the time of this computer" in str(clock_problem(buffer, 5000 * S))
 
 
-def test_who_fell_silent_is_not_blamed_any_more(buffer: TransformBuffer) -> None:
+def test_a_silent_publisher_has_no_clock_problem(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0)
     assert clock_problem(buffer, NOW + 5 * S)
     assert clock_problem(buffer, NOW + 11 * S) is None
 
 
-def test_a_single_transform_says_nothing(buffer: TransformBuffer) -> None:
+def test_a_single_transform_is_not_judged(buffer: TransformBuffer) -> None:
     """Slices of recordings begin with the last one of each frame that has ended."""
     hear(buffer, "odom", 0.0)
     hear_once(buffer, "arm", -40.0, NOW)
     assert clock_problem(buffer, NOW) is None
 
 
-def test_without_a_time_nothing_can_be_said(buffer: TransformBuffer) -> None:
+def test_without_a_time_there_is_no_clock_problem(buffer: TransformBuffer) -> None:
     hear(buffer, "odom", 2.0, received_ns=0)
     assert clock_problem(buffer, 0) is None
 

@@ -1,25 +1,21 @@
 """The state of the whole tree."""
 
-from collections.abc import Callable
-
 import pytest
 
+from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import FrameReport, TransformBuffer, diagnose, tree_text
 
 S = 1_000_000_000
-Put = Callable[..., bool]
 
 
 def report(buffer: TransformBuffer, frame: str, now_s: float = 0.0) -> FrameReport:
     frames = diagnose(buffer, round(now_s * S)).frames
-    return next(found for found in frames if found.frame == frame)
+    return next(each for each in frames if each.frame == frame)
 
 
-def test_a_moving_frame_is_reported_with_rate_age_and_history(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_a_moving_frame_is_reported_with_rate_age_and_history(buffer: HandFedBuffer) -> None:
     for i in range(21):
-        put("map", "odom", 10.0 + i / 20, authority="slam")
+        buffer.put("map", "odom", 10.0 + i / 20, authority="slam")
     result = report(buffer, "odom", 11.1)
     assert (result.parent, result.is_static, result.publishers) == ("map", False, ("slam",))
     assert result.rate_hz == pytest.approx(20.0)
@@ -28,8 +24,8 @@ def test_a_moving_frame_is_reported_with_rate_age_and_history(
     assert result.problems == ()
 
 
-def test_a_static_frame_has_neither_age_nor_rate(buffer: TransformBuffer, put: Put) -> None:
-    put("base", "laser", is_static=True)
+def test_a_static_frame_has_neither_age_nor_rate(buffer: HandFedBuffer) -> None:
+    buffer.put("base", "laser", is_static=True)
     result = report(buffer, "laser", 50.0)
     assert (result.is_static, result.age_ns, result.rate_hz) == (True, None, 0.0)
 
@@ -42,101 +38,97 @@ def test_the_delay_is_the_time_from_stamp_to_reception(buffer: TransformBuffer) 
     assert report(buffer, "base").delay_ns is None
 
 
-def test_roots_of_unconnected_trees_are_a_problem(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 1.0)
+def test_roots_of_unconnected_trees_are_a_problem(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 1.0)
     assert diagnose(buffer).problems == []
-    put("world", "drone", 1.0)
+    buffer.put("world", "drone", 1.0)
     diagnosis = diagnose(buffer)
     assert diagnosis.roots == ("map", "world")
     assert "roots map, world" in diagnosis.problems[0]
 
 
-def test_a_loop_is_reported_once(buffer: TransformBuffer, put: Put) -> None:
+def test_a_loop_is_reported_once(buffer: HandFedBuffer) -> None:
     for parent, child in (("a", "b"), ("b", "c"), ("c", "a"), ("a", "tail")):
-        put(parent, child, 1.0)
+        buffer.put(parent, child, 1.0)
     diagnosis = diagnose(buffer)
     assert diagnosis.loops == (("b", "a", "c", "b"),)
     assert "b → a → c → b" in diagnosis.problems[0]
     assert "(loop)" in tree_text(buffer)
 
 
-def test_a_link_that_stopped_is_a_problem_until_it_resumes(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_a_link_that_stopped_is_a_problem_until_it_resumes(buffer: HandFedBuffer) -> None:
     for i in range(11):
-        put("map", "odom", 10.0 + i / 10)
+        buffer.put("map", "odom", 10.0 + i / 10)
     assert (
         "has stopped: its last transform is 4.0 s old" in report(buffer, "odom", 15.0).problems[0]
     )
-    put("map", "odom", 15.0)
+    buffer.put("map", "odom", 15.0)
     assert report(buffer, "odom", 15.0).problems == ()
 
 
-def test_a_slow_link_is_not_taken_for_a_stopped_one(buffer: TransformBuffer, put: Put) -> None:
+def test_a_slow_link_is_not_taken_for_a_stopped_one(buffer: HandFedBuffer) -> None:
     for i in range(4):
-        put("map", "odom", 10.0 + 2 * i)
+        buffer.put("map", "odom", 10.0 + 2 * i)
     assert report(buffer, "odom", 17.9).problems == ()
 
 
 def test_two_publishers_with_different_parents_are_found_without_their_names(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
     for i in range(6):
-        put("map" if i % 2 else "world", "odom", 1.0 + i / 10)
+        buffer.put("map" if i % 2 else "world", "odom", 1.0 + i / 10)
     problems = report(buffer, "odom").problems
     assert any('between "map" and "world"' in problem for problem in problems)
 
 
-def test_one_change_of_parent_is_no_quarrel(buffer: TransformBuffer, put: Put) -> None:
+def test_one_change_of_parent_is_not_a_conflict(buffer: HandFedBuffer) -> None:
     for i in range(6):
-        put("map" if i < 3 else "world", "odom", 1.0 + i / 10)
+        buffer.put("map" if i < 3 else "world", "odom", 1.0 + i / 10)
     assert report(buffer, "odom").problems == ()
 
 
 def test_two_publishers_of_the_same_stamps_are_found_without_their_names(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
     for i in range(4):
-        put("map", "odom", 1.0 + i, 0.0)
-        put("map", "odom", 1.0 + i, 5.0)
+        buffer.put("map", "odom", 1.0 + i, 0.0)
+        buffer.put("map", "odom", 1.0 + i, 5.0)
     assert "same stamp" in report(buffer, "odom").problems[0]
 
 
-def test_two_publishers_are_named_while_they_quarrel(buffer: TransformBuffer, put: Put) -> None:
+def test_two_publishers_are_named_while_they_quarrel(buffer: HandFedBuffer) -> None:
     for i in range(6):
-        put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam_toolbox")[i % 2])
+        buffer.put("map", "odom", 1.0 + i / 10, authority=("amcl", "slam_toolbox")[i % 2])
     assert "amcl and slam_toolbox" in report(buffer, "odom").problems[0]
     for i in range(30):
-        put("map", "odom", 2.0 + i, authority="slam_toolbox")
+        buffer.put("map", "odom", 2.0 + i, authority="slam_toolbox")
     assert report(buffer, "odom").problems == ()
 
 
-def test_refused_transforms_are_counted_with_the_reason(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 100.0)
+def test_refused_transforms_are_counted_with_the_reason(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 100.0)
     for _ in range(3):
-        put("map", "odom", 1.0)
+        buffer.put("map", "odom", 1.0)
     problem = report(buffer, "odom", 100.0).problems[0]
     assert problem.startswith('3 transforms of "odom" were refused')
     assert "TF_OLD_DATA" in problem
 
 
-def test_a_cleared_frame_is_reported_as_silent(buffer: TransformBuffer, put: Put) -> None:
-    put("map", "odom", 1.0)
+def test_a_cleared_frame_is_reported_as_silent(buffer: HandFedBuffer) -> None:
+    buffer.put("map", "odom", 1.0)
     buffer.clear()
     result = report(buffer, "odom", 1.0)
     assert (result.parent, result.samples) == ("", 0)
     assert "since the transforms were cleared" in result.problems[0]
 
 
-def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(
-    buffer: TransformBuffer, put: Put
-) -> None:
+def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(buffer: HandFedBuffer) -> None:
     for i in range(3):
-        put("map", "odom", 1.0 + i / 10, authority="slam")
-    put("odom", "base", 1.2)
-    put("base", "laser", is_static=True, authority="robot_state_publisher")
-    put("odom", "goal", 1.2)
-    put("world", "drone", 1.1)
+        buffer.put("map", "odom", 1.0 + i / 10, authority="slam")
+    buffer.put("odom", "base", 1.2)
+    buffer.put("base", "laser", is_static=True, authority="robot_state_publisher")
+    buffer.put("odom", "goal", 1.2)
+    buffer.put("world", "drone", 1.1)
     assert tree_text(buffer, round(1.25 * S)).splitlines() == [
         "map",
         "└─ odom  [10.0 Hz, 50 ms old, from slam]",
@@ -148,11 +140,11 @@ def test_the_tree_is_drawn_with_kind_rate_age_and_publisher(
     ]
 
 
-def test_the_tree_says_ahead_and_simulated_time_and_names_nodes_that_are_known(
-    buffer: TransformBuffer, put: Put
+def test_the_report_has_stamps_ahead_simulated_time_and_known_nodes(
+    buffer: HandFedBuffer,
 ) -> None:
-    put("map", "odom", 1.7e9 + 0.193, authority="/tf")
-    put("map", "sim", 12.5, authority="/other")
+    buffer.put("map", "odom", 1.7e9 + 0.193, authority="/tf")
+    buffer.put("map", "sim", 12.5, authority="/other")
     buffer.nodes = {"/tf": "/ekf"}
     assert tree_text(buffer, round(1.7e9) * S).splitlines() == [
         "map",
@@ -167,12 +159,12 @@ def test_an_empty_buffer_has_an_empty_diagnosis(buffer: TransformBuffer) -> None
     assert tree_text(buffer) == ""
 
 
-def test_a_gap_is_reported_until_it_is_long_ago(buffer: TransformBuffer, put: Put) -> None:
+def test_a_gap_is_reported_until_it_is_long_ago(buffer: HandFedBuffer) -> None:
     stamps = [i / 20 for i in range(20)]
     for stamp in (*stamps, *(3.0 + each for each in stamps)):
-        put("map", "odom", 10.0 + stamp)
+        buffer.put("map", "odom", 10.0 + stamp)
     assert report(buffer, "odom", 14.0).gap_ns == pytest.approx(2.05 * S, abs=1000)
     assert report(buffer, "odom", 14.0).problems == ()
     for i in range(200):
-        put("map", "odom", 14.0 + i / 20)
+        buffer.put("map", "odom", 14.0 + i / 20)
     assert report(buffer, "odom", 24.0).gap_ns == 0

@@ -1,14 +1,12 @@
 """Messages that wait for their transform: tf2_ros' test_message_filter without callbacks."""
 
-from collections.abc import Callable
-
 import pytest
 
+from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import Kind, MessageFilter, TransformBuffer
 from webviz.data.transforms import filter as filter_module
 
 S = 1_000_000_000
-Put = Callable[..., bool]
 
 
 @pytest.fixture
@@ -34,86 +32,86 @@ def test_a_message_in_the_fixed_frame_passes_without_any_transform(
 
 
 def test_a_message_passes_at_once_if_its_transform_is_there(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     messages.add("m", "laser", S)
     assert messages.ready(buffer, "map") == ["m"]
 
 
 def test_the_first_message_since_the_last_that_was_ready_is_known(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
     assert messages.stuck_since is None
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     for name, at_s in (("ready", 1), ("first", 2), ("second", 3)):
         messages.add(name, "laser", at_s * S)
         messages.ready(buffer, "map")
     assert messages.stuck_since == "first"
-    put("map", "laser", 3.0)
+    buffer.put("map", "laser", 3.0)
     assert messages.ready(buffer, "map") == ["first", "second"]
     assert messages.stuck_since is None
 
 
 def test_a_message_passes_when_its_transform_comes_and_only_once(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
     messages.add("m", "laser", S)
     assert messages.ready(buffer, "map") == []
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     assert messages.ready(buffer, "map") == ["m"]
     assert messages.ready(buffer, "map") == []
     assert not messages.is_stuck
 
 
 def test_messages_become_ready_in_order_of_arrival(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     for name, stamp in (("a", 1.5), ("b", 1.7), ("c", 1.6), ("d", 2.5)):
         messages.add(name, "laser", round(stamp * S))
     assert messages.ready(buffer, "map") == []
-    put("map", "laser", 2.0)
+    buffer.put("map", "laser", 2.0)
     assert messages.ready(buffer, "map") == ["a", "b", "c"]
 
 
 def test_a_leading_slash_of_a_message_is_stripped(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     messages.add("m", "/laser", S)
     assert messages.ready(buffer, "map") == ["m"]
 
 
 def test_a_zero_stamp_means_the_latest_transform(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
     messages.add("m", "laser", 0)
     assert messages.ready(buffer, "map") == []
-    put("map", "laser", 100.0)
+    buffer.put("map", "laser", 100.0)
     assert messages.ready(buffer, "map") == ["m"]
 
 
 def test_another_fixed_frame_applies_to_those_that_wait(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("odom", "laser", 1.0)
+    buffer.put("odom", "laser", 1.0)
     messages.add("m", "laser", S)
     assert messages.ready(buffer, "map") == []
     assert messages.ready(buffer, "odom") == ["m"]
 
 
 def test_a_message_with_a_duration_waits_for_its_end_too(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 1.0)
-    put("map", "laser", 1.1)
+    buffer.put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.1)
     messages.add("scan", "laser", S, duration_ns=S // 5)
     assert messages.ready(buffer, "map") == []
     explanation = messages.explanation(buffer, "map")
     assert explanation is not None
     assert explanation.kind == Kind.AHEAD
-    put("map", "laser", 1.2)
+    buffer.put("map", "laser", 1.2)
     assert messages.ready(buffer, "map") == ["scan"]
 
 
@@ -127,36 +125,36 @@ def test_stamps_keep_their_last_nanosecond(
     assert messages.ready(buffer, "map") == ["exact"]
 
 
-def test_a_ready_message_takes_no_place_in_a_full_queue(buffer: TransformBuffer, put: Put) -> None:
+def test_a_ready_message_takes_no_place_in_a_full_queue(buffer: HandFedBuffer) -> None:
     messages: MessageFilter[int] = MessageFilter(3)
-    put("map", "laser", 1.0)
-    put("map", "camera", 1.0)
+    buffer.put("map", "laser", 1.0)
+    buffer.put("map", "camera", 1.0)
     for i in range(3):
         messages.add(i, "laser", 2 * S)
     for i in range(3, 20):
         messages.add(i, "camera", S)
     assert messages.ready(buffer, "map") == list(range(3, 20))
-    put("map", "laser", 2.0)
+    buffer.put("map", "laser", 2.0)
     assert messages.ready(buffer, "map") == [0, 1, 2]
     assert not messages.drops
 
 
-def test_when_the_queue_is_full_the_oldest_is_given_up(buffer: TransformBuffer, put: Put) -> None:
+def test_a_full_queue_drops_its_oldest_message(buffer: HandFedBuffer) -> None:
     messages: MessageFilter[int] = MessageFilter(3)
     for i in range(5):
         messages.add(i, "laser", S)
     assert messages.ready(buffer, "map") == []
     assert messages.drops == {Kind.QUEUE_FULL: 2}
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     assert messages.ready(buffer, "map") == [2, 3, 4]
 
 
-def test_when_too_many_bytes_wait_the_oldest_is_given_up_and_the_cause_said(
-    buffer: TransformBuffer, put: Put, monkeypatch: pytest.MonkeyPatch
+def test_the_oldest_message_over_the_limit_of_bytes_is_dropped_with_the_cause(
+    buffer: HandFedBuffer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(filter_module, "MAX_BYTES", 100)
     messages: MessageFilter[int] = MessageFilter(10)
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     for i in range(5):
         messages.add(i, "laser", 2 * S, 2 * S, size=40)
     assert messages.ready(buffer, "map", 2 * S) == []
@@ -167,21 +165,21 @@ def test_when_too_many_bytes_wait_the_oldest_is_given_up_and_the_cause_said(
     assert "3 messages were given up." in explanation.sentence
     messages.add(5, "laser", 2 * S, 2 * S, size=1000)
     assert messages.ready(buffer, "map", 2 * S) == []
-    put("map", "laser", 2.0)
+    buffer.put("map", "laser", 2.0)
     assert messages.ready(buffer, "map", 2 * S) == [5]
 
 
 def test_with_transforms_that_come_late_newer_messages_displace_nothing(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    shown = []
+    delivered = []
     for tick in range(100):  # 100 Hz ticks, a scan every 4, its transform 3 ticks late
         now = 10.0 + tick / 100
-        put("map", "laser", now - 0.03)
+        buffer.put("map", "laser", now - 0.03)
         if tick % 4 == 0:
             messages.add(str(tick), "laser", round(now * S))
-        shown += messages.ready(buffer, "map")
-    assert len(shown) >= 24
+        delivered += messages.ready(buffer, "map")
+    assert len(delivered) >= 24
 
 
 def test_an_empty_frame_is_given_up_at_once(
@@ -196,10 +194,10 @@ def test_an_empty_frame_is_given_up_at_once(
 
 
 def test_a_message_older_than_anything_that_can_come_is_given_up(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 100.0)
-    put("map", "laser", 101.0)
+    buffer.put("map", "laser", 100.0)
+    buffer.put("map", "laser", 101.0)
     messages.add("m", "laser", 90 * S)
     assert messages.ready(buffer, "map") == []
     assert messages.drops == {Kind.BEHIND: 1}
@@ -211,16 +209,16 @@ def test_a_message_older_than_anything_that_can_come_is_given_up(
 
 
 def test_a_stamp_before_1970_is_older_than_anything_that_can_come(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 100.0)
+    buffer.put("map", "laser", 100.0)
     messages.add("m", "laser", -S)
     assert messages.ready(buffer, "map") == []
     assert messages.drops == {Kind.BEHIND: 1}
 
 
 def test_the_state_clears_when_data_flows_again(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
     for i in range(20):
         messages.add(str(i), "laser", S)
@@ -229,17 +227,17 @@ def test_the_state_clears_when_data_flows_again(
     assert explanation is not None
     assert explanation.kind == Kind.NO_TRANSFORMS
     assert explanation.sentence.endswith("10 messages were given up.")
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     assert len(messages.ready(buffer, "map")) == 10
     assert messages.explanation(buffer, "map") is None
     assert not messages.is_stuck
 
 
-def test_a_message_before_the_first_transform_is_no_problem_once_a_newer_one_is_ready(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+def test_a_message_before_the_first_transform_is_ignored_once_a_newer_one_is_ready(
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
-    put("map", "laser", 1.0)
-    put("map", "laser", 3.0)
+    buffer.put("map", "laser", 1.0)
+    buffer.put("map", "laser", 3.0)
     messages.add("first", "laser", round(0.95 * S))
     assert messages.ready(buffer, "map") == []
     reason = messages.explanation(buffer, "map")
@@ -254,7 +252,7 @@ def test_a_message_before_the_first_transform_is_no_problem_once_a_newer_one_is_
     messages.add("one more", "laser", 3 * S)
     messages.add("back again", "laser", round(0.9 * S))
     assert messages.ready(buffer, "map") == ["one more"]
-    put("map", "nowhere", 1.0)
+    buffer.put("map", "nowhere", 1.0)
     assert messages.ready(buffer, "map") == ["other frame"]
     reason = messages.explanation(buffer, "map")  # of what arrived after newer data
     assert reason
@@ -262,14 +260,14 @@ def test_a_message_before_the_first_transform_is_no_problem_once_a_newer_one_is_
     assert messages.is_stuck
 
 
-def test_a_queue_too_short_for_the_lag_is_told_with_the_length_it_needs(
-    buffer: TransformBuffer, put: Put
+def test_a_queue_too_short_for_the_lag_is_reported_with_the_length_it_needs(
+    buffer: HandFedBuffer,
 ) -> None:
     messages: MessageFilter[str] = MessageFilter(5)
-    put("map", "laser", 9.0)
+    buffer.put("map", "laser", 9.0)
     for i in range(40):  # 50 Hz, 300 ms late
         now = 10.0 + i / 50
-        put("map", "laser", now - 0.3)
+        buffer.put("map", "laser", now - 0.3)
         messages.add("m", "laser", round(now * S))
         assert messages.ready(buffer, "map", round(now * S)) == []
     explanation = messages.explanation(buffer, "map", round(10.78 * S))
@@ -282,7 +280,7 @@ def test_a_queue_too_short_for_the_lag_is_told_with_the_length_it_needs(
     flowed = []
     for i in range(40, 80):
         now = 10.0 + i / 50
-        put("map", "laser", now - 0.3)
+        buffer.put("map", "laser", now - 0.3)
         enough.add("m", "laser", round(now * S))
         flowed += enough.ready(buffer, "map", round(now * S))
     assert flowed
@@ -290,13 +288,13 @@ def test_a_queue_too_short_for_the_lag_is_told_with_the_length_it_needs(
 
 
 def test_clear_forgets_messages_and_counts(
-    buffer: TransformBuffer, messages: MessageFilter[str], put: Put
+    buffer: HandFedBuffer, messages: MessageFilter[str]
 ) -> None:
     for _ in range(15):
         messages.add("m", "laser", S)
     messages.ready(buffer, "map")
     messages.clear()
-    put("map", "laser", 1.0)
+    buffer.put("map", "laser", 1.0)
     assert messages.ready(buffer, "map") == []
     assert not messages.drops
     assert not messages.is_stuck

@@ -72,7 +72,7 @@ def test_poles_have_no_utm_coordinates() -> None:
 
 
 @pytest.mark.parametrize("bad", [(math.nan, 0.0), (0.0, math.inf), (90.1, 0.0), (0.0, 1e308)])
-def test_what_is_no_place_is_refused(bad: tuple[float, float]) -> None:
+def test_invalid_latitudes_and_longitudes_are_refused(bad: tuple[float, float]) -> None:
     assert not is_valid(*bad)
 
 

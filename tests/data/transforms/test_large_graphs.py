@@ -92,9 +92,9 @@ def test_a_failure_has_no_text_until_it_is_shown(monkeypatch: pytest.MonkeyPatch
     buffer = TransformBuffer()
     for parent, child in LOOPS:
         buffer.set_transform(parent, child, SECOND, *IDENTITY)
-    made: list[str] = []
+    texts: list[str] = []
     as_text = FrameTree.as_text
-    monkeypatch.setattr(FrameTree, "as_text", lambda tree: made.append("text") or as_text(tree))
+    monkeypatch.setattr(FrameTree, "as_text", lambda tree: texts.append("text") or as_text(tree))
     with pytest.raises(LookupException) as caught:
         buffer.lookup("map", "p", 0)
     waiting: MessageFilter[str] = MessageFilter()
@@ -102,10 +102,10 @@ def test_a_failure_has_no_text_until_it_is_shown(monkeypatch: pytest.MonkeyPatch
     assert waiting.ready(buffer, "map") == []
     buffer.poses_in("map")
     assert not buffer.can_transform("map", "p", 0)
-    assert made == []
+    assert texts == []
     assert "contains a loop" in str(caught.value)
     assert "Frame x exists with parent map." in str(caught.value)
-    assert made == ["text"] * 2
+    assert texts == ["text"] * 2
 
 
 @pytest.mark.parametrize("shape", ["a star", "a ring"])

@@ -75,7 +75,7 @@ class Reference:
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_a_buffer_keeps_and_answers_what_tf2_does(seed: int) -> None:
+def test_a_buffer_equals_that_of_tf2(seed: int) -> None:
     dice = random.Random(seed)
     buffer, reference = TransformBuffer(CACHE_NS), Reference()
     start = dice.choice([0, 0, S, 1_700_000_000 * S])

@@ -56,20 +56,20 @@ def message(dice: random.Random, tick: int) -> list[Row]:
 @pytest.mark.parametrize("seed", range(20))
 def test_all_at_once_is_as_one_by_one(seed: int) -> None:
     dice = random.Random(seed)
-    expected, found = TransformBuffer(2 * S), TransformBuffer(2 * S)
+    expected, actual = TransformBuffer(2 * S), TransformBuffer(2 * S)
     refused = False
     for tick in range(60):
         rows = message(dice, tick)
         authority, received_ns = dice.choice(["a", "a", "a", "b"]), (tick + 2) * S // 10
         if dice.randrange(20) == 0:
             expected.clear()
-            found.clear()
+            actual.clear()
         one_by_one(expected, rows, authority, received_ns)
-        at_once(found, rows, authority, received_ns)
-        assert found.refusals.rejections == expected.refusals.rejections
-        refused = refused or bool(found.refusals.rejections)
+        at_once(actual, rows, authority, received_ns)
+        assert actual.refusals.rejections == expected.refusals.rejections
+        refused = refused or bool(actual.refusals.rejections)
     assert refused
-    assert_same(found, expected, expected.tree.caches)
+    assert_same(actual, expected, expected.tree.caches)
 
 
 LISTS: list[list[tuple[str, str]]] = [
@@ -83,7 +83,7 @@ LISTS: list[list[tuple[str, str]]] = [
 @pytest.mark.parametrize("seed", range(30))
 def test_recurring_lists_are_as_one_by_one_whatever_is_read_meanwhile(seed: int) -> None:
     dice = random.Random(seed)
-    expected, found = TransformBuffer(2 * S), TransformBuffer(2 * S)
+    expected, actual = TransformBuffer(2 * S), TransformBuffer(2 * S)
     is_rare = seed % 3  # of the last list, which takes frames away from the others
     followed = 0
     for tick in range(120):
@@ -102,41 +102,41 @@ def test_recurring_lists_are_as_one_by_one_whatever_is_read_meanwhile(seed: int)
         match dice.randrange(60):
             case 0:
                 expected.clear()
-                found.clear()
+                actual.clear()
             case 1:  # another publisher, or another parent
                 single = [(dice.choice(["f0", "e"]), "g2", stamps[0] + 1, poses[0])]
                 one_by_one(expected, single, "b", 0)
-                one_by_one(found, single, "b", 0)
+                one_by_one(actual, single, "b", 0)
             case 2:
                 one_by_one(expected, [("f0", f"new{tick}", S, poses[0])], "a", 0)
-                one_by_one(found, [("f0", f"new{tick}", S, poses[0])], "a", 0)
+                one_by_one(actual, [("f0", f"new{tick}", S, poses[0])], "a", 0)
         received_ns = dice.choice([0, stamps[0] + S // 7])
         one_by_one(expected, rows, "a", received_ns)
-        found.set_moving(names, stamps, np.array(poses), "a", received_ns)
-        followed += any(isinstance(c, TimeCache) and c.batches for c in found.tree.caches.values())
+        actual.set_moving(names, stamps, np.array(poses), "a", received_ns)
+        followed += any(isinstance(c, TimeCache) and c.batches for c in actual.tree.caches.values())
         read = dice.sample(sorted(expected.tree.caches), dice.randrange(3))
-        assert_same(found, expected, read)
+        assert_same(actual, expected, read)
         ns = stamps[0] - dice.randrange(2 * S)
         for frame in read:
-            assert found.can_transform("f0", frame, ns) == expected.can_transform("f0", frame, ns)
+            assert actual.can_transform("f0", frame, ns) == expected.can_transform("f0", frame, ns)
         frames = expected.frames() * 9  # many are computed with arrays
-        many, others = found.poses_in("f0", frames), expected.poses_in("f0", frames)
+        many, others = actual.poses_in("f0", frames), expected.poses_in("f0", frames)
         np.testing.assert_array_equal(many.stamps_ns, others.stamps_ns)
         np.testing.assert_allclose(many.translations, others.translations, atol=1e-9)
         np.testing.assert_allclose(many.rotations, others.rotations, atol=1e-9)
-        assert list(found.conflicts.all()) == list(expected.conflicts.all())
-        assert clock_problem(found, stamps[0]) == clock_problem(expected, stamps[0])
+        assert list(actual.conflicts.all()) == list(expected.conflicts.all())
+        assert clock_problem(actual, stamps[0]) == clock_problem(expected, stamps[0])
     assert followed > 60
-    assert_same(found, expected, expected.tree.caches)
+    assert_same(actual, expected, expected.tree.caches)
 
 
-def assert_same(found: TransformBuffer, expected: TransformBuffer, frames: Iterable[str]) -> None:
+def assert_same(actual: TransformBuffer, expected: TransformBuffer, frames: Iterable[str]) -> None:
     """Compare the frames of two buffers, and all histories and publishers of some of them."""
-    assert found.frames() == expected.frames()
-    assert found.version == expected.version
-    assert found.structure_version == expected.structure_version
+    assert actual.frames() == expected.frames()
+    assert actual.version == expected.version
+    assert actual.structure_version == expected.structure_version
     for child in frames:
-        cache, other = expected.tree.caches[child], found.tree.caches[child]
+        cache, other = expected.tree.caches[child], actual.tree.caches[child]
         assert isinstance(cache, TimeCache)
         assert isinstance(other, TimeCache)
         assert other.newest_stamp == cache.newest_stamp
@@ -149,7 +149,7 @@ def assert_same(found: TransformBuffer, expected: TransformBuffer, frames: Itera
         assert other.parents == cache.parents
         for pose, other_pose in zip(cache.poses, other.poses, strict=True):
             assert PACKED.unpack(other_pose) == pytest.approx(PACKED.unpack(pose), abs=1e-12)
-        whose, others = expected.publishers[child], found.publishers[child]
+        whose, others = expected.publishers[child], actual.publishers[child]
         assert (others.current, others.claim) == (whose.current, whose.claim)
         assert others.contest == whose.contest
 

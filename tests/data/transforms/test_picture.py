@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
@@ -13,6 +12,7 @@ from bags import Bag
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import TransformBuffer, diagnose
 from webviz.data.transforms.layout import lay_out
 from webviz.data.transforms.picture import draw_tree
@@ -20,7 +20,6 @@ from webviz.shell.cli import main
 
 S = 1_000_000_000
 SVG = "{http://www.w3.org/2000/svg}"
-Put = Callable[..., bool]
 NAMES = st.sampled_from([f"f{n}" for n in range(8)])
 
 
@@ -63,19 +62,19 @@ def test_every_frame_has_a_place_of_its_own(links: list[tuple[str, str]]) -> Non
         parent, child = layout.places[edge.parent], layout.places[edge.child]
         assert edge.is_extra or child.column == parent.column + 1
     picture = draw_tree(diagnosis, "Frames")
-    drawn = ElementTree.fromstring(picture.svg)
-    for text in drawn.iter(f"{SVG}text"):
+    root = ElementTree.fromstring(picture.svg)
+    for text in root.iter(f"{SVG}text"):
         assert 0.0 < float(text.get("x", 0)) < picture.width
         assert 0.0 < float(text.get("y", 0)) < picture.height
-    assert len([*drawn.iter(f"{SVG}path")]) == len(layout.edges) >= len(diagnosis.frames)
+    assert len([*root.iter(f"{SVG}path")]) == len(layout.edges) >= len(diagnosis.frames)
 
 
 def test_edges_lead_from_the_right_of_a_parent_to_the_left_of_its_child(
-    buffer: TransformBuffer, put: Put
+    buffer: HandFedBuffer,
 ) -> None:
-    put("map", "base", is_static=True)
+    buffer.put("map", "base", is_static=True)
     for child in ("arm", "laser", "camera"):
-        put("base", child, is_static=True)
+        buffer.put("base", child, is_static=True)
     root = ElementTree.fromstring(draw_tree(diagnose(buffer), "Frames").svg)
     boxes = [each.attrib for each in root.iter(f"{SVG}rect") if "x" in each.attrib]
     sides = [(float(box["x"]), float(box["y"]) + float(box["height"]) / 2) for box in boxes]
@@ -86,29 +85,29 @@ def test_edges_lead_from_the_right_of_a_parent_to_the_left_of_its_child(
         assert (*numbers[-2:],) in sides
 
 
-def test_a_tree_without_faults_has_nothing_red(buffer: TransformBuffer, put: Put) -> None:
+def test_a_tree_without_faults_has_nothing_red(buffer: HandFedBuffer) -> None:
     for number in range(20):
-        put("map", "odom", 1.0 + number / 20)
-    put("odom", "base", is_static=True)
+        buffer.put("map", "odom", 1.0 + number / 20)
+    buffer.put("odom", "base", is_static=True)
     assert not faulty(buffer, 2.0)
     assert "no faults" in draw_tree(diagnose(buffer), "Frames").svg
     assert faulty(buffer, 30.0) == {"odom"}, "it has stopped"
 
 
-def test_faults_are_red(buffer: TransformBuffer, put: Put) -> None:
+def test_faults_are_red(buffer: HandFedBuffer) -> None:
     for parent, child in (("a", "b"), ("b", "a")):
-        put(parent, child)
+        buffer.put(parent, child)
     assert red_edges(buffer) == 1, "the one that closes the loop"
-    put("world", "drone")
-    put("map", "odom")
+    buffer.put("world", "drone")
+    buffer.put("map", "odom")
     assert faulty(buffer) == {"world", "map"}, "roots that nothing connects"
 
 
-def test_a_second_parent_has_a_red_edge(buffer: TransformBuffer, put: Put) -> None:
-    put("world", "map", is_static=True)
-    put("world", "odom", is_static=True)
+def test_a_second_parent_has_a_red_edge(buffer: HandFedBuffer) -> None:
+    buffer.put("world", "map", is_static=True)
+    buffer.put("world", "odom", is_static=True)
     for number in range(6):
-        put("map" if number % 2 else "odom", "base", 1.0 + number / 10, float(number))
+        buffer.put("map" if number % 2 else "odom", "base", 1.0 + number / 10, float(number))
     assert faulty(buffer, 1.5) == {"base"}
     assert red_edges(buffer) == 2
 
@@ -122,8 +121,8 @@ def test_a_second_parent_has_a_red_edge(buffer: TransformBuffer, put: Put) -> No
         "\x00\x1b[31m\ud800\n",
     ],
 )
-def test_names_are_never_markup(buffer: TransformBuffer, put: Put, name: str) -> None:
-    put("map", name, is_static=True)
+def test_names_are_never_markup(buffer: HandFedBuffer, name: str) -> None:
+    buffer.put("map", name, is_static=True)
     root = ElementTree.fromstring(draw_tree(diagnose(buffer), name).svg.encode())
     assert {each.tag.removeprefix(SVG) for each in root.iter()} == {
         *("svg", "style", "rect", "text", "title", "g", "path")
@@ -131,8 +130,8 @@ def test_names_are_never_markup(buffer: TransformBuffer, put: Put, name: str) ->
     assert not any(key.startswith("on") for each in root.iter() for key in each.keys())  # noqa: SIM118
 
 
-def test_long_names_keep_their_ends(buffer: TransformBuffer, put: Put) -> None:
-    put("map", f"begin_{'x' * 100_000}_end", is_static=True)
+def test_long_names_keep_their_ends(buffer: HandFedBuffer) -> None:
+    buffer.put("map", f"begin_{'x' * 100_000}_end", is_static=True)
     picture = draw_tree(diagnose(buffer), "Frames")
     assert picture.width < 1000
     assert "begin_xxx" in picture.svg
@@ -155,9 +154,9 @@ def test_a_bag_is_drawn_at_a_time(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert {"map", "odom", "base", "laser", "static"} <= {*texts}
     capsys.readouterr()
     assert main(arguments) == 3
-    said = capsys.readouterr().out
-    assert said.startswith("map\n└─ odom  [10.0 Hz, 50 s old, from /tf]  !\n")
-    assert '"odom" has stopped' in said
+    tree = capsys.readouterr().out
+    assert tree.startswith("map\n└─ odom  [10.0 Hz, 50 s old, from /tf]  !\n")
+    assert '"odom" has stopped' in tree
 
 
 def test_mistakes_are_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

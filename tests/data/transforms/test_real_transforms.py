@@ -10,14 +10,11 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 from scipy import ndimage, optimize
 from scipy.spatial.transform import Rotation, Slerp
+from turtlebot import BAG, DATA, MAP, ORIGIN, RESOLUTION
 
 from webviz.data.transforms import TransformBuffer, diagnose, tree_text
 
-DATA = Path(__file__).parents[4] / "shared" / "data"
-TURTLEBOT = DATA / "bags" / "macfirst_floor_take_2"
 NAV2 = DATA / "bags" / "nav2_turtlebot.mcap"
-MAP = DATA / "maps" / "mac_1st_floor_final.pgm"
-MAP_RESOLUTION, MAP_ORIGIN = 0.03, (-1.12, -39.4)  # from its yaml: metres per cell, lower left
 S = 1_000_000_000
 
 needs_data = pytest.mark.skipif(not DATA.exists(), reason=f"needs recorded data in {DATA}")
@@ -37,25 +34,25 @@ def stamp_of(header: Any) -> int:
 def replayed(bag: Path) -> tuple[TransformBuffer, list[tuple[str, str, int, Any, bool]]]:
     """A buffer that keeps all of a bag's transforms, and those as they were sent."""
     buffer = TransformBuffer(cache_time_ns=1000 * S)
-    sent = []
+    rows = []
     for topic, message in messages(bag, "/tf", "/tf_static"):
         for t in message.transforms:
             p, q = t.transform.translation, t.transform.rotation
             pose = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
             row = (t.header.frame_id, t.child_frame_id, stamp_of(t.header), pose)
             assert buffer.set_transform(*row[:3], pose[:3], pose[3:], topic == "/tf_static")
-            sent.append((*row, topic == "/tf_static"))
-    return buffer, sent
+            rows.append((*row, topic == "/tf_static"))
+    return buffer, rows
 
 
 def by_scipy(
-    sent: list[tuple[str, str, int, Any, bool]], chain: list[str], times: np.ndarray
+    rows: list[tuple[str, str, int, Any, bool]], chain: list[str], times: np.ndarray
 ) -> np.ndarray:
     """Matrices (N, 4, 4) of the last frame of a chain in the first, link by link."""
     out = np.broadcast_to(np.eye(4), (len(times), 4, 4))
     for child in chain[1:]:
-        samples = {s[2]: np.array(s[3]) for s in sent if s[1] == child}
-        is_static = any(s[4] for s in sent if s[1] == child)
+        samples = {s[2]: np.array(s[3]) for s in rows if s[1] == child}
+        is_static = any(s[4] for s in rows if s[1] == child)
         stamps = np.array(sorted(samples))
         poses = np.array([samples[stamp] for stamp in stamps])
         link = np.tile(np.eye(4), (len(times), 1, 1))
@@ -63,11 +60,11 @@ def by_scipy(
             link[:, :3, :3] = Rotation.from_quat(poses[-1, 3:]).as_matrix()
             link[:, :3, 3] = poses[-1, :3]
         else:
-            seconds, asked = (stamps - stamps[0]) / S, (times - stamps[0]) / S
+            seconds, times_s = (stamps - stamps[0]) / S, (times - stamps[0]) / S
             slerp = Slerp(seconds, Rotation.from_quat(poses[:, 3:]))
-            link[:, :3, :3] = slerp(asked).as_matrix()
+            link[:, :3, :3] = slerp(times_s).as_matrix()
             for axis in range(3):
-                link[:, axis, 3] = np.interp(asked, seconds, poses[:, axis])
+                link[:, axis, 3] = np.interp(times_s, seconds, poses[:, axis])
         out = out @ link
     return out
 
@@ -76,21 +73,21 @@ def by_scipy(
 @pytest.mark.parametrize(
     ("bag", "chain"),
     [
-        (TURTLEBOT, ["odom", "base_link", "rplidar_link"]),
-        (TURTLEBOT, ["odom", "base_footprint"]),
+        (BAG, ["odom", "base_link", "rplidar_link"]),
+        (BAG, ["odom", "base_footprint"]),
         (NAV2, ["map", "odom", "base_link", "left_wheel"]),
         (NAV2, ["map", "odom", "base_link", "shell_link", "rplidar_link"]),
     ],
     ids=lambda value: value[-1] if isinstance(value, list) else value.stem,
 )
 def test_every_lookup_in_a_recorded_tree_agrees_with_scipy(bag: Path, chain: list[str]) -> None:
-    buffer, sent = replayed(bag)
-    moving = [child for child in chain[1:] if not any(s[4] for s in sent if s[1] == child)]
-    spans = [[s[2] for s in sent if s[1] == child] for child in moving]
+    buffer, rows = replayed(bag)
+    moving = [child for child in chain[1:] if not any(s[4] for s in rows if s[1] == child)]
+    spans = [[s[2] for s in rows if s[1] == child] for child in moving]
     first, last = max(min(span) for span in spans), min(max(span) for span in spans)
     times = np.random.default_rng(1).integers(first, last, 2000, endpoint=True)
     times[:2] = first, last
-    expected = by_scipy(sent, chain, times)
+    expected = by_scipy(rows, chain, times)
     translations, rotations, ok = buffer.lookup_many(chain[0], chain[-1], times)
     assert ok.all()
     np.testing.assert_allclose(translations, expected[:, :3, 3], rtol=0, atol=1e-9)
@@ -135,19 +132,19 @@ def test_the_scans_of_a_recorded_drive_land_on_the_walls_of_its_map() -> None:
     too is the transforms' doing; what is missing from 100 % is furniture, people and the drift of
     the odometry.
     """
-    buffer, _ = replayed(TURTLEBOT)
+    buffer, _ = replayed(BAG)
     rows = np.frombuffer(MAP.read_bytes()[-903 * 1706 :], np.uint8).reshape(1706, 903)[::-1]
-    to_wall = np.asarray(ndimage.distance_transform_edt(rows > 0.35 * 255)) * MAP_RESOLUTION
+    to_wall = np.asarray(ndimage.distance_transform_edt(rows > 0.35 * 255)) * RESOLUTION
 
     def distance(points: np.ndarray) -> np.ndarray:
-        cells = (points - MAP_ORIGIN) / MAP_RESOLUTION
+        cells = (points - ORIGIN) / RESOLUTION
         return ndimage.map_coordinates(to_wall, cells[:, ::-1].T, order=1, cval=5.0)
 
     def aligned(alignment: np.ndarray, points: np.ndarray) -> np.ndarray:
         c, s = np.cos(alignment[2]), np.sin(alignment[2])
         return points @ np.array([[c, s], [-s, c]]) + alignment[:2]
 
-    scans = [scan for _, scan in messages(TURTLEBOT, "/scan")]
+    scans = [scan for _, scan in messages(BAG, "/scan")]
     stamps = np.array([stamp_of(scan.header) for scan in scans])
     translations, rotations, ok = buffer.lookup_many("odom", "rplidar_link", stamps)
     assert ok.sum() >= len(scans) - 1  # the first scan was made before the first transform

@@ -27,7 +27,7 @@ def test_live_topics_make_room_for_a_bag_and_come_back_with_their_memory(desk: D
     assert after.size >= before.size
 
 
-def test_what_is_saved_is_listed_and_opened(desk: Desk) -> None:
+def test_a_saved_bag_is_listed_and_opened(desk: Desk) -> None:
     assert desk.guest.do("SaveMemory").startswith("Saved the last")
     (saved,) = desk.store("outputs").values()
     assert desk.bags() == sorted(["run.mcap", saved["name"]])
@@ -70,7 +70,7 @@ def test_links_and_devices_are_neither_listed_nor_opened(desk: Desk) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"x" * 1000, b"PK\x05\x06" + b"\xff" * 18])
-def test_what_is_no_bag_is_refused_by_a_sentence(desk: Desk, content: bytes) -> None:
+def test_a_file_that_is_not_a_bag_is_refused_in_one_sentence(desk: Desk, content: bytes) -> None:
     for name in ("broken.mcap", "broken.zip", "broken.db3"):
         (desk.folder / name).write_bytes(content)
         answer = desk.guest.do("OpenRecording", path=str(desk.folder / name))
@@ -86,7 +86,7 @@ def test_a_truncated_bag_is_played_as_far_as_it_goes(desk: Desk) -> None:
     assert desk.guest.do("ReturnToLive") is not None
 
 
-def test_a_new_panel_begins_with_what_the_bag_holds_until_the_moment(desk: Desk) -> None:
+def test_a_new_panel_is_filled_up_to_the_position(desk: Desk) -> None:
     desk.guest.do("OpenRecording", path=str(desk.folder / "run.mcap"))
     desk.viewer.do(Pause())
     desk.viewer.do(Seek(1.2))
@@ -101,6 +101,6 @@ def test_a_new_panel_begins_with_what_the_bag_holds_until_the_moment(desk: Desk)
     until(lambda: states() == ["0", "1"], lambda: f"{states()}", seconds=10.0)
 
 
-def test_the_black_box_is_part_of_it() -> None:
+def test_the_folder_of_the_black_box_is_listed() -> None:
     assert BLACK_BOX == black_box.FOLDER
     assert Path(BLACK_BOX).name == BLACK_BOX

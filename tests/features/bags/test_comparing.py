@@ -9,7 +9,7 @@ from bags import strings
 
 from tests.features.bags.conftest import Desk
 from webviz.features.bags import NOT_LISTED, NOTHING_BESIDE
-from webviz.sources.bag.ghost import ROOT
+from webviz.sources.bag.comparison import ROOT
 
 
 @pytest.fixture
@@ -58,7 +58,7 @@ def test_another_bag_or_live_topics_end_it(desk: Desk, second: Path) -> None:
     assert groups(desk) == []
 
 
-def test_what_cannot_be_compared_is_refused_by_a_sentence(desk: Desk, second: Path) -> None:
+def test_invalid_comparisons_are_refused_in_one_sentence(desk: Desk, second: Path) -> None:
     assert desk.guest.do("CompareRecording", path=str(second)) == NOTHING_BESIDE
     assert desk.guest.do("EndComparison") == NOTHING_BESIDE
     desk.guest.do("OpenRecording", path=str(desk.folder / "run.mcap"))

@@ -64,7 +64,7 @@ def test_a_second_run_is_compared_and_goes_again(desk: Desk, page: playwright.Pa
     expect(page.get_by_role("treeitem", name="Ghost", exact=False)).to_have_count(0)
 
 
-def test_what_is_saved_reaches_people(desk: Desk, page: playwright.Page) -> None:
+def test_a_saved_bag_is_shown_with_path_and_download(desk: Desk, page: playwright.Page) -> None:
     page.get_by_role("button", name="Save last").click()
     card = page.get_by_label("File", exact=True)
     expect(card).to_contain_text("Saved the last")

@@ -48,7 +48,7 @@ def test_a_file_comes_whole_and_is_gone_at_the_end(uploads: Uploads) -> None:
         *("-run.mcap", "a\nb.mcap", "a\u202eb.mcap", "x" * 300 + ".mcap", "..", "run.mcap\0"),
     ],
 )
-def test_a_name_that_is_no_name_of_a_bag_is_refused(uploads: Uploads, name: str) -> None:
+def test_an_invalid_name_of_a_bag_is_refused(uploads: Uploads, name: str) -> None:
     with pytest.raises(Error, match="Not uploaded: "):
         uploads.begin(1, name, 10)
 
@@ -102,7 +102,11 @@ def test_another_page_cannot_add_to_it_nor_end_it(
 
 def test_only_owners_upload() -> None:
     for name in ("BeginUpload", "UploadPart"):
-        assert [bool(rules.refusal(role, "Do", name)) for role in Role] == [True, True, False]
+        assert [bool(rules.refusal(role, "CommandRequest", name)) for role in Role] == [
+            True,
+            True,
+            False,
+        ]
 
 
 def test_a_page_uploads_a_bag_and_opens_it(desk: Desk, tmp_path: Path) -> None:
@@ -110,12 +114,15 @@ def test_a_page_uploads_a_bag_and_opens_it(desk: Desk, tmp_path: Path) -> None:
     data = path.read_bytes()
     guest = Guest(Served(desk.viewer.port))
     guest.send(
-        "Do", number=1, command="BeginUpload", arguments={"name": path.name, "size": len(data)}
+        "CommandRequest",
+        number=1,
+        command="BeginUpload",
+        arguments={"name": path.name, "size": len(data)},
     )
-    token = guest.receive("Done")["result"]["token"]
+    token = guest.receive("CommandResult")["result"]["token"]
     part = {"token": token, "offset": 0, "text": text(data)}
-    guest.send("Do", number=2, command="UploadPart", arguments=part)
-    there = guest.receive("Done")["result"]["path"]
+    guest.send("CommandRequest", number=2, command="UploadPart", arguments=part)
+    there = guest.receive("CommandResult")["result"]["path"]
     assert guest.do("OpenRecording", path=f"{Path(there).parent}/other.mcap") != ""
     assert guest.do("OpenRecording", path=there) == ""
     assert desk.names() == ("dropped.mcap",)

@@ -7,6 +7,7 @@ import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -50,7 +51,7 @@ def fired(watcher: RuleWatcher, levels: dict[float, Level | None]) -> list[float
     return results
 
 
-def test_a_rule_fires_once_its_condition_has_held_long_enough() -> None:
+def test_a_rule_fires_after_the_duration_of_its_condition() -> None:
     levels = {0: Level.OK, 1: Level.ERROR, 2: Level.WARN, 3: Level.ERROR, 4: Level.ERROR}
     assert fired(RuleWatcher([SCAN]), {**levels, 5: Level.ERROR, 6: Level.ERROR}) == [5]
     warn = WatchRule(display="Scan", status="warn", lasting="2s")
@@ -67,7 +68,7 @@ def test_a_rule_that_flaps_fires_once() -> None:
     assert fired(watcher, {**clear, 242: Level.ERROR}) == [242]
 
 
-def test_what_is_not_known_neither_fires_nor_clears() -> None:
+def test_an_unknown_status_neither_fires_nor_clears_a_rule() -> None:
     watcher = RuleWatcher([SCAN])
     assert fired(watcher, {0: Level.ERROR, 2: Level.ERROR}) == [2]
     assert fired(watcher, dict.fromkeys(range(3, 90))) == []
@@ -199,42 +200,56 @@ def causes(bench: Bench) -> set[str]:
     """Return why something is being saved in the next 5 s of the doctor."""
     results = set[str]()
     for _ in range(50):
-        shown = bench.do(Refresh()).black_box
-        results |= {shown.saving} if shown is not None else set()
+        state = bench.do(Refresh()).black_box
+        results |= {state.saving} if state is not None else set()
         bench.clock += 0.1
         time.sleep(0.01)
     return results
+
+
+def fail(bench: Bench) -> None:
+    """Let the display fail: its publisher has another type."""
+    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+
+
+def is_saving(state: State) -> bool:
+    """Return whether a recording is being made."""
+    return state.black_box is not None and bool(state.black_box.saving)
+
+
+def messages(path: Path) -> list[bytes]:
+    """The messages of a recording."""
+    with closing(open_recording(path)) as recording:
+        assert recording.span_ns
+        return [m.data for m in recording.messages(recording.channels, *recording.span_ns)]
 
 
 def saved(bench: Bench) -> list[Path]:
     """The recordings once none is being made."""
 
     def is_done(state: State) -> bool:
-        shown = state.black_box
-        return shown is not None and bool(shown.saved) and not shown.saving
+        box = state.black_box
+        return box is not None and bool(box.saved) and not box.saving
 
-    shown = until(bench, is_done).black_box
-    return [each.path for each in shown.saved] if shown else []
+    outcome = until(bench, is_done).black_box
+    return [each.path for each in outcome.saved] if outcome else []
 
 
-def test_a_rule_saves_what_was_and_what_comes(make: Benches) -> None:
+def test_a_rule_saves_messages_before_and_after_it_fires(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
     publish(bench, 2.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
-    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    fail(bench)
+    until(bench, is_saving)
     publish(bench, 3.0)
     (path,) = saved(bench)
     assert path.parent.name == "webviz_black_box"
     assert path.name.startswith(f"{datetime.now():%Y-%m-%d}_")
     assert path.name.endswith("_Plan_error")
-    recording = open_recording(path)
-    assert recording.span_ns
-    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 3
-    recording.close()
+    assert len(messages(path)) == 3
 
 
-def test_a_rule_that_fires_as_the_viewer_ends_saves_what_was(
+def test_a_rule_that_fires_as_the_viewer_ends_saves_earlier_messages(
     make: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     goes_on, make_folder = threading.Event(), black_box.new_folder
@@ -247,21 +262,18 @@ def test_a_rule_that_fires_as_the_viewer_ends_saves_what_was(
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
     publish(bench, 2.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
-    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    fail(bench)
+    until(bench, is_saving)
     goes_on.set()
     bench.viewer.close()
     (path,) = Path("webviz_black_box").iterdir()
-    recording = open_recording(path)
-    assert recording.span_ns
-    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 2
-    recording.close()
+    assert len(messages(path)) == 2
 
 
-def test_a_violated_condition_saves_what_led_to_it(make: Benches) -> None:
+def test_a_violated_condition_saves_earlier_messages(make: Benches) -> None:
     bench = make(WatchRule(rule="Plan.status < error"))
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     bench.clock += 2.0  # for another round of the doctor
     (path,) = saved(bench)
     assert path.name.endswith("_Plan_status_error")
@@ -270,7 +282,7 @@ def test_a_violated_condition_saves_what_led_to_it(make: Benches) -> None:
 def test_no_more_is_saved_than_the_limits_allow(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"), per_day=0)
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
     assert statuses["Black box"].text == (
         "A rule fired, but 0 recordings were made today, which is the limit. Raise "
@@ -297,7 +309,7 @@ def test_recordings_that_were_made_before_count(
     bench = make(WatchRule(display="Plan", status="error"), per_day=per_day, gigabytes=gigabytes)
     publish(bench, 1.0)
     until(bench, lambda state: state.black_box is not None and len(state.black_box.saved) == 4)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
     assert statuses["Black box"].text.startswith(f"A rule fired, but {reason}")
 
@@ -306,7 +318,7 @@ def test_a_rule_saves_until_its_time_is_up(make: Benches, monkeypatch: pytest.Mo
     bench = make(WatchRule(display="Plan", status="error"))
     monkeypatch.setattr(black_box, "AFTER_S", 1e9)
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     until(bench, lambda _: any(Path("webviz_black_box").glob("*/*.mcap")))
     assert causes(bench) == {"Plan error"}
 
@@ -318,7 +330,7 @@ def test_a_display_that_has_received_nothing_yet_fires_no_rule(
     make: Benches, rule: WatchRule
 ) -> None:
     bench = make(rule)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     for _ in range(10):
         assert bench.do(Refresh()).rows[0].level >= Level.WARN
         bench.clock += 1.0  # for another round of the doctor
@@ -326,7 +338,7 @@ def test_a_display_that_has_received_nothing_yet_fires_no_rule(
     bench.turn()
     assert not Path("webviz_black_box").exists()
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     saved(bench)
 
 
@@ -336,7 +348,7 @@ def test_a_status_does_not_count_while_a_robot_starts(
     monkeypatch.setattr(black_box, "SETTLE_S", 1e9)
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     until(bench, lambda state: state.rows[0].level is Level.ERROR)
     assert causes(bench) == {""}
     assert not Path("webviz_black_box").exists()
@@ -349,20 +361,15 @@ def test_a_recording_stays_below_the_limit(make: Benches) -> None:
     for x in range(10):
         noise = np.random.default_rng(x).bytes(15_000).hex()[:15_000]
         bench.publish("/path", PATH, {"header": {"frame_id": f"{x} {noise}"}})
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
-    until(bench, lambda state: state.black_box is not None and bool(state.black_box.saving))
+    fail(bench)
+    until(bench, is_saving)
     for _ in range(10):
         bench.publish("/path", PATH, {"header": {"frame_id": "x" * 15_000}})
     (path,) = saved(bench)
     assert sum(file.stat().st_size for file in path.iterdir()) < 100_000
-    recording = open_recording(path)
-    assert recording.span_ns
-    kept = [
-        decode(PATH, m.data) for m in recording.messages(recording.channels, *recording.span_ns)
-    ]
-    recording.close()
-    assert kept[-1].header.frame_id.startswith("9 "), "those before the fault go first"
-    assert 4 <= len(kept) <= 6
+    paths = [decode(PATH, cdr) for cdr in messages(path)]
+    assert paths[-1].header.frame_id.startswith("9 "), "those before the fault go first"
+    assert 4 <= len(paths) <= 6
     assert bench.do(Refresh()).statuses["Black box"].text.startswith("The last recording was cut")
 
 
@@ -372,7 +379,7 @@ def test_a_disk_that_is_nearly_full_is_not_filled(
     monkeypatch.setattr(black_box, "RESERVE", shutil.disk_usage(Path.cwd()).free + 10**9)
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
     assert re.fullmatch(
         r"A rule fired, but its disk has \d+\.\d GB left\. Make room, so that it can go on\.",
@@ -391,16 +398,13 @@ def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Benches) -> Non
     del bench.source.known["/path"]
     (path,) = saved(bench)
     assert path.name.endswith("_path_rate_5")
-    recording = open_recording(path)
-    assert recording.span_ns
-    assert len(list(recording.messages(recording.channels, *recording.span_ns))) == 30
-    recording.close()
+    assert len(messages(path)) == 30
 
 
 def test_a_recording_that_was_cut_off_is_listed(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    fail(bench)
     (path,) = saved(bench)
     (path / "metadata.yaml").unlink()
     bench.viewer.settings.watch = (WatchRule(topic="/none", rate="<1"),)
@@ -408,7 +412,7 @@ def test_a_recording_that_was_cut_off_is_listed(make: Benches) -> None:
     assert saved(bench) == [path]
 
 
-def test_a_rule_about_a_display_that_is_not_there_says_so(make: Benches) -> None:
+def test_a_rule_about_a_missing_display_has_a_status(make: Benches) -> None:
     bench = make(WatchRule(display="Plam", status="error"))
     bench.do(Refresh())
     text = bench.do(Refresh()).statuses["Black box"].text

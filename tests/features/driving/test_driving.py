@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 from several import several
 from waiting import until
 
@@ -22,7 +22,7 @@ from webviz.engine.driving.velocity_controller import PERIOD_S, TAIL
 from webviz.features.driving import Driving
 from webviz.shell.testing.remembering_graph import RememberingGraph
 from webviz.shell.testing.source import HandFedSource
-from webviz.sources import Advertisement, Gate, NotConnected, Rights
+from webviz.sources import Advertisement, NotConnected, RestrictedGraph, Rights
 from webviz.tools.teleop import Teleop
 
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
@@ -34,8 +34,8 @@ PATIENCE_S = 60.0
 class Hand:
     """Holds something on a page, with heartbeats from a thread of its own."""
 
-    def __init__(self, b: Any, browser: int, held: Velocity = AHEAD) -> None:
-        self._set_point = teleop(b), browser, held
+    def __init__(self, b: Bench, browser: int, share: Velocity = AHEAD) -> None:
+        self._set_point = teleop(b), browser, share
         self._steer = b.viewer.controllers.steer
         self._let_go = threading.Event()
         self._thread = threading.Thread(target=self._hold)
@@ -59,7 +59,7 @@ class Lone:
 
     def __init__(self) -> None:
         self.graph, self.allowed = RememberingGraph(), ["/cmd_vel"]
-        self.made = 0
+        self.publications = 0
         self.fault: Exception | None = None
         """Raised where a command is made."""
         self.outcome: Exception | None = None
@@ -76,7 +76,7 @@ class Lone:
         self.graph.publish = publish_or_fail
         source = HandFedSource(graph=self.graph)  # pyright: ignore[reportArgumentType]
         self.controllers = VelocityControllers(
-            Gate(source, Rights(), lambda: tuple(self.allowed)), lambda: 0
+            RestrictedGraph(source, Rights(), lambda: tuple(self.allowed)), lambda: 0
         )
         self.equip()
 
@@ -84,7 +84,7 @@ class Lone:
         vehicle = Teleop().vehicle
 
         def message(velocity: Velocity, now_ns: int) -> Mapping[str, Any]:
-            self.made += 1
+            self.publications += 1
             if self.fault is not None:
                 raise self.fault
             return vehicle.message(velocity, now_ns)
@@ -107,64 +107,62 @@ def lone() -> Iterator[Lone]:
 
 
 @pytest.fixture
-def b(bench: Benches) -> Any:
+def b(bench: Benches) -> Bench:
     return bench(graph=RememberingGraph())
 
 
 @pytest.fixture
-def hold(b: Any) -> Iterator[Hands]:
-    with several(lambda browser=1, held=AHEAD: Hand(b, browser, held), Hand.vanish) as hold:
+def hold(b: Bench) -> Iterator[Hands]:
+    with several(lambda browser=1, share=AHEAD: Hand(b, browser, share), Hand.vanish) as hold:
         yield hold
 
 
-def teleop(b: Any) -> str:
+def teleop(b: Bench) -> str:
     """The id of the tool; another one after a config was opened."""
     return next(button.id for button in b.states[-1].tools if button.name == "Teleop")
 
 
-def steer(b: Any, tool: str, browser: int, share: Velocity) -> DrivingAnswer:
+def steer(b: Bench, tool: str, browser: int, share: Velocity) -> DrivingAnswer:
     """The answer to a set-point of a browser that has just received something."""
     return b.viewer.controllers.steer(tool, browser, share, time.monotonic())
 
 
-def speeds(b: Any) -> list[float]:
+def speeds(b: Bench) -> list[float]:
     return [
-        twist.linear.x
-        for advertisement, twist in b.source.graph.published
-        if advertisement == CMD_VEL
+        twist.linear.x for advertisement, twist in b.graph.published if advertisement == CMD_VEL
     ]
 
 
-def stands(b: Any) -> bool:
+def stands(b: Bench) -> bool:
     """Return whether a drive ended with zeros, and nothing more."""
     ended = speeds(b)
     return ended[-TAIL:] == [0.0] * TAIL and ended[-TAIL - 1] > 0.0
 
 
-def advertised(b: Any) -> set[Advertisement]:
+def advertised(b: Bench) -> set[Advertisement]:
     b.turn(keep_up=True)
     return {
         advertisement
-        for advertisement in b.source.graph.advertised
+        for advertisement in b.graph.advertised
         if advertisement.type.startswith(TWIST)
     }
 
 
 def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
-    b: Any, hold: Hands
+    b: Bench, hold: Hands
 ) -> None:
     hand = hold()
     until(lambda: speeds(b)[-1:] == [0.5])  # no turn of the loop since the press
     hand.vanish()
     until(lambda: stands(b))
-    advertisements = {advertisement for advertisement, _ in b.source.graph.published}
+    advertisements = {advertisement for advertisement, _ in b.graph.published}
     assert advertisements == {CMD_VEL}
-    (angular, lateral) = b.source.graph.published[0][1].angular.z, b.source.graph.published[0][1]
+    (angular, lateral) = b.graph.published[0][1].angular.z, b.graph.published[0][1]
     assert (angular, lateral.linear.y) == (0.0, 0.0)
 
 
 def test_a_silent_driver_is_stopped_between_two_commands(
-    b: Any, monkeypatch: pytest.MonkeyPatch
+    b: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.PERIOD_S", 3600.0)
     steer(b, teleop(b), 1, AHEAD)
@@ -172,14 +170,14 @@ def test_a_silent_driver_is_stopped_between_two_commands(
     assert len(speeds(b)) <= 3
 
 
-def test_the_topic_is_the_robots_alone_while_nobody_attends(b: Any, hold: Hands) -> None:
+def test_nothing_is_advertised_without_a_driver(b: Bench, hold: Hands) -> None:
     assert advertised(b) == set()
     assert "/odom" not in b.source.wanted
     assert steer(b, teleop(b), 1, STILL).driver is None
     assert advertised(b) == {CMD_VEL}
     assert b.source.wanted["/odom"].type == ODOMETRY
     time.sleep(2 * PERIOD_S)
-    assert b.source.graph.published == []
+    assert b.graph.published == []
     until(lambda: advertised(b) == set())
 
 
@@ -202,8 +200,8 @@ def test_the_topic_is_the_robots_alone_while_nobody_attends(b: Any, hold: Hands)
         "viewer closed",
     ],
 )
-def test_what_is_driven_stops_when_it_is_taken_away(
-    b: Any, hold: Hands, change: Callable[[Any], object], goes_on: bool
+def test_the_robot_stops_when_its_tool_changes_or_the_viewer_ends(
+    b: Bench, hold: Hands, change: Callable[[Any], object], goes_on: bool
 ) -> None:
     tool = teleop(b)
     hand = hold()
@@ -211,13 +209,13 @@ def test_what_is_driven_stops_when_it_is_taken_away(
     change(b)
     until(lambda: stands(b))
     # What is still held was not meant for another robot.
-    assert {advertisement for advertisement, _ in b.source.graph.published} == {CMD_VEL}
+    assert {advertisement for advertisement, _ in b.graph.published} == {CMD_VEL}
     hand.vanish()
     steer(b, tool, 1, STILL)
     assert (steer(b, tool, 1, AHEAD).driver == 1) == goes_on
 
 
-def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(b: Any, hold: Hands) -> None:
+def test_stopping_the_viewer_stops_the_robot_at_once(b: Bench, hold: Hands) -> None:
     hold()
     until(lambda: speeds(b)[-1:] == [0.5])
     b.viewer.stop()
@@ -227,7 +225,7 @@ def test_a_viewer_that_is_told_to_stop_brakes_nothing_gently(b: Any, hold: Hands
 
 
 def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
-    b: Any, hold: Hands, caplog: pytest.LogCaptureFixture
+    b: Bench, hold: Hands, caplog: pytest.LogCaptureFixture
 ) -> None:
     messages: list[Future[int]] = []
 
@@ -235,7 +233,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
         messages.append(Future())
         return messages[-1]
 
-    b.source.graph.publish = publish
+    b.graph.publish = publish
     hand = hold()
     until(lambda: len(messages) > 1)
     hand.vanish()
@@ -247,26 +245,26 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
     assert steer(b, teleop(b), 1, STILL).problem == ""
 
 
-def test_whoever_closes_a_viewer_waits_until_its_last_commands_are_published(
-    b: Any, hold: Hands, monkeypatch: pytest.MonkeyPatch
+def test_closing_a_viewer_waits_until_its_last_commands_are_published(
+    b: Bench, hold: Hands, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.ENDING_S", PATIENCE_S)
-    publish, sent = b.source.graph.publish, list[Future[int]]()
+    publish, publications = b.graph.publish, list[Future[int]]()
 
     def publish_slowly(advertisement: Advertisement, cdr: bytes) -> int:
         time.sleep(0.1)  # a slow network
         return publish(advertisement, cdr).result()
 
     def begin(advertisement: Advertisement, cdr: bytes) -> Future[int]:
-        sent.append(network.submit(publish_slowly, advertisement, cdr))
-        return sent[-1]
+        publications.append(network.submit(publish_slowly, advertisement, cdr))
+        return publications[-1]
 
     hold()
     until(lambda: speeds(b)[-1:] == [0.5])
     with ThreadPoolExecutor(1) as network:
-        b.source.graph.publish = begin
+        b.graph.publish = begin
         b.viewer.close()
-        assert sent[-1].done()
+        assert publications[-1].done()
     assert speeds(b)[-1] == 0.0
 
 
@@ -323,7 +321,7 @@ def test_a_command_that_fails_is_reported_until_one_succeeds(
 
     lone.fault = ValueError("no wheels")
     until(lambda: problem() == "No command could be made: no wheels")
-    until(lambda: lone.made > 3)
+    until(lambda: lone.publications > 3)
     assert len(caplog.records) == 1
     lone.fault = None
     until(lambda: lone.speeds and not problem())
@@ -340,15 +338,15 @@ def test_a_robot_speeds_up_from_standstill_after_a_broken_link(lone: Lone) -> No
 
     hold_until(lambda: lone.speeds and lone.speeds[-1] == 0.5)
     lone.outcome = NotConnected("The link to the bridge broke.")
-    made = lone.made
-    hold_until(lambda: lone.made > made + 3)
+    publications = lone.publications
+    hold_until(lambda: lone.publications > publications + 3)
     before = len(lone.speeds)
     lone.outcome = None
     hold_until(lambda: len(lone.speeds) > before)
     assert lone.speeds[before] <= 2 * PERIOD_S * Teleop().acceleration
 
 
-def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Any, hold: Hands) -> None:
+def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Bench, hold: Hands) -> None:
     b.do(SetToolProperty("Teleop", "linear", 0.123))  # which no step of a ramp to 0.5 meets
     hold()
     until(lambda: speeds(b)[-1:] == [0.123])
@@ -356,8 +354,8 @@ def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Any, hold: 
     until(lambda: speeds(b)[-1:] == [0.5])
 
 
-def test_the_second_driver_learns_who_has_control_also_through_another_tool(
-    b: Any, hold: Hands
+def test_a_second_driver_sees_who_has_control_also_through_another_tool(
+    b: Bench, hold: Hands
 ) -> None:
     b.do(Load("tools: [{type: Teleop}, {type: Teleop, name: Slow, linear: 0.1}]\n", "x.yaml"))
     first = hold(browser=7)
@@ -370,7 +368,7 @@ def test_the_second_driver_learns_who_has_control_also_through_another_tool(
     until(lambda: speeds(b)[-1:] == [0.0])
 
 
-def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Any, hold: Hands) -> None:
+def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Bench, hold: Hands) -> None:
     others = "{type: Teleop, name: A, topic: /a}, {type: Teleop, name: Z, topic: /z}"
     b.do(Load(f"tools: [{{type: Teleop}}, {others}]\n", "x.yaml"))
     hold(browser=7)
@@ -379,23 +377,23 @@ def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Any, hold: Ha
     assert [steer(b, tool, 8, AHEAD).driver for tool in tools] == [8, 8]
 
 
-def test_a_page_learns_why_its_commands_reach_nobody(b: Any, hold: Hands) -> None:
-    assert "no valid topic, or is gone" in steer(b, "tool99", 1, AHEAD).problem
-    b.source.graph.subscriptions = 0
+def test_a_page_is_given_the_reason_why_commands_have_no_receiver(b: Bench, hold: Hands) -> None:
+    assert "no valid topic, or no longer exists" in steer(b, "tool99", 1, AHEAD).problem
+    b.graph.subscriptions = 0
     hold()
     unheard = "No subscription to /cmd_vel as Twist. "
     until(lambda: unheard in steer(b, teleop(b), 2, STILL).problem)
-    b.source.graph.subscriptions = 1
+    b.graph.subscriptions = 1
     until(lambda: steer(b, teleop(b), 2, STILL).problem == "")
 
 
-def test_on_a_source_that_only_reads_it_says_why_and_nobody_gets_control(bench: Benches) -> None:
+def test_a_read_only_source_gives_nobody_control_with_the_reason(bench: Benches) -> None:
     b = bench()
     answer = steer(b, teleop(b), 1, AHEAD)
     assert (answer.driver, answer.problem) == (None, "This source can only be read.")
 
 
-def test_the_readout_is_the_robots_own_velocity(b: Any) -> None:
+def test_the_readout_is_the_robots_own_velocity(b: Bench) -> None:
     def readout() -> Driving:
         steer(b, teleop(b), 1, STILL)
         b.turn(keep_up=True)

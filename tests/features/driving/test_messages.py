@@ -23,7 +23,7 @@ class Pages(Channel):
     def __init__(self) -> None:
         super().__init__()
         self.answers: list[DrivingReport] = []
-        self.seen: list[float | None] = []
+        self.beats: list[float | None] = []
         self.now = 100.0
         self.noted: list[int] = []
         self.other: int | None = None
@@ -39,9 +39,9 @@ class Pages(Channel):
     def _at(self) -> float:
         return self.now
 
-    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
-        self.seen.append(seen)
-        return DrivingAnswer(self.other if seen is None else browser)
+    def _steer(self, tool: str, browser: int, share: Velocity, beat: float | None) -> DrivingAnswer:
+        self.beats.append(beat)
+        return DrivingAnswer(self.other if beat is None else browser)
 
     def drive(self, beat: int, after: float = 0.0) -> DrivingReport:
         """Send a set-point after some seconds; the answer."""
@@ -60,24 +60,24 @@ def test_a_set_point_counts_with_a_beat_that_the_page_has_just_received(pages: P
     assert first.problem == ""
     second = pages.drive(first.beat, FRESH_S - 0.01)
     third = pages.drive(second.beat, HEARTBEAT_S)
-    assert pages.seen == [None, 100.0, pytest.approx(100.0 + FRESH_S - 0.01)]
+    assert pages.beats == [None, 100.0, pytest.approx(100.0 + FRESH_S - 0.01)]
     assert len({first.beat, second.beat, third.beat}) == 3
     assert third.problem == ""
 
 
-def test_a_stale_set_point_drives_nothing_and_the_page_learns_why(pages: Pages) -> None:
+def test_a_stale_set_point_is_refused_with_the_reason(pages: Pages) -> None:
     answer = pages.drive(pages.drive(0).beat, FRESH_S)
-    assert pages.seen == [None, None]
+    assert pages.beats == [None, None]
     assert (answer.driver, answer.problem) == (None, SLOW)
     pages.drive(pages.drive(answer.beat).beat)
-    assert pages.seen[2:] == [pages.now, pages.now]
+    assert pages.beats[2:] == [pages.now, pages.now]
 
 
 def test_each_heartbeat_of_a_page_brings_a_new_beat_and_a_flood_keeps_them(pages: Pages) -> None:
     first = pages.drive(0)
     for _ in range(200):
         pages.drive(first.beat, 0.002)
-    assert pages.seen[-1] == 100.0
+    assert pages.beats[-1] == 100.0
     assert len({answer.beat for answer in pages.answers}) <= 0.4 / BEAT_S + 1
 
 
@@ -91,7 +91,9 @@ def test_the_beginning_of_each_drive_is_noted_once(pages: Pages) -> None:
 
 
 @pytest.mark.parametrize("other", [0, 2])
-def test_who_looks_on_while_another_browser_drives_is_not_noted(pages: Pages, other: int) -> None:
+def test_an_onlooker_is_not_in_the_journal_while_another_browser_drives(
+    pages: Pages, other: int
+) -> None:
     pages.other = other
     assert pages.drive(0).driver == other
     assert pages.noted == []

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 from webviz.api.status import Level, Status
 from webviz.commands import CancelGoal, DismissGoal, Refresh, UseTool
@@ -23,13 +23,13 @@ SUCCEEDED, CANCELED, ABORTED = 4, 5, 6
 NAN = math.nan
 
 
-class Robot:
+class GoalServers:
     """A viewer, and the action servers that its goals go to."""
 
-    def __init__(self, bench: Any) -> None:
+    def __init__(self, bench: Bench) -> None:
         self.bench = bench
         self.graph = bench.source.graph = RememberingGraph()
-        self.told: list[Status] = []
+        self.statuses: list[Status] = []
 
     def drag(self, x: float = 1.0) -> SentGoal:
         """Send one pose; the goal at the server."""
@@ -38,22 +38,22 @@ class Robot:
 
     def use(self, points: Any, **gesture: Any) -> str:
         """Return why a gesture is refused, "" if it is not."""
-        command = UseTool("Nav2 Goal", points, 0.5, **gesture, report=self.told.append)
+        command = UseTool("Nav2 Goal", points, 0.5, **gesture, report=self.statuses.append)
         answer = self.bench.viewer.enqueue(command)
         self.bench.until_done(answer)
         return str(answer.exception(0) or "")
 
-    def shown(self) -> list[GoalProgress]:
+    def goals(self) -> list[GoalProgress]:
         """Return the goals that pages show now."""
         return list(self.bench.do(Refresh()).goals)
 
     def only(self) -> GoalProgress:
-        (goal,) = self.shown()
+        (goal,) = self.goals()
         return goal
 
     def accept(self, goal: SentGoal) -> None:
         goal.accepted.set_result(True)
-        self.shown()
+        self.goals()
 
     def outcome(self) -> tuple[Level, str]:
         goal = self.only()
@@ -63,8 +63,8 @@ class Robot:
 
 
 @pytest.fixture
-def robot(bench: Benches) -> Robot:
-    return Robot(bench())
+def robot(bench: Benches) -> GoalServers:
+    return GoalServers(bench())
 
 
 def end(goal: SentGoal, status: int, type: str = TO_POSE, **result: Any) -> None:
@@ -76,7 +76,7 @@ def feedback(goal: SentGoal, type: str = TO_POSE, **values: Any) -> None:
     goal.feedback(encode(f"{type}_FeedbackMessage", {"feedback": values}))
 
 
-def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: Robot) -> None:
+def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: GoalServers) -> None:
     goal = robot.drag()
     assert (goal.action, goal.type) == ("/navigate_to_pose", TO_POSE)
     pose = goal.values.pose
@@ -87,20 +87,24 @@ def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: R
     )
     assert (pose.pose.position.x, pose.pose.position.y) == (1.0, 2.0)
     assert pose.pose.orientation.z == pytest.approx(math.sin(0.25))
-    shown = robot.only()
-    assert (shown.phase, shown.title, shown.label) == ("sending", "Nav2 Goal", "x 1.00 y 2.00 m")
-    assert shown.poses == [(1.0, 2.0, 0.0, 0.5)]
+    progress = robot.only()
+    assert (progress.phase, progress.title, progress.label) == (
+        "sending",
+        "Nav2 Goal",
+        "x 1.00 y 2.00 m",
+    )
+    assert progress.poses == [(1.0, 2.0, 0.0, 0.5)]
     robot.accept(goal)
-    assert robot.told == [Status(Level.OK, "/navigate_to_pose accepted the goal.")]
+    assert robot.statuses == [Status(Level.OK, "/navigate_to_pose accepted the goal.")]
     assert robot.only().phase == "active"
     end(goal, SUCCEEDED)
     assert robot.outcome() == (Level.OK, "Reached the goal.")
     robot.bench.clock += SHOWN_S
-    assert robot.shown() == []
+    assert robot.goals() == []
 
 
-def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
-    robot: Robot,
+def test_the_newest_of_many_feedbacks_is_shown_and_invalid_values_are_unknown(
+    robot: GoalServers,
 ) -> None:
     goal = robot.drag()
     robot.accept(goal)
@@ -137,8 +141,8 @@ def test_the_newest_feedback_is_shown_however_much_comes_and_whatever_it_says(
         ({"error_code": 5, "error_msg": "No battery."}, "Aborted. Error 5: No battery."),
     ],
 )
-def test_an_aborted_goal_says_why_until_it_is_dismissed(
-    robot: Robot, result: dict[str, Any], expected: str
+def test_an_aborted_goal_shows_its_reason_until_dismissed(
+    robot: GoalServers, result: dict[str, Any], expected: str
 ) -> None:
     goal = robot.drag()
     robot.accept(goal)
@@ -147,15 +151,15 @@ def test_an_aborted_goal_says_why_until_it_is_dismissed(
     assert robot.outcome() == (Level.ERROR, expected)
     robot.bench.clock += SHOWN_S
     robot.bench.do(DismissGoal(robot.only().id))
-    assert robot.shown() == []
+    assert robot.goals() == []
 
 
-def test_a_goal_that_is_not_accepted_is_reported_to_its_sender_alone(robot: Robot) -> None:
+def test_a_goal_that_is_not_accepted_is_reported_to_its_sender_alone(robot: GoalServers) -> None:
     robot.drag().accepted.set_result(False)
-    assert robot.shown() == []
+    assert robot.goals() == []
     robot.drag().accepted.set_exception(Missing("No node offers /navigate_to_pose."))
-    assert robot.shown() == []
-    assert [status.text for status in robot.told] == [
+    assert robot.goals() == []
+    assert [status.text for status in robot.statuses] == [
         "/navigate_to_pose rejected the goal.",
         "No node offers /navigate_to_pose. Start Nav2's bt_navigator, or choose another action in "
         "the properties of the tool.",
@@ -163,13 +167,13 @@ def test_a_goal_that_is_not_accepted_is_reported_to_its_sender_alone(robot: Robo
 
 
 def test_a_bag_refuses_goals_with_the_reason(bench: Benches) -> None:
-    b, told = bench(), list[Status]()
-    b.do(UseTool("Nav2 Goal", ((1.0, 2.0, 0.0),), report=told.append))
-    assert told == [Status(Level.ERROR, "This source can only be read.")]
+    b, statuses = bench(), list[Status]()
+    b.do(UseTool("Nav2 Goal", ((1.0, 2.0, 0.0),), report=statuses.append))
+    assert statuses == [Status(Level.ERROR, "This source can only be read.")]
     assert b.do(Refresh()).goals == ()
 
 
-def test_cancelling_is_asked_once_and_its_refusal_is_shown(robot: Robot) -> None:
+def test_a_cancellation_is_requested_once_and_its_refusal_shown(robot: GoalServers) -> None:
     goal = robot.drag()
     for _ in range(2):
         robot.bench.do(CancelGoal(robot.only().id))
@@ -188,7 +192,7 @@ def test_cancelling_is_asked_once_and_its_refusal_is_shown(robot: Robot) -> None
     assert robot.bench.refused(CancelGoal("goal99")) == "This goal has ended."
 
 
-def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: Robot) -> None:
+def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: GoalServers) -> None:
     goal = robot.drag()
     robot.accept(goal)
     robot.bench.do(CancelGoal(robot.only().id))
@@ -199,11 +203,11 @@ def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: R
     assert robot.outcome() == (Level.WARN, text)
 
 
-def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) -> None:
+def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: GoalServers) -> None:
     first = robot.drag()
     robot.accept(first)
     rejected = robot.drag(2.0)
-    assert [goal.phase for goal in robot.shown()] == ["active", "sending"]
+    assert [goal.phase for goal in robot.goals()] == ["active", "sending"]
     rejected.accepted.set_result(False)
     assert robot.only().label == "x 1.00 y 2.00 m"
     second = robot.drag(3.0)
@@ -217,7 +221,7 @@ def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) 
     robot.accept(third)
     fourth = robot.drag()
     end(third, ABORTED)  # which arrives before the answer of the server
-    assert [goal.phase for goal in robot.shown()] == ["sending"]
+    assert [goal.phase for goal in robot.goals()] == ["sending"]
     robot.accept(fourth)
     assert robot.only().phase == "active"
     for _ in range(MAX_ACTIVE - 1):
@@ -225,13 +229,15 @@ def test_a_new_goal_replaces_the_previous_one_once_it_is_accepted(robot: Robot) 
     assert robot.use(((1.0, 2.0, 0.0),)) == "20 goals are active. Cancel one first."
 
 
-def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robot: Robot) -> None:
+def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(
+    robot: GoalServers,
+) -> None:
     first = robot.drag()
     robot.accept(first)
     gesture = {"points": ((1.0, 0.0, 0.0), (2.0, 0.0, 0.5)), "yaws": (0.0, math.pi)}
     assert robot.use(**gesture, several="Drive through") == ""
     # At another action the previous goal has to end first.
-    assert [goal.phase for goal in robot.shown()] == ["canceling", "sending"]
+    assert [goal.phase for goal in robot.goals()] == ["canceling", "sending"]
     assert len(first.cancels) == 1
     end(first, CANCELED)
     assert robot.only().label == "2 waypoints"
@@ -255,14 +261,14 @@ def test_waypoints_go_to_the_action_of_their_button_after_the_previous_goal(robo
     assert robot.outcome() == (Level.WARN, text)
 
 
-def test_a_goal_that_succeeded_is_not_called_aborted(robot: Robot) -> None:
+def test_a_goal_that_succeeded_is_not_called_aborted(robot: GoalServers) -> None:
     goal = robot.drag()
     robot.accept(goal)
     end(goal, SUCCEEDED, error_code=208)
     assert robot.outcome() == (Level.WARN, "Succeeded. Error 208: no valid path.")
 
 
-def test_malformed_answers_end_a_goal_or_say_what_is_wrong_with_it(robot: Robot) -> None:
+def test_malformed_answers_end_a_goal_or_are_its_status(robot: GoalServers) -> None:
     goal = robot.drag()
     robot.accept(goal)
     goal.feedback(b"no message")
@@ -281,12 +287,12 @@ def test_malformed_answers_end_a_goal_or_say_what_is_wrong_with_it(robot: Robot)
     assert text.startswith("The result of /navigate_to_pose cannot be read: ")
     robot.bench.do(DismissGoal(robot.only().id))
     robot.drag().accepted.set_exception(ValueError("Malformed."))
-    assert robot.shown() == []
-    assert robot.told[-1] == Status(Level.ERROR, "Malformed.")
+    assert robot.goals() == []
+    assert robot.statuses[-1] == Status(Level.ERROR, "Malformed.")
 
 
 def test_replaced_goals_do_not_count_and_are_cancelled_if_the_server_does_not_end_them(
-    robot: Robot,
+    robot: GoalServers,
 ) -> None:
     goals = []
     for _ in range(MAX_ACTIVE + 2):
@@ -296,37 +302,37 @@ def test_replaced_goals_do_not_count_and_are_cancelled_if_the_server_does_not_en
     assert not any(goal.cancels for goal in goals)
     robot.bench.clock += SILENCE_S + 0.1
     for _ in range(3):
-        robot.shown()
+        robot.goals()
         for goal in replaced:  # one that refuses is not asked in every turn
             if not goal.cancels[0].done():
                 goal.cancels[0].set_result(1)
     assert [len(goal.cancels) for goal in goals] == [1] * len(replaced) + [0]
     robot.bench.clock += SILENCE_S + 0.1
-    robot.shown()
+    robot.goals()
     assert all(goal.result.cancelled() for goal in replaced)
     assert not last.result.cancelled()
     assert robot.only().phase == "active"
 
 
-def test_cancelling_is_asked_again_of_a_server_that_was_started_again(robot: Robot) -> None:
+def test_a_cancellation_is_requested_again_from_a_restarted_server(robot: GoalServers) -> None:
     goal = robot.drag()
     robot.accept(goal)
     robot.bench.do(CancelGoal(robot.only().id))
     for code in (0, 3):  # TERMINATED also says that it is being cancelled
         goal.cancels[-1].set_result(code)
-        robot.shown()
+        robot.goals()
         robot.bench.clock += ANSWER_S + 0.1
         assert robot.only().phase == "canceling"
     assert len(goal.cancels) == 3
     goal.cancels[-1].set_result(2)
-    robot.shown()
+    robot.goals()
     robot.bench.clock += ANSWER_S + 0.1
     assert "no longer knows this goal" in robot.outcome()[1]
     assert goal.result.cancelled()
 
 
 @pytest.mark.parametrize("code", [0, 1])
-def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: int) -> None:
+def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: GoalServers, code: int) -> None:
     goal = robot.drag()
     robot.accept(goal)
     id = robot.only().id
@@ -336,12 +342,12 @@ def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: 
     assert not robot.only().can_dismiss
     assert "Cancel it first" in robot.bench.refused(DismissGoal(id))
     robot.bench.clock += 0.2
-    shown = robot.only()
-    assert shown.can_dismiss
-    assert shown.status
-    assert ("does not end" if code == 0 else "refuses to cancel") in shown.status.text
+    progress = robot.only()
+    assert progress.can_dismiss
+    assert progress.status
+    assert ("does not end" if code == 0 else "refuses to cancel") in progress.status.text
     robot.bench.do(DismissGoal(id))
-    assert robot.shown() == []
+    assert robot.goals() == []
     assert goal.result.cancelled()
 
 
@@ -357,8 +363,8 @@ def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: Robot, code: 
     ],
 )
 def test_poses_that_are_not_valid_are_refused(
-    robot: Robot, points: Any, gesture: dict[str, Any]
+    robot: GoalServers, points: Any, gesture: dict[str, Any]
 ) -> None:
     assert robot.use(points, **gesture).startswith("Nav2 Goal: ")
     assert robot.graph.goals == []
-    assert robot.shown() == []
+    assert robot.goals() == []

@@ -19,7 +19,7 @@ def measured(b: Bench) -> tuple[Latency, ...]:
     return b.viewer.state().latencies
 
 
-def test_samples_are_traced_while_somebody_looks(
+def test_samples_are_traced_only_on_request(
     bench: Benches, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(latency, "EVERY_S", 0.0)
@@ -36,15 +36,15 @@ def test_samples_are_traced_while_somebody_looks(
     for number in range(2, 6):
         measured(b)
         draw(number)
-    (found,) = measured(b)
-    assert found.samples == 4
-    names = [stage.name for stage in found.stages]
+    (display_latency,) = measured(b)
+    assert display_latency.samples == 4
+    names = [stage.name for stage in display_latency.stages]
     assert names[-4:] == ["ready", "decoded", "drawn", "sent"]
-    assert all(0.0 <= stage.p50 <= stage.p99 for stage in found.stages[-4:])
-    ends = [stage.begin + stage.p50 for stage in found.stages]
-    assert [stage.begin for stage in found.stages[1:]] == pytest.approx(ends[:-1])
-    assert found.waits_for == ""
-    assert found.core > 0.0, "it was drawn since"
+    assert all(0.0 <= stage.p50 <= stage.p99 for stage in display_latency.stages[-4:])
+    ends = [stage.begin + stage.p50 for stage in display_latency.stages]
+    assert [stage.begin for stage in display_latency.stages[1:]] == pytest.approx(ends[:-1])
+    assert display_latency.waits_for == ""
+    assert display_latency.core > 0.0, "it was drawn since"
     b.do(InspectLatency(is_wanted=False))
     draw(6)
     assert measured(b) == ()
@@ -69,9 +69,9 @@ def test_a_sample_that_waits_names_the_transform(
     assert measured(b) == (), "it has no transform yet"
     b.transform("odom", "base", 2 * S + S // 10)
     b.turn()
-    (found,) = measured(b)
-    assert found.waits_for.startswith("Waits ")
-    assert found.waits_for.endswith(" ms for odom to base at 10 Hz.")
+    (display_latency,) = measured(b)
+    assert display_latency.waits_for.startswith("Waits ")
+    assert display_latency.waits_for.endswith(" ms for odom to base at 10 Hz.")
 
 
 def test_the_link_whose_newest_transform_is_oldest_is_the_slowest(bench: Benches) -> None:

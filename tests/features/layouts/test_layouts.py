@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 import time
-from typing import Any
 
 import msgspec
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 from msgspec.structs import replace
 
 from webviz.commands import (
@@ -37,7 +36,7 @@ layouts:
   lab: {below: [{panel: Log, weight: 2.0}]}
 displays: []
 """
-SHOWN = Layout(
+CURRENT = Layout(
     beside=(DockedPanel(panel="doctor"),),
     over=(FloatingPanel(panel="Plot 2", left=0.1),),
     height=200.0,
@@ -46,26 +45,26 @@ LAB = Layout(below=(DockedPanel(panel="Log", weight=2.0),))
 
 
 @pytest.fixture
-def b(bench: Benches) -> Any:
+def b(bench: Benches) -> Bench:
     b = bench()
     b.do(Load(CONFIG, "x.yaml"))
     return b
 
 
-def layouts(b: Any) -> tuple[Layout, dict[str, Layout]]:
+def layouts(b: Bench) -> tuple[Layout, dict[str, Layout]]:
     settings = b.states[-1].settings
     return settings.layout, settings.layouts
 
 
 def test_a_file_keeps_layouts() -> None:
     config = read(CONFIG, "x.yaml")
-    assert config.settings.layout == SHOWN
+    assert config.settings.layout == CURRENT
     assert config.settings.layouts == {"lab": LAB}
     assert read(dump(config), "x.yaml").settings == config.settings
     assert "weight" not in dump(read("version: 1\nlayout: {below: [{panel: Log}]}", "x.yaml"))
 
 
-def test_a_rviz_file_says_that_it_has_none() -> None:
+def test_an_export_to_rviz_reports_the_missing_layouts() -> None:
     text, report = rviz.write(read(CONFIG, "x.yaml"))
     assert "doctor" not in text
     assert [each for each in report.sentences() if "layout" in each]
@@ -90,15 +89,15 @@ def test_a_mistake_is_named(layout: str, reason: str) -> None:
         read(f"version: 1\nlayout: {layout}\n", "x.yaml")
 
 
-def test_layouts_are_changed_saved_and_undone(b: Any) -> None:
+def test_layouts_are_changed_saved_and_undone(b: Bench) -> None:
     b.do(SetLayout("lab"))
     assert layouts(b) == (LAB, {"lab": LAB})
     b.do(SaveLayout("second"))
     assert layouts(b) == (LAB, {"lab": LAB, "second": LAB})
-    b.do(SetLayout(SHOWN, "second"))
-    assert layouts(b) == (LAB, {"lab": LAB, "second": SHOWN})
+    b.do(SetLayout(CURRENT, "second"))
+    assert layouts(b) == (LAB, {"lab": LAB, "second": CURRENT})
     b.do(RemoveLayout("lab"))
-    assert layouts(b) == (LAB, {"second": SHOWN})
+    assert layouts(b) == (LAB, {"second": CURRENT})
     steps = [step.label for step in b.states[-1].history.undo]
     assert steps[:4] == [
         "Remove layout lab",
@@ -107,12 +106,12 @@ def test_layouts_are_changed_saved_and_undone(b: Any) -> None:
         "Change layout",
     ]
     b.do(Undo(steps=4))
-    assert layouts(b) == (SHOWN, {"lab": LAB})
+    assert layouts(b) == (CURRENT, {"lab": LAB})
     b.do(Redo(steps=2))
     assert layouts(b) == (LAB, {"lab": LAB, "second": LAB})
 
 
-def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) -> None:
+def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Bench) -> None:
     for _ in range(3):
         b.do(AddPanel("Joints", {}))
     first = b.states[-1].panels[0].id
@@ -131,7 +130,9 @@ def test_a_panel_that_is_removed_leaves_its_place_to_none_of_its_type(b: Any) ->
     assert len(b.states[-1].panels) == 3
 
 
-def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_tabs(b: Any) -> None:
+def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_tabs(
+    b: Bench,
+) -> None:
     b.do(SetLayout(Layout()))
     for name in ("Plot", "Joints", "Log", "Plot"):
         b.do(AddPanel(name, {}))
@@ -149,7 +150,7 @@ def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_ta
 
 
 @pytest.mark.parametrize("name", TEMPLATES)
-def test_a_template_adds_the_panels_that_are_missing_in_one_step(b: Any, name: str) -> None:
+def test_a_template_adds_the_panels_that_are_missing_in_one_step(b: Bench, name: str) -> None:
     b.do(AddPanel("Plot", {"window": 5}))
     before = layouts(b)
     b.do(UseTemplate(name))
@@ -176,39 +177,39 @@ def test_a_place_takes_as_many_tabs_as_can_be_saved() -> None:
     assert msgspec.convert(msgspec.to_builtins(layout), Layout) == layout
 
 
-def test_the_others_stay_when_a_layout_is_removed(b: Any) -> None:
+def test_the_others_stay_when_a_layout_is_removed(b: Bench) -> None:
     for name in ("a", "m", "z"):
         b.do(SaveLayout(name))
     b.do(RemoveLayout("m"))
     assert list(layouts(b)[1]) == ["lab", "a", "z"]
 
 
-def test_pages_see_a_layout_and_which_of_the_saved_ones_is_shown() -> None:
+def test_pages_see_the_layout_and_the_name_of_the_saved_one() -> None:
     settings = read(CONFIG, "x.yaml").settings
-    settings = replace(settings, layouts={"lab": LAB, "now": SHOWN, "other": LAB})
-    shown = layout_store(settings, "")
-    assert [(each.name, each.is_shown) for each in shown.saved] == [
+    settings = replace(settings, layouts={"lab": LAB, "now": CURRENT, "other": LAB})
+    store = layout_store(settings, "")
+    assert [(each.name, each.is_shown) for each in store.saved] == [
         ("lab", False),
         ("now", True),
         ("other", False),
     ]
-    assert [(each.panel, each.weight) for each in shown.beside] == [("doctor", 1.0)]
-    assert [(each.panel, each.left) for each in shown.over] == [("Plot 2", 0.1)]
-    assert (shown.below, shown.height) == ([], 200.0)
+    assert [(each.panel, each.weight) for each in store.beside] == [("doctor", 1.0)]
+    assert [(each.panel, each.left) for each in store.over] == [("Plot 2", 0.1)]
+    assert (store.below, store.height) == ([], 200.0)
     assert [(each.panel, each.weight) for each in layout_store(settings, "lab").below] == [
         ("Log", 2.0)
     ]
-    assert layout_store(settings, "unknown").over == shown.over
+    assert layout_store(settings, "unknown").over == store.over
 
 
-def test_what_cannot_be_is_refused(b: Any) -> None:
+def test_invalid_commands_are_refused(b: Bench) -> None:
     for command in (SetLayout("nowhere"), SetLayout(LAB, "nowhere"), RemoveLayout("nowhere")):
         assert "Unknown saved layout `nowhere`" in b.refused(command)
     assert "name" in b.refused(SaveLayout(""))
-    assert layouts(b) == (SHOWN, {"lab": LAB})
+    assert layouts(b) == (CURRENT, {"lab": LAB})
 
 
-def test_a_page_cannot_save_more_layouts_than_a_file_may_have(b: Any) -> None:
+def test_a_page_cannot_save_more_layouts_than_a_file_may_have(b: Bench) -> None:
     for number in range(1, MAX_LAYOUTS):
         b.do(SaveLayout(f"{number}"))
     assert f"at most {MAX_LAYOUTS}" in b.refused(SaveLayout("more"))
@@ -233,7 +234,7 @@ def test_the_largest_layouts_are_written_and_read_in_seconds() -> None:
 
 
 @pytest.mark.parametrize(("key", "saved"), [("layouts", {}), ("views", {}), ("bookmarks", 0.0)])
-def test_what_is_saved_by_name_is_bounded(key: str, saved: object) -> None:
+def test_the_number_of_saved_entries_is_bounded(key: str, saved: object) -> None:
     entries = {f"{number}": saved for number in range(1001)}
     with pytest.raises(ConfigError, match=f"`?{key}`?: expected at most"):
         read(f"version: 1\n{key}: {json.dumps(entries)}\n", "x.yaml")

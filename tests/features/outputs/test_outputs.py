@@ -35,13 +35,13 @@ def test_a_folder_has_its_files_by_name(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("number", "offset"), [(1, 0), (-1, 0), (0, -1)])
-def test_what_is_not_there_is_refused(tmp_path: Path, number: int, offset: int) -> None:
+def test_a_missing_part_is_refused(tmp_path: Path, number: int, offset: int) -> None:
     (tmp_path / "x").write_text("x")
     with pytest.raises(Error, match="has no such part"):
         part_of(tmp_path / "x", number, offset)
 
 
-def test_what_was_put_in_its_place_is_not_read(tmp_path: Path) -> None:
+def test_links_and_pipes_in_place_of_a_file_are_not_read(tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("secret")
     (tmp_path / "link").symlink_to(tmp_path / "secret")
     os.mkfifo(tmp_path / "pipe")

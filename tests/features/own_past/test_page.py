@@ -40,11 +40,15 @@ def is_live(memory: Memory) -> bool:
     return memory.viewer.fact("playback").is_live is True
 
 
-def test_alone_there_is_no_question(memory: Memory, enter: Callable[[], Page]) -> None:
+def test_the_only_page_looks_back_without_a_question(
+    memory: Memory, enter: Callable[[], Page]
+) -> None:
     page = enter()
     page.tab.keyboard.press("Shift+ArrowLeft")
     page.wait_for(lambda: not is_live(memory), "the past")
     expect(page.tab.get_by_text(QUESTION)).to_have_count(0)
+    # Until the page knows of the past, the key does nothing.
+    expect(page.tab.locator(".wv-rewound-banner")).to_be_visible(timeout=60_000)
     page.tab.keyboard.press("l")
     page.wait_for(lambda: is_live(memory), "live topics")
 
@@ -72,7 +76,7 @@ def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
     page.wait_for(lambda: distance(memory, page) == pytest.approx(7.0), "the same view")
 
 
-def test_for_everybody_the_others_see_who_leads_and_bring_it_back(
+def test_other_pages_see_who_looks_back_for_everybody_and_return_to_live(
     memory: Memory, enter: Callable[[], Page]
 ) -> None:
     page, other = enter(), enter()

@@ -33,15 +33,17 @@ AGO_S = 9.0
 @pytest.fixture
 def theater(tmp_path: Path) -> Iterator[Callable[..., BagViewer]]:
     """Open a bag in a viewer; all are closed at the end."""
-    made: list[BagViewer] = []
+    viewers: list[BagViewer] = []
 
     def make(bag: Bag | Path | list[Path], config: str = "displays: []\n") -> BagViewer:
-        paths = bag.write_file(tmp_path / f"bag{len(made)}.mcap") if isinstance(bag, Bag) else bag
-        made.append(BagViewer(paths, config))
-        return made[-1]
+        paths = (
+            bag.write_file(tmp_path / f"bag{len(viewers)}.mcap") if isinstance(bag, Bag) else bag
+        )
+        viewers.append(BagViewer(paths, config))
+        return viewers[-1]
 
     yield make
-    for each in made:
+    for each in viewers:
         each.close()
 
 
@@ -67,10 +69,10 @@ class LiveDrive:
             self.source.known[channel.topic] = Offer(channel.publishers, type=channel.type)
         self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
         self.loop.turn()
-        for sent in self.files.messages(self.files.channels, self.files.start_ns):
-            at_s = (sent.stamp_ns - START_NS) / 1e9
-            raw = Raw(sent.cdr, sent.stamp_ns, self.began_s + at_s)
-            self.source.inbox.put(sent.topic, raw)
+        for message in self.files.messages(self.files.channels, self.files.start_ns):
+            at_s = (message.stamp_ns - START_NS) / 1e9
+            raw = Raw(message.cdr, message.stamp_ns, self.began_s + at_s)
+            self.source.inbox.put(message.topic, raw)
             self.loop.turn()
 
     def do(self, command: Command) -> str:
@@ -108,8 +110,8 @@ def drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
     with contextlib.ExitStack() as stack:
 
         def make(bag: Bag, config: str = CONFIG, ago_s: float = AGO_S) -> LiveDrive:
-            made = LiveDrive(bag.write_file(tmp_path / "run.mcap"), config, ago_s)
-            stack.callback(made.close)
-            return made
+            drive = LiveDrive(bag.write_file(tmp_path / "run.mcap"), config, ago_s)
+            stack.callback(drive.close)
+            return drive
 
         yield make

@@ -51,14 +51,14 @@ def robot() -> Bag:
     return bag
 
 
-def shown(bag: BagHistory) -> dict[str, str]:
+def topic_statuses(bag: BagHistory) -> dict[str, str]:
     """Names and types of the displays for a bag."""
     return {each.name: type(each).__name__ for each in config_of(bag).displays}  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def test_without_a_config_the_topics_of_a_bag_are_shown(tmp_path: Path) -> None:
     source = BagHistory(robot().write(tmp_path / "run"))
-    assert shown(source) == {
+    assert topic_statuses(source) == {
         "Grid": "Grid",
         "TF": "TF",
         "/front/scan": "LaserScan",
@@ -111,8 +111,8 @@ def test_several_bags_are_one(tmp_path: Path, theater: Callable) -> None:
     viewer.source.jump(START_NS)
     while viewer.source.reached_ns < START_NS + ns(3):
         viewer.source.play_until(START_NS + ns(3))
-    heard = [raw.cdr for raw in viewer.source.inbox.drain()["/words"]]
-    assert heard == [encode("std_msgs/msg/String", {"data": text}) for text in "012"]
+    payloads = [raw.cdr for raw in viewer.source.inbox.drain()["/words"]]
+    assert payloads == [encode("std_msgs/msg/String", {"data": text}) for text in "012"]
 
 
 @pytest.mark.parametrize(

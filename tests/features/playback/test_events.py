@@ -49,7 +49,9 @@ def test_a_worker_reads_warnings_of_rosout(
     assert shown_by("events", state)["logged"][0] == [2.0, "warn", "driver: slow"]
 
 
-def test_of_many_the_most_severe_stay_and_a_sample_of_the_others(tmp_path: Path) -> None:
+def test_over_the_limit_the_most_severe_events_and_a_sample_of_the_others_are_kept(
+    tmp_path: Path,
+) -> None:
     count = 100_000
     warning = encode(LOG, {"level": WARN, "name": "driver", "msg": "slow"})
     bag = logged((0.5, ERROR, "first"), (9.5, FATAL, "last"))
@@ -109,7 +111,7 @@ def row(
     return Row(id, type, None, "Scan", {key: Status(level, text)})
 
 
-def test_loading_is_no_event() -> None:
+def test_loading_is_not_an_event() -> None:
     events = DisplayEvents()
     events.note(0, [row(Level.OK)])
     events.note(ns(1), [row(Level.WARN, "Loading.", key=LOADING)])

@@ -48,7 +48,7 @@ SHORT: dict[str, Mapping[str, Any]] = {
 """Properties with which more than one message is shown but not all, and nothing is animated."""
 
 
-class Tape:
+class ExportWriter:
     """Records what a scene of a display publishes, as a bench does.
 
     Args:
@@ -131,13 +131,13 @@ class Tape:
 
 
 @pytest.mark.parametrize("name", sorted(CHECKS.keys() - NOT_COMPARED))
-def test_a_seek_shows_what_playing_shows(tmp_path: Path, name: str) -> None:
+def test_seeking_equals_playing_for_every_display(tmp_path: Path, name: str) -> None:
     display = make(display_types()[name], dict(SHORT.get(name, {})))
     for path, _, topic in inputs(display):
         setattr(display, path, Topic(topic.name or "/any", filter_size=100))
     chance = random.Random(name)
     bag = Bag()
-    tape = Tape(bag, display, chance)
+    tape = ExportWriter(bag, display, chance)
     for _ in range(4):
         CHECKS[name].publish(cast("Any", tape))
         tape.turn(chance.uniform(0.0, 5.0))

@@ -120,10 +120,10 @@ def test_a_rule_sees_both_sides_of_a_jump_and_how_long_it_lasted(jump: Path) -> 
 )
 def test_a_command_ends_and_shows_the_end(jump: Path, tmp_path: Path, command: list[str]) -> None:
     words = {"BAG": str(jump), "OUT": "out.html"}
-    done = run(tmp_path, *(words.get(word, word) for word in command))
-    assert done.returncode == 0, done.stdout + done.stderr
+    result = run(tmp_path, *(words.get(word, word) for word in command))
+    assert result.returncode == 0, result.stdout + result.stderr
     if command[0] == "frames" and "-o" not in command:
-        assert "base" in done.stdout
+        assert "base" in result.stdout
     assert not list(tmp_path.glob(".*"))
 
 
@@ -132,9 +132,9 @@ def test_a_rule_over_a_bag_of_a_report_is_judged_in_seconds(name: str, tmp_path:
     if not REPORTS.is_dir():
         pytest.skip("the bags of reports are not there")
     rule = ("--rule", "/marker.pose.position.x > -5")
-    done = run(tmp_path, "test", "--bag", str(REPORTS / name), *rule)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "1 of 1 rule holds." in done.stdout
+    result = run(tmp_path, "test", "--bag", str(REPORTS / name), *rule)
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "1 of 1 rule holds." in result.stdout
 
 
 def test_the_end_of_a_report_with_a_message_of_1970_is_shown() -> None:
@@ -162,7 +162,7 @@ def test_a_seek_beyond_thirty_years_reaches_the_last_message(tmp_path: Path, lat
     viewer.close()
 
 
-def test_pictures_at_intervals_of_decades_are_where_they_are_asked_for(jump: Path) -> None:
+def test_pictures_at_intervals_of_decades_have_their_times(jump: Path) -> None:
     class Decades:
         start_ns = 100 * 10**9
         end_ns = 1_700_000_000 * 10**9

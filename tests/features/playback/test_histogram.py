@@ -23,13 +23,13 @@ def counted(path: Path) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
     recording = open_recording(path)
     assert recording.span_ns is not None
     parts = TimeParts(*recording.span_ns, PARTS)
-    found = {c.topic: each.tolist() for c, each in recording.histogram(parts).items()}
+    counts = {c.topic: each.tolist() for c, each in recording.histogram(parts).items()}
     truth = Counter(
         (entry.channel.topic, (entry.stamp_ns - parts.start_ns) // parts.length_ns)
         for entry in recording.messages(recording.channels, *recording.span_ns)
     )
     recording.close()
-    return found, {topic: [truth[topic, part] for part in range(PARTS)] for topic in found}
+    return counts, {topic: [truth[topic, part] for part in range(PARTS)] for topic in counts}
 
 
 def bag_of(size: int) -> Bag:
@@ -49,11 +49,11 @@ def bag_of(size: int) -> Bag:
 def test_the_index_knows_how_many_messages_come_when(
     tmp_path: Path, storage: StoragePlugin, compression: CompressionMode
 ) -> None:
-    found, truth = counted(bag_of(100).write(tmp_path / "run", storage, compression))
-    assert found == truth
-    assert sum(found["/words"]) == 72
-    assert found["/words"][20] == 0
-    assert not any(found["/silent"])
+    counts, truth = counted(bag_of(100).write(tmp_path / "run", storage, compression))
+    assert counts == truth
+    assert sum(counts["/words"]) == 72
+    assert counts["/words"][20] == 0
+    assert not any(counts["/silent"])
 
 
 def test_chunks_are_counted_without_reading_their_index(
@@ -74,8 +74,8 @@ def test_a_file_without_an_index_is_counted_too(tmp_path: Path) -> None:
     (file,) = bag_of(100).write(tmp_path / "run").glob("*.mcap")
     cut = tmp_path / "cut.mcap"
     cut.write_bytes(file.read_bytes()[:-1000])  # without its summary
-    found, _ = counted(cut)
-    assert sum(found["/words"]) == 72
+    counts, _ = counted(cut)
+    assert sum(counts["/words"]) == 72
 
 
 def test_a_worker_counts_all_bags(tmp_path: Path, theater: Callable) -> None:
@@ -97,8 +97,8 @@ def test_topics_without_messages_are_known(tmp_path: Path) -> None:
 
 def test_a_span_shorter_than_its_parts_is_counted(tmp_path: Path) -> None:
     bag = strings(0, 0)
-    found, truth = counted(bag.write(tmp_path / "run"))
-    assert found == truth
+    counts, truth = counted(bag.write(tmp_path / "run"))
+    assert counts == truth
     assert TimeParts(START_NS, START_NS + ns(1e-9), PARTS).length_ns == 1
 
 

@@ -108,13 +108,16 @@ def test_nothing_is_sent_while_a_recording_is_shown(tmp_path: Path) -> None:
     graph = RememberingGraph()
     with benches() as make:
         bench = make(graph=graph, memory=MemorySettings(seconds=0))
-        gate, goal = bench.viewer.core.gate, Advertisement("/goal", "std_msgs/msg/Bool")
+        restricted_graph, goal = (
+            bench.viewer.context.graph,
+            Advertisement("/goal", "std_msgs/msg/Bool"),
+        )
         cdr = encode("std_msgs/msg/Bool", {"data": True})
         bench.do(OpenRecording(str(path)))
-        assert str(gate.publish(goal, cdr).exception()) == REWOUND
+        assert str(restricted_graph.publish(goal, cdr).exception()) == REWOUND
         bench.do(ReturnToLive())
-        gate.publish(goal, cdr).result()
-        assert bench.viewer.core.player.inbox is bench.source.inbox, "live without any memory"
+        restricted_graph.publish(goal, cdr).result()
+        assert bench.viewer.context.player.inbox is bench.source.inbox, "live without any memory"
 
 
 def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(
@@ -134,7 +137,7 @@ def test_a_page_opens_no_other_recordings_than_those_of_the_black_box(
     assert live.playback.names == ("one",)
 
 
-def test_what_cannot_be_opened_leaves_what_is_shown(drive: Callable[..., LiveDrive]) -> None:
+def test_a_failed_opening_changes_nothing(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(4))
     with pytest.raises(Error, match=r"does not exist|not found|No such"):
         live.do(OpenRecording("missing"))

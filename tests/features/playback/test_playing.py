@@ -169,7 +169,9 @@ def test_steps_go_from_message_to_message(theater: Callable, bag: Bag, topic: st
     assert places == [0.0, 1.0, 0.0, 1.0, 2.0]
 
 
-def test_a_step_without_a_topic_goes_to_what_is_displayed(theater: Callable, bag: Bag) -> None:
+def test_a_step_without_a_topic_goes_to_the_next_displayed_message(
+    theater: Callable, bag: Bag
+) -> None:
     viewer = theater(bag, CONFIG)
     viewer.do(Seek(2.0))
     assert viewer.do(StepMessage()).playback.position_s == 2.5
@@ -188,7 +190,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("command", "reason"), REFUSED, ids=lambda each: str(each)[:20])
-def test_what_cannot_be_done_is_refused(
+def test_invalid_commands_are_refused_with_the_reason(
     theater: Callable, bag: Bag, command: Command, reason: str
 ) -> None:
     viewer = theater(bag)
@@ -205,7 +207,7 @@ def test_a_time_outside_of_the_recording_is_brought_into_it(theater: Callable, b
 
 def test_the_clock_of_ages_never_goes_back(theater: Callable, bag: Bag) -> None:
     viewer = theater(bag, CONFIG)
-    clock = viewer.loop.core.clock
+    clock = viewer.loop.context.clock
     times = [clock()]
     for at_s in (3.0, 1.0, 2.0, 0.0, 4.0):
         viewer.do(Seek(at_s))
@@ -218,12 +220,12 @@ def test_bookmarks_name_moments_and_can_be_undone(theater: Callable, bag: Bag) -
     viewer.do(Seek(2.0))
     viewer.do(SaveBookmark("here"))
     viewer.do(SaveBookmark("later", 3.5))
-    shown = shown_by("bookmarks", viewer.loop.state())
-    assert shown == {"all": [["here", 2.0], ["later", 3.5]]}
+    bookmarks = shown_by("bookmarks", viewer.loop.state())
+    assert bookmarks == {"all": [["here", 2.0], ["later", 3.5]]}
     viewer.do(RemoveBookmark("here"))
     assert shown_by("bookmarks", viewer.loop.state()) == {"all": [["later", 3.5]]}
     viewer.do(Undo())
-    assert shown_by("bookmarks", viewer.loop.state()) == shown
+    assert shown_by("bookmarks", viewer.loop.state()) == bookmarks
 
 
 def test_bookmarks_are_saved_in_the_config(theater: Callable, bag: Bag) -> None:

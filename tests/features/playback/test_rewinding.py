@@ -64,7 +64,7 @@ PUBLISHER = Publisher("/planner", PATH, "reliable", "volatile")
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_rewound_viewer_shows_what_the_saved_memory_does(
+def test_a_rewound_viewer_equals_one_of_the_saved_memory(
     drive: Callable[..., LiveDrive], seed: int
 ) -> None:
     live = drive(recorded(seed))
@@ -83,23 +83,23 @@ def test_a_rewound_viewer_shows_what_the_saved_memory_does(
             assert nodes == truth[at_s][display], (display, at_s)
 
 
-def test_what_is_looked_at_is_saved_although_the_memory_has_forgotten_it(
+def test_a_rewound_span_is_saved_after_the_memory_dropped_it(
     drive: Callable[..., LiveDrive],
 ) -> None:
     """A crash that somebody rewound to is in the file, however long they look at it."""
     live = drive(recorded(1), f"memory: {{seconds: 20}}\n{CONFIG}")
     live.seek(2.08)
-    seen = live.shown()
+    drawing = live.shown()
     channel = next(each for each in live.files.channels if each.topic == "/odom")
-    *_, sent = live.files.messages([channel], live.files.start_ns)
+    *_, message = live.files.messages([channel], live.files.start_ns)
     late_s = 28.0
-    live.source.inbox.put("/odom", Raw(sent.cdr, START_NS + ns(late_s), live.began_s + late_s))
+    live.source.inbox.put("/odom", Raw(message.cdr, START_NS + ns(late_s), live.began_s + late_s))
     live.loop.turn()
     assert "all 28 s" in live.do(SaveMemory(path="saved"))
     with contextlib.closing(BagViewer(Path("saved"), CONFIG)) as played:
         played.play_to(2.08 - (played.source.history.start_ns - START_NS) / 1e9)
         played.settle()
-        assert played.shown() == seen
+        assert played.shown() == drawing
     live.do(ReturnToLive())
     assert "the last" in live.do(SaveMemory(path="live"))
 
@@ -203,9 +203,9 @@ def publish(bench: Bench, ago_s: float, topic: str = "/path", now_s: float | Non
 
 
 def rewind(bench: Bench, ago_s: float) -> PlaybackState:
-    shown = bench.do(Refresh()).playback
-    assert shown is not None
-    return playback(bench.do(Seek((shown.end_ns - shown.start_ns) / 1e9 - ago_s)))
+    state = bench.do(Refresh()).playback
+    assert state is not None
+    return playback(bench.do(Seek((state.end_ns - state.start_ns) / 1e9 - ago_s)))
 
 
 def playback(state: State) -> PlaybackState:
@@ -245,8 +245,8 @@ def test_a_moment_that_is_shown_is_not_forgotten(make: Benches) -> None:
     first_s = rewind(bench, 1.5).first_s
     for _ in range(20):
         publish(bench, 0)
-    shown = playback(bench.do(Refresh()))
-    assert (shown.first_s, places(bench)) == (first_s, {2.0})
+    state = playback(bench.do(Refresh()))
+    assert (state.first_s, places(bench)) == (first_s, {2.0})
     assert playback(bench.do(ReturnToLive())).first_s > first_s
 
 
@@ -263,15 +263,15 @@ def test_live_topics_are_not_played(bench: Bench) -> None:
     assert not bench.do(ReturnToLive()).clock.is_paused
 
 
-def test_a_topic_that_was_not_displayed_then_says_so(bench: Bench) -> None:
+def test_a_topic_not_displayed_at_that_time_has_a_status(bench: Bench) -> None:
     rewind(bench, 1.5)
     bench.source.known["/late"] = Offer((PUBLISHER,), type=PATH)
     bench.do(SetProperty(bench.states[-1].rows[0].id, "topic.name", "/late"))
     publish(bench, 0, "/late")
     assert bench.statuses()["Topic"] == (
         "WARN",
-        "No message yet on /late: none of this moment or before is remembered; only displayed "
-        "topics are, and the oldest messages go first, large ones before others.",
+        "No message yet on /late: memory has none up to this moment; it holds displayed topics "
+        "only, and drops the oldest messages first, large ones before others.",
     )
 
 
@@ -290,15 +290,15 @@ def test_time_that_went_back_is_shown_as_it_was(bench: Bench) -> None:
 def test_nothing_is_sent_while_the_past_is_shown(make: Benches) -> None:
     graph = RememberingGraph()
     bench = make(graph=graph)
-    gate, goal = bench.viewer.core.gate, Advertisement("/goal", PATH)
-    gate.publish(goal, encode(PATH, {})).result()
+    restricted_graph, goal = bench.viewer.context.graph, Advertisement("/goal", PATH)
+    restricted_graph.publish(goal, encode(PATH, {})).result()
     advertised = graph.advertised
     rewind(bench, 1.5)
-    assert str(gate.publish(goal, encode(PATH, {})).exception()) == REWOUND
-    assert gate.refusal("/any_service") == REWOUND
+    assert str(restricted_graph.publish(goal, encode(PATH, {})).exception()) == REWOUND
+    assert restricted_graph.refusal("/any_service") == REWOUND
     assert graph.advertised == advertised, "publishers stay, so that none is missed afterwards"
     bench.do(ReturnToLive())
-    gate.publish(goal, encode(PATH, {})).result()
+    restricted_graph.publish(goal, encode(PATH, {})).result()
 
 
 def test_a_driven_vehicle_stops_first(make: Benches) -> None:
@@ -355,7 +355,7 @@ def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
 
 
 @pytest.mark.parametrize(("ago_s", "is_live"), [(0.3, True), (0.31, False)])
-def test_what_plays_is_live_once_it_is_as_good_as_now(ago_s: float, is_live: bool) -> None:
+def test_playback_that_reaches_now_is_live(ago_s: float, is_live: bool) -> None:
     source, memory, player = remembering()
     for back_s in (50, 40):
         source.inbox.put("/path", Raw(b"", 1, time.monotonic() - back_s))
@@ -373,7 +373,7 @@ def test_what_plays_is_live_once_it_is_as_good_as_now(ago_s: float, is_live: boo
         assert player.is_live is is_live
 
 
-def test_what_may_not_be_in_memory_yet_is_not_passed_over() -> None:
+def test_playback_stops_short_of_messages_not_in_memory_yet() -> None:
     source, memory, player = remembering()
     source.inbox.put("/path", Raw(b"", 1, time.monotonic() - 50))
     player.jump(memory.end_ns - ns(20))
@@ -437,7 +437,7 @@ def test_a_moment_is_forgotten_once_a_recording_replaces_it(tmp_path: Path) -> N
     player.close()
 
 
-def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
+def test_a_new_subscription_does_not_repeat_messages_read_by_a_seek() -> None:
     source = HandFedSource()
     latched = Publisher("/planner", PATH, "reliable", "transient_local")
     source.known["/path"] = Offer((latched,), type=PATH)
@@ -452,13 +452,13 @@ def test_what_a_seek_has_read_is_not_repeated_for_a_new_request() -> None:
     player.jump(at_ns)
     player.play_until(at_ns)
     assert len(source.inbox.drain()["/path"]) == 1
-    player.want({"/path": replace(subscription, asked=1)})
+    player.want({"/path": replace(subscription, resubscriptions=1)})
     assert source.inbox.drain() == {}
-    player.want({"/path": replace(subscription, asked=2)})
+    player.want({"/path": replace(subscription, resubscriptions=2)})
     assert len(source.inbox.drain()["/path"]) == 1
 
 
-def test_what_came_since_the_memory_was_read_is_read_once() -> None:
+def test_messages_received_since_the_last_read_are_read_once() -> None:
     source = HandFedSource()
     source.known["/path"] = Offer((PUBLISHER,), type=PATH)
     memory = MemoryHistory(source)
@@ -490,7 +490,7 @@ def test_a_recording_goes_on_while_the_past_is_shown(
     assert bench.ask(StopRecording()) == "Recorded 2 messages to run."
 
 
-def test_the_timeline_counts_what_is_in_memory_or_shown(make: Benches) -> None:
+def test_the_timeline_counts_messages_in_memory_and_on_display(make: Benches) -> None:
     begun_s = time.monotonic()
     bench = make()
 
@@ -511,7 +511,7 @@ def test_the_timeline_counts_what_is_in_memory_or_shown(make: Benches) -> None:
     assert counted()[1][: len(counts)] == counts
 
 
-def test_the_timeline_marks_what_nodes_log_meanwhile(make: Benches) -> None:
+def test_the_timeline_marks_log_messages(make: Benches) -> None:
     bench = make()
     publisher = Publisher("/driver", LOG, "reliable", "transient_local")
     bench.source.known[ROSOUT] = Offer((publisher,), type=LOG)

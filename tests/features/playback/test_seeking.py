@@ -32,7 +32,7 @@ from webviz.sources.bag.history import BagHistory
     ("storage", "seed"),
     [(StoragePlugin.MCAP, 1), (StoragePlugin.MCAP, 2), (StoragePlugin.SQLITE3, 3)],
 )
-def test_a_seek_shows_what_playing_shows(tmp_path: Path, storage: StoragePlugin, seed: int) -> None:
+def test_seeking_equals_playing(tmp_path: Path, storage: StoragePlugin, seed: int) -> None:
     path = recorded(seed).write(tmp_path / "run", storage)
     check_seeks(path, CONFIG, count=8, seed=seed)
 
@@ -57,7 +57,7 @@ def test_a_seek_in_a_long_bag_reads_little(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_a_display_of_a_plug_in_that_declares_too_little_is_found(tmp_path: Path) -> None:
-    config = Config(displays=[Total(name="Sum", topic=Topic("/odom"))])
+    config = Config(displays=[OdometrySum(name="Sum", topic=Topic("/odom"))])
     config.set_fixed_frame("odom")
     path = recorded().write_file(tmp_path / "run.mcap")
     check_seeks(path, config, times=[4.0])
@@ -66,7 +66,7 @@ def test_a_display_of_a_plug_in_that_declares_too_little_is_found(tmp_path: Path
         check_seeks(path, config, times=[4.0])
 
 
-class Total(Display):
+class OdometrySum(Display):
     """The sum of all that was received."""
 
     topic: Annotated[Topic, Input("nav_msgs/msg/Odometry")] = Topic("/odom")
@@ -133,7 +133,7 @@ def test_frames_whose_transforms_ended_long_before_are_known(tmp_path: Path) -> 
     )
 
 
-def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> None:
+def test_stepping_equals_playing_in_both_directions(tmp_path: Path) -> None:
     path = recorded(5).write_file(tmp_path / "run.mcap")
     chance = random.Random(5)
     stepped, played = BagViewer(path, CONFIG), BagViewer(path, CONFIG)
@@ -146,9 +146,9 @@ def test_steps_in_both_directions_show_what_playing_shows(tmp_path: Path) -> Non
             stepped.shown()
         )
     assert len(result) > 4
-    for at_s, shown in sorted(result.items()):
+    for at_s, drawing in sorted(result.items()):
         played.play_to(at_s)
-        assert shown == plain(played.shown()), at_s
+        assert drawing == plain(played.shown()), at_s
     stepped.close()
     played.close()
 
@@ -158,7 +158,7 @@ REAL = ["nav2_turtlebot.mcap", "husky_filtered_bag", "macfirst_floor_take_2", "t
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_a_seek_in_a_real_bag_shows_what_playing_shows(name: str) -> None:
+def test_seeking_equals_playing_in_a_real_bag(name: str) -> None:
     if not (BAGS / name).exists():
         pytest.skip("the recorded bags are not on this machine")
     with contextlib.closing(BagHistory(BAGS / name)) as bag:
@@ -199,7 +199,7 @@ def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
     assert plotted(sought) == plotted(played)
 
 
-def test_before_the_first_transform_no_status_is_left_of_what_was_drawn_later(
+def test_seeking_before_the_first_transform_clears_later_statuses(
     theater: Callable,
 ) -> None:
     bag = strings(0, 4)

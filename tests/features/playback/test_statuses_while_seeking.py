@@ -21,10 +21,10 @@ def statuses(loop: FrameLoop) -> dict[str, Mapping[str, Status]]:
     return {"": state.statuses, **{row.id: row.statuses for row in state.rows}}
 
 
-def test_nothing_new_is_said_until_the_position_is_reached(drive: Callable[..., LiveDrive]) -> None:
+def test_statuses_stay_until_the_position_is_reached(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(1))
     playback, displays = live.loop.get(TimePart), live.loop.get(DisplaysPart)
-    player = playback.core.player
+    player = playback.context.player
     for at_s in (3.78, 0.58, 5.58):
         before = statuses(live.loop)
         player.seek(START_NS + ns(at_s))

@@ -6,20 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bench import Benches, benches
 
 from webviz.api import registry
 from webviz.api.display import Display
 from webviz.engine.pipeline.plugins import load
 
 EXAMPLE = Path(__file__).with_name("polygon.py")
-
-
-@pytest.fixture
-def bench() -> Iterator[Benches]:
-    """Make a viewer of displays."""
-    with benches() as make:
-        yield make
 
 
 class Plugin:

@@ -14,12 +14,13 @@ import numpy as np
 import PIL.Image
 import pytest
 from bags import strings
-from bench import Benches
+from bench import Bench, Benches
 
 import webviz
 from webviz.api import registry
 from webviz.api.check_registry import register_checks
 from webviz.api.display import Display
+from webviz.api.nodes import Instances, Lines
 from webviz.api.status import Status
 from webviz.commands import Load, Refresh, UseTool
 from webviz.data.messages import decode, encode, register
@@ -41,7 +42,7 @@ def camera_view() -> Iterator[type[Display]]:
     registry.register(str(path), {})
 
 
-def publish(bench: Any, stamp_ns: int, focal_length: float, *names: str) -> None:
+def publish(bench: Bench, stamp_ns: int, focal_length: float, *names: str) -> None:
     """An image of 640 x 480 pixels, its calibration, or both."""
     at = {"header": header("camera", stamp_ns), "width": 640, "height": 480}
     if "image" in names:
@@ -59,9 +60,9 @@ def test_camera_view_draws_an_image_with_the_calibration_of_its_stamp(
     publish(b, T, 320.0, "image", "info")
     publish(b, T + 1, 640.0, "image")
     b.turn()
-    corners = {key: node.segments[:, 1] for key, _, node in b.scene.visible()}["rays"]
+    _, rays = b.nodes(Lines)
     sides = [(-1, -0.75), (1, -0.75), (1, 0.75), (-1, 0.75)]
-    np.testing.assert_allclose(corners, [(*side, 1) for side in sides])
+    np.testing.assert_allclose(rays.segments[:, 1], [(*side, 1) for side in sides])
     b.clock += 1.1
     level, text = b.statuses()["Sync"]
     assert level == "WARN"
@@ -71,7 +72,7 @@ def test_camera_view_draws_an_image_with_the_calibration_of_its_stamp(
     )
 
 
-def test_camera_view_says_that_a_camera_is_not_calibrated(
+def test_camera_view_reports_a_camera_without_calibration(
     bench: Benches, camera_view: type[Display]
 ) -> None:
     b = bench(camera_view(name="Camera"))
@@ -111,27 +112,28 @@ def test_the_display_of_rviz_tutorial_shows_a_point_in_its_frame(
         b.publish("/point", "rviz_plugin_tutorial_msgs/msg/Point2D", point)
         b.turn()
         assert b.statuses()["Point"] == expected
-        drawn = {key: node for key, _, node in b.scene.visible()}
-        assert drawn.keys() == (set() if expected[0] == "ERROR" else {"point"})
-        if drawn:
-            np.testing.assert_array_equal(drawn["point"].positions, [(x, 2.0, 0.0)])
+        keys = {key for key, _, _ in b.scene.visible()}
+        assert keys == (set() if expected[0] == "ERROR" else {"point"})
+        if keys:
+            (node,) = b.nodes(Instances)
+            np.testing.assert_array_equal(node.positions, [(x, 2.0, 0.0)])
     finally:
         registry.register(str(path), {})
 
 
 def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(bench: Benches) -> None:
     path = EXAMPLES / "spawn_turtle.py"
-    told: list[Status] = []
+    statuses: list[Status] = []
     try:
         load(path)
         b = bench()
         graph = b.source.graph = RememberingGraph()
         for _ in range(2):
-            b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=told.append))
+            b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=statuses.append))
             b.turn()
             graph.responses["/spawn"] = encode("turtlesim/srv/Spawn_Response", {"name": "turtle2"})
         b.do(Load("publish: [/goal_pose]\n", "x.yaml"))
-        b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=told.append))
+        b.viewer.enqueue(UseTool("Spawn Turtle", ((1.0, 2.0, 0.0),), report=statuses.append))
         (button,) = (tool for tool in b.do(Refresh()).tools if tool.name == "Spawn Turtle")
     finally:
         registry.register(str(path), {})
@@ -139,12 +141,12 @@ def test_spawn_turtle_is_a_tool_that_calls_a_service_with_the_clicked_point(benc
     assert (service, type_) == ("/spawn", "turtlesim/srv/Spawn")
     spawn = decode("turtlesim/srv/Spawn_Request", request)
     assert (spawn.x, spawn.y, spawn.theta, spawn.name) == (1.0, 2.0, 0.0, "")
-    assert [status.text for status in told] == [
+    assert [status.text for status in statuses] == [
         "No node offers /spawn. Start one.",
         "Spawned turtle2.",
         "/spawn is not in the list `publish` of this config. Add it to the file.",
     ]
-    assert button.refusal == told[-1].text
+    assert button.refusal == statuses[-1].text
 
 
 def test_every_example_is_listed() -> None:
@@ -153,11 +155,11 @@ def test_every_example_is_listed() -> None:
 
 
 def test_examples_that_show_something_in_the_scene_have_their_pictures() -> None:
-    shown = re.findall(r"\(pictures/(\w+)\.webp\)", (EXAMPLES / "README.md").read_text())
-    assert sorted(shown) == sorted(path.stem for path in gallery.PLUGINS)
-    for name in shown:
+    pictures = re.findall(r"\(pictures/(\w+)\.webp\)", (EXAMPLES / "README.md").read_text())
+    assert sorted(pictures) == sorted(path.stem for path in gallery.PLUGINS)
+    for name in pictures:
         with PIL.Image.open(gallery.PICTURES / f"{name}.webp") as picture:
-            assert picture.size == gallery.SHOWN, "run tests/support/gallery.py"
+            assert picture.size == gallery.THUMBNAIL, "run tests/support/gallery.py"
 
 
 @pytest.mark.parametrize(

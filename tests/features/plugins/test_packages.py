@@ -95,7 +95,7 @@ def test_a_config_can_name_it_and_is_saved_so(run: Callable[[str], str]) -> None
     assert "type: Gone" in text
 
 
-def test_a_display_that_does_not_load_says_why_and_harms_no_other(
+def test_a_display_that_does_not_load_is_reported_and_harms_no_other(
     run: Callable[[str], str],
 ) -> None:
     fence, gone, typo, torn = run(

@@ -67,7 +67,7 @@ def publish(bench: Bench) -> None:
     bench.publish("/path", PATH, {"header": {"frame_id": "map"}})
 
 
-def test_a_memory_forgets_what_is_old_and_what_does_not_fit() -> None:
+def test_a_memory_drops_messages_over_its_seconds_and_bytes() -> None:
     memory = RecentMessages(lambda topic: 0, seconds=10.0, max_bytes=3000)
     for second in range(20):
         memory.put("/a", raw(second))
@@ -104,9 +104,9 @@ def test_small_messages_beyond_their_share_make_room_for_large_ones() -> None:
     assert memory.size()[1] > 0.9 * size, "alone they have all"
     for number in range(40):
         memory.put("/points", raw(now_s - 4 + number / 10, size=recent.LARGE_BYTES))
-    held = [topic for topic, _ in memory.last(1e9).messages]
-    assert held.count("/scan") * recent.LARGE_BYTES / 2 > (recent.SMALL_SHARE - 0.1) * size
-    assert held.count("/points") >= 7
+    topics = [topic for topic, _ in memory.last(1e9).messages]
+    assert topics.count("/scan") * recent.LARGE_BYTES / 2 > (recent.SMALL_SHARE - 0.1) * size
+    assert topics.count("/points") >= 7
     assert memory.is_full
 
 
@@ -161,7 +161,7 @@ def test_latched_messages_that_just_fit_together_are_kept(monkeypatch: pytest.Mo
     assert memory.pinned() == ("/b", "/c")
 
 
-def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:
+def test_the_last_seconds_are_saved_with_latched_messages(bench: Bench) -> None:
     bench.publish("/robot_description", STRING, {"data": "<robot/>"})
     publish(bench)
     publish(bench)
@@ -170,7 +170,7 @@ def test_the_last_seconds_are_saved_with_what_is_latched(bench: Bench) -> None:
     assert [topic for topic, _ in contents(Path("all"))] == ["/robot_description", "/path", "/path"]
 
 
-def test_what_was_latched_before_the_last_seconds_is_saved_as_if_it_came_with_the_first(
+def test_earlier_latched_messages_are_saved_with_the_stamp_of_the_first(
     bench: Bench,
 ) -> None:
     described = Raw(encode(STRING, {"data": "<robot/>"}), 50 * 10**9, time.monotonic() - 20.0)
@@ -182,7 +182,7 @@ def test_what_was_latched_before_the_last_seconds_is_saved_as_if_it_came_with_th
     assert first_ns == path_ns
 
 
-def test_a_recording_begins_with_what_is_latched_and_ends_on_request(bench: Bench) -> None:
+def test_a_recording_begins_with_latched_messages_and_ends_on_request(bench: Bench) -> None:
     bench.publish("/robot_description", STRING, {"data": "<robot/>"})
     publish(bench)
     assert bench.ask(StartRecording()).startswith("Recording to webviz_")
@@ -242,7 +242,7 @@ def test_settings_bound_the_memory(bench: Bench) -> None:
         (StartRecording("."), "is not empty. Give the name of a new folder."),
     ],
 )
-def test_what_cannot_be_recorded_is_refused(
+def test_invalid_recordings_are_refused_with_the_reason(
     bench: Bench, command: SaveMemory | StartRecording, reason: str
 ) -> None:
     Path("file").touch()
@@ -282,10 +282,10 @@ def test_static_transforms_of_all_publishers_are_kept() -> None:
     for number, child in enumerate(("base", "laser", "base", "camera")):
         static(child, float(number), float(number))
     memory.put("/scan", raw(100))
-    kept = [
+    transforms = [
         decode("tf2_msgs/msg/TFMessage", r.cdr).transforms[0] for _, r in memory.last(1e9).latched
     ]
-    assert [(t.child, t.translation[0]) for t in kept] == [
+    assert [(t.child, t.translation[0]) for t in transforms] == [
         ("laser", 1.0),
         ("base", 2.0),
         ("camera", 3.0),
@@ -308,15 +308,15 @@ def test_a_topic_whose_publishers_disagree_on_the_type_has_no_channel() -> None:
 def test_messages_wait_for_the_type_of_their_topic(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked: list[str] = []
+    requests: list[str] = []
     offers = {"/known": Offer((Publisher("/a", STRING, "reliable", "volatile"),))}
 
     class Late(Channels):
         """Knows a topic when it is asked for the third time."""
 
         def find(self, topic: str, types: MessageTypes | None = None) -> RecordedChannel | None:
-            asked.append(topic)
-            return super().find("/known") if len(asked) > 2 and topic != "/never" else None
+            requests.append(topic)
+            return super().find("/known") if len(requests) > 2 and topic != "/never" else None
 
     monkeypatch.setattr(recorder, "UNKNOWN_S", 0.3)
     folder = RecordingFolder(tmp_path / "run", "test")
@@ -325,10 +325,10 @@ def test_messages_wait_for_the_type_of_their_topic(
     writer.put("/never", replace(raw(1), arrived_s=time.monotonic()))
     writer.close()
     assert (writer.messages, writer.dropped) == (1, 1)
-    assert len(asked) > 4
+    assert len(requests) > 4
 
 
-def test_what_waits_for_the_disk_is_bounded_and_counted(
+def test_messages_waiting_for_the_disk_are_bounded_and_drops_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recorder, "MAX_BYTES", 3000)
@@ -406,24 +406,24 @@ LIMITS = MemorySettings(seconds=60.0, megabytes=512.0)
 REMEMBERS = "Remembers the last 60 s of the displayed topics, up to 512 MB."
 
 
-def test_pages_read_what_is_remembered_and_recorded() -> None:
+def test_the_store_of_recordings_has_memory_and_recording() -> None:
     memory = MemoryState(61.7, 2_999_999)
     running = RecordingState(
         path=Path("folder/run"), seconds=3.9, messages=5, size=1_260_000, dropped=2
     )
-    shown = RunningRecording(name="run", seconds=3, megabytes=1.3, dropped=2)
+    page_recording = RunningRecording(name="run", seconds=3, megabytes=1.3, dropped=2)
     assert recording_store(memory, running, LIMITS) == RecordingStore(
-        (61, 2), True, REMEMBERS, shown
+        (61, 2), True, REMEMBERS, page_recording
     )
     assert recording_store(memory, None, LIMITS) == RecordingStore((61, 2), True, REMEMBERS, None)
     assert recording_store(None, running, LIMITS) is None
-    held = recording_store(msgspec.structs.replace(memory, held_s=95.3), None, LIMITS)
-    assert held is not None
-    assert held.held == 95
+    store = recording_store(msgspec.structs.replace(memory, held_s=95.3), None, LIMITS)
+    assert store is not None
+    assert store.held == 95
 
 
 @pytest.mark.parametrize("off", [{"seconds": 0.0}, {"megabytes": 0.0}])
-def test_pages_read_that_there_is_no_memory(off: dict[str, float]) -> None:
+def test_the_store_of_recordings_reports_missing_memory(off: dict[str, float]) -> None:
     limits = msgspec.structs.replace(LIMITS, **off)
     off_store = RecordingStore((0, 0), False, MEMORY_OFF, None)
     assert recording_store(MemoryState(0.0, 0), None, limits) == off_store
@@ -445,7 +445,7 @@ def test_pages_read_that_there_is_no_memory(off: dict[str, float]) -> None:
         ),
     ],
 )
-def test_pages_read_which_bound_of_a_memory_is_reached(
+def test_the_store_of_recordings_names_the_bound_reached(
     is_full: bool, pinned: tuple[str, ...], sentences: str
 ) -> None:
     result = recording_store(MemoryState(1.0, 1, is_full, pinned), None, LIMITS)

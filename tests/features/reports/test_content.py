@@ -13,14 +13,14 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from tests.support.stand_ins import stand_in
+from tests.support.stand_in import stand_in
 from webviz.api.errors import Error
 from webviz.api.finding import Finding, Severity
 from webviz.api.offer import Offer, Publisher
 from webviz.api.status import Level, Status
 from webviz.data.messages import decode, defined, encode
 from webviz.data.recordings import RecordedChannel, open_recording
-from webviz.engine.commands import Picks
+from webviz.engine.commands import NodePicks
 from webviz.engine.state import Row, State
 from webviz.features.doctor import DoctorFeature
 from webviz.features.reports import ReportedThing, reported_store
@@ -113,10 +113,10 @@ NO_FINDINGS = doctor()
 def written(tmp_path: Path) -> Callable[..., BugReport]:
     """Write a report, and read it."""
 
-    def written(given: ReportMoment, later: DoctorFeature = NO_FINDINGS) -> BugReport:
+    def written(content: ReportMoment, later: DoctorFeature = NO_FINDINGS) -> BugReport:
         (folder := tmp_path / "read").mkdir()
         path = tmp_path / "bug.zip"
-        size = write(path, given, later, None)
+        size = write(path, content, later, None)
         assert size == path.stat().st_size
         assert {each.name for each in tmp_path.iterdir()} == {"read", "bug.zip"}
         return read_report(path, folder).report
@@ -172,7 +172,7 @@ def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugRepo
     assert {each.name for each in report.moments[-2:]} == {"Plan", "TF001"}
 
 
-def test_it_says_what_it_is_of_and_by_what_it_was_made(
+def test_a_report_names_its_source_times_and_versions(
     written: Callable[..., BugReport], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
@@ -190,7 +190,7 @@ def test_it_says_what_it_is_of_and_by_what_it_was_made(
 
 
 @pytest.mark.parametrize("with_names", [False, True])
-def test_names_of_people_are_in_no_member_unless_they_are_wanted(
+def test_names_of_people_are_in_no_member_unless_included_on_request(
     tmp_path: Path, with_names: bool
 ) -> None:
     path = tmp_path / "bug.zip"
@@ -243,7 +243,7 @@ def test_namespaces_are_those_of_nodes() -> None:
     assert namespaces(STATE.offers) == {"/ns", ""}
 
 
-def test_the_list_says_how_much_of_what_is_in_it() -> None:
+def test_the_list_gives_the_amount_of_each_member() -> None:
     lines = listing(moment())
     assert lines[0] == "slice.mcap: 2.5 s of 1 topic from the bag, latched messages first"
     assert "from memory" in listing(moment(source="live"))[0]
@@ -258,7 +258,7 @@ def test_the_list_says_how_much_of_what_is_in_it() -> None:
 
 def test_a_selection_is_found_by_the_number_of_its_display() -> None:
     item = (5, 7, (1.0, 2.0, 3.0), (9, 8, 7))
-    picks = Picks("plan/poses/0", "k", (item, item)), Picks("gone/poses", "k", (item,))
+    picks = NodePicks("plan/poses/0", "k", (item, item)), NodePicks("gone/poses", "k", (item,))
     result = ReportedPick(1, "poses/0", "k", 7, (1.0, 2.0, 3.0), (9, 8, 7))
     assert picked(picks, STATE.rows) == (result, result)
     things = reported_store(picked(picks[:1], STATE.rows), STATE.rows)
@@ -267,7 +267,7 @@ def test_a_selection_is_found_by_the_number_of_its_display() -> None:
 
 
 @pytest.mark.parametrize(("display", "is_shown"), [(0, True), (1, True), (2, False), (3, False)])
-def test_only_displays_that_are_there_show_what_was_selected(display: int, is_shown: bool) -> None:
+def test_a_reported_selection_is_shown_only_with_its_display(display: int, is_shown: bool) -> None:
     pick = ReportedPick(display, "poses/0", "k", 7, (1.0, 2.0, 3.0))
     assert (reported_store([pick], STATE.rows) is not None) is is_shown
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import PIL.Image
 import pytest
 from bench import Benches
+from live_paths import path_viewer
 
 import webviz
 from webviz.commands import ListReport, Refresh, SaveReport
@@ -46,12 +47,12 @@ def test_a_picture_is_a_member_with_the_ending_of_its_format(kind: str, ending: 
     assert result[1] == base64.b64decode(sent)
 
 
-def test_no_picture_is_no_member() -> None:
+def test_an_empty_picture_is_left_out() -> None:
     assert read_picture("") is None
 
 
 @pytest.mark.parametrize("sent", ["%", "AAAA", picture(kind="GIF"), picture()[:40]])
-def test_what_is_no_picture_is_refused(sent: str) -> None:
+def test_a_picture_that_is_not_png_or_jpeg_is_refused(sent: str) -> None:
     with pytest.raises(webviz.Error, match="not a PNG or JPEG"):
         read_picture(sent)
 
@@ -83,30 +84,25 @@ def test_the_tree_of_transforms_is_a_member(tmp_path: Path, is_placed: bool) -> 
                 source.put("/tf", TF, encode(TF, {"transforms": [link]}))
         viewer.do(SaveReport(path=str(tmp_path / "bug.zip")))
     with zipfile.ZipFile(tmp_path / "bug.zip") as members:
-        said = members.read("frames.txt").decode()
-    assert ("There are no transforms." in said) is not is_placed
-    assert ("base_link" in said) is is_placed
+        tree = members.read("frames.txt").decode()
+    assert ("No transforms." in tree) is not is_placed
+    assert ("base_link" in tree) is is_placed
 
 
 @pytest.fixture
 def live() -> Iterator[webviz.Viewer]:
     """A viewer of live topics that has received a path."""
-    source = HandFedSource()
-    with webviz.Viewer(port=0, source=source) as viewer:
-        viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
-        viewer.do(Refresh())
-        source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
-        viewer.do(Refresh())
+    with path_viewer(HandFedSource()) as viewer:
         yield viewer
 
 
-def test_names_are_left_out_unless_they_are_asked_for(live: webviz.Viewer) -> None:
-    for command, said in (
+def test_names_are_left_out_unless_requested(live: webviz.Viewer) -> None:
+    for command, sentence in (
         (ListReport(), "are left out"),
         (ListReport(with_names=False), "are left out"),
         (ListReport(with_names=True), "are included"),
     ):
-        assert f"Names of hosts, users and home folders {said}" in live.do(command)
+        assert f"Names of hosts, users and home folders {sentence}" in live.do(command)
 
 
 def test_the_name_of_the_machine_is_in_no_text_of_a_report(
@@ -124,7 +120,7 @@ def test_the_name_of_the_machine_is_in_no_text_of_a_report(
 
 
 @pytest.mark.parametrize("with_names", [False, True])
-def test_a_report_says_whether_it_has_names_and_how_large_it_is(
+def test_a_report_records_its_size_and_whether_it_has_names(
     live: webviz.Viewer, tmp_path: Path, with_names: bool
 ) -> None:
     path = tmp_path / "bug.zip"

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from several import several
 from waiting import until
 
 import webviz
@@ -28,7 +29,7 @@ class OfferingGraph(RememberingGraph):
         return {CALIBRATE: TRIGGER}
 
 
-class House:
+class TokenViewer:
     """A viewer that asks for tokens and trusts a proxy on this machine."""
 
     def __init__(self, *, is_read_only: bool = False, **options: Any) -> None:
@@ -87,19 +88,12 @@ class House:
 @pytest.fixture
 def make(
     tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[..., House]]:
+) -> Iterator[Callable[..., TokenViewer]]:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("config")))
-    made: list[House] = []
-
-    def make(**options: Any) -> House:
-        made.append(House(**options))
-        return made[-1]
-
-    yield make
-    for house in made:
-        house.close()
+    with several(TokenViewer) as make:
+        yield make
 
 
 @pytest.fixture
-def house(make: Callable[..., House]) -> House:
+def token_viewer(make: Callable[..., TokenViewer]) -> TokenViewer:
     return make()

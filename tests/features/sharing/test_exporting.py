@@ -35,8 +35,8 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
         (tmp_path / "other_program.py").write_text(program)
         monkeypatch.setenv("PYTHONPATH", str(tmp_path))
         monkeypatch.setattr(exporting, "PROGRAM", "other_program")
-        (made := tmp_path / "run.html").write_text("the file")
-        moment = SharedMoment(tmp_path / "run.mcap", tmp_path / "c.yaml", made, "lab", 1.5)
+        (exported_file := tmp_path / "run.html").write_text("the file")
+        moment = SharedMoment(tmp_path / "run.mcap", tmp_path / "c.yaml", exported_file, "lab", 1.5)
         files: dict[str, bytes] = {}
         values = {"progress": lambda share: None, "stopped": threading.Event()} | options
         text = export(moment, HostProgram(files.__setitem__), **values)  # pyright: ignore
@@ -46,7 +46,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     return run
 
 
-def test_it_is_told_what_to_make_and_says_how_far_it_is(run: Run, tmp_path: Path) -> None:
+def test_the_exporting_process_gets_an_order_and_reports_progress(run: Run, tmp_path: Path) -> None:
     program = """
 import json, sys, time
 order = json.loads(sys.stdin.readline())
@@ -72,7 +72,7 @@ sys.stdin.read()
         ("""import sys; sys.stdout.write('{"don'); sys.exit(5)""", "unexpectedly, with status 5"),
     ],
 )
-def test_what_is_wrong_is_one_sentence(run: Run, program: str, problem: str) -> None:
+def test_failures_of_the_process_are_one_sentence(run: Run, program: str, problem: str) -> None:
     with pytest.raises(Error, match=problem):
         run(program)
 

@@ -14,18 +14,17 @@ import playwright.sync_api as playwright
 import pytest
 from bags import START_NS
 from drives import CONFIG, recorded
+from live_paths import path_viewer, receive_path
 from pages import COARSE
 from playwright.sync_api import expect
 from waiting import until
 
 import webviz
 from webviz.commands import ListMoment, Refresh, ShareMoment, StopSharing
-from webviz.data.messages import encode
 from webviz.engine.parts.part import HostProgram
 from webviz.features.sharing import SharingState
 from webviz.features.sharing.exporting import SharedMoment, export
-from webviz.shell.testing import header
-from webviz.shell.testing.source import SECOND, HandFedSource
+from webviz.shell.testing.source import HandFedSource
 
 PATH = "nav_msgs/msg/Path"
 AT_S = 2.0
@@ -38,31 +37,20 @@ def source() -> HandFedSource:
     return HandFedSource()
 
 
-def feed(source: HandFedSource) -> None:
-    """Receive a path."""
-    source.now += SECOND
-    source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
-
-
 @pytest.fixture
 def live(source: HandFedSource) -> Iterator[webviz.Viewer]:
     """A viewer of live topics that has received some paths."""
-    with webviz.Viewer(port=0, source=source) as viewer:
-        viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
-        for _ in range(5):
-            viewer.do(Refresh())  # after the first one, the topic is subscribed to
-            feed(source)
-        viewer.do(Refresh())
+    with path_viewer(source, 5) as viewer:
         yield viewer
 
 
 def shared(viewer: webviz.Viewer, holds: Callable[[SharingState], bool]) -> SharingState:
-    def told() -> SharingState | None:
+    def match() -> SharingState | None:
         viewer.do(Refresh())
-        told = viewer.state.sharing
-        return told if told is not None and holds(told) else None
+        state = viewer.state.sharing
+        return state if state is not None and holds(state) else None
 
-    return until(told, lambda: f"still {viewer.state.sharing}", seconds=PATIENCE_S, look_s=0.1)
+    return until(match, lambda: f"still {viewer.state.sharing}", seconds=PATIENCE_S, look_s=0.1)
 
 
 def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path: Path) -> None:
@@ -70,9 +58,9 @@ def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path
     assert "Making run.html" in live.do(ShareMoment(str(path)))
     with pytest.raises(webviz.Error, match="Another file is being made"):
         live.do(ShareMoment(str(path)))
-    told = shared(live, lambda told: told.number == 1)
-    assert (told.share, told.level) == (None, webviz.Level.OK)
-    assert re.fullmatch(r"Saved run\.html: \d\.\d s, \d\.\d MB\.", told.text)
+    state = shared(live, lambda state: state.number == 1)
+    assert (state.share, state.level) == (None, webviz.Level.OK)
+    assert re.fullmatch(r"Saved run\.html: \d\.\d s, \d\.\d MB\.", state.text)
     assert path.read_bytes().startswith(b"<!doctype html>")
     assert list(tmp_path.iterdir()) == [path]
 
@@ -80,7 +68,7 @@ def test_live_topics_are_shared_one_file_at_a_time(live: webviz.Viewer, tmp_path
 def test_a_file_that_is_stopped_leaves_nothing(live: webviz.Viewer, tmp_path: Path) -> None:
     live.do(ShareMoment(str(tmp_path / "run.html")))
     assert live.do(StopSharing()) == "Stopped; no file was written."
-    assert shared(live, lambda told: told.share is None).number == 0
+    assert shared(live, lambda state: state.share is None).number == 0
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(webviz.Error, match="No file is being made"):
         live.do(StopSharing())
@@ -88,9 +76,9 @@ def test_a_file_that_is_stopped_leaves_nothing(live: webviz.Viewer, tmp_path: Pa
 
 def test_a_file_that_cannot_be_written_is_one_sentence(live: webviz.Viewer, tmp_path: Path) -> None:
     live.do(ShareMoment(str(tmp_path / "missing" / "run.html")))
-    told = shared(live, lambda told: told.number == 1)
-    assert told.level is webviz.Level.ERROR
-    assert "No such file or directory. Choose another place." in told.text
+    state = shared(live, lambda state: state.number == 1)
+    assert state.level is webviz.Level.ERROR
+    assert "No such file or directory. Choose another place." in state.text
 
 
 def test_without_memory_there_is_nothing_to_share(tmp_path: Path) -> None:
@@ -100,7 +88,7 @@ def test_without_memory_there_is_nothing_to_share(tmp_path: Path) -> None:
             viewer.do(ShareMoment(str(tmp_path / "run.html")))
 
 
-def test_an_export_tells_which_share_is_done(tmp_path: Path) -> None:
+def test_an_export_reports_its_progress(tmp_path: Path) -> None:
     recorded().write(tmp_path / "run")
     (tmp_path / "lab.yaml").write_text(CONFIG)
     (bag,) = (tmp_path / "run").glob("*.mcap")
@@ -173,7 +161,7 @@ def test_the_last_seconds_of_live_topics_are_chosen(
     live: webviz.Viewer, source: HandFedSource
 ) -> None:
     def remembered() -> bool:
-        feed(source)
+        receive_path(source)
         return listed(live) > 0.9
 
     until(remembered, look_s=0.05)
@@ -181,7 +169,7 @@ def test_the_last_seconds_of_live_topics_are_chosen(
 
 
 @pytest.mark.parametrize("span", [(0.0, 0.0), (-1.0, 1.0), (math.nan, 1.0), (math.inf, 0.0)])
-def test_what_is_no_span_is_refused(live: webviz.Viewer, span: tuple[float, float]) -> None:
+def test_invalid_spans_are_refused(live: webviz.Viewer, span: tuple[float, float]) -> None:
     for command in (ListMoment, ShareMoment):
         with pytest.raises(webviz.Error, match="This is not a valid time span"):
             live.do(command(before_s=span[0], after_s=span[1]))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
-from bench import Benches
+from bench import Bench, Benches
 
 from webviz.api.views import Orbit
 from webviz.commands import (
@@ -34,6 +33,7 @@ from webviz.commands import (
 from webviz.engine.commands import Command, Sender
 from webviz.features.undo import MAX_STEPS, SAME_S
 from webviz.files.config import dump
+from webviz_displays.axes import Axes
 
 CONFIG = """\
 version: 1
@@ -54,17 +54,17 @@ tools:
 
 
 @pytest.fixture
-def b(bench: Benches) -> Any:
+def b(bench: Benches) -> Bench:
     b = bench()
     b.do(Load(CONFIG, "x.yaml"))
     return b
 
 
-def ids(b: Any) -> dict[str, str]:
+def ids(b: Bench) -> dict[str, str]:
     return {row.name: row.id for row in b.do(Refresh()).rows}
 
 
-def labels(b: Any) -> list[str]:
+def labels(b: Bench) -> list[str]:
     """Return the undoable steps, newest first, without the opening of the config."""
     return [step.label for step in b.do(Refresh()).history.undo][:-1]
 
@@ -98,7 +98,7 @@ CHANGES: Sequence[tuple[str, Callable[[dict[str, str]], Command]]] = (
 
 @pytest.mark.parametrize(("label", "command"), CHANGES)
 def test_a_change_is_undone_and_redone(
-    b: Any, label: str, command: Callable[[dict[str, str]], Command]
+    b: Bench, label: str, command: Callable[[dict[str, str]], Command]
 ) -> None:
     before, at = dump(b.viewer.config()), ids(b)
     b.do(command(at))
@@ -116,28 +116,28 @@ def test_a_change_is_undone_and_redone(
     assert labels(b) == [label]
 
 
-def test_all_changes_are_undone_one_after_the_other(b: Any) -> None:
-    seen = [dump(b.viewer.config())]
+def test_all_changes_are_undone_one_after_the_other(b: Bench) -> None:
+    configs = [dump(b.viewer.config())]
     for _, command in CHANGES[:8]:
         b.do(command(ids(b)))
-        seen.append(dump(b.viewer.config()))
-    for expected in reversed(seen[:-1]):
+        configs.append(dump(b.viewer.config()))
+    for expected in reversed(configs[:-1]):
         b.do(Undo())
         assert dump(b.viewer.config()) == expected
-    for expected in seen[1:]:
+    for expected in configs[1:]:
         b.do(Redo())
         assert dump(b.viewer.config()) == expected
-    b.do(Undo(len(seen) - 1))
-    assert dump(b.viewer.config()) == seen[0]
+    b.do(Undo(len(configs) - 1))
+    assert dump(b.viewer.config()) == configs[0]
 
 
-def test_what_does_not_change_anything_is_no_step(b: Any) -> None:
+def test_commands_without_a_change_add_no_step(b: Bench) -> None:
     b.do(Pause())
     b.do(SetProperty(ids(b)["Axes"], "length", 2.0))
     assert labels(b) == []
 
 
-def test_a_new_change_ends_what_could_be_redone(b: Any) -> None:
+def test_a_new_change_clears_redo(b: Bench) -> None:
     b.do(SetFixedFrame("odom"))
     b.do(Undo())
     b.do(SetFixedFrame("base"))
@@ -145,7 +145,7 @@ def test_a_new_change_ends_what_could_be_redone(b: Any) -> None:
     assert b.refused(Redo()) == "There is nothing to redo."
 
 
-def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: Any) -> None:
+def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: Bench) -> None:
     axes = ids(b)["Axes"]
     for length in (3.0, 4.0, 5.0):
         b.do(SetProperty(axes, "length", length), Sender(1))
@@ -155,13 +155,13 @@ def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: A
     assert [step.browser for step in b.do(Refresh()).history.undo][:-1] == [2, 2, 1]
 
 
-def test_commands_of_one_step_are_undone_together(b: Any) -> None:
+def test_commands_of_one_step_are_undone_together(b: Bench) -> None:
     before = dump(b.viewer.config())
     first, *_, last = (row.id for row in b.states[-1].rows)
-    made: list[str] = []
-    b.do(AddDisplay("Group", made=made.append), Sender(1, step=7))
+    ids: list[str] = []
+    b.do(AddDisplay("Group", made=ids.append), Sender(1, step=7))
     for id in (first, last):
-        b.do(MoveDisplay(id, made[0]), Sender(1, step=7))
+        b.do(MoveDisplay(id, ids[0]), Sender(1, step=7))
     b.do(RemoveDisplay(first), Sender(1, step=8))
     b.do(RemoveDisplay(last), Sender(1, step=8))
     labels = [step.label for step in b.states[-1].history.undo[:2]]
@@ -172,13 +172,13 @@ def test_commands_of_one_step_are_undone_together(b: Any) -> None:
     assert [row.name for row in b.states[-1].rows][-2:] == ["Grid", "Nonsense"]
 
 
-def test_the_oldest_steps_are_forgotten(b: Any) -> None:
+def test_the_oldest_steps_are_forgotten(b: Bench) -> None:
     for number in range(MAX_STEPS + 10):
         b.do(SetFixedFrame(f"frame{number}"))
     assert len(b.do(Refresh()).history.undo) == MAX_STEPS
 
 
-def test_opening_a_file_is_undone_with_the_name_of_the_file(b: Any, tmp_path: Path) -> None:
+def test_opening_a_file_is_undone_with_the_name_of_the_file(b: Bench, tmp_path: Path) -> None:
     other = tmp_path / "other.yaml"
     other.write_text("version: 1\nfixed_frame: odom\ndisplays: []\n")
     before = dump(b.viewer.config())
@@ -190,37 +190,38 @@ def test_opening_a_file_is_undone_with_the_name_of_the_file(b: Any, tmp_path: Pa
     assert b.do(Redo()).file.path == str(other)
 
 
-def test_what_was_removed_draws_again(b: Any) -> None:
+def test_undoing_a_removal_draws_the_display_again(b: Bench) -> None:
     axes = ids(b)["Axes"]
     b.do(SetProperty(ids(b)["Grid"], "enabled", False))
-    shown = len(list(b.scene.visible()))
-    assert shown > 0
+    count = len(list(b.scene.visible()))
+    assert count > 0
     b.do(RemoveDisplay(axes))
     assert list(b.scene.visible()) == []
     b.do(Undo())
     b.turn()
-    assert len(list(b.scene.visible())) == shown
+    assert len(list(b.scene.visible())) == count
 
 
 MINE, THEIRS = Sender(1), Sender(2)
 
 
-def test_each_browser_undoes_its_own_and_leaves_what_others_did(b: Any) -> None:
+def test_each_browser_undoes_its_own_steps(b: Bench) -> None:
     at = ids(b)
     b.do(SetProperty(at["Axes"], "length", 3.0), MINE)
     b.do(SetProperty(at["Axes"], "radius", 0.5), THEIRS)
     b.do(SetFixedFrame("odom"), THEIRS)
     b.do(Undo(own=True), MINE)
-    (axes,) = (row.display for row in b.do(Refresh()).rows if row.id == at["Axes"])
+    b.do(Refresh())
+    axes = b.display(Axes)
     assert (axes.length, axes.radius) == (2.0, 0.5)
     assert labels(b) == ["Fixed frame odom", "Change Radius (m) of Axes"]
     b.do(SetProperty(at["Grid"], "name", "Floor"), THEIRS)
     state = b.do(Redo(own=True), MINE)
-    (axes,) = (row.display for row in state.rows if row.id == at["Axes"])
+    axes = b.display(Axes)
     assert (axes.length, axes.radius, state.fixed_frame) == (3.0, 0.5, "odom")
 
 
-def test_who_has_done_nothing_undoes_the_newest_step(b: Any) -> None:
+def test_a_browser_without_steps_undoes_the_newest_step(b: Bench) -> None:
     b.do(SetFixedFrame("odom"), THEIRS)
     assert b.do(Undo(own=True), MINE).fixed_frame == "map"
 
@@ -231,7 +232,7 @@ OTHERS = ("Hide TF", "Add Robot 2", "Remove Nonsense", "Move Grid", "Fixed frame
 @pytest.mark.parametrize("other", OTHERS)
 @pytest.mark.parametrize(("label", "command"), CHANGES)
 def test_two_changes_are_taken_back_in_the_other_order(
-    b: Any, label: str, command: Callable[[dict[str, str]], Command], other: str
+    b: Bench, label: str, command: Callable[[dict[str, str]], Command], other: str
 ) -> None:
     at, before = ids(b), dump(b.viewer.config())
     b.do(command(at), MINE)
@@ -247,7 +248,7 @@ def test_two_changes_are_taken_back_in_the_other_order(
         assert dump(b.viewer.config()) == before
 
 
-def test_a_change_of_what_another_removed_is_taken_back_without_harm(b: Any) -> None:
+def test_undoing_a_change_of_a_removed_display_changes_nothing_else(b: Bench) -> None:
     at = ids(b)
     b.do(SetProperty(at["Axes"], "length", 3.0), MINE)
     b.do(RemoveDisplay(at["Robot"]), THEIRS)

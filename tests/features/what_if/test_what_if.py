@@ -52,10 +52,10 @@ def share(stage: Harness) -> float:
     stage.clock += 1.1
     stage.turn()
     stage.viewer.snapshot()
-    return int(re.findall(r"Scan: (\d+)%", shown(stage).fits[0])[0]) / 100.0
+    return int(re.findall(r"Scan: (\d+)%", what_if_store(stage).fits[0])[0]) / 100.0
 
 
-def shown(stage: Harness) -> WhatIfStore:
+def what_if_store(stage: Harness) -> WhatIfStore:
     """The store of the frame that is tried."""
     store = stage.viewer.get(WhatIfFeature).what_if("")
     assert store is not None
@@ -85,7 +85,7 @@ def test_a_frame_is_found_and_returns(robot: Harness) -> None:
     assert share(robot) < 0.4
     robot.do(FindFrame())
     assert share(robot) > 0.95
-    store, tried = shown(robot), mounting(robot)
+    store, tried = what_if_store(robot), mounting(robot)
     assert tried.position == pytest.approx((0.0, 0.0, 0.2), abs=0.03)
     assert to_rpy(tried.wxyz) == pytest.approx((0.0, 0.0, 0.0), abs=0.01)
     x = f"{round(tried.position[0], 4):g}"
@@ -100,7 +100,7 @@ def test_a_frame_is_found_and_returns(robot: Harness) -> None:
     assert pose_of_laser(robot).position[0] == pytest.approx(HERE.x + WRONG_X)
 
 
-def test_a_yaw_is_tried_and_the_fit_before_it_is_said(robot: Harness) -> None:
+def test_a_trial_yaw_shows_the_match_before_and_after(robot: Harness) -> None:
     robot.clock += 1.1
     robot.turn()
     robot.viewer.snapshot()  # compares the scan as it is published
@@ -108,14 +108,14 @@ def test_a_yaw_is_tried_and_the_fit_before_it_is_said(robot: Harness) -> None:
     assert to_rpy(mounting(robot).wxyz) == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
     assert mounting(robot).position == (WRONG_X, 0.0, 0.2)
     share(robot)
-    after, before = (int(each) for each in re.findall(r"(\d+)%", shown(robot).fits[0]))
+    after, before = (int(each) for each in re.findall(r"(\d+)%", what_if_store(robot).fits[0]))
     assert before < 40 < after
     robot.do(EndTrial())
     with pytest.raises(Error, match="not a number"):
         robot.do(TryFrame("laser", math.nan))
 
 
-def test_dragging_moves_what_hangs_below(robot: Harness) -> None:
+def test_dragging_moves_child_frames(robot: Harness) -> None:
     robot.do(TryFrame("laser"))
     ((key, (handle, _)),) = robot.viewer.snapshot().handles.items()
     assert key == (ID, KEY)
@@ -133,18 +133,18 @@ def test_numbers_place_the_frame(robot: Harness) -> None:
     with pytest.raises(Error, match="No frame is being tried"):
         robot.do(MoveFrame(0.0, 0.0, 0.2, 0.0, 0.0, 0.0))
     robot.do(TryFrame("laser"))
-    assert shown(robot).pose == pytest.approx((WRONG_X, 0.0, 0.2, 0.0, 0.0, WRONG_YAW))
+    assert what_if_store(robot).pose == pytest.approx((WRONG_X, 0.0, 0.2, 0.0, 0.0, WRONG_YAW))
     robot.do(MoveFrame(0.0, 0.0, 0.2, 0.0, 0.0, 0.0))
     assert share(robot) > 0.95
     robot.do(MoveFrame(0.1, 0.2, 0.3, 0.1, -0.2, 3.0))
-    assert shown(robot).pose == pytest.approx((0.1, 0.2, 0.3, 0.1, -0.2, 3.0))
+    assert what_if_store(robot).pose == pytest.approx((0.1, 0.2, 0.3, 0.1, -0.2, 3.0))
     for wrong in (math.nan, math.inf, 1e300):
         with pytest.raises(Error, match="Not moved"):
             robot.do(MoveFrame(wrong, 0.0, 0.0, 0.0, 0.0, 0.0))
-    assert shown(robot).pose == pytest.approx((0.1, 0.2, 0.3, 0.1, -0.2, 3.0))
+    assert what_if_store(robot).pose == pytest.approx((0.1, 0.2, 0.3, 0.1, -0.2, 3.0))
 
 
-def test_what_is_published_meanwhile_counts_afterwards(robot: Harness) -> None:
+def test_transforms_published_during_a_trial_apply_afterwards(robot: Harness) -> None:
     robot.do(TryFrame("laser"))
     drag(robot, "press")
     drag(robot, "move", Pose((5.0, 0.0, 0.0)))

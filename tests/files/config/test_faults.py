@@ -32,7 +32,7 @@ CLASSES = [
 
 
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
-def test_what_msgspec_refuses_has_a_fault_there(cls: type[msgspec.Struct]) -> None:
+def test_each_refusal_of_msgspec_has_a_fault_at_its_place(cls: type[msgspec.Struct]) -> None:
     for path in (each.path for each in properties_of(cls)):
         for odd in ODD:
             values = {path: odd}
@@ -49,7 +49,7 @@ class Needy(Display):
     size: float
 
 
-class Faulty(Display):
+class RefusedDefault(Display):
     """Refuses its own default."""
 
     size: float = -1.0
@@ -59,9 +59,10 @@ class Faulty(Display):
 
 
 @pytest.mark.parametrize(
-    ("cls", "text"), [(Needy, "missing required field `size`"), (Faulty, "size must be positive")]
+    ("cls", "text"),
+    [(Needy, "missing required field `size`"), (RefusedDefault, "size must be positive")],
 )
-def test_what_is_wrong_without_any_value_is_refused_with_the_cause(
+def test_a_class_with_invalid_defaults_is_refused_with_the_cause(
     cls: type[Display], text: str
 ) -> None:
     with pytest.raises(msgspec.ValidationError, match=text):
@@ -104,7 +105,7 @@ def _is_at(fault: Fault, refusal: str) -> bool:
         ({"watch": [{"status": "bad"}]}, "expected warn or error, got `bad`"),
     ],
 )
-def test_a_clause_says_what_was_expected(values: Mapping[str, Any], clause: str) -> None:
+def test_a_clause_names_the_expected_value(values: Mapping[str, Any], clause: str) -> None:
     fault = first_fault(Settings, values)
     assert fault
     assert fault.clause.startswith(clause)

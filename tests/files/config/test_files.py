@@ -55,7 +55,7 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
         (b"# " * (2 << 20), "is not a config file: it is larger than 2 MB."),
     ],
 )
-def test_bytes_that_are_no_config_are_an_error(path: Path, data: bytes, sentence: str) -> None:
+def test_bytes_that_are_not_a_config_are_an_error(path: Path, data: bytes, sentence: str) -> None:
     path.write_bytes(data)
     with pytest.raises(ConfigError) as caught:
         load(path)
@@ -84,7 +84,7 @@ def test_a_pipe_is_written() -> None:
         assert reader.read() == "one"
 
 
-def test_a_fifo_that_nobody_reads_is_not_written(path: Path) -> None:
+def test_a_fifo_without_a_reader_is_not_written(path: Path) -> None:
     os.mkfifo(path)
     with pytest.raises(ConfigError, match=r"Cannot write .*No such device"):
         write_text("one", path)
@@ -113,7 +113,7 @@ def test_a_thread_that_cannot_start_leaves_its_place(monkeypatch: pytest.MonkeyP
     assert threads.within(60.0, lambda: "started") == "started"
 
 
-def test_a_thread_takes_more_work_and_ends_when_there_is_none(
+def test_a_thread_is_reused_and_ends_when_idle(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     threads = DiskThreads(2)
@@ -160,7 +160,7 @@ def test_mode_and_links_stay(path: Path, tmp_path: Path) -> None:
     assert (tmp_path / "store" / "lab-2.yaml.bak").read_text() == "one"
 
 
-def test_a_new_file_can_be_read_by_whom_the_umask_says(path: Path) -> None:
+def test_a_new_file_has_the_permissions_of_the_umask(path: Path) -> None:
     before = os.umask(0o027)
     try:
         write_text("one", path)
@@ -190,7 +190,7 @@ def test_a_failed_save_leaves_the_old_file(path: Path, tmp_path: Path) -> None:
     assert sorted(each.name for each in tmp_path.iterdir()) == names
 
 
-def test_what_a_crash_left_half_done_does_no_harm(path: Path) -> None:
+def test_a_backup_interrupted_by_a_crash_is_completed(path: Path) -> None:
     write_text("one", path)
     os.link(path, path.with_name("lab.yaml.bak"))  # it had the backup's name, and then no power
     write_text("two", path)
@@ -198,7 +198,7 @@ def test_what_a_crash_left_half_done_does_no_harm(path: Path) -> None:
     assert len(list(path.parent.iterdir())) == 2
 
 
-def test_a_full_disk_is_told() -> None:
+def test_a_full_disk_is_reported() -> None:
     with pytest.raises(ConfigError, match="Cannot write /dev/full: No space left on device"):
         write_text("one", Path("/dev/full"))
 
@@ -238,7 +238,7 @@ def without_roots_rights() -> Iterator[None]:
         os.seteuid(0)
 
 
-def test_a_folder_that_cannot_be_written_is_told() -> None:
+def test_a_read_only_folder_is_reported() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "lab.yaml").write_text("one")
@@ -255,7 +255,7 @@ def test_a_folder_that_cannot_be_written_is_told() -> None:
         folder.chmod(0o700)
 
 
-def test_two_who_save_at_once_both_leave_a_whole_file(path: Path) -> None:
+def test_two_programs_that_save_at_once_leave_whole_files(path: Path) -> None:
     code = (
         "import sys\n"
         "from pathlib import Path\n"
@@ -273,7 +273,7 @@ def test_two_who_save_at_once_both_leave_a_whole_file(path: Path) -> None:
     assert len(list(path.parent.iterdir())) == 2
 
 
-def test_a_folder_that_somebody_blocks_is_told(path: Path) -> None:
+def test_a_locked_folder_is_reported(path: Path) -> None:
     write_text("one", path)
     descriptor = os.open(path.parent, os.O_RDONLY)
     try:

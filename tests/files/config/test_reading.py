@@ -36,7 +36,7 @@ displays:
 """
 
 
-def test_what_a_file_says_is_what_the_config_holds() -> None:
+def test_a_config_holds_the_values_of_its_file() -> None:
     config = parse(WHOLE, "x.yaml")
     assert config.settings.fixed_frame == "odom"
     assert config.settings.background == (10, 20, 30)
@@ -72,7 +72,7 @@ def test_numbers_have_all_spellings_of_yaml_and_words_stay_words() -> None:
     assert (scan.size, scan.size_pixels) == (0.1, 16.0)
 
 
-def test_what_is_said_once_can_be_used_again() -> None:
+def test_anchors_and_merge_keys_are_supported() -> None:
     config = parse(
         "displays:\n- &front {type: LaserScan, size: 0.05}\n- {<<: *front, name: Rear}\n", "x.yaml"
     )
@@ -232,7 +232,7 @@ def test_a_file_that_is_not_a_config_is_not_quoted(tmp_path: Path, name: str, te
         "displays: [" + "&a {type: Grid}," * 40_000,  # an anchor may be used again
     ],
 )
-def test_what_is_too_large_is_refused_before_all_of_it_is_read(text: str) -> None:
+def test_a_config_that_is_too_large_is_refused_before_all_of_it_is_read(text: str) -> None:
     # What comes later in the text is not even YAML.
     with pytest.raises(ConfigError, match=r"nested deeper than|contains more than 50000 values"):
         parse(text + "\n}", "x.yaml")
@@ -246,7 +246,7 @@ def test_numbers_that_cannot_be_written_are_refused(number: str) -> None:
 
 @pytest.mark.parametrize("key", ["? [a]", "2001-01-01", "!!binary aGk=", "~", "? {a: 1}"])
 @pytest.mark.parametrize("place", ["fixed_frame", "watch", "displays", "view", "rviz"])
-def test_keys_that_are_no_words_are_refused_by_a_sentence(key: str, place: str) -> None:
+def test_keys_that_are_not_strings_are_refused_in_one_sentence(key: str, place: str) -> None:
     with pytest.raises(ConfigError) as error:
         parse(f"{place}: {{{key} : b}}", "x.yaml")
     assert str(error.value).startswith("x.yaml:1")

@@ -29,7 +29,7 @@ def test_an_empty_list_is_kept() -> None:
     assert document(config)["tools"] == []
 
 
-def test_what_a_file_says_of_tools_is_written_again() -> None:
+def test_tools_of_a_file_are_written_again() -> None:
     text = (
         f"{INSTALLED}tools:\n"
         "- {type: GoalPose, name: Go, topic: /go}\n"
@@ -65,7 +65,7 @@ def test_a_mistake_names_its_line_and_key_and_keeps_the_entry(entry: str, reason
         ("tools: [" + "x, " * 101 + "]", "x.yaml has 101 tools; the limit is 100."),
     ],
 )
-def test_what_is_no_list_of_tools_is_refused(text: str, reason: str) -> None:
+def test_an_invalid_list_of_tools_is_refused(text: str, reason: str) -> None:
     with pytest.raises(ConfigError) as caught:
         parse(text, "x.yaml")
     assert str(caught.value) == reason

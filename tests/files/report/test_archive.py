@@ -35,7 +35,7 @@ def zipped(path: Path, members: Mapping[str, bytes]) -> Path:
     return path
 
 
-def test_what_is_written_is_read(tmp_path: Path) -> None:
+def test_a_written_report_is_read(tmp_path: Path) -> None:
     path = tmp_path / "bug.zip"
     (tmp_path / "a.mcap").write_bytes(b"slice")
     size = write_report(path, {**WHOLE, "slice.mcap": tmp_path / "a.mcap"})
@@ -47,7 +47,7 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a.mcap", "bug.zip", "out"]
 
 
-def test_a_report_that_leaves_out_parts_has_none() -> None:
+def test_missing_parts_of_a_report_are_empty() -> None:
     least = {"source": "live", "made": 1.0, "at_ns": 3_500_000_000, "first_ns": 10**9}
     report = msgspec.convert(least | {"last_ns": 5 * 10**9, "version": REPORT.version}, BugReport)
     assert report.at_s == 2.5
@@ -154,20 +154,20 @@ def test_names_are_replaced_by_as_many_characters() -> None:
 
 def test_names_of_topics_and_frames_stay() -> None:
     names = PrivateNames(["/turtle7/scan", "/home/scan/points"], ["turtle7"], "/base")
-    assert names.kept == ("turtle7",)
+    assert names.remaining_names == ("turtle7",)
     assert names.text("/turtle7/scan /home/scan /base/a") == "/turtle7/scan /home/scan /xxxx/a"
 
 
 def test_a_name_within_that_of_a_frame_stays_only_there() -> None:
     names = PrivateNames(["/scan", "turtle7_camera", "map"], ["turtle7", "carol"], "/root")
-    assert names.kept == ("turtle7_camera",)
+    assert names.remaining_names == ("turtle7_camera",)
     text = "carol: no turtle7_camera on turtle7, nor turtle7_camera2 of Turtle7"
     hidden = "xxxxx: no turtle7_camera on xxxxxxx, nor xxxxxxx_camera2 of xxxxxxx"
     assert names.text(text) == hidden
     assert names.message(b"\0" + text.encode()) == b"\0" + hidden.encode()
 
 
-def test_a_report_is_no_directory_of_zip_bombs(tmp_path: Path) -> None:
+def test_members_of_a_report_unpack_to_their_declared_size_at_most(tmp_path: Path) -> None:
     """The sizes that a member declares hold, whatever its data would unpack to."""
     path = zipped(tmp_path / "bug.zip", {**WHOLE, "config.yaml": bytes(1 << 20)})
     data = bytearray(path.read_bytes())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from bench import HandFedSource
-from rviz_trees import lost, texts
+from rviz_trees import differences, texts
 
 from webviz.engine.loop import FrameLoop
 from webviz.files import config as config_file
@@ -50,10 +50,10 @@ def test_a_file_goes_to_yaml_and_back(
     assert printed.out == f"webviz: wrote {yaml}\n"
     assert "- {type: Grid, cell_size: 0.5, name: Floor}" in yaml.read_text()
     assert convert(yaml, back) == 0
-    assert list(lost(texts(SMALL), texts(back.read_text()))) == []
+    assert list(differences(texts(SMALL), texts(back.read_text()))) == []
 
 
-def test_a_report_counts_what_is_carried(small: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_report_counts_converted_parts(small: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert convert("--report", small) == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert ["displays", "1", "of", "2", "50", "%"] in lines
@@ -116,7 +116,7 @@ def test_mistakes_are_one_sentence(
     assert "Cannot write" in capsys.readouterr().err
 
 
-def test_a_command_without_a_target_says_what_is_missing(
+def test_a_command_without_a_target_names_the_missing_argument(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert convert(small) == 2
@@ -125,7 +125,7 @@ def test_a_command_without_a_target_says_what_is_missing(
     assert "--report needs a .rviz file" in capsys.readouterr().err
 
 
-def test_the_viewer_shows_what_the_import_left_out(small: Path) -> None:
+def test_the_viewer_shows_the_unsupported_parts_of_an_import(small: Path) -> None:
     viewer = FrameLoop(opening.load(small), HandFedSource(), RecordingScene())
     viewer.turn()
     status = viewer.statuses["Import"]

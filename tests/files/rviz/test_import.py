@@ -36,7 +36,7 @@ def one(text: str, cls: str = "LaserScan") -> Any:
     return config.displays[0]
 
 
-def said(report: rviz.Report) -> str:
+def report_text(report: rviz.Report) -> str:
     return "\n".join(report.sentences())
 
 
@@ -54,7 +54,7 @@ def test_global_options_are_the_settings() -> None:
     assert settings.frame_rate == 12
 
 
-def test_what_a_file_leaves_out_has_rvizs_default() -> None:
+def test_missing_values_have_the_defaults_of_rviz() -> None:
     config, _ = opened(manager="Class: ''\n")
     assert (config.settings.fixed_frame, config.settings.frame_rate) == ("base_link", 30)
     assert one("Name: Scan").topic.name == ""
@@ -126,7 +126,7 @@ def test_nested_properties_may_have_their_own_value_alone() -> None:
     )
     odometry: Any = config.displays[0]
     assert (odometry.shape.value, odometry.covariance.value) == ("Axes", False)
-    assert said(report) == ""
+    assert report_text(report) == ""
 
 
 def test_frames_and_links_are_switched_by_name() -> None:
@@ -177,7 +177,7 @@ def test_rvizs_default_qos_is_auto_and_all_else_a_choice() -> None:
 
 
 @pytest.mark.parametrize("durability", ["Volatile", "Transient Local"])
-def test_a_description_is_latched_whatever_the_file_says(durability: str) -> None:
+def test_a_description_is_always_latched(durability: str) -> None:
     text = f"Description Topic: {{Value: robot_description, Durability Policy: {durability}}}"
     robot: RobotModel = one(text, "RobotModel")
     assert robot.description_topic.name == "robot_description"
@@ -213,7 +213,7 @@ def test_old_forms_are_understood() -> None:
     assert isinstance(robot, RobotModel)
     assert robot.description_topic.name == "/robot_description"
     assert isinstance(group, Branch)
-    assert "Old: rviz/LaserScan: ROS 1's class" in said(report)
+    assert "Old: rviz/LaserScan: ROS 1's class" in report_text(report)
 
 
 def test_groups_nest() -> None:
@@ -239,7 +239,7 @@ def test_groups_nest() -> None:
     assert [getattr(each, "name", "") for each in inner.displays] == ["Floor"]
 
 
-def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -> None:
+def test_an_unknown_class_is_a_row_with_an_error_and_survives_the_config_file() -> None:
     config, report = opened("- {Class: my_plugins/Laser, Name: Mine, Enabled: true, Power: 007}\n")
     config = parse(dump(config), "x.yaml")
     mine = config.displays[0]
@@ -247,7 +247,7 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
     assert mine.name == "Mine"
     assert "Unsupported display class my_plugins/Laser." in mine.reason
     assert mine.values["rviz"]["Power"] == "007"
-    assert "Mine: my_plugins/Laser: unsupported display class" in said(report)
+    assert "Mine: my_plugins/Laser: unsupported display class" in report_text(report)
 
 
 @pytest.mark.parametrize(
@@ -264,13 +264,13 @@ def test_an_unknown_class_is_a_row_that_says_so_and_survives_the_config_file() -
         ("Glow: true", "Glow: unsupported"),
     ],
 )
-def test_a_value_that_cannot_be_used_is_told(text: str, what: str) -> None:
+def test_an_unusable_value_is_reported(text: str, what: str) -> None:
     _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
     at_line = "Scan" if what.endswith("unsupported") else "Scan (line 3)"
-    assert f"{at_line}: {what}" in said(report)
+    assert f"{at_line}: {what}" in report_text(report)
 
 
-def test_of_a_key_that_is_there_twice_the_last_one_counts() -> None:
+def test_the_last_of_duplicate_keys_counts() -> None:
     assert one("Alpha: 0.5\nAlpha: 0.25").alpha == 0.25
 
 
@@ -280,21 +280,21 @@ def test_panels_and_tools_of_ros_1_are_those_of_ros_2() -> None:
         "Visualization Manager: {Tools: [{Class: rviz/MoveCamera}]}\n",
         "x.rviz",
     )
-    assert said(report) == ""
+    assert report_text(report) == ""
     assert (report.carried["panels"], report.carried["tools"]) == (2, 1)
 
 
-def test_a_display_without_a_name_is_told_with_its_line() -> None:
+def test_a_display_without_a_name_is_reported_with_its_line() -> None:
     _, report = opened("- Class: my_plugins/Laser\n- Class: my_plugins/Laser\n")
-    assert said(report).startswith("? (line 3), ? (line 4): my_plugins/Laser: unsupported")
+    assert report_text(report).startswith("? (line 3), ? (line 4): my_plugins/Laser: unsupported")
 
 
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:
     _, report = opened('- {Class: x/Y, Name: "a\\e[2Jb\\nc"}\n')
-    assert said(report).startswith("a [2Jb c: x/Y: ")
+    assert report_text(report).startswith("a [2Jb c: x/Y: ")
 
 
-def test_a_value_that_cannot_be_used_is_told_once() -> None:
+def test_an_unusable_value_is_reported_once() -> None:
     _, report = opened("- {Class: rviz_default_plugins/LaserScan, Name: Scan, Style: Cones}\n")
     assert len(report.notes) == 1
     assert (report.carried["properties"], report.total["properties"]) == (0, 1)
@@ -304,7 +304,7 @@ def test_a_choice_that_rviz_has_not_made_yet_is_auto_or_the_default() -> None:
     assert one("Color Transformer: ''\nChannel Name: ''").channel_name == "intensity"
     assert one("Color Transformer: ''", "PointCloud2").color_transformer == "Auto"
     _, report = opened("- {Class: rviz_default_plugins/LaserScan, Color Transformer: ''}\n")
-    assert said(report) == ""
+    assert report_text(report) == ""
 
 
 @pytest.mark.parametrize(
@@ -342,7 +342,7 @@ def test_depth_cloud_as_rviz_writes_it_is_whole() -> None:
         """
     config, report = opened(text)
     cloud: Any = config.displays[0]
-    assert said(report) == ""
+    assert report_text(report) == ""
     assert (cloud.topic.name, cloud.topic.depth) == ("/depth/image", 2)
     assert cloud.color_topic.name == "/rgb/image/compressed"
     assert cloud.channel_name == "z"
@@ -363,7 +363,7 @@ def test_color_map_of_a_grid_map_in_ros_1_is_the_rainbow() -> None:
     )
     grid: Any = config.displays[0]
     assert (grid.use_rainbow, grid.invert_rainbow) == (False, True)
-    assert said(report) == "Other: ColorMap: unsupported; kept for export."
+    assert report_text(report) == "Other: ColorMap: unsupported; kept for export."
 
 
 def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
@@ -390,13 +390,13 @@ def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
         ("rviz_default_plugins/Pose", False),
     ],
 )
-def test_what_rviz2_no_longer_reads_of_ros_1_is_not_told(cls: str, is_ignored: bool) -> None:
+def test_keys_that_rviz2_ignores_are_not_reported(cls: str, is_ignored: bool) -> None:
     _, report = opened(f"        - {{Class: {cls}, Hide Small Values: true}}\n")
-    assert ("Hide Small Values" not in said(report)) is is_ignored
+    assert ("Hide Small Values" not in report_text(report)) is is_ignored
     assert report.is_complete is is_ignored
 
 
-def test_what_has_no_effect_is_not_told() -> None:
+def test_keys_without_effect_are_not_reported() -> None:
     _, report = opened(
         """\
         - Class: rviz_default_plugins/LaserScan
@@ -417,10 +417,10 @@ def test_placeholders_are_names_like_others() -> None:
     assert one("Topic: {Value: <namespace>/scan}").topic.name == "<namespace>/scan"
     config, report = opened(manager="Global Options: {Fixed Frame: [PLANNING_FRAME]}\n")
     assert config.settings.fixed_frame == "base_link"
-    assert "Global Options: Fixed Frame: it has no value; using base_link" in said(report)
+    assert "Global Options: Fixed Frame: it has no value; using base_link" in report_text(report)
 
 
-def test_panels_and_tools_are_told_once() -> None:
+def test_unsupported_panels_and_tools_are_reported_once() -> None:
     _, report = rviz.read(
         textwrap.dedent(
             """\
@@ -440,7 +440,7 @@ def test_panels_and_tools_are_told_once() -> None:
         ),
         "x.rviz",
     )
-    sentences = said(report)
+    sentences = report_text(report)
     assert sentences == (
         "Panels and tools: my_package/Lamp, my_package/Brush, Other: unsupported; kept for export."
     )
@@ -469,14 +469,17 @@ def test_autowares_objects_from_before_the_groups_are_read_and_come_back() -> No
     again, _ = rviz.write(config)
     assert report.is_complete
     for each in (text, again):
-        (shown,) = rviz.read(each, "x.rviz")[0].displays
-        assert isinstance(shown, PredictedObjects)
-        colors = shown.per_class_color
+        (display,) = rviz.read(each, "x.rviz")[0].displays
+        assert isinstance(display, PredictedObjects)
+        colors = display.per_class_color
         assert (colors.value, colors.car, colors.bus) == (True, (1, 2, 3), (4, 5, 6))
-        assert (shown.alpha, shown.shape.shape_type) == (0.5, "Skeleton 2D")
-        assert (shown.text.label, shown.text.uuid) == (False, True)
-        assert (shown.path.predicted_path, shown.path.path_resolution) == (False, "Simple")
-        assert (shown.covariance.yaw_rate, shown.covariance.confidence_interval) == (True, "70%")
+        assert (display.alpha, display.shape.shape_type) == (0.5, "Skeleton 2D")
+        assert (display.text.label, display.text.uuid) == (False, True)
+        assert (display.path.predicted_path, display.path.path_resolution) == (False, "Simple")
+        assert (display.covariance.yaw_rate, display.covariance.confidence_interval) == (
+            True,
+            "70%",
+        )
 
 
 def test_the_tool_of_rviz_visual_tools_keys_opens_its_panel_and_stays_a_tool() -> None:
@@ -500,7 +503,7 @@ def test_the_tool_of_rviz_visual_tools_keys_opens_its_panel_and_stays_a_tool() -
         ("? [a]\n: 1", "x.rviz: a key is not a plain word."),
     ],
 )
-def test_what_is_no_rviz_file_is_one_sentence(text: str, sentence: str) -> None:
+def test_an_invalid_rviz_file_is_refused_in_one_sentence(text: str, sentence: str) -> None:
     with pytest.raises(ConfigError) as caught:
         rviz.read(text, "x.rviz")
     assert str(caught.value).startswith(sentence)
@@ -566,7 +569,7 @@ PLAIN = """\
 def values_by_name(text: str) -> dict[str, Any]:
     """The values of the displays of a file about which nothing is reported."""
     config, report = opened(text)
-    assert said(report) == ""
+    assert report_text(report) == ""
     displays = [item for item in config.displays if isinstance(item, Display)]
     return {
         display.name: {key: value for key, value in to_values(display).items() if key != "name"}

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rviz_trees import lost, texts
+from rviz_trees import differences, texts
 
 from webviz.files import opening, rviz
 from webviz.shell.cli import main as cli
@@ -111,7 +111,7 @@ def test_nothing_is_lost_and_topics_stay_plain_names(file: Path, tmp_path: Path)
     yaml, back = tmp_path / "a.yaml", tmp_path / "b.rviz"
     for source, target in ((file, yaml), (yaml, back)):
         assert cli(["convert", str(source), str(target)]) == 0
-    assert list(lost(texts(FILE), texts(back.read_text()))) == []
+    assert list(differences(texts(FILE), texts(back.read_text()))) == []
     assert "Trajectory Topic: /my_path" in back.read_text()
     assert "Robot Description: my_description" in back.read_text()
 
@@ -176,4 +176,4 @@ Visualization Manager:
     assert display.markers.all_at_once
     assert (display.loop_animation, display.state_display_time) == (True, "0.1 s")
     assert report.is_complete is not is_lost
-    assert list(lost(texts(text), texts(rviz.write(config)[0]))) == []
+    assert list(differences(texts(text), texts(rviz.write(config)[0]))) == []

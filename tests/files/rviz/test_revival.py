@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Annotated, Any
 
 import pytest
-from rviz_trees import lost, texts
+from rviz_trees import differences, texts
 
 from webviz.api import registry
 from webviz.api.declared import Topic
@@ -84,7 +84,7 @@ def test_no_key_is_lost_by_coming_alive(install: Callable[[], None]) -> None:
     install()
     config = parse(dump(parse(saved, "x.yaml")), "x.yaml")
     written = rviz.write(config)[0]
-    assert list(lost(texts(TEXT), texts(written))) == []
+    assert list(differences(texts(TEXT), texts(written))) == []
     assert [each["Glow"] for each in texts(written)["Visualization Manager"]["Displays"][1:2]] == [
         "2"
     ]

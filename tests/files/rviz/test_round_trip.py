@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from rviz_trees import loaded, lost, texts
+from rviz_trees import differences, loaded, texts
 
 from webviz.api.declared import Topic, make, set_property
 from webviz.api.registry import display_types
@@ -130,7 +130,7 @@ def again(text: str) -> str:
 
 def test_real_files_come_back_whole(real_file: Path) -> None:
     text = real_file.read_text()
-    assert list(lost(texts(text), texts(again(text)))) == []
+    assert list(differences(texts(text), texts(again(text)))) == []
 
 
 def test_real_files_mean_the_same_when_they_come_back(real_file: Path) -> None:
@@ -142,7 +142,7 @@ def test_real_files_mean_the_same_when_they_come_back(real_file: Path) -> None:
 
 
 def test_nasty_files_come_back_whole() -> None:
-    assert list(lost(texts(NASTY), texts(again(NASTY)))) == []
+    assert list(differences(texts(NASTY), texts(again(NASTY)))) == []
 
 
 def test_a_file_that_was_exported_comes_back_to_the_letter() -> None:
@@ -171,7 +171,7 @@ def test_an_exported_config_is_imported_as_it_was() -> None:
 def test_ros_1_classes_are_written_as_those_of_ros_2(old: str, new: str) -> None:
     text = f"Visualization Manager:\n  Displays: [{{Class: {old}, Name: A, Value: true}}]\n"
     where = ["/Visualization Manager/Displays[0]/Class"]
-    assert list(lost(texts(text), texts(again(text)))) == where
+    assert list(differences(texts(text), texts(again(text)))) == where
     assert f"Class: {new}\n" in again(text)
 
 
@@ -243,7 +243,7 @@ Visualization Manager:
       Topic: /b
 """
     back = again(text)
-    assert list(lost(texts(text), texts(back))) == []
+    assert list(differences(texts(text), texts(back))) == []
     policy = {"auto"}
     for config in (rviz.read(text, "x.rviz")[0], rviz.read(back, "x.rviz")[0]):
         for camera in config.displays:
@@ -268,7 +268,7 @@ Visualization Manager:
       Unreliable: true
 """
     back = again(text)
-    assert all(place.endswith("/Class") for place in lost(texts(text), texts(back)))
+    assert all(place.endswith("/Class") for place in differences(texts(text), texts(back)))
     expected = ["auto", "auto", "auto", "best_effort"]
     for each in (text, back):
         image, camera, robot, lossy = rviz.read(each, "x.rviz")[0].displays
@@ -296,7 +296,7 @@ def test_all_that_a_rviz_file_cannot_hold_is_reported() -> None:
     assert "Navigation 2" not in rviz.write(back)[0]
 
 
-def test_saving_as_rviz_returns_what_is_left_out(tmp_path: Path) -> None:
+def test_saving_as_rviz_returns_the_unsupported_parts(tmp_path: Path) -> None:
     config = parse("robots: [one]", "x.yaml")
     assert opening.save(config, tmp_path / "a.yaml") == []
     (sentence,) = opening.save(config, tmp_path / "a.rviz")
@@ -324,7 +324,7 @@ def test_a_change_made_here_wins_over_the_spelling_of_the_file() -> None:
     assert tree["Selectable"] is False
 
 
-def test_what_was_kept_goes_with_its_display() -> None:
+def test_preserved_entries_stay_with_their_display() -> None:
     config = scan("Name: A\nGlow: 1\n")
     text = rviz.write(config)[0].replace("Name: A", "Name: B").replace("Glow: 1", "Glow: 2")
     config.displays += rviz.read(text, "x.rviz")[0].displays
@@ -347,14 +347,14 @@ def test_a_view_that_was_moved_is_written_as_orbit() -> None:
     assert exported(config)["Views"]["Saved"][0]["Name"] == "Corner"
 
 
-def test_what_rviz_has_no_counterpart_for_is_told() -> None:
+def test_parts_unsupported_by_rviz_are_reported() -> None:
     config = parse("displays: [{type: LaserScan, size: -1}, {type: Grid}]", "x.yaml")
     text, report = rviz.write(config)
     assert len(loaded(text)["Visualization Manager"]["Displays"]) == 1
     assert "LaserScan: this entry: skipped: x.yaml:1: displays[0].size" in report.sentences()[0]
 
 
-def test_files_are_told_apart_by_their_names(tmp_path: Path) -> None:
+def test_the_format_follows_the_extension(tmp_path: Path) -> None:
     path = tmp_path / "x.RVIZ"
     opening.save(config_file.standard(), path)
     assert "Visualization Manager" in path.read_text()
@@ -372,7 +372,7 @@ def test_hundreds_of_nested_displays_come_back() -> None:
         lines += [f"{pad}- Class: rviz_common/Group\n{pad}  Name: G{depth}\n{pad}  Displays:"]
     lines += ["    " + "  " * 12 + "- {Class: rviz_default_plugins/Grid, Name: last}"]
     text = "\n".join(lines)
-    assert list(lost(texts(text), texts(again(text)))) == []
+    assert list(differences(texts(text), texts(again(text)))) == []
     assert rviz.read(text, "x.rviz")[1].total["displays"] == 247
 
 
@@ -450,14 +450,14 @@ def test_any_values_are_a_config_that_is_written_again(manager: dict[str, Any]) 
 
 def lost_but_shape(before: Any, after: Any) -> list[str]:
     """Return the losses besides lists of displays that are not lists."""
-    return [path for path in lost(before, after) if not path.endswith("/Displays")]
+    return [path for path in differences(before, after) if not path.endswith("/Displays")]
 
 
 @settings(deadline=None, max_examples=40)
 @given(TREES)
-def test_any_kept_part_of_a_config_is_written(kept: Any) -> None:
+def test_any_kept_part_of_a_config_is_written(entries: Any) -> None:
     config = Config()
-    config.settings.rviz = {"Visualization Manager": kept}
+    config.settings.rviz = {"Visualization Manager": entries}
     loaded(rviz.write(config)[0])
 
 

@@ -115,7 +115,7 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
     assert written(config) == tools
 
 
-def test_the_goal_tool_of_nav2_comes_back_with_what_was_changed_here() -> None:
+def test_the_goal_tool_of_nav2_returns_with_its_changes() -> None:
     config, _ = opened("[{Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}]")
     tool = config.tools[0]
     assert isinstance(tool, Nav2Goal)
@@ -146,13 +146,13 @@ def test_a_removed_tool_is_not_written_again() -> None:
     ]
 
 
-@pytest.mark.parametrize(("key", "kept"), [("Odd: 1", None), ("Tools: 5", 5)])
-def test_a_file_without_a_list_has_the_default_tools_and_gets_none(key: str, kept: Any) -> None:
+@pytest.mark.parametrize(("key", "entries"), [("Odd: 1", None), ("Tools: 5", 5)])
+def test_a_file_without_a_list_of_tools_is_saved_without_one(key: str, entries: Any) -> None:
     config, _ = rviz.read(f"Visualization Manager:\n  {key}\n", "x.rviz")
     tools = [tool for tool in config.tools if isinstance(tool, Tool)]
     assert tools
     assert not any(map(to_values, tools))
-    assert written(config) == kept
+    assert written(config) == entries
     set_property(tools[0], "topic.name", "/go")
     assert len(written(config)) > 5
 

@@ -18,7 +18,7 @@ def test_a_whole_number_is_not_rounded() -> None:
 
 @pytest.mark.parametrize("raw", [None, {"Value": None}, {"Child": 1}, [1]])
 @pytest.mark.parametrize("kind", [bool, int, float, str])
-def test_a_property_without_a_value_of_its_own_is_told(raw: object, kind: type) -> None:
+def test_a_property_without_a_value_is_unfit(raw: object, kind: type) -> None:
     with pytest.raises(Unfit, match="it has no value"):
         read(raw, kind)
 

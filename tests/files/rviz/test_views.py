@@ -144,7 +144,7 @@ def test_each_view_of_rviz_is_the_same_here(text: str, view: View) -> None:
         ),
     ],
 )
-def test_what_a_view_has_that_cannot_be_shown_is_told(text: str, sentence: str) -> None:
+def test_unsupported_values_of_a_view_are_reported(text: str, sentence: str) -> None:
     view, sentences = current(text)
     assert view == Orbit()
     assert sentence in sentences
@@ -169,12 +169,12 @@ def test_saved_views_are_carried_over_by_name() -> None:
     assert "saved view Odd: some_plugins/Spiral" in "\n".join(report.sentences())
 
 
-def test_saved_views_that_nobody_changed_are_written_as_they_were() -> None:
+def test_unchanged_saved_views_are_written_as_they_were() -> None:
     saved = exported(opened(SAVED)[0])["Saved"]
     assert saved == YAML(typ="safe").load(SAVED)["Saved"]
 
 
-def test_a_changed_view_keeps_what_only_rviz_knows_of_it() -> None:
+def test_a_changed_view_keeps_foreign_values() -> None:
     config, _ = opened(SAVED)
     config.settings.views |= {"Corner": Orbit(distance=7.0), "New": FPS(yaw=1.0)}
     del config.settings.views["Corner 2"]
@@ -222,7 +222,7 @@ def test_views_that_were_exported_are_imported_as_they_were(
         ("Focal Shape Fixed Size: false", "nothing marks the focal point", 0),
     ],
 )
-def test_what_a_view_does_not_use_is_reported(text: str, reason: str, counted: int) -> None:
+def test_unused_values_of_a_view_are_reported(text: str, reason: str, counted: int) -> None:
     _, report = opened(f"Current: {{Class: rviz_default_plugins/Orbit, {text}}}\n")
     key = text.partition(":")[0]
     assert report.sentences() == [f"current view: {key}: {reason}; kept for export."]

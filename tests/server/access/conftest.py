@@ -8,16 +8,17 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import pytest
+from bench import Bench
 
-from tests.support.given_parts import GivenParts
 from tests.support.guest import Guest
-from tests.support.stand_ins import stand_ins
 from webviz.api.roles import Role
 from webviz.api.vehicle import Velocity
 from webviz.engine.commands import Command, Sender
 from webviz.engine.driving import DrivingAnswer
+from webviz.features.driving import DrivingFeature
 from webviz.page.pages import Pages
 from webviz.scene import open_server
 from webviz.server.access import token_file
@@ -29,7 +30,7 @@ PATIENCE_S = 30.0
 
 
 @dataclass
-class House:
+class TokenServer:
     """A server that asks for tokens, and what reaches the viewer behind it.
 
     Args:
@@ -48,10 +49,11 @@ class House:
         self.reached: list[str] = []
         self.priorities: list[int] = []
         self.guests: list[Guest] = []
-        features = stand_ins(lambda name, other: other, self._steer, lambda command: None)
-        Pages(
-            self.server.channel, self._enqueue, self.access, parts=[*features, *GivenParts().parts]
-        )
+        self.bench = Bench()
+        driving: Any = self.bench.viewer.get(DrivingFeature)
+        driving.steer = self._steer
+        parts = self.bench.viewer.parts
+        Pages(self.server.channel, self._enqueue, self.access, parts=parts)
         self.reached.clear()
 
     def cookie(self, role: Role) -> str:
@@ -84,21 +86,22 @@ class House:
         done.set_result("")
         return done
 
-    def _steer(self, tool: str, browser: int, share: Velocity, seen: float | None) -> DrivingAnswer:
+    def _steer(self, tool: str, browser: int, share: Velocity, beat: float | None) -> DrivingAnswer:
         self.reached.append("Drive")
         return DrivingAnswer()
 
 
 @pytest.fixture
-def house(tmp_path: Path) -> Iterator[House]:
+def token_server(tmp_path: Path) -> Iterator[TokenServer]:
     path = tmp_path / "tokens.json"
     now = datetime.now(UTC)
     tokens = {role: make(f"some {role.label}", role, now) for role in Role}
     token_file.modify(path, lambda _: list(tokens.values()))
     access = Access(True, path)
     server = open_server(port=0, access=access)
-    house = House(server, tokens, path, access)
-    yield house
-    for guest in house.guests:
+    token_server = TokenServer(server, tokens, path, access)
+    yield token_server
+    for guest in token_server.guests:
         guest.close()
+    token_server.bench.viewer.close()
     server.stop()

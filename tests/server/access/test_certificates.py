@@ -55,7 +55,7 @@ def test_a_certificate_with_its_key_is_used_without_doubts(folder: Path) -> None
         ("robot.pem", "encrypted_traditional.key", "The key in encrypted_traditional.key is encr"),
     ],
 )
-def test_what_cannot_be_used_is_refused_with_the_reason(
+def test_unusable_certificates_are_refused_with_the_reason(
     folder: Path, file: str, key: str | None, expected: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(folder)
@@ -84,16 +84,19 @@ def test_a_certificate_out_of_its_time_is_doubted(folder: Path) -> None:
 
 def test_a_certificate_is_valid_from_its_first_to_its_last_second(folder: Path) -> None:
     file = certificate(folder, "exact", ends=datetime(2031, 5, 20, 12))
-    made = x509.load_pem_x509_certificate(file.read_bytes())
+    x509_certificate = x509.load_pem_x509_certificate(file.read_bytes())
     starts, ends = (
-        int(each.timestamp()) for each in (made.not_valid_before_utc, made.not_valid_after_utc)
+        int(each.timestamp())
+        for each in (x509_certificate.not_valid_before_utc, x509_certificate.not_valid_after_utc)
     )
     context = server_context(file, file.with_suffix(".key"))
-    said = {at: " ".join(doubts(context, file, at)) for at in (starts - 1, starts, ends, ends + 1)}
-    assert "is not valid before" in said[starts - 1]
-    assert said[starts] == ""
-    assert "expires on" in said[ends]
-    assert "expired on" in said[ends + 1]
+    warnings = {
+        at: " ".join(doubts(context, file, at)) for at in (starts - 1, starts, ends, ends + 1)
+    }
+    assert "is not valid before" in warnings[starts - 1]
+    assert warnings[starts] == ""
+    assert "expires on" in warnings[ends]
+    assert "expired on" in warnings[ends + 1]
     assert doubts(context, file, ends - WEEK_S) == []
     assert doubts(context, file, ends - WEEK_S + 1) != []
 
@@ -101,7 +104,7 @@ def test_a_certificate_is_valid_from_its_first_to_its_last_second(folder: Path) 
 def test_a_certificate_that_is_not_for_servers_is_doubted(folder: Path) -> None:
     key = ec.generate_private_key(ec.SECP256R1())
     name = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, "robot")])
-    made = (
+    x509_certificate = (
         x509.CertificateBuilder(name, name, key.public_key(), x509.random_serial_number())
         .not_valid_before(datetime(2020, 1, 1))
         .not_valid_after(datetime(2100, 1, 1))
@@ -114,7 +117,7 @@ def test_a_certificate_that_is_not_for_servers_is_doubted(folder: Path) -> None:
         serialization.PrivateFormat.PKCS8,
         serialization.NoEncryption(),
     )
-    file.write_bytes(private + made.public_bytes(serialization.Encoding.PEM))
-    (said,) = doubts(server_context(file), file)
-    assert said.startswith(f"Browsers will reject the certificate in {file}: ")
-    assert said.endswith("purpose.")
+    file.write_bytes(private + x509_certificate.public_bytes(serialization.Encoding.PEM))
+    (warning,) = doubts(server_context(file), file)
+    assert warning.startswith(f"Browsers will reject the certificate in {file}: ")
+    assert warning.endswith("purpose.")

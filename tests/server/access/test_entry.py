@@ -17,7 +17,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 
 from tests.scene.conftest import Peer
-from tests.server.access.conftest import PATIENCE_S, House
+from tests.server.access.conftest import PATIENCE_S, TokenServer
 from tests.support.guest import Guest
 from webviz.api.roles import Role
 from webviz.commands import DragHandle, UseTool
@@ -43,92 +43,111 @@ PARAMETERS = {role: name for name, role in LINKS.items()}
 )
 @pytest.mark.parametrize("method", ["GET", "HEAD"])
 def test_without_a_cookie_there_is_nothing_but_a_sentence(
-    house: House, path: str, method: str
+    token_server: TokenServer, path: str, method: str
 ) -> None:
-    for cookie in ("", "webviz_1=x", f"webviz_{house.server.get_port()}={'x' * 64}"):
-        response = house.ask(path, method, Cookie=cookie)
+    for cookie in ("", "webviz_1=x", f"webviz_{token_server.server.get_port()}={'x' * 64}"):
+        response = token_server.ask(path, method, Cookie=cookie)
         assert response.status == 403
-        assert b"viser" not in house.body
-        assert (b"requires a link" in house.body) == (method == "GET")
+        assert b"viser" not in token_server.body
+        assert (b"requires a link" in token_server.body) == (method == "GET")
 
 
 @pytest.mark.parametrize("role", list(Role))
-def test_a_link_lets_in_and_is_gone_from_the_address(house: House, role: Role) -> None:
-    secret = house.tokens[role].secret
-    response = house.ask(f"/?{PARAMETERS[role]}={secret}&fixedDpr=1", Sec_Fetch_Site="none")
+def test_a_link_lets_in_and_is_gone_from_the_address(token_server: TokenServer, role: Role) -> None:
+    secret = token_server.tokens[role].secret
+    response = token_server.ask(f"/?{PARAMETERS[role]}={secret}&fixedDpr=1", Sec_Fetch_Site="none")
     assert (response.status, response.headers["Location"]) == (303, "./?fixedDpr=1")
     assert response.headers["Referrer-Policy"] == "no-referrer"
     assert response.headers["Cache-Control"] == "no-store"
     cookie = response.headers["Set-Cookie"]
     assert "HttpOnly; SameSite=Strict" in cookie
-    assert secret not in f"{response.headers}{house.body}"
-    given = cookie.partition(";")[0]
-    assert house.ask("/", Cookie=given).status == 200
-    assert secret.encode() not in house.body
-    assert house.tokens[role].cookie.encode() not in house.body
+    assert secret not in f"{response.headers}{token_server.body}"
+    value = cookie.partition(";")[0]
+    assert token_server.ask("/", Cookie=value).status == 200
+    assert secret.encode() not in token_server.body
+    assert token_server.tokens[role].cookie.encode() not in token_server.body
 
 
 @pytest.mark.parametrize("role", list(Role))
-def test_a_shared_file_is_only_for_owners(house: House, role: Role) -> None:
-    cookie = house.cookie(role)
+def test_a_shared_file_is_only_for_owners(token_server: TokenServer, role: Role) -> None:
+    cookie = token_server.cookie(role)
     is_owner = role is Role.OWNER
-    assert house.ask("/shared", Cookie=cookie).status == (404 if is_owner else 403)
-    house.server.shared.offer("run.html", b"<p>the run</p>")
-    response = house.ask("/shared", Cookie=cookie)
-    house.server.shared.offer("", b"")
+    assert token_server.ask("/shared", Cookie=cookie).status == (404 if is_owner else 403)
+    token_server.server.shared.offer("run.html", b"<p>the run</p>")
+    response = token_server.ask("/shared", Cookie=cookie)
+    token_server.server.shared.offer("", b"")
     assert response.status == (200 if is_owner else 403)
-    assert (b"the run" in house.body) == is_owner
+    assert (b"the run" in token_server.body) == is_owner
     if is_owner:
         assert response.headers["Content-Disposition"] == 'attachment; filename="run.html"'
 
 
 @pytest.mark.parametrize("query", ["watch=", "own=SECRET", "watch=SECRET&own=SECRET", "watch=x"])
-def test_a_wrong_link_is_refused_also_with_a_valid_cookie(house: House, query: str) -> None:
-    path = "/?" + query.replace("SECRET", house.tokens[Role.WATCHER].secret)
-    response = house.ask(path, Cookie=house.cookie(Role.OWNER))
+def test_a_wrong_link_is_refused_also_with_a_valid_cookie(
+    token_server: TokenServer, query: str
+) -> None:
+    path = "/?" + query.replace("SECRET", token_server.tokens[Role.WATCHER].secret)
+    response = token_server.ask(path, Cookie=token_server.cookie(Role.OWNER))
     assert response.status == 403
     assert "Set-Cookie" not in response.headers
-    assert b"This link is not valid" in house.body
+    assert b"This link is not valid" in token_server.body
 
 
-def test_a_link_to_a_file_lets_nobody_in(house: House) -> None:
-    response = house.ask(f"/webviz/main.js?watch={house.tokens[Role.WATCHER].secret}")
+def test_a_token_in_the_address_of_a_file_grants_nothing(token_server: TokenServer) -> None:
+    response = token_server.ask(f"/webviz/main.js?watch={token_server.tokens[Role.WATCHER].secret}")
     assert response.status == 403
 
 
-def test_another_site_or_name_gets_no_cookie(house: House) -> None:
-    path = f"/?own={house.tokens[Role.OWNER].secret}"
+def test_another_site_or_name_gets_no_cookie(token_server: TokenServer) -> None:
+    path = f"/?own={token_server.tokens[Role.OWNER].secret}"
     for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}):
-        response = house.ask(path, **headers)
+        response = token_server.ask(path, **headers)
         assert response.status == 403
         assert "Set-Cookie" not in response.headers
-        assert house.ask("/", Cookie=house.cookie(Role.OWNER), **headers).status == 403
+        assert (
+            token_server.ask("/", Cookie=token_server.cookie(Role.OWNER), **headers).status == 403
+        )
 
 
-def test_large_cookies_are_refused_and_the_server_goes_on(house: House) -> None:
+def test_large_cookies_are_refused_and_the_server_goes_on(token_server: TokenServer) -> None:
     with pytest.raises((ConnectionError, AssertionError)):
-        assert house.ask("/", Cookie="a=" + "x" * (1 << 20)).status == 200
-    for cookie in ("; ".join(["a=b"] * 2000), "\xff\xfe=\xff", f"{house.cookie(Role.OWNER)}\x7f"):
-        assert house.ask("/", Cookie=cookie).status in (400, 403)
-    assert house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 200
+        assert token_server.ask("/", Cookie="a=" + "x" * (1 << 20)).status == 200
+    for cookie in (
+        "; ".join(["a=b"] * 2000),
+        "\xff\xfe=\xff",
+        f"{token_server.cookie(Role.OWNER)}\x7f",
+    ):
+        assert token_server.ask("/", Cookie=cookie).status in (400, 403)
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.OWNER)).status == 200
 
 
 @pytest.mark.parametrize("path", ["/", "/webviz/channel", "/?own=SECRET"])
-def test_a_websocket_needs_a_cookie(house: House, path: str) -> None:
-    url = f"ws://127.0.0.1:{house.server.get_port()}{path}"
-    url = url.replace("SECRET", house.tokens[Role.OWNER].secret)
+def test_a_websocket_needs_a_cookie(token_server: TokenServer, path: str) -> None:
+    url = f"ws://127.0.0.1:{token_server.server.get_port()}{path}"
+    url = url.replace("SECRET", token_server.tokens[Role.OWNER].secret)
     with pytest.raises(websockets.exceptions.InvalidStatus) as caught:
         websockets.sync.client.connect(url, additional_headers={"Cookie": "webviz_1=x"})
     assert caught.value.response.status_code in (200, 403)
 
 
 @pytest.mark.parametrize("role", list(Role))
-def test_everything_that_a_page_sends_is_held_against_its_role(house: House, role: Role) -> None:
-    guest = house.enter(role)
-    assert guest.receive("You") == {"type": "You", "role": role.label, "name": f"some {role.label}"}
+def test_messages_of_a_page_are_checked_against_its_role(
+    token_server: TokenServer, role: Role
+) -> None:
+    guest = token_server.enter(role)
+    assert guest.receive("Identity") == {
+        "type": "Identity",
+        "role": role.label,
+        "name": f"some {role.label}",
+    }
     for command, required in rules.commands().items():
         if command in SILENT and role >= required:
-            guest.send("Do", number=5, command=command.__name__, arguments=FIELDS[command.__name__])
+            guest.send(
+                "CommandRequest",
+                number=5,
+                command=command.__name__,
+                arguments=FIELDS[command.__name__],
+            )
             continue
         answer = guest.do(command.__name__, **some_fields(command))
         assert answer.startswith("Not allowed: ") == (role < required), (command, answer)
@@ -136,31 +155,39 @@ def test_everything_that_a_page_sends_is_held_against_its_role(house: House, rol
     problem = guest.receive("DrivingReport")["problem"]
     assert problem.startswith("Not allowed: ") == (role is Role.WATCHER)
     allowed = {c.__name__ for c, required in rules.commands().items() if role >= required}
-    allowed -= {"Dismiss", "Invite", "Revoke", "UseWidget"}  # the server does these itself
+    allowed -= SERVED
     acted = {"Drive"} if role > Role.WATCHER else set()
     internal = {"InspectTopics", "InspectSelections", "InspectTransforms"}
-    assert {*house.reached} - internal == allowed | acted
+    assert {*token_server.reached} - internal == allowed | acted
 
 
-def test_only_operators_say_how_their_page_draws(house: House) -> None:
-    heard: list[str | int] = []
-    house.server.channel.on(Vitals, lambda _, report: heard.append(report.renderer))
-    house.server.channel.on(HasPainted, lambda _, answer: heard.append(answer.probe))
+def test_only_operators_say_how_their_page_draws(token_server: TokenServer) -> None:
+    reports: list[str | int] = []
+    token_server.server.channel.on(Vitals, lambda _, report: reports.append(report.renderer))
+    token_server.server.channel.on(HasPainted, lambda _, answer: reports.append(answer.probe))
     right = {"is_software": False, "is_hidden": False, "frame_s": 0.1, "late_s": 0.0}
     for role in Role:
-        guest = house.enter(role)
+        guest = token_server.enter(role)
         guest.send("Vitals", renderer=role.label, **right)
         guest.send("HasPainted", probe=role.value, waited_s=0.1)
         guest.send("Vitals", renderer="x" * 201, **right)
         guest.send("Vitals", renderer="late", **(right | {"late_s": 1e9}))
         guest.send("HasPainted", probe=9, waited_s=-1.0)
         guest.do("Refresh")  # answered once all of these were read
-    assert heard == ["operator", Role.OPERATOR.value, "owner", Role.OWNER.value]
+    assert reports == ["operator", Role.OPERATOR.value, "owner", Role.OWNER.value]
 
 
 SILENT = (DragHandle, UseTool)
 """Commands of which only refusals and what tools say are answered."""
+SERVED = {
+    *("Allow", "AskOwner", "BeginUpload", "Decline", "Dismiss", "Forbid", "Invite", "ReadOutput"),
+    *("Revoke", "UploadPart", "UseWidget"),
+}
+"""Commands that the server does itself."""
+
 FIELDS: dict[str, dict[str, object]] = {
+    "Allow": {"name": "/calibrate"},
+    "AskOwner": {"name": "/calibrate"},
     "DragHandle": {"display": "d", "drag": {"handle": "h", "control": 0, "kind": "press"}},
     "Identify": {"picks": {"group": "g", "key": "k", "items": []}},
     "Invite": {"name": "Ada", "role": "watcher", "days": None, "url": "http://a"},
@@ -181,33 +208,36 @@ def some_fields(command: type[Command]) -> dict[str, object]:
     return FIELDS.get(command.__name__) or {n: plain.get(k, "a") for n, k in kinds.items()}
 
 
-def test_what_reaches_viser_is_held_against_the_role(house: House) -> None:
-    guest = house.enter(Role.WATCHER)
-    control = house.server.scene.add_transform_controls("/handle")
+def test_messages_to_viser_are_checked_against_the_role(token_server: TokenServer) -> None:
+    guest = token_server.enter(Role.WATCHER)
+    control = token_server.server.scene.add_transform_controls("/handle")
     own = {"type": "TransformControlsUpdateMessage", "name": "/handle", "wxyz": [1, 0, 0, 0]}
     guest.viser.send({**own, "position": [9, 9, 9]})
     guest.viser.look(3.0)
-    clients = house.server.get_clients
+    clients = token_server.server.get_clients
     until(lambda: [c.camera.position[0] for c in clients().values()] == [3.0])
     assert control.position.tolist() == [0, 0, 0]
-    owner = house.enter(Role.OWNER)
+    owner = token_server.enter(Role.OWNER)
     owner.viser.send({**own, "position": [9, 9, 9]})
     until(lambda: control.position.tolist() == [9, 9, 9])
 
 
-def test_two_roles_at_once_are_not_mixed_up(house: House) -> None:
-    watcher, owner = house.enter(Role.WATCHER), house.enter(Role.OWNER)
+def test_two_roles_at_once_are_not_mixed_up(token_server: TokenServer) -> None:
+    watcher, owner = token_server.enter(Role.WATCHER), token_server.enter(Role.OWNER)
     for _ in range(20):
         assert watcher.do("SetFrameRate", hz=1).startswith("Not allowed")
         assert owner.do("SetFrameRate", hz=1) == ""
-    assert [v.role for v in house.server.channel.visitors().values()] == [Role.WATCHER, Role.OWNER]
+    assert [v.role for v in token_server.server.channel.visitors().values()] == [
+        Role.WATCHER,
+        Role.OWNER,
+    ]
 
 
-def test_the_key_of_a_page_gives_no_role(house: House) -> None:
-    owner = Peer(house.server, Cookie=house.cookie(Role.OWNER))
+def test_the_key_of_a_page_gives_no_role(token_server: TokenServer) -> None:
+    owner = Peer(token_server.server, Cookie=token_server.cookie(Role.OWNER))
     key = key_in(owner)
-    url = f"ws://127.0.0.1:{house.server.get_port()}/webviz/channel"
-    cookie = {"Cookie": house.cookie(Role.WATCHER)}
+    url = f"ws://127.0.0.1:{token_server.server.get_port()}/webviz/channel"
+    cookie = {"Cookie": token_server.cookie(Role.WATCHER)}
     with websockets.sync.client.connect(url, additional_headers=cookie) as thief:
         thief.send(msgspec.json.encode({"type": "Hello", "key": key}).decode())
         assert msgspec.json.decode(thief.recv(60))["role"] == "watcher"
@@ -220,37 +250,37 @@ def key_in(peer: Peer) -> str:
     return msgspec.json.decode(source.partition("(")[2].removesuffix(");"))["key"]
 
 
-def test_a_revoked_token_closes_its_pages_and_no_others(house: House) -> None:
-    operator, owner = house.enter(Role.OPERATOR), house.enter(Role.OWNER)
-    operator.receive("You")
-    house.revoke(Role.OPERATOR)
+def test_a_revoked_token_closes_its_pages_and_no_others(token_server: TokenServer) -> None:
+    operator, owner = token_server.enter(Role.OPERATOR), token_server.enter(Role.OWNER)
+    operator.receive("Identity")
+    token_server.revoke(Role.OPERATOR)
     with pytest.raises(websockets.exceptions.ConnectionClosed):
         operator.receive("None")
     with pytest.raises(websockets.exceptions.ConnectionClosed):
         operator.viser.drain()
     assert owner.do("Pause") == ""
-    cookie = house.cookie(Role.OPERATOR)
-    assert house.ask("/", Cookie=cookie).status == 403
-    secret = house.tokens[Role.OPERATOR].secret
-    assert house.ask(f"/?operate={secret}", Cookie=cookie).status == 403
+    cookie = token_server.cookie(Role.OPERATOR)
+    assert token_server.ask("/", Cookie=cookie).status == 403
+    secret = token_server.tokens[Role.OPERATOR].secret
+    assert token_server.ask(f"/?operate={secret}", Cookie=cookie).status == 403
     with pytest.raises(websockets.exceptions.InvalidStatus):
-        house.enter(Role.OPERATOR)
-    assert [v.role for v in house.server.channel.visitors().values()] == [Role.OWNER]
+        token_server.enter(Role.OPERATOR)
+    assert [v.role for v in token_server.server.channel.visitors().values()] == [Role.OWNER]
 
 
-def test_what_was_sent_before_a_token_was_revoked_counts_no_more(house: House) -> None:
-    operator = house.enter(Role.OPERATOR)
+def test_messages_sent_before_a_token_was_revoked_are_ignored(token_server: TokenServer) -> None:
+    operator = token_server.enter(Role.OPERATOR)
     operator.do("Pause")
-    house.reached.clear()
-    house.revoke(Role.OPERATOR)
+    token_server.reached.clear()
+    token_server.revoke(Role.OPERATOR)
     deadline = time.monotonic() + PATIENCE_S
     with contextlib.suppress(websockets.exceptions.ConnectionClosed):
         while time.monotonic() < deadline:  # far more than is read in the time that is left
-            operator.send("Do", number=1, command="Reset", arguments={})
+            operator.send("CommandRequest", number=1, command="Reset", arguments={})
     assert time.monotonic() < deadline
-    seen = len(house.reached)
-    house.enter(Role.OWNER).do("Save")  # answered after all that was received before
-    assert house.reached[seen:] == ["Save"]
+    count = len(token_server.reached)
+    token_server.enter(Role.OWNER).do("Save")  # answered after all that was received before
+    assert token_server.reached[count:] == ["Save"]
 
 
 def test_an_expired_token_closes_its_pages() -> None:
@@ -261,7 +291,7 @@ def test_an_expired_token_closes_its_pages() -> None:
     server = open_server(port=0, access=access)
     guest = Guest(server, Cookie=f"webviz_{server.get_port()}={token.cookie}")
     try:
-        guest.receive("You")
+        guest.receive("Identity")
         clock[0] = now + timedelta(days=1.0)
         with pytest.raises(websockets.exceptions.ConnectionClosed):
             guest.receive("None")
@@ -270,76 +300,78 @@ def test_an_expired_token_closes_its_pages() -> None:
         server.stop()
 
 
-def test_an_owner_ends_a_visit(house: House) -> None:
-    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+def test_an_owner_ends_a_visit(token_server: TokenServer) -> None:
+    owner, watcher = token_server.enter(Role.OWNER), token_server.enter(Role.WATCHER)
     browsers = {role: guest.page["browser"] for role, guest in ((1, watcher), (3, owner))}
     for guest in (owner, watcher):
-        guest.receive("You")
+        guest.receive("Identity")
     assert "this needs an owner" in watcher.do("Dismiss", visitor=browsers[3], revokes=True)
     assert "your own page" in owner.do("Dismiss", visitor=browsers[3], revokes=False)
     assert (
         owner.do("Dismiss", visitor=browsers[1], revokes=False) == "Ended a visit of some watcher."
     )
-    assert "has ended your visit" in watcher.receive("Dismissed")["text"]
+    assert "has disconnected this page" in watcher.receive("Dismissed")["text"]
     with pytest.raises(websockets.exceptions.ConnectionClosed):
-        watcher.receive("You")
+        watcher.receive("Identity")
     assert (
         owner.do("Dismiss", visitor=browsers[1], revokes=True) == "This visitor has already left."
     )
     # The link is still valid.
-    house.enter(Role.WATCHER).receive("You")
+    token_server.enter(Role.WATCHER).receive("Identity")
 
 
-def test_an_owner_revokes_a_link(house: House) -> None:
-    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+def test_an_owner_revokes_a_link(token_server: TokenServer) -> None:
+    owner, watcher = token_server.enter(Role.OWNER), token_server.enter(Role.WATCHER)
     for guest in (owner, watcher):
-        guest.receive("You")
+        guest.receive("Identity")
     assert (
         owner.do("Dismiss", visitor=watcher.page["browser"], revokes=True)
         == "Revoked the link of some watcher."
     )
     with pytest.raises(websockets.exceptions.ConnectionClosed):
         watcher.receive("Dismissed")
-    assert {token.role for token in token_file.read(house.path)} == {"operator", "owner"}
-    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 403
+    assert {token.role for token in token_file.read(token_server.path)} == {"operator", "owner"}
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.WATCHER)).status == 403
 
 
-def test_invitations_in_a_burst_are_all_answered(house: House) -> None:
-    owner = house.enter(Role.OWNER)
+def test_invitations_in_a_burst_are_all_answered(token_server: TokenServer) -> None:
+    owner = token_server.enter(Role.OWNER)
     names = [f"guest {number}" for number in range(40)]
     for number, name in enumerate(names):
         fields = {"name": name, "role": "watcher", "days": None, "url": "http://localhost:8080"}
-        owner.send("Do", number=number, command="Invite", arguments=fields)
-    answers = [owner.receive("Done") for _ in names]
+        owner.send("CommandRequest", number=number, command="Invite", arguments=fields)
+    answers = [owner.receive("CommandResult") for _ in names]
     assert {answer["number"] for answer in answers} == {*range(len(names))}
-    made = [names[answer["number"]] for answer in answers if answer["result"]]
-    remaining = [token.name for token in token_file.read(house.path)]
-    assert sorted(made) == sorted(name for name in remaining if name in names)
-    assert made
+    link_names = [names[answer["number"]] for answer in answers if answer["result"]]
+    remaining = [token.name for token in token_file.read(token_server.path)]
+    assert sorted(link_names) == sorted(name for name in remaining if name in names)
+    assert link_names
     refused = {answer["text"] for answer in answers if not answer["result"]}
     assert refused <= {
-        "Not done: too many at once. Try again later.",
-        f"Cannot write {house.path}: another program is saving in this folder; try again.",
+        "Failed: too many at once. Try again later.",
+        f"Cannot write {token_server.path}: another program is saving in this folder; try again.",
     }
     assert owner.do("Pause") == ""
 
 
 @pytest.mark.parametrize("role", list(Role))
-def test_a_command_has_the_priority_of_its_role(house: House, role: Role) -> None:
-    house.enter(role).do("Export")
-    assert house.priorities[-1] == role
+def test_a_command_has_the_priority_of_its_role(token_server: TokenServer, role: Role) -> None:
+    token_server.enter(role).do("Export")
+    assert token_server.priorities[-1] == role
 
 
-def test_an_owner_revokes_any_link_but_their_own(house: House) -> None:
-    owner, watcher = house.enter(Role.OWNER), house.enter(Role.WATCHER)
+def test_an_owner_revokes_any_link_but_their_own(token_server: TokenServer) -> None:
+    owner, watcher = token_server.enter(Role.OWNER), token_server.enter(Role.WATCHER)
     assert "this needs an owner" in watcher.do("Revoke", name="some owner")
     assert "nobody is not in the file of tokens" in owner.do("Revoke", name="nobody")
     assert "this is your own link" in owner.do("Revoke", name="some owner")
     assert owner.do("Revoke", name="some operator") == "Revoked the link of some operator."
-    assert {token.role for token in token_file.read(house.path)} == {"watcher", "owner"}
+    assert {token.role for token in token_file.read(token_server.path)} == {"watcher", "owner"}
 
 
-def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_watchers_cannot_keep_the_owner_out(
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     few = {
         Role.WATCHER: Limits(0.5, 64, 100.0, 1000, 1000, 1000),
         Role.OPERATOR: Limits(0.75, 64, 100.0, 1000, 1000, 1000),
@@ -347,12 +379,12 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
     }
     monkeypatch.setattr("webviz.server.http.connections.LIMITS", few)
     monkeypatch.setattr("webviz.server.http.connections.MAX_BROWSERS", 4)
-    server = open_server(port=0, access=Access(True, house.path))
-    small = House(server, house.tokens, house.path, house.access)
+    server = open_server(port=0, access=Access(True, token_server.path))
+    small = TokenServer(server, token_server.tokens, token_server.path, token_server.access)
     try:
         for role, count in ((Role.WATCHER, 2), (Role.OPERATOR, 1), (Role.OWNER, 1)):
             for _ in range(count):
-                small.enter(role).receive("You")
+                small.enter(role).receive("Identity")
             assert small.ask("/", Cookie=small.cookie(role)).status == 503
             assert b"which is the limit" in small.body
     finally:
@@ -361,22 +393,24 @@ def test_watchers_cannot_keep_the_owner_out(house: House, monkeypatch: pytest.Mo
         server.stop()
 
 
-def test_one_address_has_a_limit(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_address_has_a_limit(
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     one = {**LIMITS, Role.WATCHER: Limits(1.0, 1, 100.0, 1000, 1000, 1000)}
     monkeypatch.setattr("webviz.server.http.connections.LIMITS", one)
-    house.enter(Role.WATCHER).receive("You")
-    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 503
-    assert b"1 browsers of your address" in house.body
-    assert house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 200
+    token_server.enter(Role.WATCHER).receive("Identity")
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.WATCHER)).status == 503
+    assert b"1 browsers of your address" in token_server.body
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.OWNER)).status == 200
 
 
 @pytest.mark.parametrize("role", [Role.WATCHER, Role.OPERATOR])
 def test_a_role_has_a_rate_of_messages(
-    house: House, monkeypatch: pytest.MonkeyPatch, role: Role
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch, role: Role
 ) -> None:
     slow = {each: msgspec.structs.replace(LIMITS[each], messages_per_second=2.0) for each in Role}
     monkeypatch.setattr("webviz.server.http.connections.LIMITS", {**LIMITS, role: slow[role]})
-    guest, owner = house.enter(role), house.enter(Role.OWNER)
+    guest, owner = token_server.enter(role), token_server.enter(Role.OWNER)
 
     def seconds(of: Guest) -> float:
         start = time.monotonic()
@@ -385,147 +419,164 @@ def test_a_role_has_a_rate_of_messages(
         return time.monotonic() - start
 
     assert seconds(guest) > 8 / 2.0 - 2.0
-    house.reached.clear()
+    token_server.reached.clear()
     owner_s = seconds(owner)
     assert LIMITS[Role.OWNER].messages_per_second == 200.0
     assert owner_s < 60.0
 
 
-def test_watchers_who_flood_with_long_messages_are_not_read(
-    house: House, monkeypatch: pytest.MonkeyPatch
+def test_long_messages_of_watchers_over_their_rate_are_not_read(
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(1e-9, burst))
-    watcher, owner = house.enter(Role.WATCHER), house.enter(Role.OWNER)
+    watcher, owner = token_server.enter(Role.WATCHER), token_server.enter(Role.OWNER)
     lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
     for _ in range(2):
-        watcher.send("Do", number=1, command="FocusFrame", arguments={"frame": lasting // 2 * "x"})
-    watcher.send("Do", number=1, command="Export", arguments={})
+        watcher.send(
+            "CommandRequest",
+            number=1,
+            command="FocusFrame",
+            arguments={"frame": lasting // 2 * "x"},
+        )
+    watcher.send("CommandRequest", number=1, command="Export", arguments={})
     for _ in range(3):
         owner.do("FocusFrame", frame=lasting // 2 * "x")
     assert owner.do("ResetView") == ""
-    assert (house.reached.count("Export"), house.reached.count("ResetView")) == (0, 1)
+    assert (token_server.reached.count("Export"), token_server.reached.count("ResetView")) == (0, 1)
 
 
 def test_messages_that_a_page_leaves_behind_beyond_its_rate_do_nothing(
-    house: House, monkeypatch: pytest.MonkeyPatch
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(20.0, 5.0))
-    watcher = house.enter(Role.WATCHER)
+    watcher = token_server.enter(Role.WATCHER)
     for number in range(300):  # 15 s
-        watcher.send("Do", number=number, command="ResetView", arguments={})
-    until(lambda: "ResetView" in house.reached)
+        watcher.send("CommandRequest", number=number, command="ResetView", arguments={})
+    until(lambda: "ResetView" in token_server.reached)
     watcher.drop()
-    until(lambda: not house.server.channel.browsers())
-    assert house.reached.count("ResetView") < 300
-    assert "ResetView" in house.reached
+    until(lambda: not token_server.server.channel.browsers())
+    assert token_server.reached.count("ResetView") < 300
+    assert "ResetView" in token_server.reached
 
 
 def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
-    house: House, monkeypatch: pytest.MonkeyPatch
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(20.0, 5.0))
     monkeypatch.setattr(connections, "FLOOD_S", 0.2)
-    watcher = house.enter(Role.WATCHER)
+    watcher = token_server.enter(Role.WATCHER)
     for number in range(300):
-        watcher.send("Do", number=number, command="ResetView", arguments={})
+        watcher.send("CommandRequest", number=number, command="ResetView", arguments={})
     with pytest.raises(ConnectionClosed) as ended:
         watcher.receive("Nothing")
     assert ended.value.rcvd is not None
     assert (ended.value.rcvd.code, ended.value.rcvd.reason) == (1008, FLOODED)
-    assert house.reached.count("ResetView") < 300
-    refused = house.ask("/", Cookie=house.cookie(Role.WATCHER))  # neither the page nor a channel
-    assert (refused.status, house.body) == (429, f"{FLOODED} Try again in 10 s.\n".encode())
+    assert token_server.reached.count("ResetView") < 300
+    refused = token_server.ask(
+        "/", Cookie=token_server.cookie(Role.WATCHER)
+    )  # neither the page nor a channel
+    assert (refused.status, token_server.body) == (429, f"{FLOODED} Try again in 10 s.\n".encode())
     with pytest.raises(websockets.exceptions.InvalidStatus, match="429"):
-        house.enter(Role.WATCHER)
-    assert house.enter(Role.OPERATOR).do("ResetView") == ""
+        token_server.enter(Role.WATCHER)
+    assert token_server.enter(Role.OPERATOR).do("ResetView") == ""
 
 
-def test_a_page_that_floods_with_pings_is_ended_and_has_to_stay_away(house: House) -> None:
+def test_a_page_that_floods_with_pings_is_ended_and_has_to_stay_away(
+    token_server: TokenServer,
+) -> None:
     flood = 1000 * Frame(Opcode.PING, b"x").serialize(mask=True)
-    raw = house.enter(Role.WATCHER).websocket.socket
+    raw = token_server.enter(Role.WATCHER).websocket.socket
     with contextlib.suppress(OSError):
         for _ in range(1000):
             raw.sendall(flood)
         pytest.fail("the server took a million frames")
-    assert house.ask("/", Cookie=house.cookie(Role.WATCHER)).status == 429
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.WATCHER)).status == 429
 
 
 def test_a_page_that_connects_again_has_no_new_burst(
-    house: House, monkeypatch: pytest.MonkeyPatch
+    token_server: TokenServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connections, "RateLimit", lambda rate, burst: RateLimit(1e-9, burst))
     lasting = int(BURST_S * LIMITS[Role.WATCHER].messages_per_second) << 10  # bytes
     much = {"frame": 2 * lasting // 3 * "x"}
-    watcher = house.enter(Role.WATCHER)
+    watcher = token_server.enter(Role.WATCHER)
     watcher.do("FocusFrame", **much)
     watcher.close()
-    until(lambda: not house.server.channel.browsers())
-    again, operator = house.enter(Role.WATCHER), house.enter(Role.OPERATOR)
-    again.send("Do", number=1, command="FocusFrame", arguments=much)
-    again.send("Do", number=2, command="Export", arguments={})
+    until(lambda: not token_server.server.channel.browsers())
+    again, operator = token_server.enter(Role.WATCHER), token_server.enter(Role.OPERATOR)
+    again.send("CommandRequest", number=1, command="FocusFrame", arguments=much)
+    again.send("CommandRequest", number=2, command="Export", arguments={})
     for _ in range(3):
         assert operator.do("ResetView") == ""
-    assert house.reached.count("Export") == 0
+    assert token_server.reached.count("Export") == 0
 
 
-def test_messages_are_not_compressed_so_that_none_unfolds_without_end(house: House) -> None:
-    url = f"ws://127.0.0.1:{house.server.get_port()}/webviz/channel"
-    headers = {"Cookie": house.cookie(Role.WATCHER)}
+def test_websockets_do_not_negotiate_compression(
+    token_server: TokenServer,
+) -> None:
+    url = f"ws://127.0.0.1:{token_server.server.get_port()}/webviz/channel"
+    headers = {"Cookie": token_server.cookie(Role.WATCHER)}
     with websockets.sync.client.connect(
         url, compression="deflate", additional_headers=headers, close_timeout=0.1
     ) as guest:
         assert guest.protocol.extensions == []
 
 
-def test_a_message_has_the_size_that_the_role_may_send(house: House) -> None:
-    guest = house.enter(Role.WATCHER)
+def test_a_message_has_the_size_that_the_role_may_send(token_server: TokenServer) -> None:
+    guest = token_server.enter(Role.WATCHER)
     name = "x" * roles.LIMITS[Role.WATCHER].max_characters
-    guest.send("Do", number=1, command="FocusFrame", arguments={"frame": name})
-    refused = guest.receive("Done")
+    guest.send("CommandRequest", number=1, command="FocusFrame", arguments={"frame": name})
+    refused = guest.receive("CommandResult")
     assert (refused["number"], refused["level"]) == (1, "error")
     limit = roles.LIMITS[Role.WATCHER].max_characters
     assert refused["text"].endswith(f" characters in one message; the limit is {limit}.")
-    guest.send("Do", number=2, command="Export", arguments={})
-    assert guest.receive("Done")["number"] == 2
+    guest.send("CommandRequest", number=2, command="Export", arguments={})
+    assert guest.receive("CommandResult")["number"] == 2
 
 
-def test_watchers_may_send_a_selection_and_no_lists_that_are_slow_to_read(house: House) -> None:
-    guest = house.enter(Role.WATCHER)
+def test_watchers_may_send_a_selection_and_no_lists_that_are_slow_to_read(
+    token_server: TokenServer,
+) -> None:
+    guest = token_server.enter(Role.WATCHER)
     items = [[number, number, [0.5, 0.5, 0.5], [1, 2, 3]] for number in range(MAX_SELECTED)]
     pick = {"group": "a", "key": "b", "items": items}
     assert guest.do("Select", picks=[pick], keep=[], total=MAX_SELECTED) == ""
     refused = guest.do("ChangeView", key="distance", value=30_000 * [[]])
-    assert refused.startswith("Not done: 60")
+    assert refused.startswith("Failed: 60")
     assert refused.endswith(" values in one message; the limit is 20000.")
-    assert house.reached == ["Select"]
+    assert token_server.reached == ["Select"]
 
 
 @pytest.mark.parametrize("path", [r"\ud83d", r"\\\udfff"])
-def test_half_a_letter_is_answered(house: House, path: str) -> None:
-    owner = house.enter(Role.OWNER)
-    text = r'{"type":"Do","number":1,"command":"Save","arguments":{"path":"PATH"}}'
+def test_half_a_letter_is_answered(token_server: TokenServer, path: str) -> None:
+    owner = token_server.enter(Role.OWNER)
+    text = r'{"type":"CommandRequest","number":1,"command":"Save","arguments":{"path":"PATH"}}'
     owner.say(text.replace("PATH", path))
-    answered = owner.receive("Done")
+    answered = owner.receive("CommandResult")
     assert (answered["number"], answered["text"]) == (1, HALF)
-    assert house.reached == []
+    assert token_server.reached == []
 
 
-def test_no_secret_reaches_the_log(house: House, caplog: pytest.LogCaptureFixture) -> None:
+def test_no_secret_reaches_the_log(
+    token_server: TokenServer, caplog: pytest.LogCaptureFixture
+) -> None:
     caplog.set_level(logging.DEBUG)
-    secret = house.tokens[Role.OWNER].secret
-    house.ask(f"/?own={secret}")
-    house.ask(f"/?watch={secret}")
-    house.ask(f"/webviz/channel?own={secret}")
-    guest = house.enter(Role.WATCHER)
+    secret = token_server.tokens[Role.OWNER].secret
+    token_server.ask(f"/?own={secret}")
+    token_server.ask(f"/?watch={secret}")
+    token_server.ask(f"/webviz/channel?own={secret}")
+    guest = token_server.enter(Role.WATCHER)
     guest.do("Save")
-    house.revoke(Role.OWNER)
-    until(lambda: house.ask("/", Cookie=house.cookie(Role.OWNER)).status == 403)
+    token_server.revoke(Role.OWNER)
+    until(lambda: token_server.ask("/", Cookie=token_server.cookie(Role.OWNER)).status == 403)
     texts = [r.getMessage() for r in caplog.records if r.name != "websockets.client"]
-    for token in house.tokens.values():
+    for token in token_server.tokens.values():
         assert token.secret not in f"{texts}"
         assert token.cookie not in f"{texts}"
 
 
-def test_a_stopped_server_leaves_no_task(house: House, capfd: pytest.CaptureFixture[str]) -> None:
-    house.server.stop()
+def test_a_stopped_server_leaves_no_task(
+    token_server: TokenServer, capfd: pytest.CaptureFixture[str]
+) -> None:
+    token_server.server.stop()
     assert capfd.readouterr().err == ""

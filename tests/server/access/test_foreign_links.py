@@ -5,28 +5,28 @@ from __future__ import annotations
 import http.server
 import itertools
 import re
-import threading
 from collections.abc import Iterator
 
 import playwright.sync_api as playwright
 import pytest
+from serving import serving
 
-from tests.server.access.conftest import House
+from tests.server.access.conftest import TokenServer
 from webviz.api.roles import Role
 from webviz.server.access.roles import LINKS
 
 PARAMETERS = {role: name for name, role in LINKS.items()}
 
 
-def link(house: House, role: Role) -> str:
-    return f"/?{PARAMETERS[role]}={house.tokens[role].secret}"
+def link(token_server: TokenServer, role: Role) -> str:
+    return f"/?{PARAMETERS[role]}={token_server.tokens[role].secret}"
 
 
-def given(house: House, role: Role, **headers: str) -> str:
+def granted_cookie(token_server: TokenServer, role: Role, **headers: str) -> str:
     """The cookie with which a browser leaves that opens a link and goes where it is sent."""
-    cookie, path = headers.pop("Cookie", ""), link(house, role)
+    cookie, path = headers.pop("Cookie", ""), link(token_server, role)
     for _ in range(3):
-        response = house.ask(path, Cookie=cookie, **headers)
+        response = token_server.ask(path, Cookie=cookie, **headers)
         if set_cookie := response.headers["Set-Cookie"]:
             cookie = "; ".join(filter(None, (cookie, set_cookie.partition(";")[0])))
         if response.status == 303:
@@ -39,39 +39,49 @@ def given(house: House, role: Role, **headers: str) -> str:
 
 @pytest.mark.parametrize("headers", [{}, {"Sec_Fetch_Site": "cross-site"}])
 def test_a_link_of_another_site_is_opened_again_by_this_one(
-    house: House, headers: dict[str, str]
+    token_server: TokenServer, headers: dict[str, str]
 ) -> None:
-    response = house.ask(link(house, Role.WATCHER), **headers)
+    response = token_server.ask(link(token_server, Role.WATCHER), **headers)
     assert response.status == 200
     assert "Location" not in response.headers
-    assert house.tokens[Role.WATCHER].cookie not in response.headers["Set-Cookie"]
+    assert token_server.tokens[Role.WATCHER].cookie not in response.headers["Set-Cookie"]
     assert "HttpOnly; SameSite=Strict" in response.headers["Set-Cookie"]
-    with_view = f"{link(house, Role.WATCHER)}&a=1"  # not sent on yet, whatever else it carries
-    assert house.ask(with_view, **headers).status == 200
-    assert given(house, Role.WATCHER, **headers) == house.cookie(Role.WATCHER)
+    with_view = (
+        f"{link(token_server, Role.WATCHER)}&a=1"  # not sent on yet, whatever else it carries
+    )
+    assert token_server.ask(with_view, **headers).status == 200
+    assert granted_cookie(token_server, Role.WATCHER, **headers) == token_server.cookie(
+        Role.WATCHER
+    )
 
 
-def test_a_link_takes_no_role_away_unless_its_user_has_entered_it(house: House) -> None:
+def test_a_link_takes_no_role_away_unless_its_user_has_entered_it(
+    token_server: TokenServer,
+) -> None:
     sites = (None, "same-site", "same-origin", "none")
     for before, role, site in itertools.product(Role, Role, sites):
         headers = {} if site is None else {"Sec_Fetch_Site": site}
-        cookie = given(house, role, Cookie=house.cookie(before), **headers)
-        expected = house.cookie(role) if role >= before or site == "none" else None
+        cookie = granted_cookie(token_server, role, Cookie=token_server.cookie(before), **headers)
+        expected = token_server.cookie(role) if role >= before or site == "none" else None
         assert cookie == expected, (before, role, site)
 
 
-def test_a_browser_without_cookies_is_told_so_and_not_sent_on_and_on(house: House) -> None:
-    again = house.ask(link(house, Role.OWNER)).headers["Refresh"].removeprefix("0; url=.")
-    response = house.ask(again)
+def test_a_browser_without_cookies_gets_an_error_instead_of_redirections(
+    token_server: TokenServer,
+) -> None:
+    again = (
+        token_server.ask(link(token_server, Role.OWNER)).headers["Refresh"].removeprefix("0; url=.")
+    )
+    response = token_server.ask(again)
     assert response.status == 403
-    assert b"keeps no cookies" in house.body
+    assert b"blocks the cookies" in token_server.body
     assert "Set-Cookie" not in response.headers
 
 
 @pytest.fixture
-def foreign(house: House) -> Iterator[str]:
+def foreign(token_server: TokenServer) -> Iterator[str]:
     """The address of another site, whose page leads to the viewer as a watcher."""
-    target = f"http://localhost:{house.server.get_port()}{link(house, Role.WATCHER)}"
+    target = f"http://localhost:{token_server.server.get_port()}{link(token_server, Role.WATCHER)}"
 
     class Page(http.server.BaseHTTPRequestHandler):
         def do_GET(self) -> None:
@@ -83,28 +93,25 @@ def foreign(house: House) -> Iterator[str]:
         def log_message(self, format: str, *args: object) -> None:
             pass
 
-    site = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Page)
-    threading.Thread(target=site.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{site.server_port}/"
-    site.shutdown()
-    site.server_close()
+    with serving(http.server.ThreadingHTTPServer(("127.0.0.1", 0), Page)) as site:
+        yield f"http://127.0.0.1:{site.server_port}/"
 
 
 @pytest.mark.parametrize("before", [None, Role.OWNER])
 def test_a_page_of_another_site_leads_a_real_browser_in_and_makes_no_owner_a_watcher(
-    house: House, browser: playwright.Browser, foreign: str, before: Role | None
+    token_server: TokenServer, browser: playwright.Browser, foreign: str, before: Role | None
 ) -> None:
     context = browser.new_context(java_script_enabled=False)
     try:
         tab = context.new_page()
-        home = f"http://localhost:{house.server.get_port()}"
+        home = f"http://localhost:{token_server.server.get_port()}"
         if before is not None:
-            tab.goto(home + link(house, before))
+            tab.goto(home + link(token_server, before))
             playwright.expect(tab).to_have_url(f"{home}/")
         tab.goto(foreign)
         tab.get_by_text("webviz").click()
         playwright.expect(tab).to_have_url(re.compile(f"^{home}/$"))
-        held = {f"{each.get('name')}={each.get('value')}" for each in context.cookies()}
-        assert house.cookie(before or Role.WATCHER) in held
+        cookies = {f"{each.get('name')}={each.get('value')}" for each in context.cookies()}
+        assert token_server.cookie(before or Role.WATCHER) in cookies
     finally:
         context.close()

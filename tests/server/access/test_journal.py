@@ -36,37 +36,37 @@ def test_entries_are_lines_of_a_file_that_others_cannot_read(tmp_path: Path) -> 
 
 def test_the_newest_entries_come_first_and_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(journal, "MAX_ENTRIES", 3)
-    kept = Journal()
-    before = kept.entries
+    recent = Journal()
+    before = recent.entries
     for number in range(5):
-        before = kept.entries
-        kept.note(ADA if number % 2 else None, f"{number}" * (MAX_TEXT + 1))
-    assert [entry.text for entry in kept.entries] == [f"{n}" * MAX_TEXT for n in (4, 3, 2)]
-    gone, ada, _ = kept.entries
+        before = recent.entries
+        recent.note(ADA if number % 2 else None, f"{number}" * (MAX_TEXT + 1))
+    assert [entry.text for entry in recent.entries] == [f"{n}" * MAX_TEXT for n in (4, 3, 2)]
+    gone, ada, _ = recent.entries
     assert (ada.name, ada.role, ada.address) == ("Ada", "owner", "192.0.2.1")
     assert (gone.name, gone.role, gone.address) == ("", "", "")
-    assert kept.entries is kept.entries
+    assert recent.entries is recent.entries
     assert [entry.text[0] for entry in before] == ["3", "2", "1"]  # what was read stays
 
 
 def test_the_files_have_a_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(journal_file, "MAX_BYTES", 1000)
     path = tmp_path / "journal.txt"
-    kept = JournalFile(path)
+    journal = JournalFile(path)
     for number in range(100):
-        kept.write(f"{number:099}")
-    kept.close()
+        journal.write(f"{number:099}")
+    journal.close()
     assert sorted(file.name for file in tmp_path.iterdir()) == ["journal.txt", "journal.txt.1"]
     assert [len(file.read_text().splitlines()) for file in sorted(tmp_path.iterdir())] == [10, 10]
     assert path.read_text().endswith(f"{99:099}\n")
 
 
-def test_what_a_slow_disk_has_no_time_for_is_counted(
+def test_entries_dropped_by_a_slow_disk_are_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(journal_file, "MAX_WAITING", 2)
     path, begun, mounted = tmp_path / "journal.txt", threading.Event(), threading.Event()
-    kept = JournalFile(path)
+    file = JournalFile(path)
 
     def open_slowly(*args: Any, **options: Any) -> Any:
         begun.set()
@@ -74,16 +74,16 @@ def test_what_a_slow_disk_has_no_time_for_is_counted(
         return open(*args, **options)
 
     monkeypatch.setattr(journal_file, "open", open_slowly, raising=False)
-    kept.write("0")
+    file.write("0")
     assert begun.wait(60.0)
     for number in range(1, 6):
-        kept.write(str(number))
+        file.write(str(number))
     mounted.set()
-    kept.close()
+    file.close()
     assert path.read_text().splitlines() == ["0", "(3 entries dropped)", "1", "2"]
 
 
-def test_what_is_no_file_of_this_user_is_refused(tmp_path: Path) -> None:
+def test_links_pipes_and_folders_are_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "link").symlink_to(tmp_path / "elsewhere")
     for path in (tmp_path / "fifo", tmp_path / "link", tmp_path, Path("/dev/full")):

@@ -83,7 +83,7 @@ def test_others_cannot_read_where_viewers_are(tmp_path: Path) -> None:
     viewer.close()
 
 
-def test_what_is_no_address_hides_no_viewer(tmp_path: Path) -> None:
+def test_invalid_announcements_do_not_hide_other_viewers(tmp_path: Path) -> None:
     viewers = [Announcement(f"http://robot:{port}", port, tmp_path) for port in (80, 81)]
     (odd,) = tmp_path.glob("*-81")
     odd.write_bytes(b"\xff")
@@ -112,7 +112,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-def test_a_viewer_whose_address_cannot_be_written_says_so_and_goes_on(
+def test_a_viewer_whose_announcement_cannot_be_written_reports_it_and_continues(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     (tmp_path / "viewers").write_text("")

@@ -11,7 +11,7 @@ import webviz
 from webviz.server.access.proxies import Caller, Proxies
 
 TRUSTED = Proxies(["127.0.0.1", "10.0.0.0/8", "fd00::/8"])
-SAID = {
+FORWARDED = {
     "Host": "127.0.0.1:8080",
     "X-Forwarded-For": "203.0.113.7",
     "X-Forwarded-Host": "robot.example",
@@ -20,17 +20,17 @@ SAID = {
 
 
 def caller(peer: str, proxies: Proxies = TRUSTED, **headers: str) -> Caller:
-    values = {**SAID, **{name.replace("_", "-"): value for name, value in headers.items()}}
+    values = {**FORWARDED, **{name.replace("_", "-"): value for name, value in headers.items()}}
     return proxies.caller(peer, Headers(values), is_secure=False)
 
 
 @pytest.mark.parametrize("peer", ["127.0.0.1", "::ffff:127.0.0.1", "10.1.2.3", "fd00::1"])
-def test_a_trusted_proxy_says_who_asks_and_how(peer: str) -> None:
+def test_headers_of_a_trusted_proxy_give_the_caller(peer: str) -> None:
     assert caller(peer) == Caller("203.0.113.7", ("robot.example",), True)
 
 
 @pytest.mark.parametrize("peer", ["192.0.2.1", "::1", "127.0.0.2"])
-def test_what_anybody_else_says_is_ignored(peer: str) -> None:
+def test_headers_of_other_peers_are_ignored(peer: str) -> None:
     assert caller(peer) == Caller(peer, ("127.0.0.1:8080",), False)
     assert caller("127.0.0.1", Proxies()).address == "127.0.0.1"
     assert caller("::ffff:192.0.2.1").address == "192.0.2.1"

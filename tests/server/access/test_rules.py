@@ -102,12 +102,12 @@ def test_programs_have_no_commands_that_the_server_carries_out_itself() -> None:
     assert results.isdisjoint(commands.__all__)
 
 
-def test_what_people_did_is_for_owners() -> None:
+def test_addresses_journal_and_links_are_for_owners() -> None:
     of_owners = {name for name, each in feature.stores().items() if each.role is Role.OWNER}
     assert of_owners >= {"addresses", "journal", "links"}
 
 
-def test_what_others_may_want_to_know_is_noted_for_the_owner() -> None:
+def test_commands_of_interest_to_the_owner_are_in_the_journal() -> None:
     noted = {name for name, each in feature.commands().items() if each.is_noted}
     people = {"Dismiss", "Invite", "Revoke"}
     rights = {"Allow", "AskOwner", "Decline", "Forbid"}
@@ -116,8 +116,8 @@ def test_what_others_may_want_to_know_is_noted_for_the_owner() -> None:
 
 
 @pytest.mark.parametrize("command", sorted(every_command()))
-def test_what_a_role_may_command_every_higher_role_may_too(command: str) -> None:
-    may = [not rules.refusal(role, "Do", command) for role in Role]
+def test_a_higher_role_may_send_all_commands_of_a_lower_one(command: str) -> None:
+    may = [not rules.refusal(role, "CommandRequest", command) for role in Role]
     assert may == sorted(may)
     if command in NOT_OF_PAGES:
         assert may == [False, False, False]
@@ -127,18 +127,26 @@ def test_what_a_role_may_command_every_higher_role_may_too(command: str) -> None
         assert may == [False, command not in OWNING, True]
 
 
-@pytest.mark.parametrize("kind", sorted({*rules.MESSAGES, *rules.SCENE} - {"Do"}))
+@pytest.mark.parametrize("kind", sorted({*rules.MESSAGES, *rules.SCENE} - {"CommandRequest"}))
 def test_a_watcher_sends_nothing_that_others_notice(kind: str) -> None:
-    harmless = {"Answer", "Hello", "Ping", "Unwatch", "ViewReport", "ViewerCameraMessage", "Watch"}
+    harmless = {
+        "SyncReply",
+        "Hello",
+        "Ping",
+        "Unwatch",
+        "ViewReport",
+        "ViewerCameraMessage",
+        "Watch",
+    }
     harmless |= {"FramesShown", "ReadPixel", "ShowPictures"}  # of the page's own image panes
     assert (rules.refusal(Role.WATCHER, kind) == "") == (kind in harmless)
     assert rules.refusal(Role.OWNER, kind) == ""
 
 
 @pytest.mark.parametrize(
-    "kind", ["", "None", "You", "Shell", "GuiUpdateMessage", "ShareUrlRequest"]
+    "kind", ["", "None", "Identity", "Shell", "GuiUpdateMessage", "ShareUrlRequest"]
 )
-def test_what_is_not_listed_is_refused_to_everybody(kind: str) -> None:
+def test_unlisted_messages_are_refused_to_every_role(kind: str) -> None:
     assert all(rules.refusal(role, kind) for role in Role)
 
 
@@ -155,11 +163,11 @@ def test_a_store_of_owners_is_for_owners() -> None:
     assert not rules.refusal(Role.WATCHER, "Watch", store="journals")
 
 
-def test_what_is_answered_is_refused_in_words() -> None:
+def test_refused_requests_are_answered_with_the_reason() -> None:
     drive = messages.Drive("tool", 1, 0.0, 0.0, 0.0)
     assert answer(drive, "No.") == messages.DrivingReport("tool", 0, None, "No.")
-    save = messages.Do(7, "Save", {})
-    assert answer(save, "No.") == messages.Done(7, "Save", "error", "No.", {})
+    save = messages.CommandRequest(7, "Save", {})
+    assert answer(save, "No.") == messages.CommandResult(7, "Save", "error", "No.", {})
     assert answer(messages.Ping(), "No.") is None
 
 

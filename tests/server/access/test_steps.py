@@ -13,15 +13,15 @@ from webviz.server.access.access import Access
 from webviz.server.access.proxies import Proxies
 from webviz.server.channel.modules import CHANNEL
 from webviz.server.http.hosts import HostList
-from webviz.server.http.steps import Visit, answer_of, at, behind, page, with_link, within
+from webviz.server.http.steps import RequestContext, answer_of, at, behind, page, with_link, within
 
 PAGE = b"<html><head><script>(async()=>{  const d=document.currentScript.dataset;"
 SOCKET = {"Upgrade": "websocket"}
 
 
-def visit(path: str = "/", peer: str = "10.0.0.1", **headers: str) -> Visit:
-    given = {"Host": "localhost:1", **{k.replace("_", "-"): v for k, v in headers.items()}}
-    return Visit(Request(path, Headers(given)), fetched, peer)
+def context_of(path: str = "/", peer: str = "10.0.0.1", **headers: str) -> RequestContext:
+    values = {"Host": "localhost:1", **{k.replace("_", "-"): v for k, v in headers.items()}}
+    return RequestContext(Request(path, Headers(values)), fetched, peer)
 
 
 def fetched(request: Request) -> Response | None:
@@ -33,17 +33,17 @@ def fetched(request: Request) -> Response | None:
 class Full:
     """No room for anybody."""
 
-    def absence(self, newcomer: Visit, /) -> str:
-        return "Wait." if newcomer.address == "192.0.2.1" else ""
+    def absence(self, client: RequestContext, /) -> str:
+        return "Wait." if client.address == "192.0.2.1" else ""
 
-    def refusal(self, newcomer: Visit, /) -> str:
+    def refusal(self, client: RequestContext, /) -> str:
         return "No room."
 
 
-def test_a_trusted_proxy_says_who_asks_and_by_what_name() -> None:
-    asked = visit(peer="10.0.0.1", X_Forwarded_For="192.0.2.7", X_Forwarded_Host="robot")
-    assert behind(Proxies(["10.0.0.1"]))(asked) is None
-    assert (asked.address, asked.hosts) == ("192.0.2.7", ("robot",))
+def test_headers_of_a_trusted_proxy_give_address_and_host() -> None:
+    context = context_of(peer="10.0.0.1", X_Forwarded_For="192.0.2.7", X_Forwarded_Host="robot")
+    assert behind(Proxies(["10.0.0.1"]))(context) is None
+    assert (context.address, context.hosts) == ("192.0.2.7", ("robot",))
 
 
 @pytest.mark.parametrize(
@@ -57,15 +57,15 @@ def test_a_trusted_proxy_says_who_asks_and_by_what_name() -> None:
 def test_only_pages_of_this_server_under_its_names_pass(
     host: str, origin: str, status: HTTPStatus | None
 ) -> None:
-    asked = visit(Origin=origin)
-    asked.hosts = [host]
-    reply = at(HostList("127.0.0.1"))(asked)
+    context = context_of(Origin=origin)
+    context.hosts = [host]
+    reply = at(HostList("127.0.0.1"))(context)
     assert (reply and reply.status) == status
-    assert asked.host == ("" if status else "localhost:1")
+    assert context.host == ("" if status else "localhost:1")
 
 
-def test_who_has_no_link_gets_a_page_and_no_grant() -> None:
-    reply = with_link(Access(True), 1)(visit())
+def test_a_visit_without_a_link_gets_a_page_and_no_grant() -> None:
+    reply = with_link(Access(True), 1)(context_of())
     assert reply is not None
     assert (reply.status, reply.headers["Cache-Control"]) == (HTTPStatus.FORBIDDEN, "no-store")
     assert b"<h1>webviz</h1>" in reply.body
@@ -73,25 +73,25 @@ def test_who_has_no_link_gets_a_page_and_no_grant() -> None:
 
 def test_a_channel_needs_no_room_besides_that_of_its_page() -> None:
     step = within(Full())
-    for asked in (visit(), visit(**SOCKET)):
-        reply = step(asked)
+    for context in (context_of(), context_of(**SOCKET)):
+        reply = step(context)
         assert reply is not None
         assert (reply.status, reply.body) == (HTTPStatus.SERVICE_UNAVAILABLE, b"No room.\n")
-    assert step(visit(CHANNEL, **SOCKET)) is None
+    assert step(context_of(CHANNEL, **SOCKET)) is None
 
 
-def test_who_has_to_stay_away_is_refused_pages_and_channels() -> None:
+def test_a_visitor_in_back_off_is_refused_pages_and_channels() -> None:
     step = within(Full())
-    for asked in (visit(), visit(**SOCKET), visit(CHANNEL, **SOCKET)):
-        asked.address = "192.0.2.1"
-        reply = step(asked)
+    for context in (context_of(), context_of(**SOCKET), context_of(CHANNEL, **SOCKET)):
+        context.address = "192.0.2.1"
+        reply = step(context)
         assert reply is not None
         assert (reply.status, reply.body) == (HTTPStatus.TOO_MANY_REQUESTS, b"Wait.\n")
 
 
 def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None:
     step = page(b"<style>", b"")
-    plain, packed = step(visit()), step(visit("/index.html?a", Accept_Encoding="gzip"))
+    plain, packed = step(context_of()), step(context_of("/index.html?a", Accept_Encoding="gzip"))
     assert plain is not None
     assert packed is not None
     assert (
@@ -103,16 +103,16 @@ def test_the_page_is_the_only_file_and_packed_for_those_that_unpack_it() -> None
     )
     assert "Content-Encoding" not in plain.headers
     assert (packed.headers["Content-Encoding"], packed.headers["ETag"]) == ("gzip", "1")
-    missing = step(visit("/etc/passwd"))
+    missing = step(context_of("/etc/passwd"))
     assert missing is not None
     assert missing.status == HTTPStatus.NOT_FOUND
-    assert step(visit(**SOCKET)) is None
+    assert step(context_of(**SOCKET)) is None
 
 
 def test_the_first_step_with_an_answer_ends_the_row() -> None:
-    asked = visit(peer="10.0.0.1", Host="evil.example")
+    context = context_of(peer="10.0.0.1", Host="evil.example")
     row = (behind(Proxies()), at(HostList("127.0.0.1")), with_link(Access(True), 1))
-    reply = answer_of(row, asked)
+    reply = answer_of(row, context)
     assert reply is not None
     assert b"'evil.example' is not allowed" in reply.body
-    assert answer_of((behind(Proxies()), at(HostList("127.0.0.1"))), visit()) is None
+    assert answer_of((behind(Proxies()), at(HostList("127.0.0.1"))), context_of()) is None

@@ -41,16 +41,16 @@ def test_secrets_are_random_and_long() -> None:
 
 
 def test_a_secret_is_not_shown_by_accident() -> None:
-    made = token()
-    assert made.secret not in f"{made!r} {made} {[made]}"
-    assert made.cookie not in f"{made!r}"
+    new_token = token()
+    assert new_token.secret not in f"{new_token!r} {new_token} {[new_token]}"
+    assert new_token.cookie not in f"{new_token!r}"
 
 
 def test_a_cookie_is_not_the_secret_of_the_link() -> None:
-    made = token()
-    assert made.secret not in made.cookie
-    assert access(made).by_secret(made.cookie, Role.OPERATOR) is None
-    assert access(made).by_cookie(made.secret) is None
+    new_token = token()
+    assert new_token.secret not in new_token.cookie
+    assert access(new_token).by_secret(new_token.cookie, Role.OPERATOR) is None
+    assert access(new_token).by_cookie(new_token.secret) is None
 
 
 def test_a_name_has_forty_characters_at_most() -> None:
@@ -73,30 +73,32 @@ def test_a_time_that_makes_no_sense_is_refused(days: float) -> None:
 
 
 def test_a_link_gives_the_role_that_it_names_and_no_other() -> None:
-    made = token()
-    access_rights = access(made)
+    new_token = token()
+    access_rights = access(new_token)
     for role in Role:
-        assert (access_rights.by_secret(made.secret, role) is not None) == (role is Role.OPERATOR)
-    assert link("http://robot:8080", made) == f"http://robot:8080/?operate={made.secret}"
+        assert (access_rights.by_secret(new_token.secret, role) is not None) == (
+            role is Role.OPERATOR
+        )
+    assert link("http://robot:8080", new_token) == f"http://robot:8080/?operate={new_token.secret}"
 
 
 @pytest.mark.parametrize(
-    "given", ["", "é" * 32, "\ud800", "A" * (1 << 20), SECRET[:-1], SECRET + "A"]
+    "secret", ["", "é" * 32, "\ud800", "A" * (1 << 20), SECRET[:-1], SECRET + "A"]
 )
-def test_a_wrong_secret_or_cookie_gives_nothing(given: str) -> None:
+def test_a_wrong_secret_or_cookie_gives_nothing(secret: str) -> None:
     access_rights = access(Token("a", "owner", SECRET, NOW))
-    assert access_rights.by_secret(given, Role.OWNER) is None
-    assert access_rights.by_cookie(given) is None
+    assert access_rights.by_secret(secret, Role.OWNER) is None
+    assert access_rights.by_cookie(secret) is None
 
 
 def test_an_expired_token_counts_no_more() -> None:
-    made = token(days=1.0)
-    grant = access(made).by_secret(made.secret, Role.OPERATOR)
+    new_token = token(days=1.0)
+    grant = access(new_token).by_secret(new_token.secret, Role.OPERATOR)
     assert grant is not None
     for hours, is_valid in ((23, True), (24, False), (25, False)):
-        later = access(made, now=NOW + timedelta(hours=hours))
-        assert (later.by_secret(made.secret, Role.OPERATOR) is not None) == is_valid
-        assert (later.by_cookie(made.cookie) is not None) == later.holds(grant) == is_valid
+        later = access(new_token, now=NOW + timedelta(hours=hours))
+        assert (later.by_secret(new_token.secret, Role.OPERATOR) is not None) == is_valid
+        assert (later.by_cookie(new_token.cookie) is not None) == later.holds(grant) == is_valid
 
 
 def test_without_tokens_everybody_is_an_owner() -> None:
@@ -104,7 +106,7 @@ def test_without_tokens_everybody_is_an_owner() -> None:
     assert EVERYBODY.role is Role.OWNER
 
 
-def test_the_program_itself_is_a_watcher_that_nobody_sees() -> None:
+def test_the_program_itself_is_an_unlisted_watcher() -> None:
     access_rights = access()
     grant = access_rights.by_cookie(access_rights.own.cookie)
     assert grant is not None
@@ -113,19 +115,19 @@ def test_the_program_itself_is_a_watcher_that_nobody_sees() -> None:
 
 
 def test_the_file_is_private_and_comes_back(path: Path) -> None:
-    made = [token("a"), token("b", days=3.0)]
+    tokens = [token("a"), token("b", days=3.0)]
     old = os.umask(0)
     try:
-        token_file.modify(path, lambda _: made)
+        token_file.modify(path, lambda _: tokens)
     finally:
         os.umask(old)
     assert path.stat().st_mode & 0o777 == 0o600
     assert path.parent.stat().st_mode & 0o777 == 0o700
-    assert token_file.read(path) == tuple(made)
+    assert token_file.read(path) == tuple(tokens)
     assert [each.name for each in path.parent.iterdir()] == ["tokens.json"]
 
 
-def test_no_file_is_no_token(path: Path) -> None:
+def test_a_missing_file_has_no_tokens(path: Path) -> None:
     assert token_file.read(path) == ()
 
 
@@ -190,7 +192,7 @@ def test_a_file_that_cannot_be_written_is_an_error_with_the_reason(path: Path) -
         token_file.modify(path, lambda _: [token()])
 
 
-def test_what_is_no_file_is_an_error_at_once(path: Path) -> None:
+def test_a_pipe_in_place_of_the_file_is_an_error_at_once(path: Path) -> None:
     path.parent.mkdir()
     os.mkfifo(path, 0o600)
     with pytest.raises(TokenError, match="is not a file"):
@@ -251,7 +253,7 @@ def test_programs_that_change_the_file_at_once_lose_nothing(
     assert {each.name for each in token_file.read(path)} == {str(number) for number in range(8)}
 
 
-def test_a_file_is_read_again_only_if_it_has_changed_and_somebody_asks(
+def test_a_file_is_read_again_only_if_changed_and_tokens_are_required(
     path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     token_file.modify(path, lambda _: [token()])
@@ -263,8 +265,8 @@ def test_a_file_is_read_again_only_if_it_has_changed_and_somebody_asks(
 
 
 def test_a_token_that_is_revoked_in_the_file_counts_no_more(path: Path) -> None:
-    kept, revoked = token("kept"), token("revoked")
-    token_file.modify(path, lambda _: [kept, revoked])
+    valid, revoked = token("kept"), token("revoked")
+    token_file.modify(path, lambda _: [valid, revoked])
     access_rights = Access(True, path, now=lambda: NOW)
     grant = access_rights.by_cookie(revoked.cookie)
     assert grant is not None
@@ -272,25 +274,25 @@ def test_a_token_that_is_revoked_in_the_file_counts_no_more(path: Path) -> None:
     access_rights.refresh()
     assert not access_rights.holds(grant)
     assert access_rights.by_cookie(revoked.cookie) is None
-    assert access_rights.by_cookie(kept.cookie) is not None
+    assert access_rights.by_cookie(valid.cookie) is not None
 
 
 def test_no_token_of_a_file_counts_that_others_may_read_meanwhile(
     path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    made = token()
-    token_file.modify(path, lambda _: [made])
+    new_token = token()
+    token_file.modify(path, lambda _: [new_token])
     access_rights = Access(True, path, now=lambda: NOW)
     path.chmod(0o644)
     access_rights.refresh()
-    assert access_rights.by_cookie(made.cookie) is None
+    assert access_rights.by_cookie(new_token.cookie) is None
     assert "chmod 600" in caplog.text
     path.chmod(0o600)
     access_rights.refresh()
-    assert access_rights.by_cookie(made.cookie) is not None
+    assert access_rights.by_cookie(new_token.cookie) is not None
 
 
-def test_tokens_of_the_environment_are_taken_out_of_it() -> None:
+def test_tokens_are_removed_from_the_environment() -> None:
     environment = {"WEBVIZ_TOKEN_OPERATE": SECRET, "HOME": "/"}
     access_rights = access_to("127.0.0.1", environment=environment)
     assert access_rights.asks
@@ -306,7 +308,7 @@ def test_a_weak_token_of_the_environment_is_refused_and_not_quoted(secret: str) 
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "::1", "127.3.2.1"])
-def test_this_machine_alone_needs_no_token_unless_asked(host: str, path: Path) -> None:
+def test_a_viewer_on_this_machine_only_needs_no_token_by_default(host: str, path: Path) -> None:
     assert is_local(host)
     assert not access_to(host, path=path, environment={}).asks
     assert access_to(host, True, path, {}).asks
@@ -330,7 +332,7 @@ def test_an_address_that_cannot_be_resolved_is_not_only_of_this_machine() -> Non
     assert not is_local("a..b")
 
 
-def test_a_viewer_that_asks_for_no_tokens_makes_none(path: Path) -> None:
+def test_a_viewer_without_tokens_makes_none(path: Path) -> None:
     make_missing(Access(False, path))
     assert not path.exists()
 
@@ -338,10 +340,10 @@ def test_a_viewer_that_asks_for_no_tokens_makes_none(path: Path) -> None:
 def test_a_disk_that_does_not_respond_is_logged_once(
     path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    known, mounted = Access(True, path), threading.Event()
-    monkeypatch.setattr(known, "refresh", lambda: mounted.wait(60.0))
+    rights, mounted = Access(True, path), threading.Event()
+    monkeypatch.setattr(rights, "refresh", lambda: mounted.wait(60.0))
     for number in range(10):
-        known.begin_refresh(lambda: None)
+        rights.begin_refresh(lambda: None)
         is_said = number >= 5  # the first look waits for the disk
         assert ["does not respond" in text for text in caplog.messages] == [True] * is_said
     mounted.set()
@@ -352,7 +354,7 @@ def test_a_viewer_with_a_token_of_the_environment_makes_none(path: Path) -> None
     assert not path.exists()
 
 
-def test_a_viewer_that_nobody_could_enter_does_not_start(path: Path) -> None:
+def test_a_viewer_without_a_valid_token_does_not_start(path: Path) -> None:
     old = Token("a", "owner", SECRET, NOW, datetime(2000, 1, 1, tzinfo=UTC))
     token_file.modify(path, lambda _: [old])
     with pytest.raises(TokenError, match=r"has expired\. Run `webviz token make`"):
@@ -368,45 +370,47 @@ TYPED = Headers([("Sec-Fetch-Site", "none")])
 
 
 def test_a_cookie_is_that_of_the_port() -> None:
-    made = token()
-    access_rights = access(made)
-    assert login.grant_of(access_rights, headers(f"webviz_80={made.cookie}"), 80)
-    assert login.grant_of(access_rights, headers(f"a=b; webviz_80 = {made.cookie} ;c"), 80)
+    new_token = token()
+    access_rights = access(new_token)
+    assert login.grant_of(access_rights, headers(f"webviz_80={new_token.cookie}"), 80)
+    assert login.grant_of(access_rights, headers(f"a=b; webviz_80 = {new_token.cookie} ;c"), 80)
     for wrong in (
-        f"webviz_81={made.cookie}",
-        f"Webviz_80={made.cookie}",
-        f"webviz_80={made.cookie}x",
-        f"webviz_80={made.cookie.upper()}",
-        f"webviz_80={made.secret}",
+        f"webviz_81={new_token.cookie}",
+        f"Webviz_80={new_token.cookie}",
+        f"webviz_80={new_token.cookie}x",
+        f"webviz_80={new_token.cookie.upper()}",
+        f"webviz_80={new_token.secret}",
         "webviz_80=",
         "webviz_80",
         "",
-        ";" * 10_000 + f"webviz_80={made.cookie}",
+        ";" * 10_000 + f"webviz_80={new_token.cookie}",
     ):
         assert login.grant_of(access_rights, headers(wrong), 80) is None
 
 
-def test_a_cookie_that_another_service_of_the_host_sets_shadows_none() -> None:
-    made = token()
-    tossed = f"webviz_80=other; webviz_80={made.cookie}"
-    assert login.grant_of(access(made), headers(tossed), 80)
-    assert login.grant_of(access(made), headers("webviz_80=other", f"webviz_80={made.cookie}"), 80)
+def test_a_cookie_of_another_service_shadows_none() -> None:
+    new_token = token()
+    tossed = f"webviz_80=other; webviz_80={new_token.cookie}"
+    assert login.grant_of(access(new_token), headers(tossed), 80)
+    assert login.grant_of(
+        access(new_token), headers("webviz_80=other", f"webviz_80={new_token.cookie}"), 80
+    )
 
 
-def test_of_several_cookies_the_one_that_allows_most_counts() -> None:
-    made = [token(role.label, role) for role in (Role.OPERATOR, Role.OWNER, Role.WATCHER)]
-    cookies = "; ".join(f"webviz_80={each.cookie}" for each in made)
-    grant = login.grant_of(access(*made), headers(cookies), 80)
+def test_the_highest_role_of_several_cookies_counts() -> None:
+    tokens = [token(role.label, role) for role in (Role.OPERATOR, Role.OWNER, Role.WATCHER)]
+    cookies = "; ".join(f"webviz_80={each.cookie}" for each in tokens)
+    grant = login.grant_of(access(*tokens), headers(cookies), 80)
     assert grant is not None
     assert grant.role is Role.OWNER
 
 
 def test_a_request_with_all_its_cookies_costs_little_beside_many_tokens() -> None:
-    known = access(*(token(str(number)) for number in range(MAX_TOKENS)))
+    rights = access(*(token(str(number)) for number in range(MAX_TOKENS)))
     cookies = headers("; ".join(["webviz_80=" + "a" * 64] * login.MAX_COOKIES))
     start = time.process_time()
     for _ in range(100):
-        assert login.grant_of(known, cookies, 80) is None
+        assert login.grant_of(rights, cookies, 80) is None
     assert time.process_time() - start < 0.2  # 2 ms each; comparing with every token took 11 ms
 
 
@@ -415,21 +419,23 @@ def test_the_page_without_access_sets_commands_apart() -> None:
 
 
 def test_a_link_leads_to_an_address_without_the_token() -> None:
-    made = token(days=1.0)
+    new_token = token(days=1.0)
     answer = login.welcome(
-        access(made), f"/?fixedDpr=1&operate={made.secret}", TYPED, 80, is_secure=False
+        access(new_token), f"/?fixedDpr=1&operate={new_token.secret}", TYPED, 80, is_secure=False
     )
     assert answer is not None
     assert (answer.status, answer.headers["Location"]) == (303, "./?fixedDpr=1")
     assert answer.headers["Set-Cookie"] == (
-        f"webviz_80={made.cookie}; Max-Age=86400; HttpOnly; SameSite=Strict"
+        f"webviz_80={new_token.cookie}; Max-Age=86400; HttpOnly; SameSite=Strict"
     )
-    assert made.secret not in str(answer)
+    assert new_token.secret not in str(answer)
 
 
 def test_with_tls_the_cookie_is_sent_by_tls_only() -> None:
-    made = token()
-    answer = login.welcome(access(made), f"/?operate={made.secret}", TYPED, 80, is_secure=True)
+    new_token = token()
+    answer = login.welcome(
+        access(new_token), f"/?operate={new_token.secret}", TYPED, 80, is_secure=True
+    )
     assert answer is not None
     assert answer.headers["Set-Cookie"].endswith("; SameSite=Strict; Secure")
 
@@ -449,6 +455,6 @@ def test_with_tls_the_cookie_is_sent_by_tls_only() -> None:
     ],
 )
 def test_a_link_that_is_not_exactly_right_is_refused(query: str) -> None:
-    made = token()
-    path = "/?" + query.replace("SECRET", made.secret)
-    assert login.welcome(access(made), path, headers(), 80, is_secure=False) is None
+    new_token = token()
+    path = "/?" + query.replace("SECRET", new_token.secret)
+    assert login.welcome(access(new_token), path, headers(), 80, is_secure=False) is None

@@ -28,9 +28,9 @@ from webviz.api.roles import Role
 from webviz.data.messages import encode
 from webviz.server.access.access import Access
 from webviz.server.access.tokens import make
+from webviz.shell.agents.agent_tools import AgentTools
 from webviz.shell.agents.caller import AgentCaller
-from webviz.shell.agents.server import HttpServer, made
-from webviz.shell.agents.tools import AgentTools
+from webviz.shell.agents.server import HttpServer, make_server
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource
 
@@ -55,11 +55,11 @@ def finished(work: Coroutine[Any, Any, T]) -> T:
         return thread.submit(asyncio.run, work).result()
 
 
-def asked(tools: AgentTools, role: Role, *calls: tuple[str, dict[str, Any]]) -> list[str]:
+def answers_of(tools: AgentTools, role: Role, *calls: tuple[str, dict[str, Any]]) -> list[str]:
     """The answers to calls of one agent."""
 
     async def work() -> list[str]:
-        server = made(tools, lambda: AgentCaller("ada", role))
+        server = make_server(tools, lambda: AgentCaller("ada", role))
         async with Client(server) as client:
             answers = [await client.call_tool(name, values) for name, values in calls]
             return [each.content[0].text for each in answers]  # pyright: ignore[reportAttributeAccessIssue]
@@ -72,12 +72,12 @@ def publish(source: HandFedSource) -> None:
     source.put("/scan", "sensor_msgs/msg/LaserScan", encode("sensor_msgs/msg/LaserScan", values))
 
 
-def test_why_the_scan_is_not_shown_takes_one_call(
+def test_one_call_explains_a_missing_scan(
     viewer: webviz.Viewer, source: HandFedSource, tools: AgentTools, journal: list[str]
 ) -> None:
     viewer.config = {"fixed_frame": "map", "displays": [{"type": "LaserScan", "name": "Scan"}]}
     publish(source)
-    (answer,) = asked(tools, Role.WATCHER, ("explain", {"display": "Scan"}))
+    (answer,) = answers_of(tools, Role.WATCHER, ("explain", {"display": "Scan"}))
     findings, _, statuses = answer.partition("\nFixed frame: map.\n")
     first = "Findings, in the order of repair:\nERROR TF001: No node publishes transforms."
     assert findings.startswith(first)
@@ -86,7 +86,7 @@ def test_why_the_scan_is_not_shown_takes_one_call(
     assert journal == ["ada: asked what is wrong with Scan"]
 
 
-def test_messages_topics_and_transforms_are_told_in_words(
+def test_messages_topics_and_transforms_are_given_in_sentences(
     viewer: webviz.Viewer, source: HandFedSource, tools: AgentTools
 ) -> None:
     publish(source)
@@ -99,7 +99,7 @@ def test_messages_topics_and_transforms_are_told_in_words(
     thread = threading.Thread(target=keep_publishing)
     thread.start()
     try:
-        topics, message, none, missing = asked(
+        topics, message, none, missing = answers_of(
             tools,
             Role.WATCHER,
             ("topics", {}),
@@ -121,15 +121,15 @@ def test_a_role_decides_what_an_agent_may_do(
     viewer: webviz.Viewer, tools: AgentTools, journal: list[str], tmp_path: Path
 ) -> None:
     frame = ("act", {"command": "SetFixedFrame", "fields": {"frame": "odom"}})
-    (refusal,) = asked(tools, Role.WATCHER, frame)
+    (refusal,) = answers_of(tools, Role.WATCHER, frame)
     assert "SetFixedFrame needs an operator" in refusal
     assert viewer.fixed_frame == "map"
     assert journal == ["ada: was refused SetFixedFrame"]
-    (done,) = asked(tools, Role.OPERATOR, frame)
-    assert (viewer.fixed_frame, done) == ("odom", "Done.")
+    (answer,) = answers_of(tools, Role.OPERATOR, frame)
+    assert (viewer.fixed_frame, answer) == ("odom", "Done.")
     assert journal[1:] == ["ada: SetFixedFrame {'frame': 'odom'}"]
     elsewhere = tmp_path / "stolen.yaml"
-    answers = asked(
+    answers = answers_of(
         tools,
         Role.OWNER,
         ("act", {"command": "Save", "fields": {"path": str(elsewhere)}}),
@@ -170,7 +170,7 @@ def _answers(port: int) -> bool:
         return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
-def test_over_http_a_token_gives_its_role_and_nothing_is_told_without(
+def test_a_token_over_http_gives_its_role_and_is_required(
     viewer: webviz.Viewer, over_http: tuple[str, dict[str, str]]
 ) -> None:
     url, secrets = over_http
@@ -181,10 +181,10 @@ def test_over_http_a_token_gives_its_role_and_nothing_is_told_without(
             httpx2.AsyncClient(headers=headers) as http,
             Client(streamable_http_client(url, http_client=http)) as client,
         ):
-            done = await client.call_tool(
+            result = await client.call_tool(
                 "act", {"command": "SetFixedFrame", "fields": {"frame": "odom"}}
             )
-            return done.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
+            return result.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
 
     assert "needs an operator" in finished(act(secrets["ada"]))
     assert viewer.fixed_frame == "map"
@@ -206,9 +206,9 @@ def test_a_program_that_speaks_on_its_standard_streams(tmp_path: Path) -> None:
     command = ["-m", "webviz", "mcp", "--port", "0", "--no-autosave", "-d", str(config)]
 
     async def work(client: Client) -> tuple[list[Any], str]:
-        seen = await client.call_tool("see", {"views": [{"type": "Orbit", "distance": 9}, None]})
+        result = await client.call_tool("see", {"views": [{"type": "Orbit", "distance": 9}, None]})
         at = await client.call_tool("select", {"x": 440, "y": 300})
-        return [*seen.content], at.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
+        return [*result.content], at.content[0].text  # pyright: ignore[reportAttributeAccessIssue]
 
     pictures, at = run(StdioServerParameters(command=sys.executable, args=command), work)
     pixels = [

@@ -47,8 +47,8 @@ def test_page_websockets_and_uploads_work_below_a_path(
     viewer.config = {"displays": [{"type": "Grid"}]}
     with running(name, tmp_path, [viewer.port], certificate(tmp_path)) as port:
         own = f"robots.example:{port}"
-        assert told(port, own, "/robot1/").startswith(b"HTTP/1.1 403 ")
-        let_in = told(port, own, f"/robot1/?own={SECRET}")
+        assert answer_of(port, own, "/robot1/").startswith(b"HTTP/1.1 403 ")
+        let_in = answer_of(port, own, f"/robot1/?own={SECRET}")
         assert let_in.startswith(b"HTTP/1.1 303 ")
         assert b"\r\nLocation: ./\r\n" in let_in
         (cookie,) = re.findall(rb"\r\nSet-Cookie: (\w+)=(\w+);[^\r]*; Secure\r\n", let_in)
@@ -78,17 +78,17 @@ def test_page_websockets_and_uploads_work_below_a_path(
         page.close()
 
         secret = f"{cookie_name}={value}"
-        assert is_upgraded(told(port, own, "/robot1/", f"https://{own}", secret))
-        assert not is_upgraded(told(port, own, "/robot1/", f"https://{own}", ""))
+        assert is_upgraded(answer_of(port, own, "/robot1/", f"https://{own}", secret))
+        assert not is_upgraded(answer_of(port, own, "/robot1/", f"https://{own}", ""))
         for host, origin in (
             (own, "https://evil.example"),
             (own, f"https://127.0.0.1:{viewer.port}"),
             ("evil.example", "https://evil.example"),
         ):
-            assert not is_upgraded(told(port, host, "/robot1/", origin, secret))
+            assert not is_upgraded(answer_of(port, host, "/robot1/", origin, secret))
 
 
-def told(port: int, host: str, path: str, origin: str = "", cookie: str = "") -> bytes:
+def answer_of(port: int, host: str, path: str, origin: str = "", cookie: str = "") -> bytes:
     """The head of a proxy's answer: to a websocket of a page of an origin, or to a request."""
     context = ssl.create_default_context()
     authority().configure_trust(context)

@@ -7,14 +7,14 @@ import pytest
 import webviz
 from tests.scene.conftest import Peer
 from tests.support.guest import Served
-from webviz.engine.loop import loop
+from webviz.engine.loop import turn
 from webviz.shell.testing.source import HandFedSource
 
 
 def test_it_sees_the_scene_before_the_next_turn_of_an_idle_viewer(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(loop, "IDLE_S", 600.0)
+    monkeypatch.setattr(turn, "IDLE_S", 600.0)
     with webviz.Viewer(port=0, source=HandFedSource()) as viewer:
         viewer.config = {"displays": [{"type": "Grid", "name": "Ground"}]}
         peer = Peer(Served(viewer.port))

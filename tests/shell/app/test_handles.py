@@ -80,7 +80,9 @@ def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer, refuse
     assert not hasattr(scan, "siez")
 
 
-def test_what_is_no_property_cannot_be_set(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_attributes_that_are_not_properties_cannot_be_set(
+    viewer: webviz.Viewer, refused: Refused
+) -> None:
     grid = viewer.add("Grid")
 
     def pretend() -> None:
@@ -90,7 +92,7 @@ def test_what_is_no_property_cannot_be_set(viewer: webviz.Viewer, refused: Refus
 
 
 @pytest.mark.parametrize("name", sorted(display_types()))
-def test_no_property_is_hidden_by_what_every_display_has(name: str) -> None:
+def test_no_property_is_hidden_by_an_attribute_of_the_handle(name: str) -> None:
     own = {word for word in vars(DisplayHandle) if not word.startswith("_")}
     assert not own & set(display_types()[name].__struct_fields__)
 
@@ -102,7 +104,7 @@ def test_completion_offers_properties_and_names(viewer: webviz.Viewer) -> None:
     assert repr(scan).startswith("<LaserScan 'Front scan': WARN No publisher on /scan")
 
 
-def test_statuses_say_what_the_panel_says(viewer: webviz.Viewer) -> None:
+def test_statuses_equal_those_of_the_panel(viewer: webviz.Viewer) -> None:
     scan = viewer.add("LaserScan", topic="/front")
     assert scan.status.level is webviz.Level.WARN
     assert scan.status in scan.statuses.values()
@@ -172,7 +174,9 @@ def test_a_topic_is_shown_by_the_display_that_fits(
     assert viewer.add(topic="/odd").type == "Text"
 
 
-def test_an_entry_that_cannot_be_shown_says_why(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_an_invalid_entry_is_refused_with_the_reason(
+    viewer: webviz.Viewer, refused: Refused
+) -> None:
     viewer.config = {"displays": [{"type": "Gird", "name": "Floor"}]}
     floor = viewer["Floor"]
     assert floor.type == ""
@@ -181,5 +185,5 @@ def test_an_entry_that_cannot_be_shown_says_why(viewer: webviz.Viewer, refused: 
 
 def test_threads_may_add_displays_at_the_same_time(viewer: webviz.Viewer) -> None:
     with ThreadPoolExecutor(8) as pool:
-        made = list(pool.map(lambda i: viewer.add("Grid", name=f"Grid {i}"), range(40)))
-    assert [grid.name for grid in made] == [f"Grid {i}" for i in range(40)]
+        displays = list(pool.map(lambda i: viewer.add("Grid", name=f"Grid {i}"), range(40)))
+    assert [grid.name for grid in displays] == [f"Grid {i}" for i in range(40)]

@@ -18,6 +18,6 @@ def test_rates_are_read_in_decimal_units(text: str, bits: float) -> None:
 @pytest.mark.parametrize(
     "text", ["5", "5Mbps", "-1Mbit/s", "nan Mbit/s", "0Mbit/s", f"{10**400}bit/s"]
 )
-def test_what_is_not_the_rate_of_a_link_is_refused(text: str) -> None:
+def test_invalid_rates_are_refused(text: str) -> None:
     with pytest.raises(Error, match=r"[Tt]he rate of (a|the) link"):
         bytes_per_second(text)

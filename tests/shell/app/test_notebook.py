@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import functools
-import http.server
 import sys
-import threading
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -14,6 +11,7 @@ from types import ModuleType
 
 import playwright.sync_api as playwright
 import pytest
+from serving import served_folder
 
 import webviz
 from webviz.api.roles import Role
@@ -26,7 +24,7 @@ from webviz.shell.testing.source import HandFedSource
 SIZE: playwright.ViewportSize = {"width": 400, "height": 300}
 REACH = """() => {
   const inside = document.querySelector("iframe").contentWindow;
-  for (const type of ["Do", "connect", "message"])
+  for (const type of ["CommandRequest", "connect", "message"])
     for (let i = 0; i < 100; i++) inside.postMessage({ type, command: "Load", data: "x" }, "*");
   return ["webviz", "document", "localStorage", "eval"].filter((name) => {
     try {
@@ -43,14 +41,8 @@ Refused = Callable[[Callable[[], object]], str]
 @pytest.fixture
 def folder(tmp_path: Path) -> Iterator[tuple[Path, int]]:
     """A folder of pages that are served, and the port."""
-    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=str(tmp_path))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    yield tmp_path, server.server_port
-    server.shutdown()
-    thread.join()
-    server.server_close()
+    with served_folder(tmp_path) as port:
+        yield tmp_path, port
 
 
 def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
@@ -59,11 +51,11 @@ def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
     path, port = folder
     origin = f"http://localhost:{port}"
     with (
-        webviz.Viewer(port=0, source=HandFedSource(), embed_in=(origin,), token=True) as shown,
+        webviz.Viewer(port=0, source=HandFedSource(), embed_in=(origin,), token=True) as viewer,
         webviz.Viewer(port=0, source=HandFedSource(), embed_in=()) as closed,
         contextlib.closing(browser.new_page(viewport=SIZE)) as page,
     ):
-        (path / "open.html").write_text(shown._repr_html_())
+        (path / "open.html").write_text(viewer._repr_html_())
         (path / "closed.html").write_text(f"<iframe src={closed.url!r}></iframe>")
         page.goto(f"{origin}/open.html")
         frame = page.wait_for_selector("iframe")
@@ -78,18 +70,16 @@ def test_a_page_that_may_embeds_the_viewer_and_others_do_not(
         assert all("chrome-error" in each.url for each in page.frames[1:])
         assert "<iframe" not in closed._repr_html_()
         assert closed.url in closed._repr_html_()
-    assert "?watch=" in shown._repr_html_(), "what is saved with a notebook lets nobody act"
+    assert "?watch=" in viewer._repr_html_(), "what is saved with a notebook lets nobody act"
 
 
 @pytest.mark.parametrize("role", [Role.OPERATOR, Role.OWNER])
-def test_a_saved_notebook_lets_nobody_act_even_if_no_watcher_is_invited(
-    role: Role, tmp_path: Path
-) -> None:
+def test_a_saved_notebook_grants_at_most_watching(role: Role, tmp_path: Path) -> None:
     token = make("me", role, datetime.now(UTC), days=1.0)
     token_file.modify(tmp_path / "tokens.json", lambda _: [token])
     access = Access(True, tmp_path / "tokens.json")
-    shown = html("http://127.0.0.1:8080/", access, True)
-    assert 'src="http://localhost:8080/"' in shown
+    page = html("http://127.0.0.1:8080/", access, True)
+    assert 'src="http://localhost:8080/"' in page
     watcher = make("you", Role.WATCHER, datetime.now(UTC), days=1.0)
     token_file.modify(tmp_path / "tokens.json", lambda tokens: [*tokens, watcher])
     access.refresh()

@@ -107,9 +107,9 @@ def test_stack_traces_lead_to_names_and_lines(page: Page) -> None:
     completed = subprocess.run(
         node, input=answer.text(), capture_output=True, text=True, check=True
     )
-    name, found = json.loads(completed.stdout)
+    name, index = json.loads(completed.stdout)
     assert name == "keys.js"
-    assert "key.length" in sources()[name].splitlines()[found]
+    assert "key.length" in sources()[name].splitlines()[index]
     assert answer.json()["sourcesContent"][answer.json()["sources"].index(name)] == sources()[name]
 
 

@@ -13,7 +13,7 @@ import playwright.sync_api as playwright
 import pytest
 
 import webviz
-from tests.page.test_whole_page import FONT, HAS_FONT
+from tests.page.still_pages import FONT, HAS_FONT
 from webviz.commands import SetToolProperty, ShowView
 from webviz.files.opening import parse
 from webviz.shell.app.picture_controls import checked_view

@@ -12,6 +12,7 @@ import playwright.sync_api as playwright
 import pytest
 from pages import COARSE
 from playwright.sync_api import expect
+from serving import serving
 
 import webviz
 from webviz.shell.testing.source import HandFedSource
@@ -59,14 +60,12 @@ def _copy(source: socket.socket, target: socket.socket) -> None:
 def proxy() -> Iterator[Proxy]:
     with (
         webviz.Viewer(port=0, source=HandFedSource()) as viewer,
-        Proxy(viewer.port) as proxy,
+        serving(Proxy(viewer.port)) as proxy,
     ):
-        threading.Thread(target=proxy.serve_forever, daemon=True).start()
         yield proxy
-        proxy.shutdown()
 
 
-def test_a_page_whose_websocket_is_refused_says_why_until_it_opens(
+def test_a_page_shows_why_its_websocket_is_refused_until_it_opens(
     proxy: Proxy, browser: playwright.Browser, said_on_consoles: list[str]
 ) -> None:
     context = browser.new_context(viewport={"width": 500, "height": 300})

@@ -97,9 +97,7 @@ def drag(page: Page, dx: float, dy: float, button: Any = "left") -> None:
     mouse.up(button=button)
 
 
-def test_it_shows_what_its_own_camera_sees_without_what_it_leaves_out(
-    viewer: webviz.Viewer, page: Page
-) -> None:
+def test_it_has_its_own_camera_and_hides_chosen_displays(viewer: webviz.Viewer, page: Page) -> None:
     page.wait_for(lambda: color(page, 2, 0) == "r" and color(page, 0, 2) == "g", "axes are there")
     assert color(page, -2, 0) == color(page, 0, -2) == color(page, 5, 0) == ""
     viewer.do(SetPanelProperty("3D scene", "displays", {"Axes": False}))
@@ -182,7 +180,7 @@ def test_the_menu_looks_from_the_top_and_as_the_main_scene(
     assert camera_of(viewer)["yaw"] == pytest.approx(-math.pi / 2)
 
 
-def test_of_five_scenes_four_are_drawn(viewer: webviz.Viewer, page: Page) -> None:
+def test_at_most_four_scenes_are_drawn(viewer: webviz.Viewer, page: Page) -> None:
     places = [{"panel": f"SceneView {n}"} for n in range(2, 6)]
     for _ in range(4):
         viewer.do(AddPanel("SceneView", {}))

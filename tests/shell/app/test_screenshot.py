@@ -31,7 +31,7 @@ def is_red(pixels: np.ndarray) -> float:
     return float(((red > 120) & (green < 60) & (blue < 60)).mean())
 
 
-def test_a_picture_has_what_was_added_just_before_and_images_beside_the_scene(
+def test_a_picture_has_displays_just_added_and_image_panes(
     viewer: webviz.Viewer, source: HandFedSource, tmp_path: Path
 ) -> None:
     viewer.background = BEHIND
@@ -75,7 +75,7 @@ def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> 
     assert "visuals loaded" in robot.statuses["URDF"].text
 
 
-def test_what_cannot_be_made_is_refused(
+def test_invalid_screenshots_are_refused(
     viewer: webviz.Viewer,
     refused: Callable[[Callable[[], object]], str],
     monkeypatch: pytest.MonkeyPatch,

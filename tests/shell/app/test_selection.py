@@ -149,15 +149,15 @@ def test_a_click_on_a_point_of_75_000_gets_its_index_in_the_message(
     view = {"type": "Orbit", "distance": 30.0, "pitch": 0.9, "yaw": 0.7}
     viewer.do(ShowView(checked_view(view)))
     page.draw()
-    shown = numbers_in(pixels_at_rest(page))
-    around = [np.roll(shown, shift, (0, 1)) for shift in itertools.product((-1, 0, 1), repeat=2)]
-    is_one = (np.stack(around) == shown).all(axis=0) & (shown >= 0) & (shown < COUNT)
+    numbers = numbers_in(pixels_at_rest(page))
+    around = [np.roll(numbers, shift, (0, 1)) for shift in itertools.product((-1, 0, 1), repeat=2)]
+    is_one = (np.stack(around) == numbers).all(axis=0) & (numbers >= 0) & (numbers < COUNT)
     ys, xs = np.nonzero(is_one[MIDDLE])
     page.tab.keyboard.press("Escape")
     page.tab.keyboard.press("s")
     for row in np.random.default_rng(2).choice(len(xs), 2, replace=False):
         x, y = int(xs[row]) + 400, int(ys[row]) + 120
-        index = int(shown[y, x])
+        index = int(numbers[y, x])
         page.tab.mouse.click(x, y)
         wait_for_titles(page, [f"Point {index}"])
         row_of = page.tab.locator(".wv-selection .wv-field-row", has_text="temperature")
@@ -229,9 +229,9 @@ def test_clicks_on_markers_get_their_ids_texts_and_shapes_over_lines_included(
     for at, title in ((box, "Marker room/3"), (text, "Marker room/4")):
         page.tab.mouse.click(*on_screen(page, at))
         wait_for_titles(page, [title])
-    told = page.tab.locator(".wv-selection").inner_text().split("\n")
-    assert told[told.index("Type") + 1] == "TEXT_VIEW_FACING"
-    assert told[told.index("Text") + 1] == "Dock"
+    lines = page.tab.locator(".wv-selection").inner_text().split("\n")
+    assert lines[lines.index("Type") + 1] == "TEXT_VIEW_FACING"
+    assert lines[lines.index("Text") + 1] == "Dock"
     viewer.do(SetProperty("display4", "enabled", False))
 
 

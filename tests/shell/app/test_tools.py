@@ -135,7 +135,7 @@ def test_a_click_without_a_drag_keeps_no_old_heading(page: Page, graph: Remember
 
 
 @pytest.mark.parametrize(("key", "topic"), [("g", "/goal_pose"), ("p", "/initialpose")])
-def test_ctrl_lifts_a_pose_and_the_hint_says_where_it_is(
+def test_ctrl_lifts_a_pose_and_the_hint_gives_its_position(
     page: Page, graph: RememberingGraph, viewer: webviz.Viewer, key: str, topic: str
 ) -> None:
     show(viewer, {"type": "Orbit", "distance": 10.0, "yaw": -1.570796, "pitch": 0.5})
@@ -224,7 +224,7 @@ def test_points_follow_each_other_without_single_click(
     page.wait_for(lambda: not page.evaluate(STAYS, "Publish Point"), "the tool as before")
 
 
-def test_a_gesture_goes_on_when_somebody_changes_its_tool(
+def test_a_gesture_continues_when_its_tool_changes(
     page: Page, graph: RememberingGraph, viewer: webviz.Viewer
 ) -> None:
     page.tab.keyboard.press("u")
@@ -375,7 +375,7 @@ def test_the_tools_have_the_order_of_rviz(page: Page) -> None:
     assert [label for label in labels if label in KEYS.values()] == list(KEYS.values())
 
 
-def test_a_tool_that_asks_sends_nothing_before_it_is_told_to(
+def test_a_tool_with_confirm_sends_nothing_before_confirmation(
     page: Page, graph: RememberingGraph, viewer: webviz.Viewer
 ) -> None:
     tab, card = page.tab, page.tab.get_by_role("group", name="Send this?")
@@ -496,7 +496,7 @@ def drag_works(page: Page, graph: RememberingGraph) -> None:
     assert len(graph.published) == 1
 
 
-def test_a_source_that_only_reads_says_so(
+def test_tools_of_a_read_only_source_are_disabled_with_the_reason(
     page: Page, source: HandFedSource, graph: RememberingGraph
 ) -> None:
     reason = "This source can only be read."
@@ -508,7 +508,7 @@ def test_a_source_that_only_reads_says_so(
     assert not is_active(page)
     tips = disabled.evaluate_all("(all) => all.map((one) => one.dataset.tip)")
     assert f"2D Goal Pose: {reason}" in tips
-    page.tab.evaluate("async () => (await import('webviz/tools/hint.js')).tell('hint', '')")
+    page.tab.evaluate("async () => (await import('webviz/tools/hint.js')).showHint('hint', '')")
     page.tab.keyboard.press("g")
     assert answer(page) == reason
     assert not is_active(page)

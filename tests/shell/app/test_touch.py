@@ -133,7 +133,7 @@ def test_fingers_four_times_as_far_apart_make_everything_four_times_as_large(
     assert turned == pytest.approx([0, 0], abs=0.02), "the finger that is left does not turn"
 
 
-def test_two_fingers_move_what_is_under_them(viewer: webviz.Viewer, fingers: Fingers) -> None:
+def test_two_fingers_pan_the_view(viewer: webviz.Viewer, fingers: Fingers) -> None:
     before = show(viewer, fingers, VIEWS[2])
     fingers.drag(beside(100), beside(100, (MIDDLE[0] + 60, MIDDLE[1] - 30)))
     fingers.page.tab.wait_for_timeout(500)

@@ -31,16 +31,16 @@ def publish(source: HandFedSource) -> None:
 @pytest.fixture
 def published(source: HandFedSource) -> Iterator[None]:
     """Paths all the time."""
-    done = threading.Event()
+    stop = threading.Event()
 
     def run() -> None:
-        while not done.wait(0.05):
+        while not stop.wait(0.05):
             publish(source)
 
     thread = threading.Thread(target=run)
     thread.start()
     yield
-    done.set()
+    stop.set()
     thread.join()
 
 
@@ -65,7 +65,7 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
     assert second.received_ns > first.received_ns
 
 
-def test_a_trace_without_browsers_is_refused_with_what_to_do(
+def test_a_trace_without_browsers_is_refused_with_a_remedy(
     viewer: webviz.Viewer, refused: Callable[[Callable[[], object]], str]
 ) -> None:
     plan = viewer.add("Path", topic="/plan", name="Plan")

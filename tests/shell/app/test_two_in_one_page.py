@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import functools
-import http.server
-import threading
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
-from typing import Any
 
 import playwright.sync_api as playwright
 import pytest
+from serving import served_folder
 
 import webviz
 from webviz.api.roles import Role
@@ -32,28 +29,15 @@ PLACE = """async () => {
   return camera().position.toArray().map((each) => each.toFixed(3)).join(" ");
 }"""
 ROLE = """async () => (await import("webviz/access.js")).self().role"""
-LOST = "document.body.classList.contains('wv-lost')"
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    """Serves files without a log."""
-
-    def log_message(self, format: str, *_: Any) -> None:
-        pass
+IS_LOST = "document.body.classList.contains('wv-lost')"
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, str]]:
     """A folder of pages that are served, and their origin."""
     path = tmp_path_factory.mktemp("site")
-    handler = functools.partial(Quiet, directory=str(path))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    yield path, f"http://localhost:{server.server_port}"
-    server.shutdown()
-    thread.join()
-    server.server_close()
+    with served_folder(path) as port:
+        yield path, f"http://localhost:{port}"
 
 
 @pytest.fixture(scope="module")
@@ -88,14 +72,20 @@ def frames(
     )
     page = browser.new_page(viewport={"width": 900, "height": 860})
     page.goto(f"{origin}/both.html")
-    found = [each.content_frame() for each in page.query_selector_all("iframe")]
-    yield [ready(each) for each in found if each]
+    elements = [each.content_frame() for each in page.query_selector_all("iframe")]
+    yield [ready(each) for each in elements if each]
     page.close()
 
 
 def ready(frame: playwright.Frame) -> playwright.Frame:
     frame.wait_for_function("window.webviz?.hasView()", timeout=60_000)
     return frame
+
+
+def load_again(frame: playwright.Frame) -> None:
+    with frame.page.expect_event("framenavigated", lambda each: each == frame):
+        frame.evaluate("location.reload()")
+    ready(frame)
 
 
 def names(frame: playwright.Frame) -> list[str]:
@@ -147,16 +137,14 @@ def test_each_has_its_own_selection_theme_and_panel_also_after_one_is_loaded_aga
     second.get_by_role("tab", name="Views").click()
     second.wait_for_function("localStorage.getItem('webviz.tab') === '\"views\"'")
     place = second.evaluate(PLACE)
-    second.evaluate("location.reload()")
-    ready(second)
+    load_again(second)
     second.get_by_role("tab", name="Views", selected=True).wait_for()
     second.wait_for_function(f"async (place) => await ({PLACE})() === place", arg=place)
     assert second.evaluate("document.documentElement.dataset.wvTheme") == "dark"
     assert second.evaluate(ROLE) == "owner"
 
     assert stored(first) == before
-    first.evaluate("location.reload()")
-    ready(first)
+    load_again(first)
     first.get_by_role("tab", name="Displays", selected=True).wait_for()
     first.locator("[role=treeitem][aria-selected=true]", has_text="Origin").wait_for()
     assert first.evaluate("document.documentElement.dataset.wvTheme") == "light"
@@ -168,8 +156,8 @@ def test_one_goes_on_when_the_viewer_of_the_other_ends(
 ) -> None:
     first, second = frames
     viewers[0].close()
-    first.wait_for_function(LOST)
+    first.wait_for_function(IS_LOST)
     viewers[1].do(AddDisplay("Axes", values={"name": "Tool"}))
     second.get_by_role("tab", name="Displays").click()
     second.get_by_role("treeitem", name="Tool", exact=True).wait_for()
-    assert not second.evaluate(LOST)
+    assert not second.evaluate(IS_LOST)

@@ -43,13 +43,18 @@ def wait_for(pages: list[Page], *names: str) -> None:
     """Wait until both pages list exactly these displays."""
     script = "(all) => all.map((one) => one.textContent)"
     for page in pages:
-        found = page.tab.locator(".wv-tree-node:not([data-id=global]) .wv-tree-name")
+        names_on_page = page.tab.locator(".wv-tree-node:not([data-id=global]) .wv-tree-name")
         page.wait_for(
-            lambda found=found: sorted(found.evaluate_all(script)) == sorted(names), str(names)
+            lambda names_on_page=names_on_page: (
+                sorted(names_on_page.evaluate_all(script)) == sorted(names)
+            ),
+            str(names),
         )
 
 
-def test_each_takes_back_their_own_and_delete_is_about_what_came_back(pages: list[Page]) -> None:
+def test_each_page_undoes_its_own_steps_and_a_restored_display_is_selected(
+    pages: list[Page],
+) -> None:
     mine, theirs = pages
     wait_for(pages, "Grid", "Axes", "TF")
     row(mine, "Grid").locator(".wv-tree-name").click()
@@ -87,13 +92,13 @@ def test_both_drag_the_head_at_once_and_end_at_the_same_moment(
     for page in pages:
         page.tab.mouse.up()
 
-    def shown() -> list[float]:
+    def positions() -> list[float]:
         """The positions of the viewer and of both pages."""
         values = [float(track.get_attribute("aria-valuenow") or -1.0) for track in tracks]
         return [round(viewer.position, 2), *(round(value, 2) for value in values)]
 
     mine = pages[0]
-    mine.wait_for(lambda: len(set(shown())) == 1, "one moment")
+    mine.wait_for(lambda: len(set(positions())) == 1, "one moment")
     assert 6.0 < viewer.position < 14.0, "where one of them let go"
     tracks[1].click(position={"x": 20.0, "y": 5.0})
-    mine.wait_for(lambda: viewer.position < 2.0 and len(set(shown())) == 1, "the next seek")
+    mine.wait_for(lambda: viewer.position < 2.0 and len(set(positions())) == 1, "the next seek")

@@ -60,12 +60,12 @@ def test_commands_that_make_no_sense_are_refused_in_one_short_sentence(
 def test_a_text_of_a_page_has_a_limit(guest: Guest, viewer: webviz.Viewer) -> None:
     (grid,) = ids(guest)
     answer = guest.do("SetProperty", display=grid, path="name", value="x" * (MAX_TEXT + 1))
-    assert answer == f"Not done: expected at most {MAX_TEXT} characters."
+    assert answer == f"Failed: expected at most {MAX_TEXT} characters."
     deep: Any = 1
     for _ in range(100):
         deep = [deep]
     answer = guest.do("AddDisplay", type="Grid", values={"name": deep})
-    assert answer == "Not done: expected at most 64 nested levels."
+    assert answer == "Failed: expected at most 64 nested levels."
     assert "at most" in guest.do("WriteDisplays", displays=[""] * 60_000)
     assert [display.name for display in viewer.displays] == ["Grid"]
 
@@ -73,7 +73,9 @@ def test_a_text_of_a_page_has_a_limit(guest: Guest, viewer: webviz.Viewer) -> No
 def test_numbers_that_json_cannot_hold_reach_no_page(
     guest: Guest, viewer: webviz.Viewer, caplog: pytest.LogCaptureFixture
 ) -> None:
-    guest.send("Do", number=2**70, command="Undo", arguments={})  # it could not be answered
+    guest.send(
+        "CommandRequest", number=2**70, command="Undo", arguments={}
+    )  # it could not be answered
     guest.do("AddDisplay", type="LaserScan", values={"topic": {"name": "/a", "depth": 2**64}})
     scan = ids(guest)[-1]
     guest.send("Watch", store=f"properties:{scan}")
@@ -89,7 +91,7 @@ def test_the_view_of_another_browser_is_not_sent(guest: Guest) -> None:
     assert guest.receive("Values")["store"] == f"view_type:{own}"
 
 
-def test_a_page_watches_so_many_stores_and_not_more(
+def test_the_number_of_stores_a_page_watches_is_limited(
     guest: Guest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for number in range(500):

@@ -135,34 +135,34 @@ def test_a_part_that_hangs_does_not_keep_the_others_from_ending(
 
 
 @pytest.mark.parametrize(
-    ("value", "shown"), [(3, "`3`"), (None, "nothing"), (b"odom", "`b'odom'`"), (["a"], "`['a']`")]
+    ("value", "text"), [(3, "`3`"), (None, "nothing"), (b"odom", "`b'odom'`"), (["a"], "`['a']`")]
 )
-def test_what_must_be_text_is_refused_in_one_sentence(
-    viewer: webviz.Viewer, refused: Refused, value: Any, shown: str
+def test_arguments_that_are_not_text_are_refused_in_one_sentence(
+    viewer: webviz.Viewer, refused: Refused, value: Any, text: str
 ) -> None:
     def set_frame() -> None:
         viewer.fixed_frame = value
 
     before = viewer.fixed_frame
-    assert refused(set_frame) == f"SetFixedFrame.frame: expected text, got {shown}."
+    assert refused(set_frame) == f"SetFixedFrame.frame: expected text, got {text}."
     assert refused(lambda: viewer.remove_view(value)).startswith("RemoveView.name: expected text")
     assert refused(lambda: viewer.do(Load(value, "x"))).startswith("Load.text: expected text")
     assert viewer.fixed_frame == before
 
 
-@pytest.mark.parametrize(("value", "shown"), [([1], "`[1]`"), (None, "nothing"), (3, "`3`")])
-def test_what_must_be_a_path_is_refused_in_one_sentence(
-    viewer: webviz.Viewer, refused: Refused, value: Any, shown: str
+@pytest.mark.parametrize(("value", "text"), [([1], "`[1]`"), (None, "nothing"), (3, "`3`")])
+def test_arguments_that_are_not_paths_are_refused_in_one_sentence(
+    viewer: webviz.Viewer, refused: Refused, value: Any, text: str
 ) -> None:
     for method in (viewer.open, viewer.save, viewer.open_recording):
         assert refused(lambda method=method: method(value)) == (
-            f"path: expected a path, got {shown}."
+            f"path: expected a path, got {text}."
         )
-    assert refused(lambda: viewer.record(value)) == f"folder: expected a path, got {shown}."
+    assert refused(lambda: viewer.record(value)) == f"folder: expected a path, got {text}."
 
 
 @pytest.mark.parametrize("value", [[1], b"a", {}])
-def test_what_must_be_a_number_is_refused_in_one_sentence(
+def test_arguments_that_are_not_numbers_are_refused_in_one_sentence(
     viewer: webviz.Viewer, refused: Refused, value: Any
 ) -> None:
     sentence = f"expected a number, got `{value}`."
@@ -233,7 +233,7 @@ def test_a_config_is_saved_changed_and_opened_again(
     assert "cell_size: 3.0" in path.read_text()
 
 
-def test_what_cannot_be_opened_changes_nothing(
+def test_a_failed_opening_changes_nothing(
     viewer: webviz.Viewer, tmp_path: Path, refused: Refused
 ) -> None:
     viewer.add("Grid")

@@ -13,7 +13,7 @@ from webviz.api.errors import Error
 from webviz.shell.cli.commands import run
 from webviz.shell.cli.new import KINDS, write_package
 
-SHOWN = """
+SCRIPT = """
 import sys
 from webviz.files import opening
 for path in sys.argv[1:]:
@@ -24,7 +24,7 @@ for path in sys.argv[1:]:
 
 def called(*command: str | Path, cwd: Path | None = None, **variables: str) -> str:
     """The output of a Python program that succeeds."""
-    done = subprocess.run(
+    result = subprocess.run(
         [sys.executable, *command],
         capture_output=True,
         text=True,
@@ -33,8 +33,8 @@ def called(*command: str | Path, cwd: Path | None = None, **variables: str) -> s
         timeout=300,
         cwd=cwd,
     )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
 
 
 def test_each_package_installs_and_passes_its_tests(
@@ -47,7 +47,7 @@ def test_each_package_installs_and_passes_its_tests(
     for package in packages:  # as `pip install -e` does, which needs an index
         called("setup.py", "-q", "egg_info", cwd=package)
     path = os.pathsep.join(map(str, packages))
-    called("-c", SHOWN, *(each / "demo.yaml" for each in packages), PYTHONPATH=path)
+    called("-c", SCRIPT, *(each / "demo.yaml" for each in packages), PYTHONPATH=path)
     tests = [each / "test" for each in packages]
     outcome = called("-m", "pytest", "-q", "-p", "no:cacheprovider", *tests, PYTHONPATH=path)
     assert "failed" not in outcome

@@ -61,7 +61,7 @@ def test_the_configs_that_come_with_webviz_are_valid() -> None:
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_what_was_saved_of_a_real_rviz_file_is_valid(path: Path) -> None:
+def test_conversions_of_real_rviz_files_are_valid(path: Path) -> None:
     assert faults(dump(rviz.read(path.read_text(), path.name)[0])) == []
 
 
@@ -98,7 +98,7 @@ def test_tools_that_webviz_accepts_are_valid(written: str) -> None:
         "{type: RobotModel, links: {base: {alpha: 0.5}}}",
     ],
 )
-def test_what_webviz_accepts_is_valid(entry: str) -> None:
+def test_accepted_displays_are_valid(entry: str) -> None:
     written = f"displays: [{entry}]"
     assert accepts(written)
     assert faults(written) == []
@@ -132,7 +132,7 @@ def test_what_webviz_accepts_is_valid(entry: str) -> None:
         "tools: [{type: GoalPose, enabled: true}]",
     ],
 )
-def test_what_webviz_refuses_is_not_valid(written: str) -> None:
+def test_refused_displays_are_invalid(written: str) -> None:
     assert not accepts(written)
     assert len(faults(written)) == 1
 
@@ -142,7 +142,7 @@ def test_a_mistake_in_a_group_is_found() -> None:
     assert result == ["$.displays[0].displays[1].alpha: 2 is greater than the maximum of 1"]
 
 
-def test_displays_of_others_are_no_error() -> None:
+def test_displays_of_plug_ins_are_valid() -> None:
     assert faults("displays: [{type: Sonar, beams: [1, 2]}]") == []
     assert faults("displays: [{type: Grid, name: Mine, rviz: {Class: Grid, Odd: 1}}]") == []
 
@@ -166,8 +166,8 @@ def test_the_command_writes_it_with_displays_of_a_plugin(
     try:
         assert cli(["schema", "--plugin", str(plugin), "-o", str(written)]) == 0
         assert capsys.readouterr().out == f"webviz: wrote {written}\n"
-        made = json.loads(written.read_text())
-        assert made["definitions"]["Beacon"]["properties"]["height"]["default"] == 2.0
+        schema = json.loads(written.read_text())
+        assert schema["definitions"]["Beacon"]["properties"]["height"]["default"] == 2.0
     finally:
         registry.register(str(plugin), {})
     assert cli(["schema"]) == 0

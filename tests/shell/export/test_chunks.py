@@ -9,12 +9,12 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from webviz.shell.export.chunks import SHARED_BYTES, Buffers, TapeChunk
+from webviz.shell.export.chunks import SHARED_BYTES, Buffers, ExportChunk
 
 GZIP = 31
 
 
-def values_in(chunk: TapeChunk) -> list[Any]:
+def values_in(chunk: ExportChunk) -> list[Any]:
     """The values as a page reads them."""
     data = zlib.decompress(chunk.packed(), GZIP)
     size = int.from_bytes(data[:4], "little")
@@ -31,7 +31,7 @@ def values_in(chunk: TapeChunk) -> list[Any]:
 def test_a_trail_that_moves_on_is_not_repeated() -> None:
     points = [{"fields": {"Position": f"{x * 0.37:.4f}, {x * 0.11:.4f}, 0 m"}} for x in range(600)]
     trails = [{"each": points[first : first + 500]} for first in range(100)]
-    chunk = TapeChunk(0, 0, 0)
+    chunk = ExportChunk(0, 0, 0)
     for trail in trails:
         chunk.add_value("values .Pose", msgspec.Raw(msgspec.json.encode(trail)))
     assert values_in(chunk) == trails
@@ -40,7 +40,7 @@ def test_a_trail_that_moves_on_is_not_repeated() -> None:
 
 def test_other_values_stay_as_they_are() -> None:
     small, other = {"each": [1, None, "a"]}, {"all": "x" * 2 * SHARED_BYTES}
-    chunk = TapeChunk(0, 0, 0)
+    chunk = ExportChunk(0, 0, 0)
     for value in (small, other, [1, 2], None):
         chunk.add_value("some", msgspec.Raw(msgspec.json.encode(value)))
     assert values_in(chunk) == [small, other, [1, 2], None]

@@ -9,7 +9,7 @@ import numpy as np
 from webviz.api.nodes import Pane
 from webviz.api.pictures import Mark, Pixels
 from webviz.data.images import RawImage, Tone
-from webviz.shell.export.recorder import MAX_MARKED, PaneTape
+from webviz.shell.export.recorder import MAX_MARKED, PaneRecorder
 
 
 def pane(value: int) -> Pane:
@@ -22,12 +22,12 @@ def mark(x: float) -> Mark:
 
 
 def test_marks_that_change_do_not_repeat_their_picture_too_often() -> None:
-    tape, still = PaneTape(), pane(7)
-    found = [tape.take({"a": replace(still, marks=(mark(x),))})["a"] for x in range(MAX_MARKED + 2)]
-    assert all(found)
-    whole = [i for i, each in enumerate(found) if each and each[1]]
+    tape, still = PaneRecorder(), pane(7)
+    parts = [tape.take({"a": replace(still, marks=(mark(x),))})["a"] for x in range(MAX_MARKED + 2)]
+    assert all(parts)
+    whole = [i for i, each in enumerate(parts) if each and each[1]]
     assert whole == [0, MAX_MARKED + 1]
-    sizes = [len(each[0]) for each in found if each]
+    sizes = [len(each[0]) for each in parts if each]
     assert max(sizes[1:-1]) < min(sizes[0], sizes[-1])
     assert tape.take({"a": still})["a"]
     again = tape.take({"a": pane(9)})["a"]
@@ -36,7 +36,7 @@ def test_marks_that_change_do_not_repeat_their_picture_too_often() -> None:
 
 
 def test_a_pane_that_does_not_change_is_not_recorded_again() -> None:
-    tape, still = PaneTape(), pane(7)
+    tape, still = PaneRecorder(), pane(7)
     tape.take({"a": still})
     assert tape.take({"a": still}) == {}
     assert tape.take({}) == {"a": None}

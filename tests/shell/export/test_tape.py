@@ -8,17 +8,17 @@ import pytest
 from webviz.scene.adapter.tape import SceneChange
 from webviz.shell.export import tape as tapes
 from webviz.shell.export.limit import MAX_SKIP, RESERVE, SizeLimit
-from webviz.shell.export.tape import KEYFRAME_S, Tape, TapeFrame
+from webviz.shell.export.tape import KEYFRAME_S, ExportFrame, ExportWriter
 
 
-def recorded(*frames: tuple[float, dict[str, str]]) -> Tape:
+def recorded(*frames: tuple[float, dict[str, str]]) -> ExportWriter:
     """A tape of frames: their times, and what changes of a store."""
-    tape = Tape(len, SizeLimit(10**9, 100.0), 0)
+    tape = ExportWriter(len, SizeLimit(10**9, 100.0), 0)
     for at_s, changes in frames:
         stores = {
             ("some", key): msgspec.Raw(msgspec.json.encode(value)) for key, value in changes.items()
         }
-        tape.add(TapeFrame(at_s, at_s, SceneChange((), ()), stores, {}))
+        tape.add(ExportFrame(at_s, at_s, SceneChange((), ()), stores, {}))
     tape.finish()
     return tape
 
@@ -62,7 +62,7 @@ def test_versions_are_left_out_until_a_file_has_room_again() -> None:
     ]
 
 
-def test_what_was_thinned_least_is_told() -> None:
+def test_notes_give_the_least_thinning() -> None:
     limit = SizeLimit(10**6, 10.0, every=4, skip=2)
     assert limit.is_exceeded
     limit.adapt(0, 1.0, 0.0, 5.0)

@@ -84,8 +84,8 @@ def screenshot(
     handlers = {number: signal.getsignal(number) for number in SIGNALS}
 
     def screenshot(*arguments: str, config: Path | None = CONFIG) -> Ended:
-        given = () if config is None else ("-d", str(config))
-        status = cli(["screenshot", *given, *arguments])
+        options = () if config is None else ("-d", str(config))
+        status = cli(["screenshot", *options, *arguments])
         printed = capfd.readouterr()
         return Ended(status, printed.out, printed.err)
 

@@ -62,8 +62,8 @@ def test_pictures_are_ok_if_each_of_them_is(bad: int) -> None:
 
 def picture_of(level: Level) -> Picture:
     """A picture of one display."""
-    shown = Readiness({"Scan": Status(level, "")}, {}, ("Scan",))
-    return Picture(np.zeros((1, 1, 3), np.uint8), "", None, shown)
+    readiness = Readiness({"Scan": Status(level, "")}, {}, ("Scan",))
+    return Picture(np.zeros((1, 1, 3), np.uint8), "", None, readiness)
 
 
 def test_several_times_are_pictures_in_the_order_of_time(capture):
@@ -79,7 +79,7 @@ def test_the_same_bag_makes_the_same_picture_and_the_same_words(capture):
     assert one.statuses == other.statuses
 
 
-def test_what_displays_keep_is_there_as_if_one_had_watched_from_the_start(capture):
+def test_displays_keep_messages_before_the_time_of_the_picture(capture):
     decaying = CONFIG.replace("size: 0.6,", "size: 0.6, decay_time: 2.5,")
     shot: Capture = capture(decaying, at=5.0)
     columns = scan(shot.pixels)[:, 0]
@@ -103,7 +103,7 @@ def test_a_frame_that_is_focused_is_in_the_middle(capture):
     )
 
 
-def test_without_its_background_a_picture_has_only_what_is_drawn(capture):
+def test_a_picture_without_background_is_transparent_around_displays(capture):
     shot: Capture = capture(CONFIG, at=1.0, transparent=True)
     assert shot.pixels.shape == (240, 320, 4)
     opaque = np.argwhere(shot.pixels[..., 3] > 128)[:, ::-1]
@@ -156,7 +156,7 @@ def test_a_config_can_be_a_file_a_text_or_a_config(capture, tmp_path):
 def test_an_unknown_fixed_frame_is_reported(capture):
     shot: Capture = capture(CONFIG, fixed_frame="mapp")
     assert not shot.is_ok
-    assert 'Did you mean "map"?' in shot.pictures[0].shown.general["Fixed Frame"].text
+    assert 'Did you mean "map"?' in shot.pictures[0].readiness.general["Fixed Frame"].text
 
 
 @pytest.mark.parametrize(
@@ -173,7 +173,7 @@ def test_an_unknown_fixed_frame_is_reported(capture):
         ({"ros_args": ["--ros-args", "-p", "a:=1"]}, "'-p' is not supported with a bag"),
     ],
 )
-def test_what_cannot_be_is_one_sentence(capture, options, sentence):
+def test_invalid_options_are_refused_in_one_sentence(capture, options, sentence):
     with pytest.raises(webviz.Error) as caught:
         capture(CONFIG, **options)
     assert sentence in str(caught.value)

@@ -62,7 +62,7 @@ BOX = """async () => {
 COUNT_DONE = """async () => {
   const { on } = await import("webviz/channel.js");
   window.done = 0;
-  on("Done", () => (window.done += 1));
+  on("CommandResult", () => (window.done += 1));
 }"""
 FOLLOW = """async (value) => {
   const { act } = await import("webviz/act.js");
@@ -144,7 +144,7 @@ def file(folder: Path, browser: playwright.Browser) -> Iterator[OpenFile]:
     context.close()
 
 
-def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
+def test_the_file_equals_captures_at_any_time_in_any_order(
     folder: Path, file: OpenFile, renderer: HeadlessRenderer
 ) -> None:
     file.seek(TIMES[0])  # the scene has its size by then
@@ -152,11 +152,11 @@ def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
     shots = webviz.capture(
         CONFIG, bag=folder / "run", at=sorted(TIMES), size=size, renderer=renderer
     )
-    wanted = {picture.at_s: picture.pixels for picture in shots.pictures}
-    assert len({pixels.tobytes() for pixels in wanted.values()}) == len(TIMES)
+    expected = {picture.at_s: picture.pixels for picture in shots.pictures}
+    assert len({pixels.tobytes() for pixels in expected.values()}) == len(TIMES)
     for at_s in TIMES:
         file.seek(at_s)
-        np.testing.assert_array_equal(file.pixels(), wanted[at_s], f"at {at_s} s")
+        np.testing.assert_array_equal(file.pixels(), expected[at_s], f"at {at_s} s")
 
 
 @pytest.mark.parametrize(
@@ -168,7 +168,7 @@ def test_the_file_shows_what_the_viewer_shows_at_any_time_in_any_order(
         ("a changed index", "This file is damaged, and shows only a part of its recording."),
     ],
 )
-def test_a_file_that_was_damaged_on_its_way_says_so(
+def test_a_damaged_file_reports_it(
     folder: Path, tmp_path: Path, browser: playwright.Browser, how: str, sentence: str
 ) -> None:
     whole = (folder / "run.html").read_bytes()
@@ -187,7 +187,7 @@ def test_a_file_that_was_damaged_on_its_way_says_so(
     context.close()
 
 
-def test_the_file_asks_no_server_for_anything(file: OpenFile) -> None:
+def test_the_file_makes_no_requests(file: OpenFile) -> None:
     others = [url for url in file.requests if not url.startswith(("blob:", "data:"))]
     assert len(others) == 1
 
@@ -208,7 +208,7 @@ def test_displays_are_switched_off_and_on_also_in_other_frames(file: OpenFile) -
     np.testing.assert_array_equal(file.pixels(), before)
 
 
-def test_what_a_file_cannot_do_is_disabled_with_the_reason(file: OpenFile) -> None:
+def test_actions_unavailable_in_a_file_are_disabled_with_the_reason(file: OpenFile) -> None:
     add = file.page.get_by_role("button", name="Add display")
     expect(add).to_have_attribute("aria-disabled", "true")
     expect(add).to_have_attribute("data-why", re.compile("Open the bag in webviz to change it"))
@@ -226,10 +226,10 @@ def test_views_change_as_in_a_viewer(file: OpenFile) -> None:
             for _ in range(2)
         ]
         expected = mimic(view, rigs[0], like(cls, view), rigs[1], 480.0)
-        told = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(expected), asdict(rigs[1])]
-        cases.append([told, msgspec.to_builtins(expected)])
-    made = file.page.evaluate(MIMIC, [told for told, _ in cases])
-    for view, (_, expected) in zip(made, cases, strict=True):
+        arguments = [msgspec.to_builtins(view), asdict(rigs[0]), type_of(expected), asdict(rigs[1])]
+        cases.append([arguments, msgspec.to_builtins(expected)])
+    views = file.page.evaluate(MIMIC, [arguments for arguments, _ in cases])
+    for view, (_, expected) in zip(views, cases, strict=True):
         assert view.keys() == expected.keys()
         for key, value in expected.items():
             assert view[key] == (
@@ -248,7 +248,7 @@ def test_a_view_follows_a_frame_through_the_run(file: OpenFile) -> None:
     assert file.page.evaluate(PIXEL, [1.0, 0.0, 0.0]) != pytest.approx(results[1], abs=30.0)
 
 
-def test_what_is_in_a_box_is_selected_with_its_place_and_display(file: OpenFile) -> None:
+def test_a_box_selects_items_with_place_and_display(file: OpenFile) -> None:
     file.seek(2.0)
     page = file.page
     left, top, width, height = page.evaluate(BOX)
@@ -307,7 +307,7 @@ def test_firefox_shows_the_file_in_any_order_without_a_network(
         tab.wait_for("return window.webviz?.hasView()")
         tab.run("document.getElementById('webviz').style.visibility = 'hidden'")
 
-        def shown(at_s: float) -> np.ndarray:
+        def pixels_at(at_s: float) -> np.ndarray:
             tab.run(SHOW, at_s)
             tab.wait_for(IS_SHOWN, f"0:00:0{at_s:.3f}")
             before, pixels = np.empty(0), tab.pixels("canvas")
@@ -315,10 +315,10 @@ def test_firefox_shows_the_file_in_any_order_without_a_network(
                 before, pixels = pixels, tab.pixels("canvas")
             return pixels
 
-        first, second = shown(1.0), shown(4.0)
+        first, second = pixels_at(1.0), pixels_at(4.0)
         assert differing(first, second) > 100
         assert len(np.unique(first.reshape(-1, 3), axis=0)) > 20
-        assert differing(shown(1.0), first) == 0
+        assert differing(pixels_at(1.0), first) == 0
         names = "return performance.getEntriesByType('resource').map(({ name }) => name)"
         assert [name for name in tab.run(names) if not name.startswith(("blob:", "data:"))] == []
 
@@ -367,17 +367,17 @@ DATATYPES = {"<f4": 7, "<u4": 6, "<u2": 4}
 def points(step: int) -> np.ndarray:
     """20 000 points by chance, the first of which cannot be drawn."""
     chance = np.random.default_rng(step)
-    made = np.empty(20_000, POINT)
+    points = np.empty(20_000, POINT)
     for axis in "xyz":
-        made[axis] = chance.uniform(-5.0, 5.0, len(made))
-    made["x"][0] = np.nan
-    made["intensity"] = chance.integers(0, 256, len(made)) / np.float32(3.0)
-    made["rgb"] = chance.integers(0, 1 << 24, len(made))
-    made["ring"] = np.arange(len(made)) % 64
-    return made
+        points[axis] = chance.uniform(-5.0, 5.0, len(points))
+    points["x"][0] = np.nan
+    points["intensity"] = chance.integers(0, 256, len(points)) / np.float32(3.0)
+    points["rgb"] = chance.integers(0, 1 << 24, len(points))
+    points["ring"] = np.arange(len(points)) % 64
+    return points
 
 
-def cloud_of(made: np.ndarray, stamp_ns: int) -> dict[str, Any]:
+def cloud_of(points: np.ndarray, stamp_ns: int) -> dict[str, Any]:
     fields = [
         {"name": name, "offset": offset, "datatype": DATATYPES[dtype.str], "count": 1}
         for name, (dtype, offset, *_) in (POINT.fields or {}).items()
@@ -385,15 +385,15 @@ def cloud_of(made: np.ndarray, stamp_ns: int) -> dict[str, Any]:
     return {
         "header": header("lidar", stamp_ns),
         "height": 1,
-        "width": len(made),
+        "width": len(points),
         "fields": fields,
         "point_step": POINT.itemsize,
-        "row_step": made.nbytes,
-        "data": made.view(np.uint8),
+        "row_step": points.nbytes,
+        "data": points.view(np.uint8),
     }
 
 
-def test_a_file_keeps_its_limit_and_says_what_was_left_out(
+def test_a_file_keeps_its_limit_and_reports_thinning(
     clouds: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     arguments = ["export", str(clouds / "run"), "-d", str(clouds / "lab.yaml")]
@@ -402,12 +402,12 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
         path = clouds / f"{limit}.html"
         assert cli([*arguments, "-o", str(path), "--max-size", limit]) == 0
         sizes[limit] = path.stat().st_size, capfd.readouterr().err
-    whole, said = sizes["50MB"]
-    assert (whole > 3_500_000, said) == (True, "")
-    thinned, said = sizes["3MB"]
+    whole, warnings = sizes["50MB"]
+    assert (whole > 3_500_000, warnings) == (True, "")
+    thinned, warnings = sizes["3MB"]
     assert thinned <= 3_000_000
-    assert "Clouds keep at least one of" in said
-    assert "Values of selected points are missing between 0.0 and" in said
+    assert "Clouds keep at least one of" in warnings
+    assert "Values of selected points are missing between 0.0 and" in warnings
     page = RunFile(io.BytesIO()).client_bytes
     more, less = f"{page // 1000 + 1}kB", f"{page // 1000}kB"
     assert cli([*arguments, "-o", str(clouds / "few.html"), "--max-size", more]) == 0
@@ -420,7 +420,7 @@ def test_a_file_keeps_its_limit_and_says_what_was_left_out(
     assert not (clouds / "none.html").exists()
 
 
-def test_a_point_of_a_large_cloud_says_where_its_values_are(
+def test_a_point_of_a_large_cloud_refers_to_the_bag_for_its_values(
     clouds: Path, browser: playwright.Browser
 ) -> None:
     path = clouds / "50MB.html"
@@ -448,7 +448,7 @@ def test_a_point_of_a_large_cloud_says_where_its_values_are(
         (("-o", "missing/run.html"), "Cannot write missing/run.html: No such file or directory."),
     ],
 )
-def test_what_cannot_be_exported_is_one_sentence_and_no_file(
+def test_a_failed_export_is_one_sentence_and_writes_no_file(
     folder: Path,
     arguments: tuple[str, ...],
     sentence: str,
@@ -459,9 +459,9 @@ def test_what_cannot_be_exported_is_one_sentence_and_no_file(
     monkeypatch.chdir(tmp_path)
     output = () if "-o" in arguments else ("-o", "run.html")
     assert cli(["export", str(folder / "run"), *arguments, *output]) == 1
-    said = capfd.readouterr().err
-    assert sentence in said
-    assert len(said.splitlines()) == 1
+    error = capfd.readouterr().err
+    assert sentence in error
+    assert len(error.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []
 
 
@@ -517,8 +517,8 @@ MARKED_PIXELS = """() => {
 
 def pane_of(viewer: BagViewer) -> Pane:
     """The only pane that a viewer draws."""
-    shots = [shot for runner in viewer.loop.runners() for *_, shot in runner.drawn.shots()]
-    groups = [group for shot in shots for group in shot.groups.values()]
+    snapshots = [each for runner in viewer.loop.runners() for *_, each in runner.drawn.snapshots()]
+    groups = [group for snapshot in snapshots for group in snapshot.groups.values()]
     (pane,) = [node for each in groups for node in each.nodes.values() if isinstance(node, Pane)]
     return pane
 

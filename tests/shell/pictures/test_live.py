@@ -58,16 +58,16 @@ def test_an_image_of_a_running_camera_is_written_as_it_is(
     with PIL.Image.open(tmp_path / "a.png") as image:
         pixels = np.asarray(image, np.float64)
     assert pixels.shape == (24, 32, 3)
-    wanted = colors.astype(np.float64)
+    expected = colors.astype(np.float64)
     if is_depth:
         low, high = millimetres[millimetres > 0].min(), millimetres.max()
         grey = np.clip(255 * (millimetres.astype(np.float64) - low) / (high - low), 0, 255)
-        wanted = np.repeat(grey[..., None], 3, axis=2)
-    assert np.abs(pixels - wanted).mean() < 2
+        expected = np.repeat(grey[..., None], 3, axis=2)
+    assert np.abs(pixels - expected).mean() < 2
 
 
 @pytest.mark.usefixtures("robot")
-def test_why_there_is_no_image_is_one_sentence(screenshot):
+def test_a_missing_image_is_explained_in_one_sentence(screenshot):
     # Longer than a page may hide a pane before its display is not received any more.
     result = screenshot("-o", "a.png", "--image", "/nothing", "--timeout", "2.5", config=None)
     assert result.status != 0

@@ -37,7 +37,7 @@ def plain(color: tuple[int, ...], size: tuple[int, int] = (40, 30)) -> PIL.Image
 
 
 @pytest.mark.parametrize("ending", [".png", ".webp", ".jpg", ".JPEG", ".gif"])
-def test_a_picture_is_written_in_the_form_of_its_ending(tmp_path, ending):
+def test_the_format_of_a_picture_follows_its_extension(tmp_path, ending):
     path = tmp_path / f"a{ending}"
     save(plain(RED), path)
     with PIL.Image.open(path) as image:
@@ -154,10 +154,10 @@ def test_a_tree_of_frames_is_a_png(
 
 
 def test_a_clock_is_written_into_the_lower_left_corner():
-    shown = np.asarray(with_clock(plain(BLUE, (640, 360)), "12.40 s"))
-    assert (shown[:300] == BLUE).all()
-    assert (shown[:, 300:] == BLUE).all()
-    assert (shown != BLUE).any(axis=2).sum() > 200
+    pixels = np.asarray(with_clock(plain(BLUE, (640, 360)), "12.40 s"))
+    assert (pixels[:300] == BLUE).all()
+    assert (pixels[:, 300:] == BLUE).all()
+    assert (pixels != BLUE).any(axis=2).sum() > 200
 
 
 def test_a_video_has_all_pictures(tmp_path):

@@ -149,8 +149,8 @@ def test_a_contact_sheet_is_one_picture(run, tmp_path, screenshot):
 
 
 def test_a_display_that_is_not_ok_makes_a_table_and_status_3(run, tmp_path, screenshot):
-    given = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
-    result = screenshot(*given)
+    options = ["--set", "displays.Scan.topic=/scann", "--bag", str(run), "-o", "a.png", *SMALL]
+    result = screenshot(*options)
     assert result.status == 3
     assert (tmp_path / "a.png").exists()
     first, *table = result.errors.splitlines()
@@ -170,8 +170,8 @@ def test_meshes_below_a_mesh_root_are_drawn(tmp_path, screenshot):
     bag.transform(0.0, "map", "box", static=True)
     config = tmp_path / "robot.yaml"
     config.write_text("{fixed_frame: map, displays: [{type: RobotModel, name: Robot}]}")
-    given = ["--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
-    result = screenshot(*given, "--mesh-root", str(mesh.parent), config=config)
+    options = ["--bag", str(bag.write(tmp_path / "bag")), "-o", "a.png", *SMALL]
+    result = screenshot(*options, "--mesh-root", str(mesh.parent), config=config)
     assert result.status == 0, result.errors
 
 
@@ -195,8 +195,8 @@ def test_help_lists_every_exit_status(capsys):
 def test_a_mistake_is_one_sentence_and_status_1(
     run, refused: Callable[..., str], arguments, sentence
 ):
-    given = [argument.replace("RUN", str(run)) for argument in arguments]
-    line = refused("-o", "a.png", *SMALL, *given)
+    options = [argument.replace("RUN", str(run)) for argument in arguments]
+    line = refused("-o", "a.png", *SMALL, *options)
     assert line.startswith("webviz: ")
     assert sentence.replace("RUN", str(run)) in line
 
@@ -268,7 +268,7 @@ def test_an_interrupted_run_leaves_no_file_and_no_process(
     assert left_of(family) == []
 
 
-def test_a_run_that_is_told_to_end_ends_although_its_browser_hangs(
+def test_a_terminated_run_ends_although_its_browser_hangs(
     run, tmp_path, start: Callable[..., Program]
 ):
     program = start("--bag", str(run), *MANY, "-o", str(tmp_path / "a.webp"))
@@ -297,7 +297,7 @@ def test_a_browser_that_dies_midway_is_one_sentence(run, tmp_path, start: Callab
     assert left_of(family) == []
 
 
-def test_a_video_is_a_webp_where_there_is_no_ffmpeg(run, tmp_path, screenshot, monkeypatch):
+def test_a_video_is_a_webp_without_ffmpeg(run, tmp_path, screenshot, monkeypatch):
     monkeypatch.setattr("webviz.shell.pictures.videos.shutil.which", lambda name: None)
     result = screenshot("--bag", str(run), "--every", "2", "--clock", "-o", "a.mp4", *SMALL)
     assert result.status == 4, "a.mp4 is missing"

@@ -42,13 +42,13 @@ def test_a_time_outside_of_the_bag_is_refused_with_the_range(at):
 
 
 @pytest.mark.parametrize("text", ["", "soon", "nan", "inf", "1,5", "End"])
-def test_what_is_no_time_is_refused(text):
+def test_invalid_texts_of_times_are_refused(text):
     with pytest.raises(TimeError, match="is not a valid time"):
         read_at(text)
 
 
 @pytest.mark.parametrize("at", [float("nan"), float("inf")])
-def test_a_number_that_is_no_time_is_refused(at):
+def test_numbers_outside_of_times_are_refused(at):
     with pytest.raises(TimeError, match="is not a valid time"):
         position_ns(at, Span(), "run.mcap")
 

@@ -6,20 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import PIL.Image
-import pytest
+from turtlebot import BAG, DATA, needs_bag
 
 import webviz
 from webviz.shell.testing.comparing import share_of_difference
 from webviz.sources.bag.extras import map_of_file, static_transform
 
 ROOT = Path(__file__).parents[3]
-DATA = ROOT.parent / "shared/data"
-BAG = DATA / "bags/macfirst_floor_take_2"
 DIFFERENT = 0.01
 """Share of pixels that may differ: the picture was made by one version of one browser."""
 
 
-@pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
+@needs_bag
 def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer):
     shot = webviz.capture(
         DATA / "rviz/turtlebot_bag_files.rviz",
@@ -40,8 +38,10 @@ def test_a_turtlebot_its_map_and_its_config_are_one_picture(renderer):
     assert share_of_difference(shot.pixels, expected) < DIFFERENT
 
 
-@pytest.mark.skipif(not BAG.exists(), reason="the bag of the TurtleBot 4 is not here")
+@needs_bag
 def test_without_the_transform_that_the_bag_lacks_the_fixed_frame_is_missed(renderer):
     shot = webviz.capture(DATA / "rviz/turtlebot_bag_files.rviz", bag=BAG, renderer=renderer)
     assert not shot.is_ok
-    assert 'Fixed frame "map" does not exist' in shot.pictures[0].shown.general["Fixed Frame"].text
+    assert (
+        'Fixed frame "map" does not exist' in shot.pictures[0].readiness.general["Fixed Frame"].text
+    )

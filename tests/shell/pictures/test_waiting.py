@@ -76,27 +76,27 @@ def written(path: Path, last_scan_s: float = 1.0) -> Path:
     return bag.write(path)
 
 
-def test_what_loads_beyond_the_time_out_has_some_time_more(
+def test_a_display_still_loading_at_the_time_out_gets_more_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(offline_viewer, "LOADING_S", SHORT_S)
     with opened(of_a_display(Loading(name="Dot")), written(tmp_path / "bag")) as (viewer, _):
         began = time.monotonic()
-        shown = viewer.wait(["Dot"], deadline=began)
+        readiness = viewer.wait(["Dot"], deadline=began)
         assert time.monotonic() - began >= SHORT_S
-        assert shown.statuses["Dot"].level is Level.IDLE
-        assert not shown.is_ok, "the time for it ran out"
+        assert readiness.statuses["Dot"].level is Level.IDLE
+        assert not readiness.is_ok, "the time for it ran out"
         monkeypatch.setattr(offline_viewer, "LOADING_S", PATIENCE_S)
         timer = threading.Timer(SHORT_S, GO.set)
         timer.start()
-        shown = viewer.wait(["Dot"], deadline=began)
+        readiness = viewer.wait(["Dot"], deadline=began)
         timer.join()
-        assert (shown.statuses["Dot"].level, shown.is_ok) == (Level.OK, True)
+        assert (readiness.statuses["Dot"].level, readiness.is_ok) == (Level.OK, True)
 
 
-def test_what_waits_for_transforms_at_the_end_of_a_bag_is_no_fault(tmp_path: Path) -> None:
+def test_a_message_without_transforms_at_the_end_of_a_bag_is_ok(tmp_path: Path) -> None:
     config = opening.parse(SCAN, "scan.yaml")
     with opened(config, written(tmp_path / "bag", last_scan_s=1.05)) as (viewer, _):
-        shown = viewer.wait(["LaserScan"], deadline=time.monotonic() + PATIENCE_S)
-    assert shown.statuses["LaserScan"].level is Level.IDLE
-    assert shown.is_ok
+        readiness = viewer.wait(["LaserScan"], deadline=time.monotonic() + PATIENCE_S)
+    assert readiness.statuses["LaserScan"].level is Level.IDLE
+    assert readiness.is_ok

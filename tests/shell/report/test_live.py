@@ -6,15 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from live_paths import path_viewer
 
 import webviz
-from webviz.commands import Refresh, SaveReport, Seek
-from webviz.data.messages import encode
+from webviz.commands import SaveReport, Seek
 from webviz.files.report import BugReport, read_report
-from webviz.shell.testing import header
 from webviz.shell.testing.source import SECOND, HandFedSource
 
-PATH = "nav_msgs/msg/Path"
 COUNT = 10
 
 
@@ -26,13 +24,7 @@ def source() -> HandFedSource:
 @pytest.fixture
 def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
     """A viewer that has received some paths, one a second of ROS time."""
-    with webviz.Viewer(port=0, source=source) as viewer:
-        viewer.config = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
-        for _ in range(COUNT):
-            viewer.do(Refresh())  # after the first one, the topic is subscribed to
-            source.now += SECOND
-            source.put("/plan", PATH, encode(PATH, {"header": header("map", source.now)}))
-        viewer.do(Refresh())
+    with path_viewer(source, COUNT) as viewer:
         yield viewer
 
 

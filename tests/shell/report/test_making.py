@@ -38,7 +38,7 @@ def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def made(bag: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def archive(bag: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("reports") / "bug.zip"
     with opened(bag) as source:
         config = parse(stories.CONFIG, "the config")
@@ -48,8 +48,8 @@ def made(bag: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def report(made: Path, tmp_path: Path) -> UnpackedReport:
-    return read_report(made, tmp_path)
+def report(archive: Path, tmp_path: Path) -> UnpackedReport:
+    return read_report(archive, tmp_path)
 
 
 @contextlib.contextmanager
@@ -58,7 +58,7 @@ def opened(bag: Path) -> Iterator[Player]:
         yield source
 
 
-def test_a_report_shows_what_the_bag_shows(bag: Path, report: UnpackedReport) -> None:
+def test_a_report_equals_the_bag_at_its_moment(bag: Path, report: UnpackedReport) -> None:
     with (
         contextlib.closing(BagViewer(bag, stories.CONFIG)) as before,
         contextlib.closing(BagViewer(report.bag, load(report.config))) as after,
@@ -82,13 +82,13 @@ def test_statuses_and_findings_of_the_moment(report: UnpackedReport) -> None:
     assert {each.name for each in report.report.moments} >= {"DATA001", "driver"}
 
 
-def test_names_are_left_out_of_messages_and_log(made: Path, report: UnpackedReport) -> None:
+def test_names_are_left_out_of_messages_and_log(archive: Path, report: UnpackedReport) -> None:
     assert HOME.encode() not in report.bag.read_bytes()
     moments = [each.text for each in report.report.moments if each.name == "driver"]
     assert moments == ["cannot open /home/xxxxx/laser.yaml"]
 
 
-def test_a_report_that_is_too_large_says_so(
+def test_a_report_that_is_too_large_is_refused(
     bag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.features.reports.writing.MAX_BYTES", 1000)
@@ -157,7 +157,7 @@ def test_a_slice_that_ends_in_a_gap_does_not_say_that_a_topic_stops(tmp_path: Pa
         assert "GRAPH009" not in {finding.id for finding in report.findings}
 
 
-def test_the_browser_of_the_picture_is_nobodys(browser: playwright.Browser) -> None:
+def test_the_browser_of_the_picture_is_not_listed(browser: playwright.Browser) -> None:
     with contextlib.closing(HeadlessRenderer(browser, 200, 150)) as renderer:
         assert not renderer.scene.browsers.seen()
 
@@ -200,7 +200,7 @@ def test_invalid_arguments(
     assert capfd.readouterr().err == f"webviz: {sentence}\n"
 
 
-def test_a_zip_file_that_is_no_report(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_zip_file_that_is_not_a_report(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "other.zip"
     path.write_bytes(b"PK")
     assert cli([str(path), "--port", "0"]) == 1

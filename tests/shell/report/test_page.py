@@ -39,7 +39,9 @@ def has_distance(viewer: webviz.Viewer, distance: float) -> bool:
     return [isinstance(v, Orbit) and abs(v.distance - distance) < 1e-3 for v in views] == [True]
 
 
-def made(viewer: webviz.Viewer, browser: playwright.Browser, folder: Path) -> UnpackedReport:
+def report_of_moment(
+    viewer: webviz.Viewer, browser: playwright.Browser, folder: Path
+) -> UnpackedReport:
     """A report of a moment, of which a point of the scan is selected."""
     viewer.seek(AT_S)
     with contextlib.closing(Page(browser, viewer.url, 1100, 700)) as page:
@@ -66,7 +68,7 @@ def test_a_report_of_the_page_opens_as_it_was(
     bag = stories.write(tmp_path / "turned", "turned")
     (config := tmp_path / "lab.yaml").write_text(stories.CONFIG)
     with open_viewer(bag, config) as viewer:
-        result = made(viewer, browser, tmp_path)
+        result = report_of_moment(viewer, browser, tmp_path)
     assert result.picture is not None
     assert result.picture.suffix == ".jpg"
     assert result.report.selection

@@ -37,7 +37,7 @@ def reported(tmp_path: Path) -> Callable[[stories.Fault], Path]:
 
 
 @pytest.mark.parametrize(
-    ("fault", "check", "said"),
+    ("fault", "check", "sentence"),
     [
         ("turned", "finding", "The scan of 'base_scan' is rotated by 18"),
         ("misplaced", "status", "a shift by"),
@@ -50,14 +50,14 @@ def test_the_faults_of_the_course_become_tests(
     monkeypatch: pytest.MonkeyPatch,
     fault: stories.Fault,
     check: str,
-    said: str,
+    sentence: str,
 ) -> None:
     test = tmp_path / "test_bug.py"
     assert cli(["test", str(reported(fault)), "-o", str(test), "--check", check]) == 0
     functions = compiled(test)
     monkeypatch.delenv("WEBVIZ_BAG", raising=False)
     texts = [failure(function) for function in functions]
-    assert any(said in text for text in texts), texts
+    assert any(sentence in text for text in texts), texts
     monkeypatch.setenv("WEBVIZ_BAG", str(stories.write(tmp_path / "repaired", "none")))
     assert [failure(function) for function in compiled(test)] == [""] * len(functions)
 
@@ -79,9 +79,9 @@ def failure(function: Callable[[], None]) -> str:
         from webviz.testing import replay
 
         names = function.__globals__
-        seen = replay(names["BAG"], names["CONFIG"], names["AT_S"])
-        texts = [status.text for each in seen.statuses.values() for status in each.values()]
-        return " ".join([*texts, *seen.findings.values()])
+        result = replay(names["BAG"], names["CONFIG"], names["AT_S"])
+        texts = [status.text for each in result.statuses.values() for status in each.values()]
+        return " ".join([*texts, *result.findings.values()])
     return ""
 
 
@@ -100,9 +100,9 @@ def test_strings_of_strangers_do_not_become_code(tmp_path: Path) -> None:
         assert calls <= {"Path", "os.environ.get", "replay", "replay(BAG, CONFIG, AT_S).problem"}
 
 
-def zipped(path: Path, **found: Any) -> Path:
+def zipped(path: Path, **values: Any) -> Path:
     """A report with these statuses and findings."""
-    report = BugReport(source="live", made=1.0, at_ns=1, first_ns=1, last_ns=2, **found)
+    report = BugReport(source="live", made=1.0, at_ns=1, first_ns=1, last_ns=2, **values)
     content = {"report.json": msgspec.json.encode(report), "config.yaml": b"", "slice.mcap": b""}
     write_report(path, content)
     return path

@@ -51,7 +51,7 @@ def test_a_property_without_effect_is_found(
         )
 
 
-class Silent(Spot):
+class SilentSpot(Spot):
     """Ignores what is far away, and says nothing."""
 
     def refuse(self, ctx: Context) -> None:
@@ -63,5 +63,5 @@ def test_a_value_that_is_ignored_in_silence_is_found(
 ) -> None:
     with pytest.raises(AssertionError, match="nothing is drawn"):
         TestSpot().test_an_extreme_value_is_neither_drawn_as_nonsense_nor_ignored_in_silence(
-            webviz_bench, Silent, "topic", monkeypatch
+            webviz_bench, SilentSpot, "topic", monkeypatch
         )

@@ -52,14 +52,14 @@ def test_a_status_is_the_worst_with_its_reason(stage: Harness) -> None:
     assert stage.status("Grid").level is Level.OK
 
 
-def test_time_is_what_the_test_says(filled: Harness) -> None:
+def test_the_test_sets_the_time(filled: Harness) -> None:
     filled.source.now += 20 * SECOND
     filled.clock += 20.0
     filled.turn()
     assert "20.0 s ago" in filled.statuses("Scan")["Topic"].text
 
 
-def test_what_is_not_drawn_says_why(stage: Harness) -> None:
+def test_a_display_that_draws_nothing_is_reported_with_the_reason(stage: Harness) -> None:
     with pytest.raises(AssertionError, match=r"Scan draws nothing\. Topic: No publisher on /scan"):
         stage.wait_until_drawn("Scan")
 

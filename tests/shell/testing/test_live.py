@@ -32,7 +32,7 @@ def send(viewer: LiveViewer, *ranges: float) -> None:
     viewer.publish("/scan", "sensor_msgs/msg/LaserScan", scan(list(ranges)), frame="laser")
 
 
-def test_what_was_published_is_drawn_when_waiting_ends(webviz_viewer: Viewers) -> None:
+def test_published_messages_are_drawn_when_waiting_ends(webviz_viewer: Viewers) -> None:
     viewer = webviz_viewer(LaserScan())
     assert viewer.viewer.turns > 0, "nothing tells when a turn is over"
     viewer.transform("map", "laser", (0.0, 0.0, 1.0))
@@ -58,7 +58,7 @@ def test_a_transform_that_comes_later_is_waited_for(webviz_viewer: Viewers) -> N
     last.join()
 
 
-def test_what_does_not_come_about_says_why(webviz_viewer: Viewers) -> None:
+def test_a_wait_that_fails_gives_the_reason(webviz_viewer: Viewers) -> None:
     viewer = webviz_viewer(LaserScan(), Path(topic=Topic("/plan")))
     send(viewer, 1.0)
 

@@ -69,12 +69,14 @@ def test_a_transparent_picture_has_no_background(filled: Harness) -> None:
     assert share_of_difference(over.round().astype(np.uint8), opaque) <= TOLERANCE
 
 
-def test_pictures_have_the_size_that_is_asked_for(filled: Harness) -> None:
+def test_pictures_have_the_requested_size(filled: Harness) -> None:
     filled.resize(320, 200)
     assert filled.picture().shape == (200, 320, 3)
 
 
-def test_a_missing_picture_says_how_to_make_it(filled: Harness, tmp_path: Path) -> None:
+def test_a_missing_reference_names_the_option_that_makes_it(
+    filled: Harness, tmp_path: Path
+) -> None:
     with_references(filled, tmp_path)
     with pytest.raises(
         AssertionError, match=r"pictures/scan\.png is missing\. Run pytest with --up"
@@ -94,7 +96,7 @@ def test_a_wrong_picture_leaves_the_difference(
     assert load(references.output / "scan.png").shape == (300, 400, 3)
 
 
-def test_what_is_masked_does_not_matter(filled: Harness, references: ReferenceImages) -> None:
+def test_masked_pixels_are_ignored(filled: Harness, references: ReferenceImages) -> None:
     reference = load(references.folder / "scan.png")
     filled.set("size", 0.25, "Scan")
     actual = filled.picture()
@@ -112,7 +114,9 @@ def test_a_mask_is_grey_and_may_reach_over_the_edge() -> None:
     assert (masked(picture, [(-5, -5, -1, -1)]) == 0).all()
 
 
-def test_a_picture_of_another_size_says_so(filled: Harness, references: ReferenceImages) -> None:
+def test_a_picture_of_another_size_is_reported(
+    filled: Harness, references: ReferenceImages
+) -> None:
     filled.snapshots.references = dataclasses.replace(references, size=(320, 240))
     with pytest.raises(
         AssertionError, match=r"has 320 x 240 pixels, pictures/scan.png has 400 x 3"
@@ -120,7 +124,7 @@ def test_a_picture_of_another_size_says_so(filled: Harness, references: Referenc
         filled.check_picture("scan")
 
 
-def test_an_update_leaves_what_still_passes(
+def test_an_update_keeps_images_that_still_match(
     filled: Harness, tmp_path: Path, references: ReferenceImages
 ) -> None:
     path = references.folder / "scan.png"
@@ -198,7 +202,7 @@ def test_a_browser_that_dies_is_reported_and_replaced(
     assert set(browsers()) - set(before) == set()
 
 
-def test_without_a_browser_one_sentence_says_how_to_get_one(
+def test_a_missing_browser_is_explained_in_one_sentence(
     filled: Harness,
     shared_renderer: SharedRenderer,
     monkeypatch: pytest.MonkeyPatch,

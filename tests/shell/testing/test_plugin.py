@@ -53,7 +53,7 @@ def run(package: pytest.Pytester, *arguments: str) -> pytest.RunResult:
     return package.runpytest_subprocess(*options, *arguments, timeout=120)
 
 
-def test_pictures_are_made_pass_fail_and_are_masked(
+def test_pictures_are_made_compared_and_masked(
     package: pytest.Pytester,
 ) -> None:
     run(package, "--update-pictures").assert_outcomes(passed=2)
@@ -77,8 +77,8 @@ def test_pictures_are_made_pass_fail_and_are_masked(
             "picture_output/axes.png and picture_output/axes.difference.png.*"
         ]
     )
-    made = sorted(path.name for path in (package.path / "picture_output").iterdir())
-    assert made == ["axes.difference.png", "axes.png"]
+    file_names = sorted(path.name for path in (package.path / "picture_output").iterdir())
+    assert file_names == ["axes.difference.png", "axes.png"]
     # The message stands below the line of the test that asked, without the inside of webviz.
     assert "webviz/testing" not in result.stdout.str()
 
@@ -107,14 +107,14 @@ def test_without_a_browser_scenes_are_read_and_failures_are_one_sentence(
     )
 
 
-def test_the_fixtures_are_listed_with_what_they_do(package: pytest.Pytester) -> None:
+def test_pytest_lists_the_fixtures_and_options(package: pytest.Pytester) -> None:
     text = run(package, "--fixtures", "-v").stdout.str()
     for name in ("webviz_harness", "webviz_viewer", "webviz_domain"):
         assert name in text
     assert "--update-pictures" in run(package, "--help").stdout.str()
 
 
-def test_who_does_not_use_it_does_not_pay_for_it(tmp_path: Path) -> None:
+def test_the_plug_in_imports_nothing_heavy_until_used(tmp_path: Path) -> None:
     (tmp_path / "test_nothing.py").write_text(
         "import sys\n"
         "def test_nothing():\n"

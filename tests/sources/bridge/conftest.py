@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-import threading
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import pytest
-from bridges import FoxgloveServer, Reader, foxglove_server, reading
+from bridges import BridgeReader, FoxgloveServer, foxglove_server, reading
+from serving import serving
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
@@ -25,11 +26,10 @@ def server() -> Iterator[FoxgloveServer]:
 
 
 @pytest.fixture
-def liar() -> Iterator[Callable[..., Reader]]:
+def liar() -> Iterator[Callable[..., BridgeReader]]:
     """Run a script for each connection, and read from it; without a protocol as rosbridge does."""
-    opened: list[Any] = []
 
-    def liar(script: Script, protocol: str = SDK, **options: Any) -> Reader:
+    def liar(script: Script, protocol: str = SDK, **options: Any) -> BridgeReader:
         def talk(connection: ServerConnection) -> None:
             try:
                 if protocol:
@@ -42,13 +42,8 @@ def liar() -> Iterator[Callable[..., Reader]]:
 
         options = {"subprotocols": [protocol] if protocol else None, "max_size": None, **options}
         server = serve(talk, "127.0.0.1", 0, compression=None, **options)
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        port = server.socket.getsockname()[1]
-        reader = reading(f"ws://127.0.0.1:{port}")
-        opened.append((reader, server))
-        return reader.__enter__()
+        port = stack.enter_context(serving(server)).socket.getsockname()[1]
+        return stack.enter_context(reading(f"ws://127.0.0.1:{port}"))
 
-    yield liar
-    for reader, server in opened:
-        reader.__exit__(None, None, None)
-        server.shutdown()
+    with ExitStack() as stack:
+        yield liar

@@ -12,10 +12,12 @@ from webviz.sources.bridge.address import HEADERS, address
 
 
 def test_credentials_are_in_no_sentence() -> None:
-    given = address("wss://user:secret@robot.example:9999/way/", environment={HEADERS: "T: secret"})
-    assert (given.name, given.place) == ("wss://robot.example:9999/way", "robot.example:9999")
-    assert "secret" not in repr(given) + given.name + given.place
-    assert given.headers == [("T", "secret")]
+    bridge = address(
+        "wss://user:secret@robot.example:9999/way/", environment={HEADERS: "T: secret"}
+    )
+    assert (bridge.name, bridge.place) == ("wss://robot.example:9999/way", "robot.example:9999")
+    assert "secret" not in repr(bridge) + bridge.name + bridge.place
+    assert bridge.headers == [("T", "secret")]
 
 
 def test_places_have_the_port_of_the_scheme() -> None:
@@ -38,7 +40,7 @@ def test_places_have_the_port_of_the_scheme() -> None:
         "ws://robot\n",
     ],
 )
-def test_what_is_no_address_is_an_error(url: str) -> None:
+def test_invalid_addresses_are_refused(url: str) -> None:
     with pytest.raises(Error, match=r"is not the address of a bridge. Write ws://HOST:PORT"):
         address(url)
 

@@ -7,7 +7,7 @@ import pytest
 from webviz.sources.bridge.backlog import WINDOW_S, LinkDelay, TopicBacklog
 
 
-def test_the_fastest_message_has_no_delay_whatever_the_clocks_say() -> None:
+def test_the_fastest_message_has_no_delay_with_any_clocks() -> None:
     delay = LinkDelay()
     assert delay.note(1000.0, 5.0) == 0.0
     assert delay.note(1001.0, 6.5) == pytest.approx(0.5)
@@ -28,7 +28,7 @@ def test_gaps_count_as_dropped_only_while_messages_are_late() -> None:
     assert backlog.delay_s == 2.5
 
 
-def test_stamps_that_go_back_or_stand_still_are_no_gap() -> None:
+def test_stamps_that_repeat_or_go_back_are_not_a_gap() -> None:
     backlog = TopicBacklog()
     for stamp_s in [1.0, 1.0, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 0.1, 0.1]:
         backlog.note(stamp_s, 3.0)

@@ -17,7 +17,7 @@ from webviz.data.messages import definition, encode
 from webviz.sources import Subscription
 from webviz.sources.bridge.address import address
 from webviz.sources.bridge.bulk import BulkConnection
-from webviz.sources.bridge.pacing import MAX_RATE, Pacer
+from webviz.sources.bridge.pacing import MAX_RATE, RateController
 from webviz.sources.bridge.source import BridgeSource
 from webviz.sources.bridge.talking import opened
 
@@ -59,8 +59,8 @@ def test_large_messages_are_read_as_fast_as_the_link_is_thought_to_be() -> None:
         async with serve(send, "127.0.0.1", 0, compression=None) as server:
             port = next(iter(server.sockets)).getsockname()[1]
             async with opened(address(f"ws://127.0.0.1:{port}"), BulkConnection) as connection:
-                connection.pacer = Pacer()
-                connection.pacer.rate = rate
+                connection.rate_controller = RateController()
+                connection.rate_controller.rate = rate
                 start_s = time.monotonic()
                 for _ in range(count):
                     assert len(await connection.recv()) == size

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from typing import Any
 
 import pytest
-from bridges import FoxgloveServer, Reader, reading
+from bridges import BridgeReader, FoxgloveServer, reading
 from websockets.sync.server import ServerConnection
 
 from tests.support.panel_facts import show as show_panel
@@ -22,13 +22,13 @@ from webviz.sources.bridge.foxglove_parameters import SERVER
 
 
 @pytest.fixture
-def reader(server: FoxgloveServer) -> Iterator[Reader]:
+def reader(server: FoxgloveServer) -> Iterator[BridgeReader]:
     with reading(server.url) as reader:
         reader.until(lambda: reader.bridge.parameters.nodes == ("/base", SERVER))
         yield reader
 
 
-def ask(reader: Reader, service: str, **request: Any) -> Any:
+def ask(reader: BridgeReader, service: str, **request: Any) -> Any:
     """Call a service for the parameters of a node."""
     words = service.rpartition("/")[2].split("_")
     type = "rcl_interfaces/srv/" + "".join(word.capitalize() for word in words)
@@ -37,21 +37,21 @@ def ask(reader: Reader, service: str, **request: Any) -> Any:
     return decode(parts.response, call.result(20))
 
 
-def values(reader: Reader, *names: str, node: str = "/base") -> list[Any]:
+def values(reader: BridgeReader, *names: str, node: str = "/base") -> list[Any]:
     return ask(reader, f"{node}/get_parameters", names=names).values
 
 
-def change(reader: Reader, name: str, **value: Any) -> Any:
+def change(reader: BridgeReader, name: str, **value: Any) -> Any:
     changes = [{"name": name, "value": value}]
     return ask(reader, "/base/set_parameters", parameters=changes).results[0]
 
 
-def test_nodes_have_their_parameters_with_types(reader: Reader) -> None:
+def test_nodes_have_their_parameters_with_types(reader: BridgeReader) -> None:
     names = ask(reader, "/base/list_parameters").result.names
     assert {"max_speed", "qos_overrides./tf.depth"} < set(names)
     assert len(names) == 10
-    asked = ("max_speed", "count", "name", "is_on", "key", "gains", "joints", "missing")
-    result = values(reader, *asked)
+    requested_names = ("max_speed", "count", "name", "is_on", "key", "gains", "joints", "missing")
+    result = values(reader, *requested_names)
     assert [each.type for each in result] == [3, 2, 4, 1, 5, 8, 9, 0]
     assert (result[0].double_value, result[1].integer_value) == (0.5, 3)
     assert (bytes(result[4].byte_array_value), list(result[5].double_array_value)) == (
@@ -62,14 +62,14 @@ def test_nodes_have_their_parameters_with_types(reader: Reader) -> None:
     assert free.string_value == "of no node"
 
 
-def test_a_value_without_a_type_in_ros_is_shown_and_locked(reader: Reader) -> None:
+def test_a_value_without_a_type_in_ros_is_shown_and_locked(reader: BridgeReader) -> None:
     (limits,) = values(reader, "limits")
     assert limits.string_value.replace(" ", "") == '{"low":1}'
     about = ask(reader, "/base/describe_parameters", names=["limits", "count"]).descriptors
     assert [each.read_only for each in about] == [True, False]
 
 
-def test_parameters_are_set_and_what_the_server_keeps_is_told(reader: Reader) -> None:
+def test_parameters_are_set_and_refusals_of_the_server_reported(reader: BridgeReader) -> None:
     assert change(reader, "count", type=2, integer_value=7).successful
     assert change(reader, "key", type=5, byte_array_value=b"\x05").successful
     assert change(reader, "gains", type=8, double_array_value=[3.0]).successful
@@ -77,11 +77,13 @@ def test_parameters_are_set_and_what_the_server_keeps_is_told(reader: Reader) ->
     assert [result[0].integer_value, bytes(result[1].byte_array_value)] == [7, b"\x05"]
     refused = change(reader, "wheel_radius", type=3, double_value=0.2)
     assert (refused.successful, refused.reason) == (False, "The bridge keeps it at 0.1.")
-    with pytest.raises(NotConnected, match="no infinite numbers"):
+    with pytest.raises(NotConnected, match="does not accept infinite numbers"):
         change(reader, "max_speed", type=3, double_value=float("nan"))
 
 
-def test_the_panel_shows_them_and_every_change(server: FoxgloveServer, reader: Reader) -> None:
+def test_the_panel_shows_them_and_every_change(
+    server: FoxgloveServer, reader: BridgeReader
+) -> None:
     panel, ui = Parameters(node="/base"), RecordedUi()
 
     def send(command: Any, browser: int | None = None) -> None:
@@ -101,12 +103,12 @@ def test_the_panel_shows_them_and_every_change(server: FoxgloveServer, reader: R
     reader.until(lambda: text("max_speed") == "1.25")
 
 
-def parameters(*found: Any, id: Any = "all") -> str:
-    return json.dumps({"op": "parameterValues", "parameters": list(found), "id": id})
+def parameters(*values: Any, id: Any = "all") -> str:
+    return json.dumps({"op": "parameterValues", "parameters": list(values), "id": id})
 
 
 def test_lies_about_parameters_are_bounded(
-    liar: Callable[..., Reader], monkeypatch: pytest.MonkeyPatch
+    liar: Callable[..., BridgeReader], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(foxglove_parameters, "MAX_PARAMETERS", 5)
     monkeypatch.setattr(foxglove_parameters, "MAX_PENDING", 3)
@@ -128,8 +130,8 @@ def test_lies_about_parameters_are_bounded(
         for frame in frames:
             connection.send(frame)
         while True:
-            asked = json.loads(connection.recv())
-            if asked.get("id") == "1":
+            request = json.loads(connection.recv())
+            if request.get("id") == "1":
                 values = [{"name": f"/base.{i}", "value": each} for i, each in enumerate(odd)]
                 connection.send(parameters(fine, *values, *values, id="1"))
 
@@ -146,16 +148,18 @@ def test_lies_about_parameters_are_bounded(
     assert "does not answer within 0.5 s" in str(get_all(reader).exception(20))
 
 
-def test_a_change_that_the_bridge_does_not_confirm_has_failed(liar: Callable[..., Reader]) -> None:
+def test_a_change_that_the_bridge_does_not_confirm_has_failed(
+    liar: Callable[..., BridgeReader],
+) -> None:
     speed = {"name": "/base.speed", "value": 0.5, "type": "float64"}
 
     def script(connection: ServerConnection) -> None:
         connection.send(json.dumps({"op": "serverInfo", "capabilities": ["parameters"]}))
         connection.send(parameters(speed))
         while True:
-            asked = json.loads(connection.recv())
-            if asked["op"] == "setParameters":
-                connection.send(parameters(id=asked["id"]))
+            request = json.loads(connection.recv())
+            if request["op"] == "setParameters":
+                connection.send(parameters(id=request["id"]))
 
     reader = liar(script)
     reader.until(lambda: reader.bridge.parameters.nodes)
@@ -166,7 +170,7 @@ def test_a_change_that_the_bridge_does_not_confirm_has_failed(liar: Callable[...
     )
 
 
-def get_all(reader: Reader) -> Future[bytes]:
+def get_all(reader: BridgeReader) -> Future[bytes]:
     type = "rcl_interfaces/srv/ListParameters"
     request = encode(interfaces.service(type).request, {})
     return reader.source.graph.call("/base/list_parameters", type, request, 0.5)

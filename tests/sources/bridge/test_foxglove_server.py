@@ -8,7 +8,7 @@ import time
 from collections.abc import Iterator
 
 import pytest
-from bridges import SCAN, STRING, TF, FoxgloveServer, Reader, foxglove_server, reading
+from bridges import SCAN, STRING, TF, BridgeReader, FoxgloveServer, foxglove_server, reading
 from slow_link import SlowLink
 
 from webviz.data.messages import decode, encode, interfaces, type_exists
@@ -25,13 +25,13 @@ CMD_VEL = Advertisement("/cmd_vel", "geometry_msgs/msg/Twist")
 
 
 @pytest.fixture
-def reader(server: FoxgloveServer) -> Iterator[Reader]:
+def reader(server: FoxgloveServer) -> Iterator[BridgeReader]:
     with reading(server.url) as reader:
         reader.until_up()
         yield reader
 
 
-def test_topics_have_types_and_nodes_but_no_known_qos(reader: Reader) -> None:
+def test_topics_have_types_and_nodes_but_no_known_qos(reader: BridgeReader) -> None:
     reader.until(lambda: reader.source.offers()["/scan"].publishers[0].node)
     (laser,) = reader.source.offers()["/scan"].publishers
     assert (laser.node, laser.type, laser.is_qos_known) == ("/laser", SCAN, False)
@@ -42,32 +42,36 @@ def test_topics_have_types_and_nodes_but_no_known_qos(reader: Reader) -> None:
     assert reader.source.graph.nodes() == ("/base", "/laser", "/odometry", "/robot_state_publisher")
 
 
-def test_messages_come_only_while_they_are_wanted(server: FoxgloveServer, reader: Reader) -> None:
+def test_messages_arrive_only_while_subscribed(
+    server: FoxgloveServer, reader: BridgeReader
+) -> None:
     reader.want(scan=SCAN)
-    server.said("subscribed", "/scan")
+    server.receive("subscribed", "/scan")
     assert len(reader.decoded("/scan", SCAN).ranges) == 360
     reader.want(tf=TF)
-    server.said("unsubscribed", "/scan")
+    server.receive("unsubscribed", "/scan")
     reader.receive("/tf", 3)
     assert "/scan" not in reader.arrived or not reader.source.inbox.drain().get("/scan")
 
 
 def test_latched_messages_come_again_for_a_new_reader(
-    server: FoxgloveServer, reader: Reader
+    server: FoxgloveServer, reader: BridgeReader
 ) -> None:
     reader.want(robot_description=STRING)
     first = reader.receive("/robot_description")
-    reader.want(robot_description=STRING, asked=1)
+    reader.want(robot_description=STRING, resubscriptions=1)
     assert reader.receive("/robot_description") == first
 
 
-def test_a_type_that_is_defined_in_idl_is_read(reader: Reader) -> None:
+def test_a_type_that_is_defined_in_idl_is_read(reader: BridgeReader) -> None:
     reader.want(battery=BATTERY)
     battery = reader.decoded("/battery", BATTERY)
     assert (battery.voltage, battery.name) == (12.5, "main")
 
 
-def test_a_service_answers_and_its_error_is_told(server: FoxgloveServer, reader: Reader) -> None:
+def test_a_service_answers_and_its_error_is_reported(
+    server: FoxgloveServer, reader: BridgeReader
+) -> None:
     interfaces.service(SET_BOOL)
     call = reader.source.graph.call
     on = call("/motor", SET_BOOL, encode(f"{SET_BOOL}_Request", {"data": True}), 20.0)
@@ -81,7 +85,7 @@ def test_a_service_answers_and_its_error_is_told(server: FoxgloveServer, reader:
         call("/motor", "std_srvs/srv/Empty", b"", 20.0).result(20)
 
 
-def test_a_service_is_known_by_the_definitions_of_the_bridge(reader: Reader) -> None:
+def test_a_service_is_known_by_the_definitions_of_the_bridge(reader: BridgeReader) -> None:
     reader.until(lambda: type_exists(f"{SET_MODE}_Request"))
     request, response = interfaces.service(SET_MODE)
     cdr = encode(request, {"mode": {"name": "fast"}, "levels": [1, 2]})
@@ -89,26 +93,26 @@ def test_a_service_is_known_by_the_definitions_of_the_bridge(reader: Reader) -> 
     assert decode(response, answer).said == cdr.hex()
 
 
-def test_what_is_published_arrives_with_its_subscribers(
-    server: FoxgloveServer, reader: Reader
+def test_published_messages_reach_the_server_with_the_number_of_subscribers(
+    server: FoxgloveServer, reader: BridgeReader
 ) -> None:
     reader.until(reader.source.graph.nodes)
     cdr = encode(CMD_VEL.type, {"linear": {"x": 0.5}})
     assert reader.source.graph.advertise([CMD_VEL]).result(20) is None
     assert reader.source.graph.publish(CMD_VEL, cdr).result(20) == 1
-    assert server.said("advertised") == "/cmd_vel"
-    assert base64.b64decode(server.said("message")) == cdr
+    assert server.receive("advertised") == "/cmd_vel"
+    assert base64.b64decode(server.receive("message")) == cdr
     reader.source.graph.advertise([])
-    assert server.said("unadvertised")
+    assert server.receive("unadvertised")
 
 
-def test_files_of_the_robot_are_fetched(reader: Reader) -> None:
+def test_files_of_the_robot_are_fetched(reader: BridgeReader) -> None:
     assert reader.source.graph.fetch("package://arm/a.stl").result(20) == b"solid"
     with pytest.raises(NotConnected, match="no such file"):
         reader.source.graph.fetch("package://arm/b.stl").result(20)
 
 
-def test_meshes_that_this_machine_lacks_come_from_the_robot(reader: Reader) -> None:
+def test_meshes_that_this_machine_lacks_come_from_the_robot(reader: BridgeReader) -> None:
     reader.until(lambda: reader.source.graph.nodes())  # the server has said what it can do
     shape = "<visual><geometry><mesh filename='package://{}'/></geometry></visual>"
     urdf = f"""<robot name="arm"><link name="base">{shape.format("arm/meshes/link.obj")}
@@ -119,13 +123,13 @@ def test_meshes_that_this_machine_lacks_come_from_the_robot(reader: Reader) -> N
     assert sorted(path.name for path in folder.iterdir()) == ["link.obj", "red.mtl"]
 
 
-def test_actions_are_refused_with_another_way(reader: Reader) -> None:
+def test_actions_are_refused_with_another_way(reader: BridgeReader) -> None:
     goal = reader.source.graph.send_goal("/spin", "nav2_msgs/action/Spin", b"", lambda cdr: None)
     with pytest.raises(NotConnected, match="Actions do not pass the bridge"):
         goal.accepted.result(20)
 
 
-def test_simulated_time_is_that_of_the_bridge(server: FoxgloveServer, reader: Reader) -> None:
+def test_simulated_time_is_that_of_the_bridge(server: FoxgloveServer, reader: BridgeReader) -> None:
     assert reader.source.clock_messages() is None
     assert abs(reader.source.now_ns() - time.time_ns()) < 10**9
     server.do("time 12.5")
@@ -133,26 +137,26 @@ def test_simulated_time_is_that_of_the_bridge(server: FoxgloveServer, reader: Re
     assert reader.source.clock_messages() == 1
 
 
-def test_warnings_of_the_bridge_are_shown(server: FoxgloveServer, reader: Reader) -> None:
+def test_warnings_of_the_bridge_are_shown(server: FoxgloveServer, reader: BridgeReader) -> None:
     server.do("status the disk is full")
     reader.until(lambda: "The bridge reports: the disk is full" in reader.bridge.remarks)
 
 
-def test_a_topic_that_ends_is_gone(server: FoxgloveServer, reader: Reader) -> None:
+def test_a_topic_that_ends_is_gone(server: FoxgloveServer, reader: BridgeReader) -> None:
     assert "/odd" in reader.source.offers()
     server.do("stop /odd")
     reader.until(lambda: "/odd" not in reader.source.offers())
 
 
-def test_a_server_that_only_shows_says_what_it_lacks() -> None:
+def test_missing_capabilities_of_a_server_are_reported() -> None:
     with foxglove_server(0, "plain") as server, reading(server.url) as reader:
         reader.until_up()
         reader.want(scan=SCAN)
         reader.receive("/scan")
         limits = " ".join(reader.bridge.limits)
-        assert "takes no messages" in limits
+        assert "does not accept messages" in limits
         assert "calls no services" in limits
-        assert "does not tell which nodes" in limits
+        assert "does not report which nodes" in limits
         with pytest.raises(NotConnected, match="clientPublish"):
             reader.source.graph.publish(CMD_VEL, encode(CMD_VEL.type, {})).result(20)
         assert reader.source.offers()["/scan"].subscribers is None
@@ -160,7 +164,7 @@ def test_a_server_that_only_shows_says_what_it_lacks() -> None:
             reader.source.graph.fetch("package://arm/a.stl").result(20)
 
 
-def test_a_killed_server_is_connected_again_with_all_that_was_wanted() -> None:
+def test_all_subscriptions_are_restored_after_a_server_restarts() -> None:
     with foxglove_server() as first, reading(first.url) as reader:
         reader.until_up()
         reader.want(scan=SCAN)
@@ -175,7 +179,7 @@ def test_a_killed_server_is_connected_again_with_all_that_was_wanted() -> None:
         with pytest.raises(NotConnected):
             reader.source.graph.publish(CMD_VEL, b"").result(20)
         with foxglove_server(first.port) as second:
-            assert second.said("advertised") == "/cmd_vel"
+            assert second.receive("advertised") == "/cmd_vel"
             reader.until_up()
             reader.receive("/scan", 3)
             reader.until(lambda: not reader.source.offers()["/scan"].problem)
@@ -201,7 +205,7 @@ def test_a_server_that_hangs_gets_no_late_commands(monkeypatch: pytest.MonkeyPat
         assert reader.source.graph.publish(CMD_VEL, cdr).exception(20) is None
 
 
-def test_what_a_slow_link_loses_is_estimated() -> None:
+def test_messages_dropped_on_a_slow_link_are_estimated() -> None:
     with foxglove_server(0, "short") as server:
         link = SlowLink(server.port, rate=400_000, delay_s=0.0)
         try:

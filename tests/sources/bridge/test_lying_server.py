@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import trustme
-from bridges import SCAN, STRING, Reader, reading
+from bridges import SCAN, STRING, BridgeReader, reading
 from hostile_definitions import REFUSED, renamed
 from websockets.http11 import Request, Response
 from websockets.sync.server import ServerConnection
@@ -27,13 +27,13 @@ from webviz.sources.bridge import foxglove, foxglove_channels, json_frames, sour
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
 NUMBER = "std_msgs/msg/Float64"
-Liar = Callable[..., Reader]
+Liar = Callable[..., BridgeReader]
 
 
 def channel(id: int, topic: str, type: str = STRING, **fields: Any) -> dict[str, Any]:
     text = definition(type) if type_exists(type) else ""
-    known = {"encoding": "cdr", "schemaEncoding": "ros2msg", "schema": text}
-    return {"id": id, "topic": topic, "schemaName": type, **known, **fields}
+    defaults = {"encoding": "cdr", "schemaEncoding": "ros2msg", "schema": text}
+    return {"id": id, "topic": topic, "schemaName": type, **defaults, **fields}
 
 
 def advertise(*channels: dict[str, Any]) -> str:
@@ -87,8 +87,8 @@ def test_malformed_frames_are_counted_and_the_rest_is_read(liar: Liar) -> None:
     reader.until(lambda: any(remark.startswith(ignored) for remark in reader.bridge.remarks))
 
 
-def test_only_the_channel_of_the_wanted_type_is_read(liar: Liar) -> None:
-    asked: list[int] = []
+def test_only_the_channel_of_the_subscribed_type_is_read(liar: Liar) -> None:
+    subscriptions: list[int] = []
 
     def script(connection: ServerConnection) -> None:
         others = "nav_msgs/msg/Path", "tf2_msgs/msg/TFMessage"  # one before it, one behind
@@ -97,17 +97,17 @@ def test_only_the_channel_of_the_wanted_type_is_read(liar: Liar) -> None:
         text = json.loads(connection.recv())
         while text["op"] != "subscribe":
             text = json.loads(connection.recv())
-        asked.extend(each["channelId"] for each in text["subscriptions"])
+        subscriptions.extend(each["channelId"] for each in text["subscriptions"])
         head = struct.pack("<BIQ", 1, text["subscriptions"][0]["id"], 5)
         connection.send(head + encode(NUMBER, {"data": 2.5}))
 
     reader = liar(script)
     reader.want(words=NUMBER)
     assert reader.decoded("/words", NUMBER).data == 2.5
-    assert asked == [3]
+    assert subscriptions == [3]
 
 
-def test_a_hundred_thousand_channels_are_cut_and_said(liar: Liar) -> None:
+def test_channels_over_the_limit_are_dropped_and_reported(liar: Liar) -> None:
     def script(connection: ServerConnection) -> None:
         channels = [channel(i, f"/topic{i}") for i in range(100_000)]
         connection.send(advertise(channel(100_001, "/words"), *channels))
@@ -190,13 +190,13 @@ def test_everything_but_hostile_definitions_is_subscribed_to(liar: Liar) -> None
         connection.send(message(next_subscription(connection), "still here"))
 
     reader = liar(script)
-    wanted: dict[str, Any] = {name: f"{name}_msgs/msg/Evil" for name in evil}
-    reader.want(**wanted, words=STRING)
+    topics: dict[str, Any] = {name: f"{name}_msgs/msg/Evil" for name in evil}
+    reader.want(**topics, words=STRING)
     assert reader.decoded("/words", STRING).data == "still here"
     for name, (_, problem) in evil.items():
         reader.until(
-            lambda name=name, said=problem: (
-                said in reader.source.offers().get(f"/{name}", NO_OFFER).problem
+            lambda name=name, sentence=problem: (
+                sentence in reader.source.offers().get(f"/{name}", NO_OFFER).problem
             )
         )
     assert len(connections) == 1
@@ -249,8 +249,8 @@ def test_definitions_of_services_are_bounded_together(
 
     reader = liar(script)
     reader.until(lambda: "/words" in reader.source.offers())
-    known = [number for number in range(5) if type_exists(f"many_msgs/srv/Many{number}_Request")]
-    assert known == [0, 1, 2]
+    numbers = [number for number in range(5) if type_exists(f"many_msgs/srv/Many{number}_Request")]
+    assert numbers == [0, 1, 2]
 
 
 @pytest.mark.parametrize(
@@ -350,7 +350,7 @@ def test_calls_that_are_never_answered_end_and_are_bounded(
     assert "does not answer" in str(_call(reader, 0.1).exception(20))
 
 
-def _call(reader: Reader, timeout_s: float) -> Any:
+def _call(reader: BridgeReader, timeout_s: float) -> Any:
     return reader.source.graph.call("/sleep", "std_srvs/srv/Empty", b"\0\1\0\0\0", timeout_s)
 
 
@@ -359,16 +359,16 @@ def refuse(status: int, body: str) -> Callable[[ServerConnection, Request], Resp
 
 
 @pytest.mark.parametrize(
-    ("status", "body", "said"),
+    ("status", "body", "sentence"),
     [
         (400, "Missing expected sec-websocket-protocol header", "refuses the protocols"),
         (401, "", "asks for credentials (HTTP 401)"),
         (404, "", "answers with HTTP 404"),
     ],
 )
-def test_refusals_are_explained(liar: Liar, status: int, body: str, said: str) -> None:
+def test_refusals_are_explained(liar: Liar, status: int, body: str, sentence: str) -> None:
     reader = liar(lambda connection: None, process_request=refuse(status, body))
-    reader.until(lambda: said in reader.bridge.problem)
+    reader.until(lambda: sentence in reader.bridge.problem)
     assert reader.bridge.remedy
     assert body in reader.bridge.problem
 
@@ -431,7 +431,7 @@ def test_old_bridges_are_spoken_to(liar: Liar) -> None:
     reader.until(lambda: "/scan" in reader.source.offers())
 
 
-def test_what_is_no_websocket_is_said() -> None:
+def test_a_server_without_websockets_is_reported() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
 

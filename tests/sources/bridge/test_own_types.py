@@ -11,7 +11,7 @@ from itertools import count
 from typing import Any
 
 import pytest
-from bridges import Reader
+from bridges import BridgeReader
 from filled_messages import filled
 from rosbags.typesys import Stores, get_typestore
 from waiting import until
@@ -28,7 +28,7 @@ from webviz.sources.recording.memory import MemoryHistory
 
 CDR = b"\0\1\0\0"
 PART = f"{'=' * 80}\nMSG: {{}}\n"
-Liar = Callable[..., Reader]
+Liar = Callable[..., BridgeReader]
 ServedTopic = tuple[str, str, bytes]
 """Type, definition and message of a topic."""
 
@@ -51,8 +51,8 @@ def served(topics: Mapping[str, ServedTopic]) -> Callable[[ServerConnection], No
     return script
 
 
-def read(reader: Reader, topic: str, type_: str, asked: int = 0) -> Any:
-    reader.want(asked, **{topic: type_})
+def read(reader: BridgeReader, topic: str, type_: str, resubscriptions: int = 0) -> Any:
+    reader.want(resubscriptions, **{topic: type_})
     return reader.decoded(f"/{topic}", type_)
 
 
@@ -74,7 +74,7 @@ def test_bridges_and_live_topics_may_define_a_type_otherwise(
         assert not type_exists(name)
         register(name, live)
     assert decode(name, CDR + b"\x09").apple.weight == 9
-    assert read(whole, "basket", name, asked=1).apple.weight == -7
+    assert read(whole, "basket", name, resubscriptions=1).apple.weight == -7
 
 
 def test_topics_of_a_bridge_may_define_a_type_otherwise(
@@ -105,7 +105,7 @@ def test_topics_of_a_bridge_may_define_a_type_otherwise(
 )
 def test_services_of_a_bridge_change_no_known_type(liar: Liar, name: str, change: str) -> None:
     register("liars_msgs/msg/Known", "float64 number")
-    known = fields(name)
+    before = fields(name)
     short = name.replace("/msg/", "/")
     services = [
         {
@@ -128,11 +128,11 @@ def test_services_of_a_bridge_change_no_known_type(liar: Liar, name: str, change
     liar(lambda connection: connection.send(advertised)).until(
         lambda: type_exists(f"{services[1]['type']}_Response")
     )
-    assert fields(name) == known
+    assert fields(name) == before
     assert not type_exists(f"{services[0]['type']}_Request")
 
 
-def test_what_a_bridge_sent_is_recorded_and_remembered_with_its_definition(liar: Liar) -> None:
+def test_messages_of_a_bridge_are_recorded_with_their_definition(liar: Liar) -> None:
     name = "liars_msgs/msg/Plum"
     text = f"Stone stone\n{PART.format('liars_msgs/Stone')}int32 weight\n"
     register(name, f"Stone stone\n{PART.format('liars_msgs/Stone')}uint8 weight\n")
@@ -181,7 +181,7 @@ def test_stamps_in_types_of_a_robot_are_corrected(liar: Liar) -> None:
         until(lambda: (s := late_s()) is not None and abs(s) < 1.0, lambda: fleet.bridges)
 
 
-def test_messages_of_an_older_distribution_have_defaults_for_what_they_lack(liar: Liar) -> None:
+def test_messages_of_an_older_distribution_have_defaults_for_missing_fields(liar: Liar) -> None:
     """Galactic's Marker has no textures, which its class here has."""
     store, name = get_typestore(Stores.ROS2_GALACTIC), "visualization_msgs/msg/Marker"
     text, _ = store.generate_msgdef(name, ros_version=2)

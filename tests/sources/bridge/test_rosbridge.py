@@ -13,7 +13,7 @@ from typing import Any
 import cbor2
 import numpy as np
 import pytest
-from bridges import SCAN, STRING, TF, Reader, reading
+from bridges import SCAN, STRING, TF, BridgeReader, reading
 from hostile_definitions import REFUSED, renamed
 from rosbridge_recording import (
     GET,
@@ -40,7 +40,7 @@ DEMO = Path(__file__).with_name("rosbridge_demo.jsonl.gz")
 FRAGMENTS = Path(__file__).with_name("rosbridge_fragments.jsonl.gz")
 WIDE = "wide_msgs_of_bridges/msg/Wide"
 CLOCK = "rosgraph_msgs/msg/Clock"
-Liar = Callable[..., Reader]
+Liar = Callable[..., BridgeReader]
 
 
 @pytest.fixture
@@ -114,7 +114,7 @@ def test_a_list_in_fragments_is_read(replay: Callable[..., Replay]) -> None:
         reader.until(lambda: reader.source.offers()["/odom"].requested)
 
 
-def test_everything_is_asked_for_again_after_a_break(replay: Callable[..., Replay]) -> None:
+def test_all_subscriptions_are_restored_after_a_break(replay: Callable[..., Replay]) -> None:
     first = replay(DEMO)
     with reading(first.url) as reader:
         reader.until_up()
@@ -172,7 +172,7 @@ def test_values_that_do_not_fit_are_refused(values: dict[str, Any]) -> None:
 
 
 @pytest.fixture
-def liar(liar: Liar) -> Callable[[Callable[[ServerConnection], None]], Reader]:
+def liar(liar: Liar) -> Callable[[Callable[[ServerConnection], None]], BridgeReader]:
     """Run a script for each connection, and read from it."""
     return functools.partial(liar, protocol="")
 
@@ -257,22 +257,24 @@ def test_everything_but_hostile_definitions_is_subscribed_to(liar: Liar) -> None
     reader = liar(
         lambda c: _serve(c, {**types, "/words": STRING}, {"/words": {"data": "still here"}}, texts)
     )
-    wanted: dict[str, Any] = {name: types[f"/{name}"] for name in evil}
-    reader.want(**wanted, words=STRING)
+    topics: dict[str, Any] = {name: types[f"/{name}"] for name in evil}
+    reader.want(**topics, words=STRING)
     assert reader.decoded("/words", STRING).data == "still here"
     for name, (_, problem) in evil.items():
         reader.until(
-            lambda name=name, said=problem: said in reader.source.offers()[f"/{name}"].problem
+            lambda name=name, sentence=problem: (
+                sentence in reader.source.offers()[f"/{name}"].problem
+            )
         )
 
 
 @pytest.mark.parametrize("values", [None, "text", {"topics": 5}, {"topics": [5], "types": [""]}])
-def test_lists_that_are_none_are_malformed(values: Any) -> None:
+def test_invalid_lists_are_malformed(values: Any) -> None:
     with pytest.raises(WireError):
         rosbridge_wire.converted(values, rosbridge_wire.Topics)
 
 
-def test_a_hundred_thousand_topics_are_cut_and_said(liar: Liar) -> None:
+def test_topics_over_the_limit_are_dropped_and_reported(liar: Liar) -> None:
     types = {"/words": STRING, "no name": STRING} | {f"/t{i}": STRING for i in range(100_000)}
     reader = liar(lambda c: _serve(c, types, {"/words": {"data": "first"}}))
     reader.want(words=STRING)
@@ -311,7 +313,7 @@ def test_a_server_without_rosapi_is_explained(liar: Liar) -> None:
     assert not reader.source.offers()
 
 
-def test_silence_of_rosapi_is_said(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_silent_rosapi_is_reported(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
     reader = liar(lambda connection: None)
     reader.until(lambda: reader.bridge.is_up)
     assert not reader.bridge.remarks
@@ -346,7 +348,7 @@ def test_calls_that_are_never_answered_end_and_are_bounded(
     assert "does not answer" in str(call("/sleep", "std_srvs/srv/Empty", empty, 0.1).exception(20))
 
 
-def test_without_its_library_that_is_said(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_missing_package_cbor2_is_reported(liar: Liar, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rosbridge_wire, "is_readable", lambda: False)
     reader = liar(lambda c: _serve(c, {"/words": STRING}))
     reader.want(words=STRING)
@@ -372,6 +374,6 @@ def test_fragments_are_put_together_and_bounded(monkeypatch: pytest.MonkeyPatch)
         fragments.add(Fragment("more", "", 0, 9.0))
 
 
-def test_what_is_sent_as_bytes_is_the_cdr() -> None:
+def test_binary_messages_are_cdr() -> None:
     cdr = struct.pack("<4sI", b"\0\1\0\0", 7)
     assert rosbridge_wire.read_binary(message("/n", cdr)) == ("/n", 5_000_000_006, cdr)

@@ -38,7 +38,7 @@ class Rosbridge:
     """
 
     def __init__(self) -> None:
-        self.sent: dict[str, int] = dict.fromkeys(TYPES, 0)
+        self.counts: dict[str, int] = dict.fromkeys(TYPES, 0)
         self.throttles: list[tuple[str, int]] = []
         self._clients: dict[asyncio.Queue[Any], dict[str, list[float]]] = {}
         self._loop = asyncio.new_event_loop()
@@ -76,7 +76,7 @@ class Rosbridge:
             for queue, topics in self._clients.items():
                 if topic in topics and time.monotonic() - topics[topic][1] >= topics[topic][0]:
                     topics[topic][1] = time.monotonic()
-                    self.sent[topic] += 1
+                    self.counts[topic] += 1
                     queue.put_nowait(frame)
             await asyncio.sleep(PERIODS_S[topic])
 
@@ -137,12 +137,12 @@ def test_clouds_do_not_delay_poses(rosbridge: Rosbridge) -> None:
             reader.want(pose=POSE, points=CLOUD)
             reader.until(lambda: any("thins /points to" in r for r in reader.bridge.remarks))
             reader.until(lambda: received["/points"] >= 7)
-            sent = dict(rosbridge.sent)
-            late = sent["/pose"] - received["/pose"]
+            counts = dict(rosbridge.counts)
+            late = counts["/pose"] - received["/pose"]
     finally:
         link.close()
     assert late * PERIODS_S["/pose"] < 2.0
     # Each was asked for: the others of this time rested at the server.
-    assert sent["/points"] < sent["/pose"] / 4
+    assert counts["/points"] < counts["/pose"] / 4
     throttles = {topic: {t for name, t in rosbridge.throttles if name == topic} for topic in TYPES}
     assert throttles == {"/pose": {0}, "/points": {0, AWAKE_MS, RESTING_MS}}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -11,6 +10,7 @@ from typing import Any
 
 import pytest
 from bridges import SCAN, STRING, TF, FoxgloveServer, foxglove_server
+from serving import serving
 from waiting import until
 from websockets.http11 import Request
 from websockets.sync.server import ServerConnection, serve
@@ -111,24 +111,24 @@ def test_stamps_of_a_robot_whose_clock_is_ahead_are_corrected(fleet: Fleet) -> N
     assert abs(time.time_ns() - moved) < 1e9
 
 
-def test_what_is_sent_goes_to_the_right_robot_with_stamps_by_its_clock(
+def test_messages_go_to_the_robot_of_their_namespace_with_stamps_of_its_clock(
     fleet: Fleet, servers: tuple[FoxgloveServer, FoxgloveServer]
 ) -> None:
     fleet.want(r2__scan=SCAN)
     fleet.until(lambda: fleet.source.bridges[1].clock_s)
     assert fleet.source.graph.advertise([GOAL]).result(20) is None
     stamped = {"header": header("map", time.time_ns())}
-    sent = fleet.source.graph.publish(GOAL, encode(GOAL.type, stamped))
-    assert sent.result(20) >= 0
-    assert servers[1].said("advertised") == "/goal_pose"
-    goal = decode(GOAL.type, base64.b64decode(servers[1].said("message")))
+    publication = fleet.source.graph.publish(GOAL, encode(GOAL.type, stamped))
+    assert publication.result(20) >= 0
+    assert servers[1].receive("advertised") == "/goal_pose"
+    goal = decode(GOAL.type, base64.b64decode(servers[1].receive("message")))
     assert (goal.header.stamp_ns - time.time_ns()) / 1e9 == pytest.approx(AHEAD_S, abs=1)
     interfaces.service(SET_BOOL)
     request = encode(f"{SET_BOOL}_Request", {"data": True})
     answer = fleet.source.graph.call("/r1/motor", SET_BOOL, request, 20.0).result(20)
     assert decode(f"{SET_BOOL}_Response", answer).message == "on"
-    assert servers[0].said("called") == "/motor"
-    with pytest.raises(NotConnected, match="in the namespace of none"):
+    assert servers[0].receive("called") == "/motor"
+    with pytest.raises(NotConnected, match="in the namespace of no robot"):
         fleet.source.graph.call("/motor", SET_BOOL, request, 20.0).result(20)
 
 
@@ -158,7 +158,7 @@ def test_topics_that_are_in_the_namespace_already_keep_their_names() -> None:
         fleet.until(lambda: {"/r1/scan", "/r1/tf"} <= fleet.newest.keys())
         drive = Advertisement("/r1/cmd_vel", "geometry_msgs/msg/Twist")
         fleet.source.graph.publish(drive, encode(drive.type, {})).result(20)
-        assert server.said("advertised") == "/r1/cmd_vel"
+        assert server.receive("advertised") == "/r1/cmd_vel"
 
 
 def test_a_token_is_sent_to_the_robot_that_it_names_only() -> None:
@@ -170,17 +170,15 @@ def test_a_token_is_sent_to_the_robot_that_it_names_only() -> None:
 
 def test_headers_go_to_the_addresses_of_the_start_only(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(f"{HEADERS}_R1", "X-Token: secret")
-    asked: list[tuple[str, bool]] = []
+    requests: list[tuple[str, bool]] = []
 
     def note(connection: ServerConnection, request: Request) -> None:
-        asked.append((request.path, "X-Token" in request.headers))
+        requests.append((request.path, "X-Token" in request.headers))
 
-    server = serve(lambda connection: None, "127.0.0.1", 0, process_request=note)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    url = f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
-    with closing(FleetSource(_robots({"r1": f"{url}/known"}), None)) as source:
-        until(lambda: ("/known", True) in asked)
-        source.follow(_robots({"r1": f"{url}/other"}))
-        until(lambda: ("/other", False) in asked)
-    server.shutdown()
-    assert ("/other", True) not in asked
+    with serving(serve(lambda _: None, "127.0.0.1", 0, process_request=note)) as server:
+        url = f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
+        with closing(FleetSource(_robots({"r1": f"{url}/known"}), None)) as source:
+            until(lambda: ("/known", True) in requests)
+            source.follow(_robots({"r1": f"{url}/other"}))
+            until(lambda: ("/other", False) in requests)
+    assert ("/other", True) not in requests

@@ -61,8 +61,8 @@ def test_robots_are_drawn_remembered_and_saved_together(config: Path, tmp_path: 
         def is_drawn() -> bool:
             viewer.attend(60)
             statuses = viewer.statuses
-            told = getattr(statuses.get("Connection to r2"), "text", "")
-            behind = re.search(r"clock is ([\d.]+) s behind", told)
+            status = getattr(statuses.get("Connection to r2"), "text", "")
+            behind = re.search(r"clock is ([\d.]+) s behind", status)
             return (
                 behind is not None
                 and float(behind[1]) == pytest.approx(2.5, abs=0.05)  # as far as links tell

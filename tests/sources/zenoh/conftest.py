@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import ExitStack
 
 import pytest
 from waiting import until
@@ -10,6 +11,13 @@ from zenoh_robot import ZenohRobot, ZenohRouter
 
 from webviz.sources.zenoh.address import zenoh_address
 from webviz.sources.zenoh.source import ZenohSource
+
+
+@pytest.fixture
+def stack() -> Iterator[ExitStack]:
+    """Closes at the end what a test has opened."""
+    with ExitStack() as stack:
+        yield stack
 
 
 @pytest.fixture

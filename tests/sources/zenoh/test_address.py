@@ -59,7 +59,7 @@ def test_refuses_with_a_sentence(address: str, sentence: str) -> None:
         zenoh_address(address, {})
 
 
-def test_refuses_configs_and_domains_that_are_none(tmp_path: Path) -> None:
+def test_refuses_invalid_configs_and_domains(tmp_path: Path) -> None:
     path = tmp_path / "bad.json5"
     path.write_text("{mode: 'robot'}")
     with pytest.raises(Error, match=r"bad\.json5 is not a config of Zenoh: "):

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -75,12 +75,6 @@ class Sender:
         """End it."""
         with self._process:
             self._process.kill()
-
-
-@pytest.fixture
-def stack() -> Iterator[ExitStack]:
-    with ExitStack() as stack:
-        yield stack
 
 
 def listening(stack: ExitStack, endpoint: str) -> tuple[ZenohSource, Callable[[], list[str]]]:

@@ -79,8 +79,8 @@ def test_a_goal_through_the_bridge(source: ZenohSource, bridged: BridgedRobot) -
     until(lambda: "/robot1/spin" in source.snapshot.actions)
     until(lambda: "/robot1/spin/_action/feedback" in source.offers())
     assert actions_of(source.offers()) == {"/robot1/spin": SPIN}
-    wish = encode(parts.goal, {"target_yaw": 1.0})
-    goal = source.graph.send_goal("/robot1/spin", SPIN, wish, lambda cdr: None)
+    encoded_goal = encode(parts.goal, {"target_yaw": 1.0})
+    goal = source.graph.send_goal("/robot1/spin", SPIN, encoded_goal, lambda cdr: None)
     assert goal.accepted.result(10) is True
     assert goal.result.result(10)[0] == 4
 

@@ -74,8 +74,8 @@ def test_a_domain_or_a_key_prefix_each(router: ZenohRouter, has_domain: bool) ->
         answer = fleet.graph.call("/robot2/light", SET_BOOL, request, 5).result(10)
         assert decode(f"{SET_BOOL}_Response", answer).success
         cdr = encode(TWIST, {"linear": {"x": 1.0}})
-        sent = fleet.graph.publish(Advertisement("/robot2/cmd_vel", TWIST), cdr)
-        assert sent.result(5) == 1
+        publication = fleet.graph.publish(Advertisement("/robot2/cmd_vel", TWIST), cdr)
+        assert publication.result(5) == 1
         until(lambda: driven[1])
         assert not driven[0]
         assert [bridge.robot for bridge in fleet.bridges] == ["robot1", "robot2"]

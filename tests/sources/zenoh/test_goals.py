@@ -62,16 +62,16 @@ def test_a_goal_from_acceptance_to_result(source: ZenohSource, robot: ZenohRobot
 def test_a_goal_that_is_rejected(source: ZenohSource, robot: ZenohRobot) -> None:
     robot.action("/spin", SPIN, lambda goal, feedback: {})
     until(lambda: "/spin/_action/get_result" in source.snapshot.servers)
-    wish = encode(interfaces.action(SPIN).goal, {"target_yaw": -1.0})
-    goal = source.graph.send_goal("/spin", SPIN, wish, lambda cdr: None)
+    encoded_goal = encode(interfaces.action(SPIN).goal, {"target_yaw": -1.0})
+    goal = source.graph.send_goal("/spin", SPIN, encoded_goal, lambda cdr: None)
     assert goal.accepted.result(10) is False
     with pytest.raises(NotConnected, match="/spin rejected the goal"):
         goal.result.result(10)
 
 
-def test_a_goal_for_nobody(source: ZenohSource) -> None:
-    wish = encode(interfaces.action(SPIN).goal, {})
-    goal = source.graph.send_goal("/nobody", SPIN, wish, lambda cdr: None)
+def test_a_goal_without_a_server(source: ZenohSource) -> None:
+    encoded_goal = encode(interfaces.action(SPIN).goal, {})
+    goal = source.graph.send_goal("/nobody", SPIN, encoded_goal, lambda cdr: None)
     with pytest.raises(NotConnected, match="No node offers /nobody"):
         goal.accepted.result(10)
 
@@ -110,7 +110,7 @@ def test_definitions_come_from_the_publisher(source: ZenohSource, robot: ZenohRo
     until(lambda: "/wheel" in source.offers())
     source.want({"/wheel": Subscription(type, Topic("/wheel"))})
     until(lambda: source.offers()["/wheel"].problem)
-    assert "its publisher does not tell it" in source.offers()["/wheel"].problem
+    assert "its publisher does not provide it" in source.offers()["/wheel"].problem
     robot.service(
         "/robot/get_type_description",
         DESCRIBE,

@@ -44,7 +44,7 @@ def test_a_hundred_thousand_nodes_are_bounded() -> None:
     assert cleared.remarks == ()
 
 
-def test_lying_tokens_are_counted_and_shown_to_nobody(
+def test_malformed_tokens_are_counted_and_hidden(
     source: ZenohSource, robot: ZenohRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(discovered, "MAX_ENTITIES", 100)
@@ -90,7 +90,7 @@ def test_payloads_above_the_bound_are_refused(
     assert decode(STRING, arrived[-1].cdr).data == "small"
 
 
-def test_the_engine_drops_what_is_above_the_bound_before_it_is_whole(
+def test_the_engine_drops_messages_over_the_limit_before_they_are_complete(
     router: ZenohRouter, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A gigabyte would take that much memory before anybody could look at its size."""
@@ -113,7 +113,7 @@ def test_the_engine_drops_what_is_above_the_bound_before_it_is_whole(
         robot.close()
 
 
-def test_bytes_that_are_no_messages(source: ZenohSource, robot: ZenohRobot) -> None:
+def test_undecodable_bytes_are_dropped(source: ZenohSource, robot: ZenohRobot) -> None:
     words, clock = robot.publisher("/words", STRING), robot.publisher("/clock", STRING)
     until(lambda: {"/words", "/clock"} <= set(source.offers()))
     source.want({"/words": Subscription(STRING, Topic("/words"))})
@@ -126,19 +126,19 @@ def test_bytes_that_are_no_messages(source: ZenohSource, robot: ZenohRobot) -> N
     assert source.clock_messages() is None
 
 
-def test_answers_that_are_none(
+def test_invalid_answers_are_refused(
     source: ZenohSource, robot: ZenohRobot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(calls, "MAX_TOTAL", 1 << 20)
-    said = {"/error": b"<b>" + b"x" * 10_000, "/huge": b"\0" * (2 << 20)}
+    answers = {"/error": b"<b>" + b"x" * 10_000, "/huge": b"\0" * (2 << 20)}
 
     def answer(query: object) -> None:
         key = str(query.key_expr)  # type: ignore[attr-defined]
         name = "/" + key.split("/")[1]
         if name == "/error":
-            query.reply_err(said[name])  # type: ignore[attr-defined]
+            query.reply_err(answers[name])  # type: ignore[attr-defined]
         elif name == "/huge":
-            query.reply(key, said[name])  # type: ignore[attr-defined]
+            query.reply(key, answers[name])  # type: ignore[attr-defined]
         else:
             query.drop()  # type: ignore[attr-defined]
 
@@ -147,7 +147,7 @@ def test_answers_that_are_none(
         key = f"0{name}/std_srvs::srv::dds_::SetBool_/RIHS01_{'1' * 64}"
         robot.session.declare_queryable(key, answer, complete=True)
         assert token
-    until(lambda: set(said) <= set(source.graph.services()))
+    until(lambda: set(answers) <= set(source.graph.services()))
 
     def failure(name: str) -> str:
         with pytest.raises(NotConnected) as raised:
@@ -177,8 +177,8 @@ def test_stamps_of_a_clock_that_disagrees(source: ZenohSource, robot: ZenohRobot
     until(lambda: source.offers()["/words"].subscribers)
     key = str(source.snapshot.publishers["/words"][0].key)
     for stamp_ns in (0, -1, 2**62, time.time_ns() + 3_600 * 10**9):
-        sent = robot_attachment(1, stamp_ns, bytes(16))
-        robot.session.put(key, encode(STRING, {"data": "x"}), attachment=sent)
+        attachment = robot_attachment(1, stamp_ns, bytes(16))
+        robot.session.put(key, encode(STRING, {"data": "x"}), attachment=attachment)
     robot.session.put(key, encode(STRING, {"data": "x"}), attachment=b"\xff" * 40)
     until(lambda: source.inbox.received().get("/words", (0, 0))[0] == 5)
     assert source.bridges[0].is_up

@@ -79,10 +79,10 @@ def enter(page: Page, field: str, text: str) -> None:
 
 
 def test_a_service_is_called(page: Page, robot: ZenohRobot) -> None:
-    asked: list[bool] = []
+    requests: list[bool] = []
 
     def answer(request: Any) -> dict[str, Any]:
-        asked.append(request.data)
+        requests.append(request.data)
         return {"success": True, "message": "The lamp is on."}
 
     robot.service("/light", SET_BOOL, answer)
@@ -90,7 +90,7 @@ def test_a_service_is_called(page: Page, robot: ZenohRobot) -> None:
     enter(page, "data", "true")
     press(page, "Call")
     page.wait_for(is_shown(page, "The lamp is on."), "the response")
-    assert asked == [True]
+    assert requests == [True]
 
 
 def test_parameters_are_listed_and_set(page: Page, robot: ZenohRobot) -> None:

@@ -65,7 +65,7 @@ def test_its_topics_nodes_and_caches_are_read(source: ZenohSource, robot: None) 
     assert first(source, "/latched") == "map"
 
 
-def test_it_hears_what_is_published(source: ZenohSource, robot: None) -> None:
+def test_it_receives_messages_of_the_viewer(source: ZenohSource, robot: None) -> None:
     until(lambda: "/heard" in source.snapshot.readers, seconds=PATIENCE_S)
     source.want({"/repeated": Subscription(STRING, Topic("/repeated"))})
     cdr = encode(STRING, {"data": "hello"})

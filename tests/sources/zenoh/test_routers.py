@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -49,17 +48,11 @@ PLACES = {
 
 def opened(stack: ExitStack, text: str) -> zenoh.Session:
     """Open a session with a config, without scouting."""
-    made = zenoh.Config.from_json5(text)
-    made.insert_json5("scouting/multicast/enabled", "false")
-    session = zenoh.open(made)
+    zenoh_config = zenoh.Config.from_json5(text)
+    zenoh_config.insert_json5("scouting/multicast/enabled", "false")
+    session = zenoh.open(zenoh_config)
     stack.callback(session.close)
     return session
-
-
-@pytest.fixture
-def stack() -> Iterator[ExitStack]:
-    with ExitStack() as stack:
-        yield stack
 
 
 def source_at(stack: ExitStack, address: str) -> ZenohSource:
@@ -94,7 +87,7 @@ def test_a_slow_link_has_fewer_scans_and_no_images(stack: ExitStack) -> None:
     until(lambda: source.inbox.received().get("/odom", (0, 0))[0] == 40)
     counts = {topic: count for topic, (count, _) in source.inbox.received().items()}
     assert 0 < counts["/scan"] <= 2 * seconds + 2
-    assert "/camera/image" not in counts
+    assert counts["/camera/image"] == 0
 
 
 def test_poses_overtake_clouds_on_a_slow_link(stack: ExitStack) -> None:
@@ -124,13 +117,13 @@ def test_watchers_cannot_drive(stack: ExitStack) -> None:
     place = f"127.0.0.1:{free_port()}"
     opened(stack, block("watch.json5", listen=place))
     robot, source = robot_at(stack, f"tcp/{place}"), source_at(stack, f"tcp/{place}")
-    driven, told = robot.subscription("/cmd_vel", TWIST), robot.subscription("/words", STRING)
+    driven, words = robot.subscription("/cmd_vel", TWIST), robot.subscription("/words", STRING)
     until(lambda: {"/cmd_vel", "/words"} <= set(source.snapshot.readers))
     cdr = encode(TWIST, {"linear": {"x": 1.0}})
     for _ in range(3):
         source.graph.publish(Advertisement("/cmd_vel", TWIST), cdr).result(5)
         source.graph.publish(Advertisement("/words", STRING), encode(STRING, {})).result(5)
-    until(lambda: len(told) == 3)
+    until(lambda: len(words) == 3)
     assert not driven
 
 
@@ -193,9 +186,9 @@ def test_a_router_that_asks_for_a_user(
     (tmp_path / "users").write_text("ann:secret\n")
     port = free_port()
     endpoint = f"tcp/127.0.0.1:{port}"
-    made = config("router", listen=endpoint)
-    made.insert_json5("transport/auth/usrpwd/dictionary_file", f'"{tmp_path}/users"')
-    router = zenoh.open(made)
+    zenoh_config = config("router", listen=endpoint)
+    zenoh_config.insert_json5("transport/auth/usrpwd/dictionary_file", f'"{tmp_path}/users"')
+    router = zenoh.open(zenoh_config)
     stack.callback(router.close)
     who = {"WEBVIZ_ZENOH_USER": "ann", "WEBVIZ_ZENOH_PASSWORD": "secret"}
     source = ZenohSource(zenoh_address(endpoint, who))

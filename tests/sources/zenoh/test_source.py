@@ -20,8 +20,8 @@ SET_BOOL = "std_srvs/srv/SetBool"
 TWIST = "geometry_msgs/msg/Twist"
 
 
-def want(source: ZenohSource, topic: str, type: str = STRING, asked: int = 0) -> None:
-    source.want({topic: Subscription(type, Topic(topic), asked=asked)})
+def want(source: ZenohSource, topic: str, type: str = STRING, resubscriptions: int = 0) -> None:
+    source.want({topic: Subscription(type, Topic(topic), resubscriptions=resubscriptions)})
 
 
 def heard(source: ZenohSource, topic: str = "/words") -> list[str]:
@@ -78,13 +78,15 @@ def test_latched_messages_come_from_the_cache_of_the_publisher(
     results: list[str] = []
     until(lambda: results.extend(heard(source)) or results)
     assert results == ["latched"]
-    want(source, "/words", asked=1)
+    want(source, "/words", resubscriptions=1)
     again: list[str] = []
     until(lambda: again.extend(heard(source)) or again)
     assert again == ["latched"], "asked again, the cache answers again"
 
 
-def test_only_messages_of_the_wanted_type_arrive(source: ZenohSource, robot: ZenohRobot) -> None:
+def test_only_messages_of_the_subscribed_type_arrive(
+    source: ZenohSource, robot: ZenohRobot
+) -> None:
     publish = robot.publisher("/words", STRING)
     other = robot.publisher("/words", TWIST)
     until(lambda: len(source.snapshot.publishers.get("/words", ())) == 2)
@@ -119,7 +121,7 @@ def test_publishes_with_number_time_and_identity(source: ZenohSource, robot: Zen
         assert source.graph.publish(advertisement, cdr).result(5) == 1
     until(lambda: len(result) == 2)
     assert [message.linear.x for message, _ in result] == [1.0, 2.0]
-    numbers = [int.from_bytes(sent[:8], "little") for _, sent in result]
+    numbers = [int.from_bytes(attachment[:8], "little") for _, attachment in result]
     assert numbers[1] == numbers[0] + 1
     stamp_ns = int.from_bytes(result[0][1][8:16], "little")
     assert abs(stamp_ns - time.time_ns()) < 60e9
@@ -187,7 +189,7 @@ def test_reconnects_to_a_router_that_restarts() -> None:
         router.close()
 
 
-def test_says_that_nothing_listens() -> None:
+def test_an_unreachable_router_is_reported() -> None:
     port = free_port()
     source = ZenohSource(zenoh_address(f"tcp/127.0.0.1:{port}", {}))
     try:

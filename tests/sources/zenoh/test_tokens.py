@@ -89,7 +89,7 @@ def test_humble_has_no_hash() -> None:
     assert entity.key == "0/a/std_msgs::msg::dds_::String_/TypeHashNotSupported"
 
 
-def test_writes_what_a_robot_writes() -> None:
+def test_writes_the_tokens_a_robot_writes() -> None:
     entity = GraphEntity("subscription", "", "/ns/scan", STRING, hash=HASH)
     qos = write_qos("best_effort", "volatile", 5)
     own = write_token(3, ZID, (0, 9), "/webviz", entity, qos)
@@ -204,7 +204,7 @@ def test_reads_attachments_with_names() -> None:
 
 
 @given(st.binary(max_size=80))
-def test_any_bytes_are_an_attachment_or_none(data: bytes) -> None:
+def test_reads_any_bytes_as_an_attachment_or_none(data: bytes) -> None:
     read = read_attachment(data)
     assert read is None or len(read.gid) == 16
 

@@ -3,7 +3,7 @@
     python -m side_by_side.systems.traced STEPS ARGUMENT...
 
 It writes a line to STEPS for each step of `SLOW_S` or more: its end in nanoseconds since 1970, the
-milliseconds it took, its thread, and what it was. Steps are calls that the frame loop guards, its
+milliseconds it took, its thread, and what it was. Steps are calls behind the error boundary, its
 turns, callbacks of the server's event loop, imports, collections of garbage, and those of a thread
 that sleeps for 1 ms again and again: it waits when the others hold the interpreter, or the machine
 is busy.
@@ -74,7 +74,7 @@ class Trace:
             self.note("a sleep of 1 ms", began)
 
 
-def _guarded(guard: object, scope: str, call: Callable[..., Any], *_: Any) -> str:
+def _hook(boundary: object, scope: str, call: Callable[..., Any], *_: Any) -> str:
     return f"{scope}: {getattr(call, '__qualname__', call)}"
 
 
@@ -90,10 +90,10 @@ def main(steps: str, *arguments: str) -> None:
 
 def follow(trace: Trace) -> None:
     """Note the slow steps of webviz."""
-    from webviz.engine.guard import Guard
+    from webviz.engine.error_boundary import ErrorBoundary
     from webviz.engine.loop.loop import FrameLoop
 
-    trace.follow(Guard, "__call__", _guarded)
+    trace.follow(ErrorBoundary, "__call__", _hook)
     trace.follow(FrameLoop, "_advance", lambda loop: "a turn")
     trace.follow(events.Handle, "_run", lambda handle: f"a callback: {handle!r:.150}")
     trace.follow(builtins, "__import__", lambda name, *_: f"import {name}")

@@ -12,7 +12,7 @@ import pytest
 from waiting import until
 from websockets.exceptions import ConnectionClosed
 
-from tests.server.access.conftest import House
+from tests.server.access.conftest import TokenServer
 from tests.support.guest import Guest
 from webviz.api.roles import Role
 from webviz.data.disk import MAX_THREADS, in_thread
@@ -31,15 +31,15 @@ def mounted() -> Iterator[threading.Event]:
 
 
 def test_a_link_is_revoked_although_no_thread_is_left_for_the_disk(
-    house: House, mounted: threading.Event
+    token_server: TokenServer, mounted: threading.Event
 ) -> None:
-    operator = house.enter(Role.OPERATOR)
-    operator.receive("You")
+    operator = token_server.enter(Role.OPERATOR)
+    operator.receive("Identity")
     waiting = [in_thread(mounted.wait) for _ in range(MAX_THREADS)]
-    house.revoke(Role.OPERATOR)
+    token_server.revoke(Role.OPERATOR)
     with pytest.raises(ConnectionClosed):
         operator.receive("None")
-    assert house.ask("/", Cookie=house.cookie(Role.OPERATOR)).status == 403
+    assert token_server.ask("/", Cookie=token_server.cookie(Role.OPERATOR)).status == 403
     mounted.set()
     assert all(each.result(60.0) for each in waiting)
 
@@ -75,7 +75,7 @@ def test_a_token_expires_although_its_file_cannot_be_read(
     server = open_server(port=0, access=access)
     guest = Guest(server, Cookie=f"webviz_{server.get_port()}={token.cookie}")
     try:
-        guest.receive("You")
+        guest.receive("Identity")
         if not fails:
             until(lambda: "the disk of" in caplog.text)
         clock[0] += timedelta(days=1.0)
@@ -91,15 +91,15 @@ def test_a_token_expires_although_its_file_cannot_be_read(
         server.stop()
 
 
-def test_a_role_that_is_lowered_in_the_file_closes_its_pages(house: House) -> None:
-    owner = house.enter(Role.OWNER)
-    owner.receive("You")
-    lowered = msgspec.structs.replace(house.tokens[Role.OWNER], role="watcher")
-    token_file.modify(house.path, lambda _: [lowered])
+def test_a_role_that_is_lowered_in_the_file_closes_its_pages(token_server: TokenServer) -> None:
+    owner = token_server.enter(Role.OWNER)
+    owner.receive("Identity")
+    lowered = msgspec.structs.replace(token_server.tokens[Role.OWNER], role="watcher")
+    token_file.modify(token_server.path, lambda _: [lowered])
     with pytest.raises(ConnectionClosed):
         owner.receive("None")
-    again = house.enter(Role.OWNER)
-    assert again.receive("You")["role"] == "watcher"
+    again = token_server.enter(Role.OWNER)
+    assert again.receive("Identity")["role"] == "watcher"
 
 
 def test_no_right_survives_a_failure_to_read_the_file(

@@ -16,12 +16,12 @@ from webviz.api.nodes import Points
 from webviz.commands import Seek
 from webviz.data.messages import TFMessage, decode, definition, encode
 from webviz.data.messages.stamps import shifted
-from webviz.engine.parts.ghost_config import OPACITY, with_ghost
+from webviz.engine.parts.comparison_config import OPACITY, with_comparison
 from webviz.files.opening import parse
 from webviz.files.report import read_report
 from webviz.shell.cli import main as cli
 from webviz.shell.testing import BagViewer, header
-from webviz.sources.bag.ghost import DIFFERENCE, DISTANCE, Align, Ghost
+from webviz.sources.bag.comparison import DIFFERENCE, DISTANCE, Align, ComparisonRun
 from webviz.sources.bag.history import BagHistory
 from webviz.sources.player import Player
 from webviz.sources.slices import slice_around
@@ -46,7 +46,7 @@ def write(path: Path, begin_s: float, ahead_m: float) -> Path:
     bag = Bag()
     bag.add("/scan", "sensor_msgs/msg/LaserScan", best_effort=True)
     bag.add("/speed", "std_msgs/msg/Float64")
-    bag.add("/car", "cars_of_ghosts/msg/Car", definition=CAR)
+    bag.add("/car", "cars_of_comparison/msg/Car", definition=CAR)
     bag.put(begin_s, "/car", b"\0\1\0\0" + bytes(48))
     bag.transform(begin_s, "map", "odom", static=True)
     for step in range(61):
@@ -67,31 +67,31 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 @contextlib.contextmanager
 def viewer(runs: tuple[Path, Path], align: Align | float) -> Iterator[BagViewer]:
     today, yesterday = runs
-    history = BagHistory(today, ghost=Ghost(yesterday, align, "/speed.data"))
-    config = with_ghost(parse(CONFIG, "the config"), history)
-    with contextlib.closing(BagViewer(history, config)) as shown:
-        yield shown
+    history = BagHistory(today, comparison=ComparisonRun(yesterday, align, "/speed.data"))
+    config = with_comparison(parse(CONFIG, "the config"), history)
+    with contextlib.closing(BagViewer(history, config)) as bag_viewer:
+        yield bag_viewer
 
 
-def x_of(shown: BagViewer, frame: str) -> float:
-    return shown.loop.buffer.lookup("map", frame, 0).translation[0]
+def x_of(bag_viewer: BagViewer, frame: str) -> float:
+    return bag_viewer.loop.buffer.lookup("map", frame, 0).translation[0]
 
 
 @pytest.mark.parametrize(
-    ("align", "ghost_m"),
+    ("align", "other_m"),
     [("start", 4.0), ("stamp", 2.0), ("path", 3.0), (0.5, 3.5)],
 )
 def test_both_runs_are_shown_at_a_time(
-    runs: tuple[Path, Path], align: Align | float, ghost_m: float
+    runs: tuple[Path, Path], align: Align | float, other_m: float
 ) -> None:
-    with viewer(runs, align) as shown:
-        shown.do(Seek(3.0))
-        assert x_of(shown, "base") == pytest.approx(3.0, abs=1e-6)
-        assert x_of(shown, "ghost/base") == pytest.approx(ghost_m, abs=0.11)
-        rows = {row.name: row.statuses for row in shown.rows}
+    with viewer(runs, align) as bag_viewer:
+        bag_viewer.do(Seek(3.0))
+        assert x_of(bag_viewer, "base") == pytest.approx(3.0, abs=1e-6)
+        assert x_of(bag_viewer, "ghost/base") == pytest.approx(other_m, abs=0.11)
+        rows = {row.name: row.statuses for row in bag_viewer.rows}
         assert rows["Scan (ghost)"]["Transform"].text == "Transform OK"
-        shown.do(Seek(1.0))  # back
-        assert x_of(shown, "base") == pytest.approx(1.0, abs=1e-6)
+        bag_viewer.do(Seek(1.0))  # back
+        assert x_of(bag_viewer, "base") == pytest.approx(1.0, abs=1e-6)
 
 
 def numbers(source: Player, topic: str) -> list[float]:
@@ -101,53 +101,55 @@ def numbers(source: Player, topic: str) -> list[float]:
 
 
 def test_the_distance_and_a_difference_over_time(runs: tuple[Path, Path]) -> None:
-    with viewer(runs, "start") as shown:
-        distances = numbers(shown.source, DISTANCE)
+    with viewer(runs, "start") as bag_viewer:
+        distances = numbers(bag_viewer.source, DISTANCE)
         assert len(distances) == 61
         assert distances == pytest.approx([AHEAD_M] * 61)
-        assert numbers(shown.source, DIFFERENCE) == pytest.approx([-AHEAD_M] * 61)
-        (plot,) = [tab.panel for tab in shown.loop.state().panels if tab.panel.name == "Ghost"]
+        assert numbers(bag_viewer.source, DIFFERENCE) == pytest.approx([-AHEAD_M] * 61)
+        (plot,) = [tab.panel for tab in bag_viewer.loop.state().panels if tab.panel.name == "Ghost"]
         assert plot.curves == [f"{DISTANCE}.data", f"{DIFFERENCE}.data"]  # pyright: ignore
         assert plot.units == {f"{DISTANCE}.data": "m"}, "a number has none"  # pyright: ignore
 
 
 def test_a_difference_has_the_unit_that_the_type_in_the_bag_states(runs: tuple[Path, Path]) -> None:
-    history = BagHistory(runs[0], ghost=Ghost(runs[1], "start", "/car.motion.linear.x"))
-    (plot,) = with_ghost(parse(CONFIG, "the config"), history).panels
+    history = BagHistory(
+        runs[0], comparison=ComparisonRun(runs[1], "start", "/car.motion.linear.x")
+    )
+    (plot,) = with_comparison(parse(CONFIG, "the config"), history).panels
     assert plot.units[f"{DIFFERENCE}.data"] == "m/s"  # pyright: ignore
     history.close()
 
 
 def test_a_slice_has_both_runs(runs: tuple[Path, Path]) -> None:
-    with viewer(runs, "start") as shown:
-        shown.do(Seek(3.0))
-        part, _ = slice_around(shown.source)
+    with viewer(runs, "start") as bag_viewer:
+        bag_viewer.do(Seek(3.0))
+        part, _ = slice_around(bag_viewer.source)
         topics = [channel.topic for channel, _, _ in part.messages()]
     for topic in ("/scan", "/tf"):
         assert topics.count(f"/ghost{topic}") == topics.count(topic) == 61
 
 
 def test_copies_are_tinted_and_read_topics_of_their_own(runs: tuple[Path, Path]) -> None:
-    with viewer(runs, "start") as shown:
-        rows = {row.name: row.display for row in shown.rows}
+    with viewer(runs, "start") as bag_viewer:
+        rows = {row.name: row.display for row in bag_viewer.rows}
         assert [*rows] == ["Grid", "Sensors", "Scan", "Ghost", "Scan (ghost)"]
         first, second = rows["Scan"], rows["Scan (ghost)"]
         assert first is not None
         assert second is not None
         assert second.topic.name == "/ghost/scan"  # pyright: ignore
         assert second.size == first.size  # pyright: ignore
-        ids = {row.name: row.id for row in shown.loop.state().rows}
+        ids = {row.name: row.id for row in bag_viewer.loop.state().rows}
 
         def points(name: str) -> Points:
-            ((_, _, node),) = shown.scene.visible(f"{ids[name]}/")
+            ((_, _, node),) = bag_viewer.scene.visible(f"{ids[name]}/")
             assert isinstance(node, Points)
             return node
 
-        shown.do(Seek(2.0))
-        own, ghost = points("Scan"), points("Scan (ghost)")
+        bag_viewer.do(Seek(2.0))
+        own, other = points("Scan"), points("Scan (ghost)")
         assert own.opacity == 1.0
-        assert ghost.opacity == pytest.approx(OPACITY)
-        shown.do(Seek(3.0))
+        assert other.opacity == pytest.approx(OPACITY)
+        bag_viewer.do(Seek(3.0))
         assert points("Scan (ghost)").opacity == pytest.approx(OPACITY), "once"
 
 
@@ -179,19 +181,19 @@ def test_a_report_of_two_runs_has_both_at_the_same_places(
     (config := tmp_path / "lab.yaml").write_text(CONFIG)
     command = ["--bag", str(runs[0]), "-d", str(config), "--ghost", str(runs[1])]
     zipped = tmp_path / "bug.zip"
-    made = ["report", *command, "--ghost-align", "path", "--at", "4", "--no-picture"]
-    assert cli([*made, "-o", str(zipped)]) == 0
+    arguments = ["report", *command, "--ghost-align", "path", "--at", "4", "--no-picture"]
+    assert cli([*arguments, "-o", str(zipped)]) == 0
     (folder := tmp_path / "out").mkdir()
     unpacked = read_report(zipped, folder)
     assert unpacked.report.at_s == pytest.approx(4.0)
-    with viewer(runs, "path") as shown:
-        shown.do(Seek(4.0))
-        expected = x_of(shown, "ghost/base")
-    with contextlib.closing(BagViewer(unpacked.bag, unpacked.config.read_text())) as shown:
-        shown.do(Seek(unpacked.report.at_s))
-        assert x_of(shown, "ghost/base") == pytest.approx(expected)
-        assert [row.name for row in shown.rows][-1] == "Scan (ghost)"
-        assert DISTANCE in shown.source.offers()
+    with viewer(runs, "path") as bag_viewer:
+        bag_viewer.do(Seek(4.0))
+        expected = x_of(bag_viewer, "ghost/base")
+    with contextlib.closing(BagViewer(unpacked.bag, unpacked.config.read_text())) as bag_viewer:
+        bag_viewer.do(Seek(unpacked.report.at_s))
+        assert x_of(bag_viewer, "ghost/base") == pytest.approx(expected)
+        assert [row.name for row in bag_viewer.rows][-1] == "Scan (ghost)"
+        assert DISTANCE in bag_viewer.source.offers()
 
 
 def test_two_runs_are_exported_with_their_distance(runs: tuple[Path, Path], tmp_path: Path) -> None:
