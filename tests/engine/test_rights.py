@@ -93,6 +93,34 @@ def test_a_name_is_compared_with_the_list(
     assert (restricted_graph.refusal(name) == "") is is_allowed
 
 
+def test_names_of_displays_to_add_are_asked_for_once_another_list_lacks_a_name() -> None:
+    requests: list[str] = []
+
+    def addable() -> tuple[str, ...]:
+        requests.append("addable")
+        return ("/menus/feedback",)
+
+    source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
+    rights = Rights(publish=None, own=("/goal",), also=("/more",), addable=addable)
+    restricted_graph = RestrictedGraph(source, rights, lambda: None)
+    assert (restricted_graph.refusal("/goal"), restricted_graph.refusal("/more")) == ("", "")
+    assert requests == []
+    assert restricted_graph.refusal("/menus/feedback") == ""
+    assert restricted_graph.refusal("/other").startswith("No tool or panel of the config")
+    assert rights.names == ("/goal", "/menus/feedback")
+
+
+def test_a_list_of_the_config_asks_for_no_names_of_displays() -> None:
+    def addable() -> tuple[str, ...]:
+        raise AssertionError
+
+    source = HandFedSource(graph=RememberingGraph())  # pyright: ignore[reportArgumentType]
+    rights = Rights(publish=("/goal",), own=("/own",), addable=addable)
+    restricted_graph = RestrictedGraph(source, rights, lambda: None)
+    assert restricted_graph.refusal("/goal") == ""
+    assert restricted_graph.refusal("/own").startswith("/own is not in the list")
+
+
 def test_refused_requests_never_reach_the_source() -> None:
     graph = RememberingGraph()
     source = HandFedSource(graph=graph)  # pyright: ignore[reportArgumentType]

@@ -8,6 +8,7 @@ theirs as entry points of the group `webviz.displays`, `webviz.tools` or `webviz
 from __future__ import annotations
 
 import functools
+import importlib.metadata
 from collections.abc import Mapping
 
 from webviz.api.declared import Declared, P
@@ -36,6 +37,28 @@ def plugin_types(base: type[P]) -> dict[str, type[P]]:
     return types  # pyright: ignore[reportReturnType]  # each kind has one base class
 
 
+def plugin_type(base: type[P], name: str) -> type[P] | None:
+    """Return the class of a name in config files; None if there is none, or it cannot be loaded.
+
+    Others are not imported: a viewer starts a tenth sooner without those that its config lacks.
+
+    Args:
+        base: the base class of the kind: `Display`, `Tool` or `Panel`.
+        name: of the class.
+    """
+    for registered in list(_registered.values()):  # another thread may register
+        if (cls := registered.get(name)) is not None and cls.kind == base.kind:
+            return cls  # pyright: ignore[reportReturnType]
+    point = _points(base.kind).get(name)
+    loaded = _loaded(point) if point else None
+    return loaded if isinstance(loaded, type) else None  # pyright: ignore[reportReturnType]
+
+
+def registered_types() -> Mapping[str, Mapping[str, type[Declared]]]:
+    """Return the classes of every kind that files have registered, by owner and name."""
+    return dict(_registered)
+
+
 def broken_types(base: type[Declared]) -> dict[str, str]:
     """Installed plug-ins of a kind that cannot be loaded, with the reason."""
     return _installed(base.kind)[1]
@@ -48,6 +71,8 @@ def display_types() -> dict[str, type[Display]]:
 
 def type_name(cls: type[Declared]) -> str:
     """Return the name of a class in config files."""
+    if plugin_type(cls, cls.__name__) is cls:
+        return cls.__name__
     types = plugin_types(cls)
     return next((name for name, each in types.items() if each is cls), cls.__name__)
 
@@ -59,8 +84,7 @@ def register(owner: str, types: Mapping[str, type[Declared]]) -> None:
         ValueError: a name is taken by another plug-in of that kind; nothing was changed.
     """
     for name, cls in types.items():
-        installed, broken = _installed(cls.kind)
-        if name in installed or name in broken:
+        if name in _points(cls.kind):
             raise ValueError(f"an installed package has a {cls.kind} named {name}")
         for other, registered in _registered.items():
             if other != owner and name in registered and registered[name].kind == cls.kind:
@@ -72,13 +96,30 @@ def register(owner: str, types: Mapping[str, type[Declared]]) -> None:
 def _installed(kind: str) -> tuple[dict[str, type[Declared]], dict[str, str]]:
     types: dict[str, type[Declared]] = {}
     broken: dict[str, str] = {}
-    for point in sorted(installed(entry_point_group(kind)), key=lambda p: p.name):
-        try:
-            cls = point.load()
-            if issubclass(cls, Display):
-                inputs_of(cls)
-            module_texts(cls)
-            types[point.name] = cls
-        except Exception as error:  # plug-ins may raise anything
-            broken[point.name] = f"{point.value} does not load: {type(error).__name__}: {error}"
+    for name, point in _points(kind).items():
+        loaded = _loaded(point)
+        if isinstance(loaded, str):
+            broken[name] = loaded
+        else:
+            types[name] = loaded
     return types, broken
+
+
+@functools.cache
+def _points(kind: str) -> dict[str, importlib.metadata.EntryPoint]:
+    """Entry points of a kind by name, sorted."""
+    points = sorted(installed(entry_point_group(kind)), key=lambda point: point.name)
+    return {point.name: point for point in points}
+
+
+@functools.cache
+def _loaded(point: importlib.metadata.EntryPoint) -> type[Declared] | str:
+    """Return the class of an entry point, or the reason why it cannot be loaded."""
+    try:
+        cls = point.load()
+        if issubclass(cls, Display):
+            inputs_of(cls)
+        module_texts(cls)
+    except Exception as error:  # plug-ins may raise anything
+        return f"{point.value} does not load: {type(error).__name__}: {error}"
+    return cls

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
-from webviz.api.registry import display_types
+from webviz.api.registry import registered_types
 from webviz.api.roles import Role
 from webviz.commands import Refresh
 from webviz.engine.commands import PROGRAM, Command, Sender
@@ -58,7 +58,7 @@ class Pages:
         """The stores of each part that are watched."""
         self._cache: dict[str, tuple[object, PageStore | None]] = {}
         """The last of each store that is watched, and what it was made of."""
-        self._types = display_types()
+        self._types = registered_types()
         for part in parts:
             if isinstance(part, PageFeature):
                 self._boundary(part.name, part.attach, dispatcher)
@@ -111,7 +111,7 @@ class Pages:
 
     def _forget(self, watched: set[str]) -> None:
         """Have stores made anew that are not watched any more, and all if there are other types."""
-        if (types := display_types()) != self._types:
+        if (types := registered_types()) != self._types:
             self._types = types
             self._cache.clear()
         for store in self._cache.keys() - watched:

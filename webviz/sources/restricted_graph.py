@@ -30,19 +30,25 @@ class Rights(msgspec.Struct, frozen=True):
         may_publish: whether anything may be.
         publish: the list of the config with which the viewer was started; those of other configs
             narrow it.
-        own: what its tools, displays and panels use, which is the list if the config has none.
+        own: what its tools, displays and panels use, which is the list if the config has none,
+            together with `addable`.
         also: allowed besides, whatever configs say.
+        addable: returns what displays use that pages may add; asked when a name is on no other
+            list, as it imports all of them.
     """
 
     may_publish: bool = True
     publish: AllowList | None = ("/*",)
     own: AllowList = ()
     also: AllowList = ()
+    addable: Callable[[], AllowList] = tuple
 
     @property
     def names(self) -> AllowList:
         """The list that holds, without what is allowed besides."""
-        return self.own if self.publish is None else self.publish
+        if self.publish is not None:
+            return self.publish
+        return tuple(sorted({*self.own, *self.addable()}))
 
 
 class RestrictedGraph:
@@ -67,7 +73,7 @@ class RestrictedGraph:
         self._rights = rights
         self._publish = publish
         self._session: frozenset[str] = frozenset()
-        self._pattern = functools.lru_cache(maxsize=3)(self._compiled)
+        self._pattern = functools.lru_cache(maxsize=4)(self._compiled)
         self._refusal = functools.lru_cache(maxsize=1000)(self._judged)
 
     @property
@@ -120,11 +126,16 @@ class RestrictedGraph:
         name = name.partition(_OF_ACTION)[0]
         if self._is_on(self._rights.also, name):
             return ""
-        if not self._is_on(self._rights.names, name):
+        if not self._is_from_the_start(name):
             return self._not_from_the_start(name)
         if narrowed is not None and not self._is_on(narrowed, name):
             return f"{name} is not in the list `publish` of this config. Add it to the file."
         return ""
+
+    def _is_from_the_start(self, name: str) -> bool:
+        rights = self._rights
+        is_own = rights.publish is None and self._is_on(rights.own, name)
+        return is_own or self._is_on(rights.names, name)
 
     def _not_from_the_start(self, name: str) -> str:
         if self._rights.publish is None:

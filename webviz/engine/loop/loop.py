@@ -32,13 +32,13 @@ from webviz.engine.parts.topics import TopicsPart
 from webviz.engine.parts.transforms import TransformsPart
 from webviz.engine.parts.views import ViewsPart
 from webviz.engine.pipeline import DisplayServices, Runner, Workers
-from webviz.engine.pipeline.own_names import own_names
+from webviz.engine.pipeline.own_names import rights_of
 from webviz.engine.pipeline.point_budget import PointBudget
 from webviz.engine.pipeline.scene import Scene
 from webviz.engine.requests import LoopCalls, Requests
 from webviz.engine.state import State
 from webviz.files.config import Config, Settings
-from webviz.sources import Advertisement, AllowList, RestrictedGraph, Rights, Source
+from webviz.sources import Advertisement, AllowList, RestrictedGraph, Source
 from webviz.sources.player import Player
 from webviz.sources.recording.memory import MemoryHistory
 
@@ -118,8 +118,7 @@ class FrameLoop:
         self._advertised: set[Advertisement] = set()
         self._named_robots: tuple[object, tuple[NamespacedRobot, ...]] = None, ()
         self._owed: list[Callable[[], None]] = []
-        own = own_names(config, self._boundary)
-        rights = Rights(may_publish, config.settings.publish, own, tuple(allow_publish))
+        rights = rights_of(config, may_publish, allow_publish, self._boundary)
         graph = RestrictedGraph(player, rights, self._allow_list, self._pause)
         self.controllers = VelocityControllers(graph, live_ns)
         """Controllers of the vehicles that tools drive; they do not wait for the loop."""

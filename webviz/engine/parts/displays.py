@@ -15,7 +15,7 @@ import msgspec
 from webviz.api.declared import make
 from webviz.api.display import Display, inputs_of
 from webviz.api.ports import ANY
-from webviz.api.registry import display_types
+from webviz.api.registry import display_types, plugin_type
 from webviz.api.roles import Role
 from webviz.api.status import LOADING, Level, Status
 from webviz.engine.commands import ignore
@@ -317,11 +317,10 @@ class DisplaysPart(Part):
 
 
 def _new(type_name: str, values: dict[str, Any]) -> Display:
-    types = display_types()
-    if type_name not in types:
-        hint = nearest(type_name, types)
+    cls = plugin_type(Display, type_name)
+    if cls is None:
+        hint = nearest(type_name, display_types())
         raise ConfigError(f"Unknown display type `{type_name}`: {hint}")
-    cls = types[type_name]
     try:
         return make(cls, values)
     except msgspec.ValidationError as error:

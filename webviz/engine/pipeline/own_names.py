@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 
 from webviz.api.capabilities import ProtocolClient, capability
@@ -12,11 +13,28 @@ from webviz.api.registry import plugin_types
 from webviz.api.tool import Tool, outputs
 from webviz.engine.error_boundary import ErrorBoundary
 from webviz.files.config import Branch, Config, Item
+from webviz.sources import Rights
 
 Plugin = Tool | Panel | Display
 
 PATTERN = frozenset("*?[")
 """Characters that match others in a list of what may be published."""
+
+
+def rights_of(
+    config: Config, may_publish: bool, also: Sequence[str], boundary: ErrorBoundary
+) -> Rights:
+    """Return the rights of a viewer; see `Rights`.
+
+    Args:
+        config: with which it is started.
+        may_publish: whether anything may be sent.
+        also: names that are allowed besides.
+        boundary: around calls of plug-ins; one that fails adds no name.
+    """
+    addable = functools.cache(lambda: _names_of_displays(boundary))
+    own = _names_of_config(config, boundary)
+    return Rights(may_publish, config.settings.publish, own, tuple(also), addable)
 
 
 def own_names(config: Config, boundary: ErrorBoundary) -> tuple[str, ...]:
@@ -31,15 +49,29 @@ def own_names(config: Config, boundary: ErrorBoundary) -> tuple[str, ...]:
         config: with which a viewer is started.
         boundary: around calls of plug-ins; one that fails adds no name.
     """
+    return tuple(sorted({*_names_of_config(config, boundary), *_names_of_displays(boundary)}))
+
+
+def _names_of_config(config: Config, boundary: ErrorBoundary) -> tuple[str, ...]:
+    """Return the own names of a config, without those that only displays have that it lacks."""
     names: set[str] = set()
     for item in [*config.tools, *config.panels, *_flat(config.displays)]:
         if isinstance(item, Plugin):
             names |= boundary.attempt(item.name, set[str](), _names_of, item)
     names = {name for name in names if PATTERN.isdisjoint(name)}
-    for base in (Panel, Display):
-        for name, cls in plugin_types(base).items():
-            names |= boundary.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
-    return tuple(sorted(names - {""}))
+    return tuple(sorted((names | _names_of_types(Panel, boundary)) - {""}))
+
+
+def _names_of_displays(boundary: ErrorBoundary) -> tuple[str, ...]:
+    """Return the names that installed displays have with default properties; imports them all."""
+    return tuple(sorted(_names_of_types(Display, boundary) - {""}))
+
+
+def _names_of_types(base: type[Panel] | type[Display], boundary: ErrorBoundary) -> set[str]:
+    names: set[str] = set()
+    for name, cls in plugin_types(base).items():
+        names |= boundary.attempt(name, set[str](), lambda cls=cls: _names_of(make(cls, {})))
+    return names
 
 
 def _names_of(plugin: Plugin) -> set[str]:

@@ -11,7 +11,7 @@ from webviz.api.declared import Color, Prop, make
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
-from webviz.api.registry import display_types, plugin_types
+from webviz.api.registry import plugin_type, plugin_types
 from webviz.api.robots import Namespace, NamespacedRobot
 from webviz.api.tool import Tool
 from webviz.api.views import Orbit, View
@@ -204,5 +204,5 @@ class Config(msgspec.Struct):
 
 def standard() -> Config:
     """Return the config used without a file: the usual displays on their usual topics."""
-    types = display_types()
-    return Config(displays=[make(types[name], {}) for name in STANDARD if name in types])
+    types = (plugin_type(Display, name) for name in STANDARD)
+    return Config(displays=[make(cls, {}) for cls in types if cls])

@@ -12,7 +12,7 @@ from webviz.api.declared import P, make
 from webviz.api.display import Display
 from webviz.api.group import DisplayGroup
 from webviz.api.panel import Panel
-from webviz.api.registry import broken_types, plugin_types
+from webviz.api.registry import broken_types, plugin_type, plugin_types
 from webviz.api.robots import robots_of
 from webviz.api.tool import Tool
 from webviz.api.views import with_type
@@ -198,11 +198,13 @@ def _read_plugin(
     if "rviz" in entry:
         reason = f"Unsupported {kind} class {entry['type']}."
         return Unreadable(entry, place.says(reason))
-    types, broken = plugin_types(base), broken_types(base)
-    cls = types.get(entry["type"])
+    cls = plugin_type(base, entry["type"])
     if cls is None:
-        reason = f"unknown {kind} type `{entry['type']}`, {nearest(entry['type'], types)}"
-        return Unreadable(entry, place.at("type").says(broken.get(entry["type"], reason)))
+        hint = nearest(entry["type"], plugin_types(base))
+        reason = f"unknown {kind} type `{entry['type']}`, {hint}"
+        return Unreadable(
+            entry, place.at("type").says(broken_types(base).get(entry["type"], reason))
+        )
     values = {str(key): value for key, value in entry.items() if key not in ("type", *others)}
     try:
         return make(cls, values)

@@ -8,8 +8,9 @@ from typing import Any
 import msgspec
 
 from webviz.api.declared import make
+from webviz.api.display import Display
 from webviz.api.errors import Error
-from webviz.api.registry import display_types
+from webviz.api.registry import display_types, plugin_type
 from webviz.data.words import joined
 from webviz.engine.parts.by_topic import picks
 from webviz.files.config import mistakes, nearest, sentences
@@ -30,7 +31,7 @@ def check_properties(type: str, properties: Mapping[str, Any]) -> None:
     Raises:
         NoSuchProperty: a property is unknown; the message lists all errors.
     """
-    cls = display_types().get(type)
+    cls = plugin_type(Display, type)
     fields = cls.__struct_fields__ if cls else properties
     if cls is None or properties.keys() <= set(fields):
         return

@@ -90,8 +90,10 @@ def serve(
                     with contextlib.suppress(OSError):  # the terminal was closed meanwhile
                         _announce(options, viewer, note)
                 # Modules that the frame loop would import for the first browser or message.
+                display_types()
                 known_checks()
                 type_exists("std_msgs/msg/Header")  # reads the definitions of ROS
+                calm_collector()
                 viewer.wait()
     say_end("\nwebviz: stopped." if is_shown else "webviz: interrupted.")
     return 0 if is_shown else INTERRUPTED
@@ -135,7 +137,6 @@ def _viewer(
 
 def _import_slow_parts() -> None:
     """Import what a viewer needs, to keep the time short in which a signal finds it half made."""
-    display_types()
     import webviz.page.pages
     import webviz.scene
     import webviz.shell.pictures.snapshots
