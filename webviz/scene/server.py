@@ -79,7 +79,7 @@ def open_server(
         within(limits),
         door.tunnels.step,
         shared.step,
-        page(modules.head, modules.source_map),
+        page(modules),
     )
     return _opened(listener, steps, limits, door, modules, shared, tls=tls)
 
@@ -107,7 +107,7 @@ def open_behind(front: Door, path: str, max_pages: int) -> Server:
         at(front.hosts),
         with_link(access, front.port),
         within(limits),
-        page(modules.head, modules.source_map),
+        page(modules),
     )
     return _opened(listener, steps, limits, door, modules, SharedFile())
 

@@ -28,7 +28,7 @@ _MODULES = "$MODULES"
 
 
 class Modules:
-    """The modules of a page.
+    """The modules of a page, read for the first one that asks for them.
 
     Args:
         constants: what Python and the modules share; `constants.js` for the latter.
@@ -36,7 +36,17 @@ class Modules:
     """
 
     def __init__(self, constants: Mapping[str, Any], pack: Path | None = None) -> None:
-        self._version, self.head, self.source_map = _built(json.dumps(constants), pack or PACK)
+        self._content = json.dumps(constants), pack or PACK
+
+    @property
+    def head(self) -> bytes:
+        """Head of the page with the modules, besides viser's."""
+        return _built(*self._content)[1]
+
+    @property
+    def source_map(self) -> bytes:
+        """Source map of packed modules, which developer tools read; empty for others."""
+        return _built(*self._content)[2]
 
     def connect(self, browser: int, key: str) -> str:
         """Return a script that makes a page open the channel.
@@ -45,7 +55,8 @@ class Modules:
             browser: viser's id of the page.
             key: for the channel.
         """
-        facts = json.dumps({"browser": browser, "key": key, "version": self._version})
+        version = _built(*self._content)[0]
+        facts = json.dumps({"browser": browser, "key": key, "version": version})
         return f"window.webviz?.connect({facts});"
 
     def answer(self, token: str) -> str:

@@ -14,7 +14,7 @@ from websockets.http11 import Request, Response
 from webviz.server.access import login
 from webviz.server.access.access import EVERYBODY, Access, Grant
 from webviz.server.access.proxies import Proxies
-from webviz.server.channel.modules import CHANNEL
+from webviz.server.channel.modules import CHANNEL, Modules
 from webviz.server.channel.packed import MAP
 from webviz.server.http.hosts import HostList, origin_refusal
 from webviz.server.http.requests import NOT_FOUND, PAGES, is_upgrade
@@ -167,24 +167,19 @@ def within(limits: Room) -> Step:
     return step
 
 
-def page(head: bytes, source_map: bytes) -> Step:
-    """Serve the one file of the page, packed for browsers that take it so.
-
-    Args:
-        head: of the page, besides viser's; see `Modules.head`.
-        source_map: of its modules, which developer tools read; empty if they are as they are.
-    """
+def page(modules: Modules) -> Step:
+    """Serve the one file of the page with its modules, packed for browsers that take it so."""
 
     @functools.lru_cache(maxsize=2)
     def whole(body: bytes, is_packed: bool) -> bytes:
-        text = with_head(body, head)
+        text = with_head(body, modules.head)
         return gzip.compress(text) if is_packed else text
 
     def step(context: RequestContext) -> Reply | None:
         request = context.request
         if is_upgrade(request):
             return None
-        if source_map and context.path == MAP:
+        if context.path == MAP and (source_map := modules.source_map):
             return Reply(http.HTTPStatus.OK, source_map, {"Content-Type": JSON})
         if context.path not in PAGES:
             return _sentence(*NOT_FOUND)
