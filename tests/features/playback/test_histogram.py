@@ -13,7 +13,9 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from webviz.data.recordings import open_recording
 from webviz.data.recordings.recording import TimeParts
+from webviz.features.playback.stores import density_store
 from webviz.sources.bag.history import BagHistory
+from webviz.sources.past_state import PlaybackState
 
 PARTS = 50
 
@@ -116,3 +118,23 @@ def test_parts_of_any_time_that_a_file_may_have(
 ) -> None:
     stamps = np.array([0, 2, 2**63 - 3, 2**63, 2**63 + 5, 2**64 - 1], np.uint64)
     assert TimeParts(*span_ns, 4).part_of(stamps).tolist() == expected
+
+
+def test_a_memory_without_messages_has_no_span_that_moves_on() -> None:
+    def state(now_s: float) -> PlaybackState:
+        return PlaybackState(
+            names=(),
+            start_ns=0,
+            end_ns=ns(now_s),
+            position_s=now_s,
+            rate=1.0,
+            is_playing=True,
+            is_seeking=False,
+            loop=False,
+            selected=None,
+            counted=(now_s, now_s),
+        )
+
+    assert density_store(state(37.5), {}) == density_store(state(39.5), {})
+    full = density_store(state(39.5), {"/words": [1, 2], "/large": [0, 4]})
+    assert (full.counts, full.first, full.last) == ([1, 6], 39.5, 39.5)

@@ -19,8 +19,8 @@ from webviz.engine.pipeline.scene import Scene
 
 IDLE_S = 1.0
 """Interval of turns while nothing arrives: ages in statuses, frames that fade."""
-LONG_IDLE_S = 2.0
-"""The same once nothing has arrived for longer: watching what stands still costs half."""
+LONG_IDLE_S = 4.0
+"""The same once nothing has arrived for long: watching what stands still costs a third."""
 QUIET_SHARE = 0.1
 """Interval of turns as a share of the time since something arrived."""
 

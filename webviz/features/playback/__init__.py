@@ -147,7 +147,7 @@ class PlaybackFeature(Feature):
         recording = self.playback
         return recording and bookmarks_store(recording, self._settings.settings.bookmarks)
 
-    @store(of=lambda part: (counted(part.playback), part.recorded))
+    @store(of=lambda part: (part.recorded and counted(part.playback), part.recorded))
     def density(self, argument: str) -> DensityStore:
         """Return counts of all messages."""
         return density_store(self.playback, self.recorded)

@@ -71,7 +71,7 @@ class DensityStore(PageStore, frozen=True):
 
     Args:
         counts: by part.
-        first, last: seconds of the span.
+        first, last: seconds of the span, 0 without counts.
     """
 
     counts: Sequence[int]
@@ -153,7 +153,7 @@ def density_store(
 ) -> DensityStore:
     """Return counts of all messages, from those by topic."""
     counts = list(recorded.values())
-    first_s, last_s = counted(recording)
+    first_s, last_s = counted(recording) if counts else (0.0, 0.0)
     total = np.sum(counts, axis=0).tolist() if counts else []
     return DensityStore(total, round(first_s, 3), round(last_s, 3))
 
