@@ -182,6 +182,7 @@ class SharingFeature(Feature):
             running = self._running = _Running(stopped, _exports.start(work), output, sender)
         except OSError as error:
             raise Error(f"Failed: {error.strerror}.") from error
+        running.done.add_done_callback(lambda _: self.context.player.inbox.arrived.set())
         return f"Making {output.name}. Panels and scene stay usable meanwhile."
 
     @command(Role.OWNER)
