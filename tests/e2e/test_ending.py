@@ -135,7 +135,8 @@ def test_a_simulator_that_has_to_be_killed_leaves_nothing(start: Callable[..., P
     program = start("webviz", "demo", "--port", "0")
     program.url()
     (simulator,) = (each for each in family_of(program) if "webviz_sim" in each.cmdline())
-    assert shared_memory([simulator])
+    while not shared_memory([simulator]):  # the address may come before it has joined ROS
+        time.sleep(0.05)
     simulator.suspend()  # as one that is busy
     assert "stopped" in check_end(program, signal.SIGTERM, "beside a simulator that is busy")
 

@@ -124,8 +124,8 @@ def test_of_more_tabs_than_fit_the_open_one_is_in_sight(phone: ViewerTab) -> Non
     phone.button("Show the panels").tap()
     tab = phone.page.get_by_role("tab").last
     first = phone.page.get_by_role("tab").first
-    first.focus()
-    phone.page.keyboard.press("ArrowLeft")
+    playwright.expect(first).to_be_visible()
+    first.press("ArrowLeft")
     playwright.expect(tab).to_be_in_viewport(ratio=0.95)
     assert phone.page.evaluate("document.documentElement.scrollWidth") == 250
     phone.page.keyboard.press("ArrowRight")

@@ -156,7 +156,7 @@ def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(
     assert shown_after(state) == 2
     channel.names = {"displays"}
     assert shown_after(state) == 3, "nobody knows what the page had"
-    monkeypatch.setattr(pages_module, "display_types", dict)
+    monkeypatch.setattr(pages_module, "registered_types", lambda: {"file.py": {}})
     assert shown_after(state) == 4, "there are other types of displays"
 
 

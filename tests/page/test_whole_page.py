@@ -95,9 +95,17 @@ def lab(page_server: PageServer, clock: StillClock) -> Iterator[Lab]:
 
 
 @pytest.fixture(scope="module")
-def desk(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
+def lasting_desk(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
     """A tab in which no time passes."""
     return still(open_lasting_viewer_tab(*DESK, **FINE, color_scheme="dark", resolution=1))
+
+
+@pytest.fixture
+def desk(page_server: PageServer, lasting_desk: ViewerTab) -> ViewerTab:
+    """The same with nothing selected: a page selects the rows of one viewer in the next, too."""
+    page_server.begin(is_linked=False)
+    lasting_desk.wait_for(lambda: rows(lasting_desk) <= 1)
+    return lasting_desk
 
 
 def still(tab: ViewerTab) -> ViewerTab:
