@@ -40,7 +40,7 @@ def plugin_types(base: type[P]) -> dict[str, type[P]]:
 def plugin_type(base: type[P], name: str) -> type[P] | None:
     """Return the class of a name in config files; None if there is none, or it cannot be loaded.
 
-    Others are not imported: a viewer starts a tenth sooner without those that its config lacks.
+    Others are not imported: a viewer starts a twentieth sooner without those its config lacks.
 
     Args:
         base: the base class of the kind: `Display`, `Tool` or `Panel`.
