@@ -33,7 +33,7 @@ def run(*arguments: str, env: dict[str, str] | None = None) -> subprocess.Comple
     )
 
 
-def refused(*arguments: str, status: int = 1) -> str:
+def refusal(*arguments: str, status: int = 1) -> str:
     """The one sentence with which `webviz` refuses."""
     result = run(*arguments)
     assert result.returncode == status, result.stderr
@@ -102,18 +102,18 @@ def test_a_mistyped_argument_suggests_the_nearest(
 
 
 def test_a_missing_config_is_an_error() -> None:
-    sentence = refused("-d", "nowhere.yaml")
+    sentence = refusal("-d", "nowhere.yaml")
     assert sentence == "webviz: Cannot read nowhere.yaml: No such file or directory."
 
 
 def test_a_broken_config_is_an_error_with_its_place(tmp_path: Path) -> None:
     path = tmp_path / "x.yaml"
     path.write_text("fixed_frame: map\nbackground: [1, 2\n")
-    assert f"{path}:3 is not valid YAML" in refused("-d", str(path))
+    assert f"{path}:3 is not valid YAML" in refusal("-d", str(path))
 
 
 def test_an_address_that_cannot_be_served_is_an_error() -> None:
-    sentence = refused("--host", "192.0.2.1", "--port", "8123")
+    sentence = refusal("--host", "192.0.2.1", "--port", "8123")
     assert sentence.startswith("webviz: Cannot listen on port 8123 of 192.0.2.1")
     assert "\n" not in sentence
 
@@ -145,7 +145,7 @@ def test_a_missing_ros_is_explained_in_one_sentence(tmp_path: Path) -> None:
 
 def test_bad_ros_arguments_are_one_sentence() -> None:
     pytest.importorskip("rclpy", reason="needs rclpy")
-    sentence = refused("--port", "0", "--ros-args", "-r", "nonsense").splitlines()[-1]
+    sentence = refusal("--port", "0", "--ros-args", "-r", "nonsense").splitlines()[-1]
     assert sentence.startswith("webviz: ROS did not start: ")
     assert "/src/" not in sentence
 

@@ -150,10 +150,10 @@ def test_a_value_can_make_a_display_readable(config: Config) -> None:
 def test_invalid_assignments_are_refused_in_one_sentence(
     config: Config, assignment: str, reason: str
 ) -> None:
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         override(config, [assignment])
-    assert str(caught.value).startswith(f"--set {assignment}: {reason}")
-    assert "\n" not in str(caught.value)
+    assert str(excinfo.value).startswith(f"--set {assignment}: {reason}")
+    assert "\n" not in str(excinfo.value)
 
 
 def test_a_value_that_is_not_yaml_is_refused_in_one_sentence(config: Config) -> None:

@@ -16,16 +16,18 @@ HELD_MS = 900
 
 
 @pytest.fixture(scope="module")
-def opened(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
+def lasting_phone(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
     return open_lasting_viewer_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
 
 
 @pytest.fixture
-def phone(opened: ViewerTab, viewer_tab: ViewerTab) -> ViewerTab:
+def phone(lasting_phone: ViewerTab, viewer_tab: ViewerTab) -> ViewerTab:
     """A phone with the panels closed."""
-    opened.page.keyboard.press("Escape")
-    opened.button("Hide the panels").evaluate_all("found => found.forEach((one) => one.click())")
-    return opened
+    lasting_phone.page.keyboard.press("Escape")
+    lasting_phone.button("Hide the panels").evaluate_all(
+        "found => found.forEach((one) => one.click())"
+    )
+    return lasting_phone
 
 
 @pytest.fixture

@@ -39,18 +39,20 @@ SAVE_LAST = re.compile(r"Save last \d+ s")
 
 
 @pytest.fixture(scope="module")
-def opened(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
+def lasting_phone(open_lasting_viewer_tab: Callable[..., ViewerTab]) -> ViewerTab:
     return open_lasting_viewer_tab(WIDTH, HEIGHT, has_touch=True, is_mobile=True)
 
 
 @pytest.fixture
-def phone(viewer: PageBench, viewer_tab: ViewerTab, opened: ViewerTab) -> ViewerTab:
+def phone(viewer: PageBench, viewer_tab: ViewerTab, lasting_phone: ViewerTab) -> ViewerTab:
     """A phone with the panels closed."""
-    opened.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
-    opened.page.keyboard.press("Escape")
+    lasting_phone.page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    lasting_phone.page.keyboard.press("Escape")
     # They may just be closing.
-    opened.button("Hide the panels").evaluate_all("found => found.forEach((one) => one.click())")
-    return opened
+    lasting_phone.button("Hide the panels").evaluate_all(
+        "found => found.forEach((one) => one.click())"
+    )
+    return lasting_phone
 
 
 @pytest.fixture

@@ -250,14 +250,14 @@ def test_tabs_that_are_too_many_leave_the_open_one_and_the_button_in_sight(
     tab = viewer_tab
     viewer.show(panels=[make(Limited, {}) for _ in range(6)])
     tab.wait_for(lambda: titles(tab).count("Limited") == 6)
-    for opened in (tab.page.get_by_role("tab").last, tab.page.get_by_role("tab").first):
+    for tab_button in (tab.page.get_by_role("tab").last, tab.page.get_by_role("tab").first):
         tab.button("All panels").click()
-        name = opened.inner_text()
+        name = tab_button.inner_text()
         entries = tab.page.get_by_role("menuitemradio", name=name)
         (entries.last if name == "Limited" else entries.first).click()
-        expect(opened).to_have_attribute("aria-selected", "true")
-        expect(opened).to_be_in_viewport(ratio=1)
-        box, add = opened.bounding_box(), tab.button("Add a panel").bounding_box()
+        expect(tab_button).to_have_attribute("aria-selected", "true")
+        expect(tab_button).to_be_in_viewport(ratio=1)
+        box, add = tab_button.bounding_box(), tab.button("Add a panel").bounding_box()
         assert box is not None
         assert add is not None
         assert box["x"] + box["width"] <= add["x"]
@@ -273,8 +273,10 @@ def test_the_list_of_commands_opens_and_adds_panels(
         tab.page.keyboard.press("Control+k")
         tab.page.get_by_role("combobox", name="Command").fill(words)
         tab.page.keyboard.press("Enter")
-        opened = tab.page.get_by_role("tab", name=words.removeprefix("panel ").title())
-        tab.wait_for(lambda opened=opened: opened.get_attribute("aria-selected") == "true")
+        tab_button = tab.page.get_by_role("tab", name=words.removeprefix("panel ").title())
+        tab.wait_for(
+            lambda tab_button=tab_button: tab_button.get_attribute("aria-selected") == "true"
+        )
     tab.page.keyboard.press("Control+k")
     tab.page.get_by_role("combobox", name="Command").fill("add panel navigation")
     tab.page.keyboard.press("Enter")

@@ -76,7 +76,7 @@ class ParameterNode:
 
 
 @pytest.fixture
-def opened() -> Callable[..., tuple[Parameters, ParameterNode, Callable[[], dict[str, Any]]]]:
+def open_panel() -> Callable[..., tuple[Parameters, ParameterNode, Callable[[], dict[str, Any]]]]:
     """Open the panel on a node."""
 
     def open_(**values: tuple[int, Any]) -> Any:
@@ -93,8 +93,8 @@ def opened() -> Callable[..., tuple[Parameters, ParameterNode, Callable[[], dict
     return open_
 
 
-def test_parameters_are_shown_set_refused_and_taken_back(opened: Any) -> None:
-    panel, node, values = opened(speed=(3, 0.5), name=(4, "x"), unset=(0, None))
+def test_parameters_are_shown_set_refused_and_taken_back(open_panel: Any) -> None:
+    panel, node, values = open_panel(speed=(3, 0.5), name=(4, "x"), unset=(0, None))
     rows = {row["name"]: row for row in values()["rows"]}
     assert (rows["speed"]["text"], rows["speed"]["kind"]) == ("0.5", "double")
     assert rows["speed"]["range"] == "0 to 2"
@@ -112,8 +112,10 @@ def test_parameters_are_shown_set_refused_and_taken_back(opened: Any) -> None:
         panel.use({"undo": True}, 1)
 
 
-def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(opened: Any) -> None:
-    panel, node, values = opened(**{"a.b": (2, 1), "a.c": (8, [1.0, math.inf]), "on": (1, True)})
+def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(open_panel: Any) -> None:
+    panel, node, values = open_panel(
+        **{"a.b": (2, 1), "a.c": (8, [1.0, math.inf]), "on": (1, True)}
+    )
     yaml = values()["yaml"]
     assert yaml == (
         '/base:\n  ros__parameters:\n    a:\n      b: 1\n      c: [1.0, .inf]\n    "on": true\n'
@@ -150,10 +152,10 @@ def test_a_file_saved_by_the_panel_sets_the_parameters_it_names(opened: Any) -> 
     ],
 )
 def test_a_value_that_does_not_fit_is_refused(
-    opened: Any, kind: int, text: str, reason: str
+    open_panel: Any, kind: int, text: str, reason: str
 ) -> None:
     values = {1: True, 2: 1, 3: 1.0, 7: [1], 9: ["a"]}
-    panel, node, show = opened(x=(kind, values[kind]))
+    panel, node, show = open_panel(x=(kind, values[kind]))
     show()
     with pytest.raises(Error) as error:
         panel.use({"set": ["x", text]}, 1)
@@ -161,8 +163,8 @@ def test_a_value_that_does_not_fit_is_refused(
     assert node.values == {"x": (kind, values[kind])}
 
 
-def test_many_and_long_parameters_are_bounded(opened: Any) -> None:
-    _, _, values = opened(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
+def test_many_and_long_parameters_are_bounded(open_panel: Any) -> None:
+    _, _, values = open_panel(**{f"p{i}": (4, "x" * 10_000) for i in range(3 * MAX_PARAMETERS)})
     result = values()
     assert len(str(result)) < 400_000
     assert result["rows"][0]["locked"]

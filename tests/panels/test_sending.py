@@ -32,29 +32,29 @@ def on_topics(panel: P) -> LonePanel[P]:
 
 
 def test_a_topic_that_is_only_read_has_the_type_of_its_subscriptions() -> None:
-    opened = on_topics(PublishMessage(topic="/goal_pose"))
+    panel_view = on_topics(PublishMessage(topic="/goal_pose"))
     reader = Endpoint("/planner", POSE, "reliable", "volatile")
     offers = {"/goal_pose": Offer((), readers=(reader,))}
-    show_panel(opened.panel, State(topics={"/goal_pose": ()}, offers=offers))
-    values = opened.ui.widgets["0"].values["values"]
+    show_panel(panel_view.panel, State(topics={"/goal_pose": ()}, offers=offers))
+    values = panel_view.ui.widgets["0"].values["values"]
     assert (values["about"], values["names"]) == (POSE, ["/goal_pose"])
 
 
 def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
-    opened = on_topics(PublishMessage(topic="/goal"))
-    assert opened.values()["about"] == POSE
-    assert opened.values()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
-    opened.panel.use({"field": ["pose.position.x", "1.5"]}, 1)
-    opened.panel.use({"field": ["header.frame_id", "true"]}, 1)
-    assert "x: 1.5" in opened.values()["yaml"]
-    assert 'frame_id: "true"' in opened.values()["yaml"]
-    opened.panel.use({}, 1)
-    (publish,) = opened.commands
+    panel_view = on_topics(PublishMessage(topic="/goal"))
+    assert panel_view.values()["about"] == POSE
+    assert panel_view.values()["fields"][3] == {"path": "pose.position.x", "text": "0.0"}
+    panel_view.panel.use({"field": ["pose.position.x", "1.5"]}, 1)
+    panel_view.panel.use({"field": ["header.frame_id", "true"]}, 1)
+    assert "x: 1.5" in panel_view.values()["yaml"]
+    assert 'frame_id: "true"' in panel_view.values()["yaml"]
+    panel_view.panel.use({}, 1)
+    (publish,) = panel_view.commands
     assert isinstance(publish, Publish)
     assert publish.values["pose"]["position"]["x"] == 1.5
-    assert opened.values()["history"] == [opened.values()["yaml"]]
-    opened.panel.use({"reset": True}, 1)
-    assert "x: 0.0" in opened.values()["yaml"]
+    assert panel_view.values()["history"] == [panel_view.values()["yaml"]]
+    panel_view.panel.use({"reset": True}, 1)
+    assert "x: 0.0" in panel_view.values()["yaml"]
 
 
 @pytest.mark.parametrize(
@@ -69,63 +69,63 @@ def test_a_form_is_made_from_the_definition_and_follows_the_yaml() -> None:
     ],
 )
 def test_an_invalid_message_is_not_sent_and_stays_for_correction(yaml: str, reason: str) -> None:
-    opened = on_topics(PublishMessage(topic="/name"))
-    opened.panel.use({"yaml": yaml}, 1)
-    assert reason in opened.values()["problem"]
-    assert opened.values()["yaml"] == yaml
+    panel_view = on_topics(PublishMessage(topic="/name"))
+    panel_view.panel.use({"yaml": yaml}, 1)
+    assert reason in panel_view.values()["problem"]
+    assert panel_view.values()["yaml"] == yaml
     with pytest.raises(Error):
-        opened.panel.use({}, 1)
+        panel_view.panel.use({}, 1)
     with pytest.raises(Error):
-        opened.panel.use({"repeat": True}, 1)
-    assert opened.commands == []
+        panel_view.panel.use({"repeat": True}, 1)
+    assert panel_view.commands == []
 
 
 def test_a_field_that_does_not_fit_is_corrected_in_the_form() -> None:
-    opened = on_topics(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
-    opened.panel.use({"field": ["data", "maybe"]}, 1)
-    assert "expected bool" in opened.values()["problem"]
-    opened.panel.use({"field": ["data", "true"]}, 1)
-    assert (opened.values()["problem"], opened.values()["yaml"]) == ("", "data: true\n")
+    panel_view = on_topics(ServiceCall(service="/light", service_type="std_srvs/srv/SetBool"))
+    panel_view.panel.use({"field": ["data", "maybe"]}, 1)
+    assert "expected bool" in panel_view.values()["problem"]
+    panel_view.panel.use({"field": ["data", "true"]}, 1)
+    assert (panel_view.values()["problem"], panel_view.values()["yaml"]) == ("", "data: true\n")
 
 
 def test_presets_are_properties_and_history_is_bounded() -> None:
-    opened = on_topics(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
-    opened.panel.use({"preset": "hello"}, 1)
-    assert opened.values()["fields"] == [{"path": "data", "text": "hello"}]
-    opened.panel.use({"keep": "again"}, 1)
+    panel_view = on_topics(PublishMessage(topic="/name", presets={"hello": "data: hello"}))
+    panel_view.panel.use({"preset": "hello"}, 1)
+    assert panel_view.values()["fields"] == [{"path": "data", "text": "hello"}]
+    panel_view.panel.use({"keep": "again"}, 1)
     presets = {"hello": "data: hello", "again": "data: hello"}
-    assert opened.commands.pop() == SetPanelProperty("id", "presets", presets)
-    opened.panel.presets = {str(i): "" for i in range(MAX_PRESETS)}
+    assert panel_view.commands.pop() == SetPanelProperty("id", "presets", presets)
+    panel_view.panel.presets = {str(i): "" for i in range(MAX_PRESETS)}
     for refused in ("more", " "):
         with pytest.raises(Error):
-            opened.panel.use({"keep": refused}, 1)
+            panel_view.panel.use({"keep": refused}, 1)
     for i in range(3 * HISTORY):
-        opened.panel.use({"yaml": f"data: '{i}'"}, 1)
-        opened.panel.use({}, 1)
-    assert len(opened.values()["history"]) == HISTORY
+        panel_view.panel.use({"yaml": f"data: '{i}'"}, 1)
+        panel_view.panel.use({}, 1)
+    assert len(panel_view.values()["history"]) == HISTORY
 
 
 def test_a_message_repeats_until_stopped_or_no_page_shows_the_panel(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    opened = on_topics(PublishMessage(topic="/name", rate=0.001))
-    opened.panel.use({"repeat": True}, 1)
+    panel_view = on_topics(PublishMessage(topic="/name", rate=0.001))
+    panel_view.panel.use({"repeat": True}, 1)
     for _ in range(5):
-        assert opened.values()["repeats"]
-    assert [type(each) for each in opened.commands] == [Publish]
+        assert panel_view.values()["repeats"]
+    assert [type(each) for each in panel_view.commands] == [Publish]
     monkeypatch.setattr("webviz.panels.publish.PAUSE_S", -1.0)
-    assert not opened.values()["repeats"]
+    assert not panel_view.values()["repeats"]
 
 
 def test_a_refused_message_is_not_repeated_and_its_reason_goes_with_the_next_edit() -> None:
-    opened = on_topics(PublishMessage(topic="/name"))
-    opened.panel.use({"repeat": True}, 1)
-    opened.values()
-    opened.commands[0].report(Status(Level.ERROR, "Not allowed."))
-    values = opened.values()
+    panel_view = on_topics(PublishMessage(topic="/name"))
+    panel_view.panel.use({"repeat": True}, 1)
+    panel_view.values()
+    panel_view.commands[0].report(Status(Level.ERROR, "Not allowed."))
+    values = panel_view.values()
     assert (values["outcome"], values["failed"], values["repeats"]) == ("Not allowed.", True, False)
-    opened.panel.use({"yaml": "data: again"}, 1)
-    assert (opened.values()["outcome"], opened.values()["failed"]) == ("", False)
+    panel_view.panel.use({"yaml": "data: again"}, 1)
+    assert (panel_view.values()["outcome"], panel_view.values()["failed"]) == ("", False)
 
 
 def test_a_panel_of_the_config_may_publish_also_before_the_type_is_known() -> None:

@@ -257,9 +257,9 @@ def test_a_malformed_node_is_named_once_and_the_rest_is_sent(
 ) -> None:
     scene.upsert("a", "worse", Mesh(None, None, RED))  # pyright: ignore[reportArgumentType]
     scene.upsert("a", "good", image())
-    with pytest.raises(TypeError) as caught:
+    with pytest.raises(TypeError) as excinfo:
         scene.flush()
-    assert caught.value.__notes__ == ["while drawing 'worse' of 'a'"]
+    assert excinfo.value.__notes__ == ["while drawing 'worse' of 'a'"]
     assert message_count() > 0
     assert message_count() == 0
 

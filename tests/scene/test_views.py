@@ -115,7 +115,7 @@ class Window(Page):
 
 
 @pytest.fixture(scope="module")
-def opened(browser: playwright.Browser) -> Iterator[Window]:
+def lasting_window(browser: playwright.Browser) -> Iterator[Window]:
     server = open_server(port=0)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(browser, "new_context", partial(browser.new_context, every_frame=True))  # pyright: ignore[reportCallIssue]
@@ -126,12 +126,12 @@ def opened(browser: playwright.Browser) -> Iterator[Window]:
 
 
 @pytest.fixture
-def window(opened: Window) -> Iterator[Window]:
+def window(lasting_window: Window) -> Iterator[Window]:
     """A tab with an empty scene."""
-    opened.scene.clear()
-    opened.clicks.clear()
-    yield opened
-    assert opened.errors == []
+    lasting_window.scene.clear()
+    lasting_window.clicks.clear()
+    yield lasting_window
+    assert lasting_window.errors == []
 
 
 def box(x: float, y: float, z: float, *size: float) -> Instances:

@@ -49,14 +49,14 @@ class PlayedBag:
 
 
 @pytest.fixture
-def opened() -> Iterator[Callable[..., PlayedBag]]:
+def open_bag() -> Iterator[Callable[..., PlayedBag]]:
     """Open a bag; it is closed at the end."""
     sources: list[Player] = []
 
-    def opened(path: Path, *args: object, **options: object) -> PlayedBag:
+    def open_bag(path: Path, *args: object, **options: object) -> PlayedBag:
         sources.append(Player(BagHistory(path, *args, **options)))  # pyright: ignore[reportArgumentType]
         return PlayedBag(sources[-1])
 
-    yield opened
+    yield open_bag
     for source in sources:
         source.close()

@@ -26,8 +26,8 @@ KINDS = [
 
 
 @pytest.mark.parametrize(("storage", "compression"), KINDS, ids=lambda kind: kind.name.lower())
-def test_messages_arrive_up_to_the_time_played(tmp_path, opened, storage, compression):
-    bag = opened(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
+def test_messages_arrive_up_to_the_time_played(tmp_path, open_bag, storage, compression):
+    bag = open_bag(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
     bag.want("/words")
     assert bag.heard() == []
     bag.play(1)
@@ -42,20 +42,20 @@ def test_messages_arrive_up_to_the_time_played(tmp_path, opened, storage, compre
 @pytest.mark.parametrize(
     ("storage", "ending"), [(StoragePlugin.MCAP, ".mcap"), (StoragePlugin.SQLITE3, ".db3")]
 )
-def test_a_file_of_a_bag_is_a_bag(tmp_path, opened, storage, ending, compression):
+def test_a_file_of_a_bag_is_a_bag(tmp_path, open_bag, storage, ending, compression):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", storage, compression), ending)
-    bag = opened(file)
+    bag = open_bag(file)
     assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == []
 
 
-def test_compressed_messages_are_unpacked_without_metadata(tmp_path, opened):
+def test_compressed_messages_are_unpacked_without_metadata(tmp_path, open_bag):
     folder = strings(0, 1).write(tmp_path / "bag", compression=CompressionMode.MESSAGE)
     (folder / "metadata.yaml").unlink()
-    assert opened(folder).words_until(1) == ["0", "1"]
+    assert open_bag(folder).words_until(1) == ["0", "1"]
 
 
-def test_a_damaged_compressed_message_is_skipped(tmp_path, opened):
+def test_a_damaged_compressed_message_is_skipped(tmp_path, open_bag):
     (file,) = files(
         strings(0, 1, 2).write(tmp_path / "bag", compression=CompressionMode.MESSAGE), ".mcap"
     )
@@ -64,7 +64,7 @@ def test_a_damaged_compressed_message_is_skipped(tmp_path, opened):
     assert len(places) == 3
     at = places[1] + 5
     file.write_bytes(data[:at] + b"\xff" * 4 + data[at + 4 :])
-    bag = opened(file)
+    bag = open_bag(file)
     assert bag.words_until(2) == ["0", "2"]
     assert bag.source.warnings == [
         f"{file.name} is damaged: 1 chunk is incomplete (a message in it: its zstd data is "
@@ -72,8 +72,8 @@ def test_a_damaged_compressed_message_is_skipped(tmp_path, opened):
     ]
 
 
-def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):
-    bag = opened(strings(0, 1.25).write(tmp_path / "bag"))
+def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, open_bag):
+    bag = open_bag(strings(0, 1.25).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1.25)
     assert [raw.received_ns - START_NS for raw in bag.source.inbox.drain()["/words"]] == [
@@ -82,9 +82,9 @@ def test_a_message_arrives_with_the_time_of_its_recording(tmp_path, opened):
     ]
 
 
-def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
+def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, open_bag):
     seconds = [0.001 * i for i in range(3 * MAX_BATCH)]
-    bag = opened(strings(*seconds).write(tmp_path / "bag"))
+    bag = open_bag(strings(*seconds).write(tmp_path / "bag"))
     bag.want("/words")
     source, heard = bag.source, []
     while source.reached_ns < source.history.end_ns:
@@ -94,17 +94,17 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, opened):
     assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
 
 
-def test_large_messages_come_in_parts_too(tmp_path, opened, monkeypatch):
+def test_large_messages_come_in_parts_too(tmp_path, open_bag, monkeypatch):
     monkeypatch.setattr("webviz.sources.history.playhead.MAX_BATCH_BYTES", 15)  # each has 10
-    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+    bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     for texts in (["0", "1"], ["2"]):
         bag.source.play_until(bag.source.history.end_ns)
         assert bag.heard() == texts
 
 
-def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, opened):
-    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, open_bag):
+    bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1.5)
     bag.source.play_until(bag.source.history.start_ns)
@@ -121,28 +121,28 @@ def steps(bag):
     return counts
 
 
-def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, opened):
+def test_a_bag_of_days_is_played_in_as_many_steps_as_it_has_messages(tmp_path, open_bag):
     day_s = 86_400.0
-    bag = opened(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
+    bag = open_bag(strings(0, day_s, day_s + 0.01, 3 * day_s, 6.4 * day_s).write(tmp_path / "bag"))
     assert steps(bag) == [1, 1, 1, 1, 1]
 
 
-def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, opened):
-    bag = opened(strings(*[0.01 * number for number in range(80)]).write(tmp_path / "bag"))
+def test_a_dense_bag_is_played_in_steps_of_a_tenth_of_a_second(tmp_path, open_bag):
+    bag = open_bag(strings(*[0.01 * number for number in range(80)]).write(tmp_path / "bag"))
     assert steps(bag) == [10] * 8
 
 
-def test_a_late_subscription_begins_with_the_newest_message(tmp_path, opened):
-    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+def test_a_late_subscription_begins_with_the_newest_message(tmp_path, open_bag):
+    bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     bag.play(1)
     assert bag.words_until(2) == ["1", "2"]
 
 
-def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, opened):
+def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, open_bag):
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
     recorded.put(2, "/more", {"data": "more"})
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(1)
     bag.want("/words", "/more")
@@ -151,10 +151,10 @@ def test_a_second_subscription_loses_no_message_of_the_first(tmp_path, opened):
     assert [len(arrived["/words"]), len(arrived["/more"])] == [4, 1]
 
 
-def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_path, opened):
+def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_path, open_bag):
     recorded = strings(0, 1, 2, 3)
     recorded.add("/more", "std_msgs/msg/String")
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/words")
     bag.source.jump(START_NS + ns(2))
     bag.want("/words", "/more")
@@ -162,8 +162,8 @@ def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_pa
     assert bag.heard() == ["2", "3"]
 
 
-def test_an_unsubscribed_topic_is_silent(tmp_path, opened):
-    bag = opened(strings(0, 1).write(tmp_path / "bag"))
+def test_an_unsubscribed_topic_is_silent(tmp_path, open_bag):
+    bag = open_bag(strings(0, 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(0)  # of which the message waits
     bag.want()
@@ -171,8 +171,8 @@ def test_an_unsubscribed_topic_is_silent(tmp_path, opened):
     assert bag.heard() == []
 
 
-def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, opened):
-    bag = opened(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
+def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, open_bag):
+    bag = open_bag(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
     bag.play(5)
     bag.want("/words")
     assert bag.heard() == ["1", "2"]
@@ -184,11 +184,11 @@ def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, opened):
 
 @pytest.mark.parametrize(("max_bytes", "heard"), [(20, ["2", "3"]), (1, ["3"])])
 def test_repeated_latched_messages_are_limited_by_the_inbox(
-    tmp_path, opened, monkeypatch, max_bytes, heard
+    tmp_path, open_bag, monkeypatch, max_bytes, heard
 ):
     inbox = functools.partial(Inbox, max_bytes=max_bytes)  # each message has 10
     monkeypatch.setattr("webviz.sources.player.Inbox", inbox)
-    bag = opened(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
+    bag = open_bag(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
     bag.play(3)
     bag.want("/words")
     bag.heard()
@@ -196,11 +196,11 @@ def test_repeated_latched_messages_are_limited_by_the_inbox(
     assert bag.heard() == heard
 
 
-def test_all_static_transforms_are_repeated(tmp_path, opened):
+def test_all_static_transforms_are_repeated(tmp_path, open_bag):
     recorded = Bag()
     for at_s, child in enumerate(("a", "b", "c")):
         recorded.transform(at_s, "map", child, static=True)
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.play(2)
     bag.want("/tf_static", type_name=TF)
     arrived = bag.source.inbox.drain()["/tf_static"]
@@ -208,11 +208,11 @@ def test_all_static_transforms_are_repeated(tmp_path, opened):
     assert children == ["a", "b", "c"]
 
 
-def test_topics_are_offered_as_they_were_published(tmp_path, opened):
+def test_topics_are_offered_as_they_were_published(tmp_path, open_bag):
     recorded = strings(0, best_effort=True)
     recorded.add("/map_name", "std_msgs/msg/String", latched=True)
     recorded.put(0, "/map_name", {"data": "lab"})
-    bag = opened(recorded.write(tmp_path / "run"))
+    bag = open_bag(recorded.write(tmp_path / "run"))
     (words,) = bag.source.offers()["/words"].publishers
     (name,) = bag.source.offers()["/map_name"].publishers
     assert (words.node, words.type) == ("the bag run", "std_msgs/msg/String")
@@ -223,13 +223,13 @@ def test_topics_are_offered_as_they_were_published(tmp_path, opened):
     assert bag.source.offers()["/words"].requested == ("best_effort", "volatile")
 
 
-def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, opened):
+def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, open_bag):
     text = "string data\nint32 number\n"
     recorded = strings(0)
     recorded.add("/own", "learnt_msgs/msg/Own", definition=text)
     cdr = b"\x00\x01\x00\x00" + b"\x03\x00\x00\x00hi\x00\x00" + b"\x07\x00\x00\x00"
     recorded.put(0, "/own", cdr)
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/own", type_name="learnt_msgs/msg/Own")
     bag.play(1)
     (raw,) = bag.source.inbox.drain()["/own"]
@@ -238,23 +238,23 @@ def test_an_unknown_type_is_learnt_from_the_bag(tmp_path, opened):
     assert bag.source.warnings == []
 
 
-def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, opened):
+def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, open_bag):
     register("aged_msgs/msg/Own", "int8 old\n")
     recorded = Bag()
     recorded.add("/own", "aged_msgs/msg/Own", definition="string data\n")
     recorded.put(0, "/own", b"\x00\x01\x00\x00\x03\x00\x00\x00hi\x00")
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/own", type_name="aged_msgs/msg/Own")
     bag.play(1)
     assert bag.heard("/own", "aged_msgs/msg/Own") == ["hi"]
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
-def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path, opened, text):
+def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path, open_bag, text):
     recorded = strings(0, 1)
     recorded.add("/odd", "odd_msgs/msg/Odd", definition=text)
     recorded.put(0, "/odd", b"\x00\x01\x00\x00")
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     assert bag.source.warnings == []
     bag.want("/words", "/odd")
     (warning,) = bag.source.warnings
@@ -266,21 +266,21 @@ def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path
 
 
 @pytest.mark.parametrize("text", ["string request\n---\nstring response\n", "string words\n"])
-def test_service_events_are_skipped_without_a_parser_s_words(tmp_path, opened, text):
+def test_service_events_are_skipped_without_a_parser_s_words(tmp_path, open_bag, text):
     recorded = strings(0)
     recorded.add("/ask/_service_event", "odd_msgs/srv/Ask_Event", definition=text)
     recorded.put(0, "/ask/_service_event", b"\x00\x01\x00\x00")
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     offer = bag.source.offers()["/ask/_service_event"]
     assert offer.problem == "service events are unsupported"
 
 
-def test_a_recorded_clock_is_the_time(tmp_path, opened):
+def test_a_recorded_clock_is_the_time(tmp_path, open_bag):
     recorded = strings(0, 1, 2, 3)
     recorded.add("/clock", "rosgraph_msgs/msg/Clock")
     for at_s in (0.5, 1.5, 2.5):
         recorded.put(at_s, "/clock", {"clock": {"sec": 10 + round(at_s)}})
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     assert bag.source.now_ns() == ns(10)  # before anything arrived
     bag.want("/words")
     bag.play(2)
@@ -292,29 +292,29 @@ def test_a_recorded_clock_is_the_time(tmp_path, opened):
 
 
 @pytest.mark.parametrize("offset_s", [100, START_NS // ns(1) + 2 * 3600])
-def test_transforms_of_another_time_set_the_time(tmp_path, opened, offset_s):
+def test_transforms_of_another_time_set_the_time(tmp_path, open_bag, offset_s):
     recorded = Bag()
     recorded.add("/tf", TF)
     for at_s in (1, 2):
         recorded.put(at_s, "/tf", {"transforms": [stamped("map", "base", ns(offset_s + at_s))]})
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.play(0.5)
     assert bag.source.now_ns() == ns(offset_s) + ns(1.5)
     (warning,) = bag.source.warnings
     assert f"The transforms begin at {offset_s + 1}.0 s" in warning
 
 
-def test_transforms_that_come_late_do_not_set_the_time(tmp_path, opened):
+def test_transforms_that_come_late_do_not_set_the_time(tmp_path, open_bag):
     recorded = Bag()
     recorded.transform(0, "map", "base")
     recorded.messages = [(600, *message[1:]) for message in recorded.messages]
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     assert bag.source.now_ns() == bag.source.reached_ns
     assert bag.source.warnings == []
 
 
-def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
-    bag = opened(strings(0).write(tmp_path / "bag"), remappings={"/scan": "/front/scan"})
+def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, open_bag):
+    bag = open_bag(strings(0).write(tmp_path / "bag"), remappings={"/scan": "/front/scan"})
     names = ("scan", "/scan", "odom", "~/path")
     resolved = [bag.source.resolve(name) for name in names]
     assert resolved == ["/front/scan", "/front/scan", "/odom", "/webviz/path"]
@@ -323,8 +323,8 @@ def test_topics_are_named_and_remapped_as_for_a_node(tmp_path, opened):
             bag.source.resolve(wrong)
 
 
-def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, opened):
-    bag = opened(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
+def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, open_bag):
+    bag = open_bag(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.source.play_until(bag.source.history.end_ns)
     assert len(bag.heard()) == MAX_BATCH + 5
@@ -333,20 +333,20 @@ def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, o
     assert bag.heard() == ["1"]
 
 
-def test_latched_messages_of_all_publishers_are_repeated(tmp_path, opened):
+def test_latched_messages_of_all_publishers_are_repeated(tmp_path, open_bag):
     folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
     (file,) = files(folder, ".mcap")
     content = file.read_bytes()
     # Depth 0 is unknown, or that of a publisher that keeps all: one message at least.
     file.write_bytes(content.replace(b"depth: 2", b"depth: 0"))
     for path, expected in ((folder, ["4"]), (file, ["4"])):
-        bag = opened(path)
+        bag = open_bag(path)
         bag.play(4)
         bag.want("/words")
         assert bag.heard() == expected
 
 
-def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, opened):
+def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, open_bag):
     folder = strings(0, 1, 2, 3, 4, latched=True, depth=2).write(tmp_path / "bag")
     (file,) = files(folder, ".mcap")
     content = file.read_bytes()
@@ -354,35 +354,35 @@ def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, opened):
     end = content.index(b"reliability: reliable", start) + len(b"reliability: reliable")
     both = b"[{depth: 0, durability: transient_local}, {depth: 2, durability: transient_local}]"
     file.write_bytes(content.replace(content[start:end], both.ljust(end - start)))
-    bag = opened(file)
+    bag = open_bag(file)
     bag.play(4)
     bag.want("/words")
     assert bag.heard() == ["2", "3", "4"]
 
 
-def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, opened):
+def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, open_bag):
     recorded = strings(0, 3)
     recorded.add("/clock", "rosgraph_msgs/msg/Clock")
     recorded.put(0.5, "/clock", {"clock": {"sec": 10}})
     recorded.put(1.5, "/clock", b"\x00\x01\x00\x00\x01")
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/words")
     bag.play(2)
     assert bag.source.now_ns() == ns(10)
 
 
-def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp_path, opened):
+def test_the_offset_of_simulated_time_is_that_of_the_first_stamped_transform(tmp_path, open_bag):
     recorded = Bag()
     recorded.add("/tf", TF)
     recorded.put(1, "/tf", {"transforms": [stamped("map", "base", 0)]})
     recorded.put(2, "/tf", {"transforms": [stamped("map", "base", ns(102))]})
-    bag = opened(recorded.write(tmp_path / "bag"))
+    bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.play(1.5)  # from the first message on
     assert bag.source.now_ns() == ns(102.5)
 
 
-def test_a_renewed_subscription_does_not_read_the_beginning_again(tmp_path, opened, monkeypatch):
-    bag = opened(strings(0, 1, 2).write(tmp_path / "bag"))
+def test_a_renewed_subscription_does_not_read_the_beginning_again(tmp_path, open_bag, monkeypatch):
+    bag = open_bag(strings(0, 1, 2).write(tmp_path / "bag"))
     read = []
     messages = BagHistory.messages
 

@@ -61,14 +61,14 @@ def read_in_little_memory(path) -> str:
 @pytest.mark.parametrize("compression", ["zstd", "lz4"])
 @pytest.mark.parametrize("with_summary", [True, False])
 def test_a_chunk_that_unfolds_to_more_than_memory(
-    tmp_path, opened, monkeypatch, zeros, compression, claimed, with_summary
+    tmp_path, open_bag, monkeypatch, zeros, compression, claimed, with_summary
 ):
     # The largest size is tried with real memory below; here only the bound.
     monkeypatch.setattr("webviz.data.recordings.mcap_chunks.MAX_BYTES", 8 << 20)
     bomb = Chunk(zeros[compression], min(claimed, 2**64 - 1), compression, (3, 5))
     file = tmp_path / "bomb.mcap"
     file.write_bytes(mcap([plain(0, 1), bomb, plain(7, 9)], with_summary=with_summary))
-    bag = opened(file)
+    bag = open_bag(file)
     bag.want("/words")
     bag.source.play_until(9)
     assert bag.heard() == ["0", "1", "7", "9"]
@@ -110,23 +110,23 @@ def test_chunks_of_one_time_are_not_all_unpacked_at_once(tmp_path, monkeypatch):
 @pytest.mark.parametrize("frames", [1, 3])
 @pytest.mark.parametrize("compression", ["", "zstd", "lz4"])
 def test_honest_chunks_open_however_they_are_packed(
-    tmp_path, opened, compression, frames, with_size
+    tmp_path, open_bag, compression, frames, with_size
 ):
     file = tmp_path / "good.mcap"
     chunk = plain(*range(100), compression=compression, frames=frames, with_size=with_size)
     file.write_bytes(mcap([chunk]))
-    bag = opened(file)
+    bag = open_bag(file)
     bag.want("/words")
     bag.source.play_until(99)
     assert bag.heard() == [str(number) for number in range(100)]
     assert bag.source.warnings == []
 
 
-def test_a_large_chunk_opens(tmp_path, opened):
+def test_a_large_chunk_opens(tmp_path, open_bag):
     file = tmp_path / "large.mcap"
     data = words(0) + message(3, bytes(96 << 20))
     file.write_bytes(mcap([Chunk(packed(data, "zstd"), len(data), "zstd", (0, 3))]))
-    bag = opened(file)
+    bag = open_bag(file)
     bag.want("/words")
     bag.source.play_until(3)
     (large,) = bag.source.inbox.drain()["/words"]  # by its bytes the only one that is kept
@@ -135,22 +135,24 @@ def test_a_large_chunk_opens(tmp_path, opened):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_message_that_unfolds_to_more_than_memory(tmp_path, opened, monkeypatch, zeros, storage):
+def test_a_message_that_unfolds_to_more_than_memory(
+    tmp_path, open_bag, monkeypatch, zeros, storage
+):
     monkeypatch.setattr(unpacking, "MAX_BYTES", 8 << 20)
     recorded = strings(0, 2)
     recorded.put(1, "/words", zeros["zstd"])
-    bag = opened(recorded.write(tmp_path / "bag", storage))
+    bag = open_bag(recorded.write(tmp_path / "bag", storage))
     assert bag.words_until(2) == ["0", "2"]
     (warning,) = bag.source.warnings
     assert "it expands to more than 8 388 608 bytes" in warning
 
 
-def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, opened, monkeypatch):
+def test_a_file_that_unfolds_to_more_than_the_limit(tmp_path, open_bag, monkeypatch):
     monkeypatch.setattr(unpacking, "MAX_FILE", 1 << 20)
     (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
     packed_file = tmp_path / "run.mcap.zst"
     packed_file.write_bytes(zstandard.compress(file.read_bytes() + bytes(4 << 20)))
-    bag = opened(packed_file)
+    bag = open_bag(packed_file)
     assert bag.words_until(1) == ["0", "1"]
     assert "it expands to more than 1 048 576 bytes" in bag.source.warnings[0]
 
@@ -164,7 +166,7 @@ def test_unpacking_leaves_room_on_the_disk(tmp_path, monkeypatch):
     assert fault
 
 
-def test_a_database_that_computes_its_messages(tmp_path, opened):
+def test_a_database_that_computes_its_messages(tmp_path, open_bag):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     database = sqlite3.connect(file)
     database.executescript(
@@ -175,7 +177,7 @@ def test_a_database_that_computes_its_messages(tmp_path, opened):
         "INSERT INTO messages SELECT 3, topic_id, timestamp, NULL FROM old WHERE id = 2;"
     )
     database.close()
-    bag = opened(file)
+    bag = open_bag(file)
     assert bag.words_until(1) == ["0", "1"]
     (warning,) = bag.source.warnings
     assert warning == (
@@ -184,7 +186,7 @@ def test_a_database_that_computes_its_messages(tmp_path, opened):
     )
 
 
-def test_messages_that_are_a_view_are_refused(tmp_path, opened):
+def test_messages_that_are_a_view_are_refused(tmp_path, open_bag):
     file = tmp_path / "view.db3"
     database = sqlite3.connect(file)
     database.executescript(
@@ -194,10 +196,10 @@ def test_messages_that_are_a_view_are_refused(tmp_path, opened):
     )
     database.close()
     with pytest.raises(BagError, match="is not a bag"):
-        opened(file)
+        open_bag(file)
 
 
-def test_compressed_files_and_messages_of_ros_still_open(tmp_path, opened):
+def test_compressed_files_and_messages_of_ros_still_open(tmp_path, open_bag):
     for mode in (CompressionMode.FILE, CompressionMode.MESSAGE):
-        bag = opened(strings(0, 1).write(tmp_path / mode.name, StoragePlugin.SQLITE3, mode))
+        bag = open_bag(strings(0, 1).write(tmp_path / mode.name, StoragePlugin.SQLITE3, mode))
         assert bag.words_until(1) == ["0", "1"]

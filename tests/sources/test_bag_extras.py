@@ -47,9 +47,9 @@ def test_a_static_transform_has_the_pose_of_the_child():
     assert tuple(transform.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
 
 
-def test_extras_arrive_at_the_start(tmp_path, opened):
+def test_extras_arrive_at_the_start(tmp_path, open_bag):
     extra = map_of_file(write_map(tmp_path))
-    source = opened(strings(0, 1).write(tmp_path / "bag"), [extra]).source
+    source = open_bag(strings(0, 1).write(tmp_path / "bag"), [extra]).source
     (publisher,) = source.offers()["/map"].publishers
     assert (publisher.node, publisher.durability) == ("the map lab.yaml", "transient_local")
     source.want({"/map": Subscription(extra.type, Topic("/map"))})

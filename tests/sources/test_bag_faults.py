@@ -30,9 +30,9 @@ DAMAGED = Path(__file__).parents[3] / "shared/data/bags/damaged"
 
 
 def refusal(path) -> str:
-    with pytest.raises(BagError) as caught:
+    with pytest.raises(BagError) as excinfo:
         Player(BagHistory(path))
-    text = str(caught.value)
+    text = str(excinfo.value)
     assert str(path) in text
     assert "\n" not in text
     return text
@@ -43,11 +43,13 @@ def test_a_bag_that_is_not_there(tmp_path):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(tmp_path, opened, storage):
+def test_a_folder_without_metadata_is_read_as_one_that_is_still_recorded(
+    tmp_path, open_bag, storage
+):
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (folder / "metadata.yaml").unlink()
     (file,) = folder.iterdir()
-    bag = opened(folder)
+    bag = open_bag(folder)
     assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == [
         "bag has no metadata.yaml: it is still being recorded, or its recorder was interrupted. "
@@ -81,11 +83,11 @@ def test_a_bag_is_closed_while_being_read(tmp_path, storage):
 
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage):
+def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, open_bag, storage):
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     file = next(each for each in folder.iterdir() if each.suffix != ".yaml")
     file.rename(file.with_stem("renamed"))
-    bag = opened(folder)
+    bag = open_bag(folder)
     assert bag.source.warnings == [
         f"{file.name}, named by metadata.yaml, is missing. Reading renamed{file.suffix}."
     ]
@@ -94,21 +96,21 @@ def test_a_folder_whose_only_file_was_renamed_is_read(tmp_path, opened, storage)
 
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 @pytest.mark.parametrize("key", ["deadline:", "depth:", "durability:", "history:"])
-def test_a_qos_profile_may_lack_a_policy(tmp_path, opened, storage, key):
+def test_a_qos_profile_may_lack_a_policy(tmp_path, open_bag, storage, key):
     folder = strings(0, 1, best_effort=True).write(tmp_path / "bag", storage)
     for file in folder.iterdir():  # the length must not change
         other = f"_{key[1:]}"
         file.write_bytes(file.read_bytes().replace(key.encode(), other.encode()))
-    bag = opened(folder)
+    bag = open_bag(folder)
     (publisher,) = bag.source.offers()["/words"].publishers
     assert publisher.reliability == "best_effort"
     assert bag.words_until(1) == ["0", "1"]
 
 
-def test_an_unreadable_qos_profile_is_left_out(tmp_path, opened):
+def test_an_unreadable_qos_profile_is_left_out(tmp_path, open_bag):
     (file,) = files(strings(0, 1).write(tmp_path / "bag"), ".mcap")
     file.write_bytes(file.read_bytes().replace(b"history:", b"[history"))
-    bag = opened(file)
+    bag = open_bag(file)
     assert bag.words_until(1) == ["0", "1"]
 
 
@@ -131,14 +133,14 @@ def test_a_database_that_ends_within_its_header(tmp_path, size):
 
 
 @pytest.mark.parametrize("compression", [CompressionMode.NONE, CompressionMode.STORAGE])
-def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, opened, compression):
+def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, open_bag, compression):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.MCAP, compression), ".mcap")
     data = file.read_bytes()
     counts = []
     for share in (0.3, 0.6, 0.9, 0.999):
         file.write_bytes(data[: int(share * len(data))])
-        bag = opened(file)
+        bag = open_bag(file)
         assert bag.source.warnings == [
             f"{file.name} has no end: it is still being recorded or was cut off. What it "
             "contained when it was opened is shown. Once its recorder has ended, `webviz recover` "
@@ -152,14 +154,14 @@ def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, opened, compress
     assert counts[-1] == 300
 
 
-def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, opened):
+def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, open_bag):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     data = file.read_bytes()
     counts = []
     for share in (0.3, 0.6, 0.9):
         file.write_bytes(data[: int(share * len(data))])
-        bag = opened(file)
+        bag = open_bag(file)
         bag.want("/noise")
         bag.play(300)
         texts = bag.heard("/noise")
@@ -179,7 +181,7 @@ def test_a_database_without_a_whole_table(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["", "zstd", "lz4", "no summary", "no chunks", "db3"])
-def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
+def test_one_flipped_bit_loses_little(tmp_path, open_bag, kind):
     recorded = _noisy(60)
     expected = _texts(recorded)
     parts = [b"".join(message(i, expected[i]) for i in range(j, j + 10)) for j in range(0, 60, 10)]
@@ -209,7 +211,7 @@ def test_one_flipped_bit_loses_little(tmp_path, opened, kind):
         data = bytearray(good)
         data[place] ^= 1 << noise.randrange(8)
         file.write_bytes(data)
-        bag = opened(file)
+        bag = open_bag(file)
         topic = "/noise" if kind == "db3" else "/words"
         bag.want(topic)
         bag.source.play_until(bag.source.history.end_ns)
@@ -274,27 +276,27 @@ def test_other_kinds_of_files_are_refused_by_their_kind(tmp_path, name, content,
 
 @pytest.mark.parametrize("name", ["run", "run.bag", "run.mcap", "run.db3"])
 @pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_a_bag_under_any_name_is_read(tmp_path, opened, storage, name):
+def test_a_bag_under_any_name_is_read(tmp_path, open_bag, storage, name):
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (file,) = [each for each in folder.iterdir() if each.suffix != ".yaml"]
-    bag = opened(file.rename(tmp_path / name))
+    bag = open_bag(file.rename(tmp_path / name))
     assert bag.words_until(1) == ["0", "1"]
 
 
 @pytest.mark.parametrize("name", ["run.mcap.zst", "run.mcap.zstd", "run.db3.zstd"])
-def test_a_compressed_file_is_read(tmp_path, opened, name):
+def test_a_compressed_file_is_read(tmp_path, open_bag, name):
     storage = StoragePlugin.MCAP if "mcap" in name else StoragePlugin.SQLITE3
     folder = strings(0, 1).write(tmp_path / "bag", storage)
     (file,) = [each for each in folder.iterdir() if each.suffix != ".yaml"]
     packed = tmp_path / name
     packed.write_bytes(zstandard.compress(file.read_bytes()))
-    bag = opened(packed)
+    bag = open_bag(packed)
     assert bag.words_until(1) == ["0", "1"]
     assert bag.source.warnings == []
 
 
 def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_broken(
-    tmp_path, opened
+    tmp_path, open_bag
 ):
     folder = strings(0, 1).write(tmp_path / "bag")
     (first,) = files(folder, ".mcap")
@@ -304,7 +306,7 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     metadata = folder / "metadata.yaml"
     names = f"- {first.name}\n  - bag_1.mcap\n  - bag_2.mcap\n  - bag_3.mcap\n"
     metadata.write_text(metadata.read_text().replace(f"- {first.name}\n", names))
-    bag = opened(folder)
+    bag = open_bag(folder)
     assert bag.words_until(3) == ["0", "1", "2", "3"]
     assert bag.source.warnings == [
         "bag_3.mcap, named by metadata.yaml, is missing. Reading "
@@ -314,11 +316,11 @@ def test_a_folder_of_several_files_is_read_without_those_that_are_missing_or_bro
     ]
 
 
-def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, opened):
+def test_losses_within_the_files_of_a_folder_are_reported(tmp_path, open_bag):
     folder = strings(*range(400)).write(tmp_path / "bag", StoragePlugin.SQLITE3)
     (file,) = files(folder, ".db3")
     file.write_bytes(file.read_bytes()[: int(file.stat().st_size * 0.7)])
-    bag = opened(folder)
+    bag = open_bag(folder)
     bag.want("/words")
     bag.play(400)
     (warning,) = bag.source.warnings
@@ -346,7 +348,7 @@ def test_an_empty_bag(tmp_path):
     assert "contains no messages" in refusal(empty.write(tmp_path / "bag"))
 
 
-def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened):
+def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, open_bag):
     recorded = _noisy(60, kilobytes=40)
     folder = recorded.write(tmp_path / "bag", StoragePlugin.MCAP, CompressionMode.STORAGE)
     (file,) = files(folder, ".mcap")
@@ -354,7 +356,7 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
     second_chunk = data.index(ZSTD, 1 << 19)
     data[second_chunk : second_chunk + 4] = bytes(4)
     file.write_bytes(bytes(data))
-    bag = opened(file)
+    bag = open_bag(file)
     bag.want("/noise")
     bag.play(60)
     texts = bag.heard("/noise")
@@ -368,10 +370,13 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, opened
 
 
 @pytest.mark.parametrize(("name", "why"), [("flip1", "is damaged"), ("trunc70", "has no end")])
-def test_the_beginning_of_a_real_damaged_bag_is_shown(opened, name, why):
+def test_the_beginning_of_a_real_damaged_bag_is_shown(open_bag, name, why):
     if not DAMAGED.exists():
         pytest.skip("shared data is missing")
-    whole, bag = opened(DAMAGED.parent / "nav2_turtlebot.mcap"), opened(DAMAGED / f"{name}.mcap")
+    whole, bag = (
+        open_bag(DAMAGED.parent / "nav2_turtlebot.mcap"),
+        open_bag(DAMAGED / f"{name}.mcap"),
+    )
     payloads = []
     for each in (whole, bag):
         each.want("/tf", type_name=TF)
@@ -383,13 +388,13 @@ def test_the_beginning_of_a_real_damaged_bag_is_shown(opened, name, why):
 
 
 def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_opened(
-    tmp_path, opened
+    tmp_path, open_bag
 ):
     recorded = _noisy(300)
     (file,) = files(recorded.write(tmp_path / "bag"), ".mcap")
     data = file.read_bytes()
     file.write_bytes(data[: len(data) // 2])
-    bag = opened(file)
+    bag = open_bag(file)
     bag.want("/noise")
     bag.play(60)
     with file.open("ab") as growing:
@@ -405,7 +410,7 @@ def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_ope
 
 @pytest.mark.parametrize("journal_mode", ["wal", "delete"])
 def test_a_database_that_is_still_written_shows_its_committed_messages(
-    tmp_path, opened, journal_mode
+    tmp_path, open_bag, journal_mode
 ):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as recorder:
@@ -415,18 +420,18 @@ def test_a_database_that_is_still_written_shows_its_committed_messages(
         recorder.execute(copy)
         if journal_mode == "wal":
             recorder.commit()
-        bag = opened(file)
+        bag = open_bag(file)
         assert bag.words_until(1) == ["0", "1"]
         (warning,) = bag.source.warnings
         assert warning.startswith(f"{file.name} has no end: it is still being recorded, or ")
         recorder.rollback()
 
 
-def test_a_topic_with_invalid_qos_text_is_read(tmp_path, opened):
+def test_a_topic_with_invalid_qos_text_is_read(tmp_path, open_bag):
     (file,) = files(strings(0, 1).write(tmp_path / "bag", StoragePlugin.SQLITE3), ".db3")
     with contextlib.closing(sqlite3.connect(file)) as db, db:
         db.execute("UPDATE topics SET offered_qos_profiles = CAST(x'2d0a20ff0a' AS TEXT)")
-    bag = opened(file)
+    bag = open_bag(file)
     assert bag.words_until(1) == ["0", "1"]
 
 

@@ -15,7 +15,7 @@ POSE = "geometry_msgs/msg/PoseStamped"
 
 
 @pytest.fixture
-def source(tmp_path: Path, opened: Callable[..., Any]) -> Any:
+def source(tmp_path: Path, open_bag: Callable[..., Any]) -> Any:
     """Return a bag with frames of all kinds, and messages that cannot be read."""
     bag = Bag()
     bag.add("/tf", TF)
@@ -30,7 +30,7 @@ def source(tmp_path: Path, opened: Callable[..., Any]) -> Any:
             bag.put(second, topic, {"header": {"frame_id": frame}})
     bag.put(0, "/a", b"\0\1\0\0\7")
     bag.add("/silent", POSE)
-    return opened(bag.write(tmp_path / "bag")).source.history
+    return open_bag(bag.write(tmp_path / "bag")).source.history
 
 
 def test_links_are_those_of_all_transforms_the_static_ones_first(source: Any) -> None:

@@ -21,7 +21,7 @@ STRING, POSE = "std_msgs/msg/String", "geometry_msgs/msg/PoseStamped"
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[BagHistory]:
+def open_history(path: Path) -> Iterator[BagHistory]:
     history = BagHistory(path)
     yield history
     history.close()
@@ -41,7 +41,7 @@ def transforms_read(path: Path, at_s: int) -> list[int]:
         "/tf": Subscription(TF, Topic("/tf")),
         "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(),), is_placed=True),
     }
-    with opened(path) as history:
+    with open_history(path) as history:
         past = NeededMessages(
             history, history.channels(subscription), subscription, START_NS + ns(at_s)
         )
@@ -77,7 +77,7 @@ def test_a_lookback_ends_where_a_message_starts_over(tmp_path: Path) -> None:
     path = strings(1, 2, 3, 4).write(tmp_path / "run")
     begins = Lookback(starts_over=lambda message, type_name: message.data.endswith("2"))
     subscription = {"/words": Subscription(STRING, Topic("/words"), lookbacks=(begins,))}
-    with opened(path) as history:
+    with open_history(path) as history:
         past = NeededMessages(
             history, history.channels(subscription), subscription, START_NS + ns(4)
         )
@@ -91,7 +91,7 @@ def test_messages_that_were_placed_when_transforms_ended_are_read(tmp_path: Path
         bag.put(at_s, "/pose", {"header": {"frame_id": "base"}})
     newest = Subscription(POSE, Topic("/pose"), lookbacks=(Lookback(count=1),), is_placed=True)
     subscription = {"/tf": Subscription(TF, Topic("/tf")), "/pose": newest}
-    with opened(bag.write(tmp_path / "run")) as history:
+    with open_history(bag.write(tmp_path / "run")) as history:
         past = NeededMessages(
             history, history.channels(subscription), subscription, START_NS + ns(40)
         )
@@ -118,7 +118,7 @@ def test_a_lookback_of_seconds_begins_to_the_nanosecond(tmp_path: Path) -> None:
     subscription = {
         "/words": Subscription(STRING, Topic("/words"), lookbacks=(Lookback(seconds=2.0),))
     }
-    with opened(path) as history:
+    with open_history(path) as history:
         past = NeededMessages(
             history, history.channels(subscription), subscription, START_NS + ns(4)
         )
@@ -128,7 +128,7 @@ def test_a_lookback_of_seconds_begins_to_the_nanosecond(tmp_path: Path) -> None:
 def test_as_many_messages_are_played_at_once_as_an_inbox_holds(tmp_path: Path) -> None:
     path = strings(*(number / 1000 for number in range(MAX_BATCH + 20))).write(tmp_path / "run")
     delivered: list[str] = []
-    with opened(path) as history:
+    with open_history(path) as history:
         playhead = Playhead(history, lambda topic, raw: delivered.append(topic))
         playhead.subscribe({"/words": Subscription(STRING, Topic("/words"))})
         playhead.play(history.end_ns)

@@ -84,7 +84,7 @@ def write(
 
 
 @pytest.fixture
-def opened() -> Iterator[Callable[[Path], BagFile]]:
+def open_bag() -> Iterator[Callable[[Path], BagFile]]:
     """Open bags, and close them after the test."""
     files: list[BagFile] = []
 
@@ -118,14 +118,14 @@ def test_the_types_that_changed_are_those_of_the_released_distributions() -> Non
 @pytest.mark.parametrize("distribution", RELEASED, ids=lambda store: store.name)
 def test_messages_of_each_distribution_have_the_values_that_were_written(
     tmp_path: Path,
-    opened: Callable[[Path], BagFile],
+    open_bag: Callable[[Path], BagFile],
     distribution: Stores,
     storage: StoragePlugin,
 ) -> None:
     store, numbers = get_typestore(distribution), count(1)
     names = [name for name in (*sorted(CHANGED - {GID}), *NESTED) if name in store.fielddefs]
     messages = [(name, filled(store, name, numbers)) for name in names for _ in range(2)]
-    file = opened(write(tmp_path / "run", store, messages, storage))
+    file = open_bag(write(tmp_path / "run", store, messages, storage))
     result = messages_of(file)
     assert not file.skipped
     assert not file.warnings
@@ -137,12 +137,12 @@ def test_messages_of_each_distribution_have_the_values_that_were_written(
 
 
 def test_fields_missing_in_an_older_distribution_have_defaults(
-    tmp_path: Path, opened: Callable[[Path], BagFile]
+    tmp_path: Path, open_bag: Callable[[Path], BagFile]
 ) -> None:
     store = get_typestore(Stores.ROS2_GALACTIC)
     names = (RANGE, MARKER)
     messages = [(name, filled(store, name, count(1))) for name in names]
-    result = messages_of(opened(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3)))
+    result = messages_of(open_bag(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3)))
     assert result[RANGE][0].variance == 0.0
     (marker,) = result[MARKER]
     assert (marker.texture_resource, len(marker.uv_coordinates)) == ("", 0)
@@ -167,12 +167,12 @@ def test_a_message_that_no_distribution_wrote_stays_as_it_is() -> None:
 
 
 def test_types_of_newer_distributions_are_read_from_bags_without_definitions(
-    tmp_path: Path, opened: Callable[[Path], BagFile]
+    tmp_path: Path, open_bag: Callable[[Path], BagFile]
 ) -> None:
     store, name = get_typestore(Stores.ROS2_LYRICAL), "nav_msgs/msg/Trajectory"
     assert not type_exists(name)
     written = filled(store, name, count(1))
-    file = opened(write(tmp_path / "run", store, [(name, written)], StoragePlugin.SQLITE3))
+    file = open_bag(write(tmp_path / "run", store, [(name, written)], StoragePlugin.SQLITE3))
     assert not file.skipped
     (message,) = messages_of(file)[name]
     check_same(store, name, written, message)
@@ -180,12 +180,12 @@ def test_types_of_newer_distributions_are_read_from_bags_without_definitions(
 
 @pytest.mark.parametrize("distribution", [Stores.ROS2_GALACTIC, Stores.ROS2_HUMBLE])
 def test_a_copy_of_their_messages_has_the_definitions_that_fit(
-    tmp_path: Path, opened: Callable[[Path], BagFile], distribution: Stores
+    tmp_path: Path, open_bag: Callable[[Path], BagFile], distribution: Stores
 ) -> None:
     store = get_typestore(distribution)
     names = (RANGE, MARKER)
     messages = [(name, filled(store, name, count(1))) for name in names]
-    file = opened(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3))
+    file = open_bag(write(tmp_path / "run", store, messages, StoragePlugin.SQLITE3))
     copy = tmp_path / "copy.mcap"
     with contextlib.closing(McapFile(copy, "test")) as mcap:
         for channel in file.channels:
@@ -194,20 +194,20 @@ def test_a_copy_of_their_messages_has_the_definitions_that_fit(
     recording = open_recording(copy)
     assert all("MSG:" in channel.definition for channel in recording.channels)
     recording.close()
-    assert {key: len(each) for key, each in messages_of(opened(copy)).items()} == dict.fromkeys(
+    assert {key: len(each) for key, each in messages_of(open_bag(copy)).items()} == dict.fromkeys(
         names, 1
     )
 
 
 def test_fields_of_a_newer_definition_are_left_out(
-    tmp_path: Path, opened: Callable[[Path], BagFile]
+    tmp_path: Path, open_bag: Callable[[Path], BagFile]
 ) -> None:
     store = get_typestore(Stores.ROS2_JAZZY)
     constants, fields = store.fielddefs.pop(MARKER)
     newer = [*fields, ("smell", (Nodetype.BASE, ("string", 0)))]
     store.register({MARKER: (constants, newer)})
     written = filled(store, MARKER, count(1))
-    file = opened(write(tmp_path / "run", store, [(MARKER, written)], StoragePlugin.MCAP))
+    file = open_bag(write(tmp_path / "run", store, [(MARKER, written)], StoragePlugin.MCAP))
     (marker,) = messages_of(file)[MARKER]
     assert (marker.id, marker.text) == (written.id, written.text)
 
@@ -219,7 +219,7 @@ def test_a_message_that_is_followed_by_more_than_padding_is_not_whole() -> None:
 
 
 def test_a_definition_with_other_fields_of_the_same_names_is_refused(
-    tmp_path: Path, opened: Callable[[Path], BagFile]
+    tmp_path: Path, open_bag: Callable[[Path], BagFile]
 ) -> None:
     store = get_typestore(Stores.ROS2_GALACTIC)
     path = write(
@@ -227,11 +227,11 @@ def test_a_definition_with_other_fields_of_the_same_names_is_refused(
     )
     (file,) = path.glob("*.mcap")
     file.write_bytes(file.read_bytes().replace(b"int32 id\n", b"int16 id\n"))
-    assert "visualization_msgs/msg/Marker differs" in opened(file).skipped["/Marker"]
+    assert "visualization_msgs/msg/Marker differs" in open_bag(file).skipped["/Marker"]
 
 
 def test_a_definition_that_is_another_type_is_refused_with_its_name(
-    tmp_path: Path, opened: Callable[[Path], BagFile]
+    tmp_path: Path, open_bag: Callable[[Path], BagFile]
 ) -> None:
     store = get_typestore(Stores.ROS2_GALACTIC)
     name = MARKER
@@ -240,7 +240,7 @@ def test_a_definition_that_is_another_type_is_refused_with_its_name(
     )
     (file,) = path.glob("*.mcap")
     file.write_bytes(file.read_bytes().replace(b"string ns\n", b"float32 n\n"))
-    bag = opened(file)
+    bag = open_bag(file)
     assert not bag.channels
     assert "visualization_msgs/msg/Marker differs" in bag.skipped["/Marker"]
 
@@ -253,11 +253,11 @@ def test_types_that_contain_a_changed_one_may_differ() -> None:
 @pytest.mark.skipif(not REPORTS.is_dir(), reason="needs ../shared/data/reports/B1")
 @pytest.mark.parametrize("storage", ["db3", "mcap"])
 def test_bags_of_galactic_and_humble_are_decoded(
-    opened: Callable[[Path], BagFile], storage: str
+    open_bag: Callable[[Path], BagFile], storage: str
 ) -> None:
-    result = messages_of(opened(REPORTS / f"galactic_marker_{storage}"))
+    result = messages_of(open_bag(REPORTS / f"galactic_marker_{storage}"))
     assert {(each.type, each.pose.position.x) for each in result[MARKER]} == {(1, 2.0)}
     array = result[MARKERS][0].markers
     assert [each.pose.position.x for each in array] == [2.0, 4.0]
-    distances = messages_of(opened(REPORTS / f"humble_range_{storage}"))[RANGE]
+    distances = messages_of(open_bag(REPORTS / f"humble_range_{storage}"))[RANGE]
     assert {each.range for each in distances} == {2.0}

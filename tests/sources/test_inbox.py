@@ -15,7 +15,7 @@ def payload_sizes(inbox: Inbox) -> dict[str, list[int]]:
     return {topic: [len(raw.cdr) for raw in raws] for topic, raws in inbox.drain().items()}
 
 
-def opened(max_bytes: int, max_total: int) -> Inbox:
+def make_inbox(max_bytes: int, max_total: int) -> Inbox:
     inbox = Inbox(max_bytes, max_total)
     for topic in ("/a", "/b", "/c"):
         inbox.open(topic, 10)
@@ -23,7 +23,7 @@ def opened(max_bytes: int, max_total: int) -> Inbox:
 
 
 def test_a_topic_keeps_its_newest_message_however_large() -> None:
-    inbox = opened(100, 1000)
+    inbox = make_inbox(100, 1000)
     put(inbox, "/a", 60, 50, 40)
     assert payload_sizes(inbox) == {"/a": [50, 40]}
     put(inbox, "/a", 60, 500)
@@ -32,7 +32,7 @@ def test_a_topic_keeps_its_newest_message_however_large() -> None:
 
 
 def test_a_topic_keeps_its_newest_messages_up_to_a_number() -> None:
-    inbox = opened(1000, 1000)
+    inbox = make_inbox(1000, 1000)
     put(inbox, "/a", *range(1, 13))
     put(inbox, "/closed", 1)
     assert payload_sizes(inbox) == {"/a": list(range(3, 13))}
@@ -41,7 +41,7 @@ def test_a_topic_keeps_its_newest_messages_up_to_a_number() -> None:
 
 
 def test_all_topics_share_a_limit_and_the_one_with_most_bytes_loses_its_oldest() -> None:
-    inbox = opened(100, 150)
+    inbox = make_inbox(100, 150)
     put(inbox, "/a", 40, 50)
     put(inbox, "/b", 60)
     assert inbox.dropped("/a") == 0
@@ -54,7 +54,7 @@ def test_all_topics_share_a_limit_and_the_one_with_most_bytes_loses_its_oldest()
 
 
 def test_the_limit_of_all_topics_holds_for_a_single_message_only_beside_others() -> None:
-    inbox = opened(100, 150)
+    inbox = make_inbox(100, 150)
     put(inbox, "/a", 400)
     assert payload_sizes(inbox) == {"/a": [400]}
     put(inbox, "/a", 90)
@@ -64,7 +64,7 @@ def test_the_limit_of_all_topics_holds_for_a_single_message_only_beside_others()
 
 
 def test_a_closed_topic_makes_room() -> None:
-    inbox = opened(100, 150)
+    inbox = make_inbox(100, 150)
     put(inbox, "/a", 100)
     inbox.close("/a")
     put(inbox, "/b", 90)
@@ -73,7 +73,7 @@ def test_a_closed_topic_makes_room() -> None:
 
 
 def test_messages_and_bytes_are_counted_until_a_topic_is_closed() -> None:
-    inbox = opened(100, 1000)
+    inbox = make_inbox(100, 1000)
     put(inbox, "/a", 60, 50, 40)
     put(inbox, "/b", 5)
     inbox.drain()

@@ -25,9 +25,9 @@ from webviz.sources.player import Player
 
 @pytest.mark.parametrize("compression", [None, *Writer.CompressionFormat])
 def test_its_messages_are_those_of_ros_2(
-    tmp_path: Path, opened: Callable[..., Any], compression: Writer.CompressionFormat | None
+    tmp_path: Path, open_bag: Callable[..., Any], compression: Writer.CompressionFormat | None
 ) -> None:
-    bag = opened(written(tmp_path / "run.bag", compression))
+    bag = open_bag(written(tmp_path / "run.bag", compression))
     expected = {
         "/scan": "sensor_msgs/msg/LaserScan",
         "/camera_info": "sensor_msgs/msg/CameraInfo",

@@ -192,11 +192,11 @@ def tree(links: str, joints: str | tuple[str, ...]) -> str:
     [*WRONG.items(), *((tree(links, joints), words) for links, joints, words in JOINTS)],
 )
 def test_a_wrong_description_is_refused_in_one_sentence_that_names_the_place(load, text, words):
-    with pytest.raises(RobotDescriptionError) as caught:
+    with pytest.raises(RobotDescriptionError) as excinfo:
         load(text)
-    assert words in str(caught.value)
-    assert "\n" not in str(caught.value)
-    assert str(caught.value).endswith(".")
+    assert words in str(excinfo.value)
+    assert "\n" not in str(excinfo.value)
+    assert str(excinfo.value).endswith(".")
 
 
 def entities(count: int, where: str) -> str:
@@ -223,9 +223,9 @@ def test_external_entities_are_refused_and_their_files_not_read(load, tmp_path, 
     secret = tmp_path / "secret"
     secret.write_text("<!ENTITY leaked 'leaked'>")
     dtd = declaration.format(uri=secret.as_uri())
-    with pytest.raises(RobotDescriptionError) as caught:
+    with pytest.raises(RobotDescriptionError) as excinfo:
         load(f"<!DOCTYPE robot [{dtd}]><robot name='r'><link name='l'/>&x;</robot>")
-    assert "leaked" not in str(caught.value)
+    assert "leaked" not in str(excinfo.value)
 
 
 def test_an_external_dtd_is_not_read(load, tmp_path):

@@ -112,12 +112,12 @@ def test_a_file_outside_of_the_roots_is_refused_with_the_remedy(tmp_path, name):
     package(tmp_path / "pkg", "pkg")
     (tmp_path / "secret").write_text("secret")
     resolver = Resolver([tmp_path / "pkg"], ament_prefix_path="")
-    with pytest.raises(ResolveError, match=f"--mesh-root {tmp_path} to allow it") as caught:
+    with pytest.raises(ResolveError, match=f"--mesh-root {tmp_path} to allow it") as excinfo:
         resolver.resolve(name.format(tmp_path))
     (tmp_path / "secret").unlink()
     with pytest.raises(ResolveError) as again:
         resolver.resolve(name.format(tmp_path))
-    assert str(caught.value) == str(again.value)  # whether it exists is not said
+    assert str(excinfo.value) == str(again.value)  # whether it exists is not said
 
 
 @pytest.mark.parametrize("name", ["package://pkg/link", "{}/pkg/link", "{}/pkg/folder/secret"])
@@ -202,7 +202,7 @@ def test_relative_paths_begin_at_the_description_or_nowhere(tmp_path):
     ],
 )
 def test_a_missing_file_is_refused_in_one_sentence(uri, words):
-    with pytest.raises(ResolveError) as caught:
+    with pytest.raises(ResolveError) as excinfo:
         Resolver(ament_prefix_path="").resolve(uri)
-    assert words in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert words in str(excinfo.value)
+    assert "\n" not in str(excinfo.value)

@@ -85,9 +85,9 @@ def test_a_xacro_file_is_bounded(path, running, monkeypatch, body, reason):
     monkeypatch.setattr(expanding, "TIME_S", 1 if late else 20)
     monkeypatch.setattr(expanding, "MAX_BYTES", 1 << 20)
     running(body)
-    with pytest.raises(RobotDescriptionError, match=reason) as caught:
+    with pytest.raises(RobotDescriptionError, match=reason) as excinfo:
         load_file(path)
-    assert "\n" not in str(caught.value)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize("name", ["/proc/kmsg", "/proc/self/mem", "/dev/zero", "/proc/version"])

@@ -184,7 +184,7 @@ def test_the_error_of_a_truncated_trajectory_names_the_field() -> None:
     cdr = encode("trajectory_msgs/msg/JointTrajectory", {"points": [{"positions": [1.0, 2.0]}]})
     results = set[str]()
     for size in range(4, len(cdr)):
-        with pytest.raises(DecodeError) as caught:
+        with pytest.raises(DecodeError) as excinfo:
             decode("trajectory_msgs/msg/JointTrajectory", cdr[:size])
-        results.add(str(caught.value).partition(": ")[2].partition(" (at")[0])
+        results.add(str(excinfo.value).partition(": ")[2].partition(" (at")[0])
     assert "2 elements of float64 are longer than the rest" in results

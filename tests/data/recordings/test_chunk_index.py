@@ -13,7 +13,7 @@ CHUNKS = 6
 TOPICS = ("/one", "/two", "/late")
 
 
-def written(path: Path) -> Path:
+def write_bag(path: Path) -> Path:
     """A file whose recorder was killed; the third topic begins late."""
     file = McapFile(path, "webviz test")
     for number in range(CHUNKS):
@@ -48,13 +48,13 @@ def test_only_chunks_that_may_have_new_channels_are_unpacked(
         return contents_of(chunk, file)
 
     monkeypatch.setattr(mcap_index, "contents_of", noted)
-    recording = open_recording(written(tmp_path / "run.mcap"))
+    recording = open_recording(write_bag(tmp_path / "run.mcap"))
     recording.close()
     assert unpacked == [0, 300, 500]  # behind the last one, more may be missing
 
 
 def test_a_damaged_index_hides_no_message(tmp_path: Path) -> None:
-    path = written(tmp_path / "run.mcap")
+    path = write_bag(tmp_path / "run.mcap")
     truth = contents(path)
     assert [len(each) for each in truth] == [6, 12, 12]
     whole = path.read_bytes()

@@ -24,7 +24,7 @@ TOPICS = ("/often", "/bursts", "/rare")
 DURATION_S = 50
 
 
-def written(path: Path, seed: int) -> Path:
+def write_bag(path: Path, seed: int) -> Path:
     """A db3 file whose topics have messages now and then, some at the same time."""
     chance = random.Random(seed)
     bag = Bag()
@@ -57,7 +57,7 @@ def hasten(monkeypatch: pytest.MonkeyPatch, chance: random.Random, share: float)
 def test_all_messages_come_in_order_at_any_speed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int, share: float
 ) -> None:
-    path = written(tmp_path / "run", seed)
+    path = write_bag(tmp_path / "run", seed)
     with closing(sqlite3.connect(path)) as db:
         rows = db.execute(
             "SELECT name, timestamp, data FROM messages JOIN topics ON topics.id = topic_id "
@@ -104,7 +104,7 @@ def test_the_first_message_of_a_rare_topic_is_found_without_looking_for_the_next
 def test_a_range_read_by_the_histogram_is_not_searched_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    recording = open_recording(written(tmp_path / "run", 1))
+    recording = open_recording(write_bag(tmp_path / "run", 1))
     assert recording.span_ns is not None
     recording.histogram(sqlite.TimeParts(*recording.span_ns, 10))
     spans: list[tuple[int, int]] = []

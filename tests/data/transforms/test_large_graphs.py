@@ -95,7 +95,7 @@ def test_a_failure_has_no_text_until_it_is_shown(monkeypatch: pytest.MonkeyPatch
     texts: list[str] = []
     as_text = FrameTree.as_text
     monkeypatch.setattr(FrameTree, "as_text", lambda tree: texts.append("text") or as_text(tree))
-    with pytest.raises(LookupException) as caught:
+    with pytest.raises(LookupException) as excinfo:
         buffer.lookup("map", "p", 0)
     waiting: MessageFilter[str] = MessageFilter()
     waiting.add("message", "p", SECOND)
@@ -103,8 +103,8 @@ def test_a_failure_has_no_text_until_it_is_shown(monkeypatch: pytest.MonkeyPatch
     buffer.poses_in("map")
     assert not buffer.can_transform("map", "p", 0)
     assert texts == []
-    assert "contains a loop" in str(caught.value)
-    assert "Frame x exists with parent map." in str(caught.value)
+    assert "contains a loop" in str(excinfo.value)
+    assert "Frame x exists with parent map." in str(excinfo.value)
     assert texts == ["text"] * 2
 
 

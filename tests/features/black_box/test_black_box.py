@@ -153,9 +153,9 @@ def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], le
     ],
 )
 def test_a_bad_rule_is_an_error_with_file_line_and_key(rule: str, reason: str) -> None:
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         parse(f"version: 1\nwatch:\n- {rule}\n", "lab.yaml")
-    assert str(caught.value).startswith(f"lab.yaml:3: {reason}")
+    assert str(excinfo.value).startswith(f"lab.yaml:3: {reason}")
 
 
 def test_rules_are_saved_as_they_were_written() -> None:

@@ -145,6 +145,6 @@ def test_a_failed_opening_changes_nothing(drive: Callable[..., LiveDrive]) -> No
 
 
 def test_a_bag_is_not_replaced(theater: Callable[..., BagViewer]) -> None:
-    with pytest.raises(Error) as caught:
+    with pytest.raises(Error) as excinfo:
         theater(recorded(4), CONFIG).do(OpenRecording("other"))
-    assert str(caught.value) == NO_LIVE
+    assert str(excinfo.value) == NO_LIVE

@@ -194,9 +194,9 @@ def test_invalid_commands_are_refused_with_the_reason(
     theater: Callable, bag: Bag, command: Command, reason: str
 ) -> None:
     viewer = theater(bag)
-    with pytest.raises(Refused) as caught:
+    with pytest.raises(Refused) as excinfo:
         viewer.do(command)
-    assert str(caught.value) == reason
+    assert str(excinfo.value) == reason
 
 
 def test_a_time_outside_of_the_recording_is_brought_into_it(theater: Callable, bag: Bag) -> None:

@@ -18,12 +18,12 @@ ROOT = Path(__file__).parents[3]
 IMPORT = "from webviz import Display\n"
 
 
-def refused(path: Path) -> str:
+def refusal(path: Path) -> str:
     """The sentence with which a file is refused."""
-    with pytest.raises(PluginError) as caught:
+    with pytest.raises(PluginError) as excinfo:
         load(path)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
+    assert "\n" not in str(excinfo.value)
+    return str(excinfo.value)
 
 
 def test_the_example_of_the_readme_is_the_one_tested_here() -> None:
@@ -57,8 +57,8 @@ def test_every_display_that_the_file_itself_defines_counts(plugin: Any) -> None:
 
 def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
     path = tmp_path / "none.py"
-    assert refused(path) == f"Cannot read {path}: No such file or directory."
-    assert refused(tmp_path) == f"Cannot read {tmp_path}: Is a directory."
+    assert refusal(path) == f"Cannot read {path}: No such file or directory."
+    assert refusal(tmp_path) == f"Cannot read {tmp_path}: Is a directory."
 
 
 @pytest.mark.parametrize(
@@ -102,14 +102,14 @@ def test_a_missing_file_is_an_error(tmp_path: Path) -> None:
 def test_a_mistake_is_one_sentence_with_its_line(plugin: Any, text: str, reason: str) -> None:
     plugin.path.write_text(text)
     types = registry.display_types()
-    assert refused(plugin.path).startswith(f"{plugin.path}{reason}")
+    assert refusal(plugin.path).startswith(f"{plugin.path}{reason}")
     assert registry.display_types() == types
 
 
 def test_a_refused_file_leaves_the_module_of_the_last_good_one(plugin: Any) -> None:
     cls = plugin.load()
     plugin.edit(("class Area(Display)", "class Grid(Display)"))
-    refused(plugin.path)
+    refusal(plugin.path)
     assert sys.modules[cls.__module__].Area is cls
 
 
@@ -117,7 +117,7 @@ def test_two_files_cannot_have_a_display_of_one_name(plugin: Any, tmp_path: Path
     plugin.load()
     other = tmp_path / "other.py"
     other.write_text(plugin.path.read_text())
-    sentence = refused(other)
+    sentence = refusal(other)
     assert sentence.startswith(f"{other} cannot be used: {plugin.path} has a display named Area")
 
 

@@ -110,10 +110,10 @@ NO_FINDINGS = doctor()
 
 
 @pytest.fixture
-def written(tmp_path: Path) -> Callable[..., BugReport]:
+def write_report(tmp_path: Path) -> Callable[..., BugReport]:
     """Write a report, and read it."""
 
-    def written(content: ReportMoment, later: DoctorFeature = NO_FINDINGS) -> BugReport:
+    def write_report(content: ReportMoment, later: DoctorFeature = NO_FINDINGS) -> BugReport:
         (folder := tmp_path / "read").mkdir()
         path = tmp_path / "bug.zip"
         size = write(path, content, later, None)
@@ -121,13 +121,15 @@ def written(tmp_path: Path) -> Callable[..., BugReport]:
         assert {each.name for each in tmp_path.iterdir()} == {"read", "bug.zip"}
         return read_report(path, folder).report
 
-    return written
+    return write_report
 
 
-def test_the_statuses_have_the_times_at_which_they_began(written: Callable[..., BugReport]) -> None:
+def test_the_statuses_have_the_times_at_which_they_began(
+    write_report: Callable[..., BugReport],
+) -> None:
     times = START_NS + 10**9, START_NS + 2 * 10**9
     warned = [Event(at_ns, Level.WARN, "Plan", "alice lost it") for at_ns in times]
-    report = written(moment(warned=warned, with_names=True))
+    report = write_report(moment(warned=warned, with_names=True))
     assert [(each.display, each.status, each.level, each.text) for each in report.statuses] == [
         ("", "Bag", "ok", "All is well"),
         ("Plan", "Map", "warn", "alice lost it"),
@@ -136,7 +138,9 @@ def test_the_statuses_have_the_times_at_which_they_began(written: Callable[..., 
     assert [each.since for each in report.statuses] == [0.0, START_NS / 1e9 + 1, 0.0]
 
 
-def test_the_findings_are_the_last_ones_with_their_times(written: Callable[..., BugReport]) -> None:
+def test_the_findings_are_the_last_ones_with_their_times(
+    write_report: Callable[..., BugReport],
+) -> None:
     finding = Finding(
         id="TF001",
         cause="It is off.",
@@ -146,14 +150,14 @@ def test_the_findings_are_the_last_ones_with_their_times(written: Callable[..., 
         first_ns=START_NS,
         last_ns=START_NS + 1_500_000_000,
     )
-    report = written(moment(), doctor(finding))
+    report = write_report(moment(), doctor(finding))
     (entry,) = report.findings
     assert (entry.id, entry.severity, entry.subject) == ("TF001", "error", "base")
     assert (entry.cause, entry.remedy) == ("It is off.", "Turn it.")
     assert (entry.first, entry.last) == (START_NS / 1e9, START_NS / 1e9 + 1.5)
 
 
-def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugReport]) -> None:
+def test_the_newest_500_moments_are_in_it_by_time(write_report: Callable[..., BugReport]) -> None:
     def events(name: str, first: int, count: int) -> list[Event]:
         return [
             Event(START_NS + number * 10**9, Level.ERROR, name, f"{number}")
@@ -162,7 +166,7 @@ def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugRepo
 
     state = replace(STATE, logged=events("driver", 0, 300))
     warned = events("Plan", 100, 250)
-    report = written(moment(state, warned=warned), doctor(events=events("TF001", 349, 1)))
+    report = write_report(moment(state, warned=warned), doctor(events=events("TF001", 349, 1)))
     texts = [int(each.text) for each in report.moments]
     assert len(texts) == MAX_MOMENTS == 500
     assert texts == sorted(texts)
@@ -173,11 +177,11 @@ def test_the_newest_500_moments_are_in_it_by_time(written: Callable[..., BugRepo
 
 
 def test_a_report_names_its_source_times_and_versions(
-    written: Callable[..., BugReport], monkeypatch: pytest.MonkeyPatch
+    write_report: Callable[..., BugReport], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
     monkeypatch.delenv("RMW_IMPLEMENTATION", raising=False)
-    report = written(moment())
+    report = write_report(moment())
     assert report.source == "run"
     assert not report.has_names
     assert report.made > 1.7e9

@@ -57,10 +57,10 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
 )
 def test_bytes_that_are_not_a_config_are_an_error(path: Path, data: bytes, sentence: str) -> None:
     path.write_bytes(data)
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         load(path)
-    assert sentence in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert sentence in str(excinfo.value)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize("kind", ["fifo", "socket", "device"])

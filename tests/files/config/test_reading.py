@@ -111,10 +111,10 @@ def test_anchors_and_merge_keys_are_supported() -> None:
     ],
 )
 def test_a_mistake_is_one_sentence_with_its_line_and_place(text: str, sentence: str) -> None:
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         parse(text, "x.yaml")
-    assert str(caught.value).startswith(sentence)
-    assert "\n" not in str(caught.value)
+    assert str(excinfo.value).startswith(sentence)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize(
@@ -219,9 +219,9 @@ def test_aliases_that_unfold_without_end_are_refused() -> None:
 @pytest.mark.parametrize("name", ["x.yaml", "x.rviz"])
 def test_a_file_that_is_not_a_config_is_not_quoted(tmp_path: Path, name: str, text: str) -> None:
     (tmp_path / name).write_text(text)
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         load(tmp_path / name)
-    assert "hunter2" not in str(caught.value)
+    assert "hunter2" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize(

@@ -66,9 +66,9 @@ def test_a_mistake_names_its_line_and_key_and_keeps_the_entry(entry: str, reason
     ],
 )
 def test_an_invalid_list_of_tools_is_refused(text: str, reason: str) -> None:
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         parse(text, "x.yaml")
-    assert str(caught.value) == reason
+    assert str(excinfo.value) == reason
 
 
 def test_each_config_has_tools_of_its_own() -> None:

@@ -20,7 +20,7 @@ from webviz_displays.robot_model import RobotModel
 from webviz_displays.tf import TF
 
 
-def opened(displays: str = "", manager: str = "") -> tuple[Config, rviz.Report]:
+def read_config(displays: str = "", manager: str = "") -> tuple[Config, rviz.Report]:
     """A file with these displays and more of the manager's keys."""
     head = "Visualization Manager:\n"
     if displays:
@@ -32,7 +32,7 @@ def one(text: str, cls: str = "LaserScan") -> Any:
     """The only display of a file, of a class and enabled."""
     lines = [f"- Class: rviz_default_plugins/{cls}", "  Enabled: true"]
     lines += ["  " + line for line in textwrap.dedent(text).strip().splitlines()]
-    config, _ = opened("\n".join(lines) + "\n")
+    config, _ = read_config("\n".join(lines) + "\n")
     return config.displays[0]
 
 
@@ -41,7 +41,7 @@ def report_text(report: rviz.Report) -> str:
 
 
 def test_global_options_are_the_settings() -> None:
-    config, _ = opened(
+    config, _ = read_config(
         manager="""\
         Global Options:
           Background Color: 10; 20; 30
@@ -55,7 +55,7 @@ def test_global_options_are_the_settings() -> None:
 
 
 def test_missing_values_have_the_defaults_of_rviz() -> None:
-    config, _ = opened(manager="Class: ''\n")
+    config, _ = read_config(manager="Class: ''\n")
     assert (config.settings.fixed_frame, config.settings.frame_rate) == ("base_link", 30)
     assert one("Name: Scan").topic.name == ""
 
@@ -73,7 +73,7 @@ def test_missing_values_have_the_defaults_of_rviz() -> None:
     ],
 )
 def test_enabled_counts_before_value_and_neither_is_off(keys: str, enabled: bool) -> None:
-    config, _ = opened(f"- Class: rviz_default_plugins/Grid\n  {keys}\n")
+    config, _ = read_config(f"- Class: rviz_default_plugins/Grid\n  {keys}\n")
     grid: Any = config.displays[0]
     assert grid.enabled is enabled
 
@@ -121,7 +121,7 @@ def test_nested_properties_have_their_own_value() -> None:
 
 
 def test_nested_properties_may_have_their_own_value_alone() -> None:
-    config, report = opened(
+    config, report = read_config(
         "- {Class: rviz_default_plugins/Odometry, Name: Odometry, Shape: Axes, Covariance: false}\n"
     )
     odometry: Any = config.displays[0]
@@ -196,7 +196,7 @@ def test_old_forms_are_understood() -> None:
     assert (scan.topic.name, scan.topic.reliability) == ("/scan", "best_effort")
     assert scan.topic.depth == 20
     assert one("Topic: /scan\nQueue Size: 10").topic.depth == 0
-    config, report = opened(
+    config, report = read_config(
         """\
         - Class: rviz/LaserScan
           Name: Old
@@ -217,7 +217,7 @@ def test_old_forms_are_understood() -> None:
 
 
 def test_groups_nest() -> None:
-    config, _ = opened(
+    config, _ = read_config(
         """\
         - Class: rviz_common/Group
           Name: Outer
@@ -240,7 +240,9 @@ def test_groups_nest() -> None:
 
 
 def test_an_unknown_class_is_a_row_with_an_error_and_survives_the_config_file() -> None:
-    config, report = opened("- {Class: my_plugins/Laser, Name: Mine, Enabled: true, Power: 007}\n")
+    config, report = read_config(
+        "- {Class: my_plugins/Laser, Name: Mine, Enabled: true, Power: 007}\n"
+    )
     config = parse(dump(config), "x.yaml")
     mine = config.displays[0]
     assert isinstance(mine, Unreadable)
@@ -265,7 +267,7 @@ def test_an_unknown_class_is_a_row_with_an_error_and_survives_the_config_file() 
     ],
 )
 def test_an_unusable_value_is_reported(text: str, what: str) -> None:
-    _, report = opened(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
+    _, report = read_config(f"- {{Class: rviz_default_plugins/LaserScan, Name: Scan, {text}}}\n")
     at_line = "Scan" if what.endswith("unsupported") else "Scan (line 3)"
     assert f"{at_line}: {what}" in report_text(report)
 
@@ -285,17 +287,17 @@ def test_panels_and_tools_of_ros_1_are_those_of_ros_2() -> None:
 
 
 def test_a_display_without_a_name_is_reported_with_its_line() -> None:
-    _, report = opened("- Class: my_plugins/Laser\n- Class: my_plugins/Laser\n")
+    _, report = read_config("- Class: my_plugins/Laser\n- Class: my_plugins/Laser\n")
     assert report_text(report).startswith("? (line 3), ? (line 4): my_plugins/Laser: unsupported")
 
 
 def test_names_in_a_file_do_nothing_to_the_terminal() -> None:
-    _, report = opened('- {Class: x/Y, Name: "a\\e[2Jb\\nc"}\n')
+    _, report = read_config('- {Class: x/Y, Name: "a\\e[2Jb\\nc"}\n')
     assert report_text(report).startswith("a [2Jb c: x/Y: ")
 
 
 def test_an_unusable_value_is_reported_once() -> None:
-    _, report = opened("- {Class: rviz_default_plugins/LaserScan, Name: Scan, Style: Cones}\n")
+    _, report = read_config("- {Class: rviz_default_plugins/LaserScan, Name: Scan, Style: Cones}\n")
     assert len(report.notes) == 1
     assert (report.carried["properties"], report.total["properties"]) == (0, 1)
 
@@ -303,7 +305,7 @@ def test_an_unusable_value_is_reported_once() -> None:
 def test_a_choice_that_rviz_has_not_made_yet_is_auto_or_the_default() -> None:
     assert one("Color Transformer: ''\nChannel Name: ''").channel_name == "intensity"
     assert one("Color Transformer: ''", "PointCloud2").color_transformer == "Auto"
-    _, report = opened("- {Class: rviz_default_plugins/LaserScan, Color Transformer: ''}\n")
+    _, report = read_config("- {Class: rviz_default_plugins/LaserScan, Color Transformer: ''}\n")
     assert report_text(report) == ""
 
 
@@ -340,7 +342,7 @@ def test_depth_cloud_as_rviz_writes_it_is_whole() -> None:
           Reliability Policy: Best effort
           Topic Filter: true
         """
-    config, report = opened(text)
+    config, report = read_config(text)
     cloud: Any = config.displays[0]
     assert report_text(report) == ""
     assert (cloud.topic.name, cloud.topic.depth) == ("/depth/image", 2)
@@ -357,7 +359,7 @@ def test_policy_of_a_depth_cloud_is_that_of_its_images() -> None:
 
 def test_color_map_of_a_grid_map_in_ros_1_is_the_rainbow() -> None:
     text = "Use ColorMap: false, Invert ColorMap: true"
-    config, report = opened(
+    config, report = read_config(
         f"- {{Class: grid_map_rviz_plugin/GridMap, {text}, ColorMap: default}}\n"
         f"- {{Class: grid_map_rviz_plugin/GridMap, Name: Other, {text}, ColorMap: viridis}}\n"
     )
@@ -367,7 +369,7 @@ def test_color_map_of_a_grid_map_in_ros_1_is_the_rainbow() -> None:
 
 
 def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
-    config, report = opened(
+    config, report = read_config(
         """\
         - {Class: rviz/Camera, Image Topic: /image, Transport Hint: theora, Queue Size: 2}
         - {Class: rviz/RobotModel, Robot Description: arm}
@@ -391,13 +393,13 @@ def test_ros_1_topics_and_transports_are_those_of_one_input() -> None:
     ],
 )
 def test_keys_that_rviz2_ignores_are_not_reported(cls: str, is_ignored: bool) -> None:
-    _, report = opened(f"        - {{Class: {cls}, Hide Small Values: true}}\n")
+    _, report = read_config(f"        - {{Class: {cls}, Hide Small Values: true}}\n")
     assert ("Hide Small Values" not in report_text(report)) is is_ignored
     assert report.is_complete is is_ignored
 
 
 def test_keys_without_effect_are_not_reported() -> None:
-    _, report = opened(
+    _, report = read_config(
         """\
         - Class: rviz_default_plugins/LaserScan
           Position Transformer: XYZ
@@ -415,7 +417,7 @@ def test_keys_without_effect_are_not_reported() -> None:
 
 def test_placeholders_are_names_like_others() -> None:
     assert one("Topic: {Value: <namespace>/scan}").topic.name == "<namespace>/scan"
-    config, report = opened(manager="Global Options: {Fixed Frame: [PLANNING_FRAME]}\n")
+    config, report = read_config(manager="Global Options: {Fixed Frame: [PLANNING_FRAME]}\n")
     assert config.settings.fixed_frame == "base_link"
     assert "Global Options: Fixed Frame: it has no value; using base_link" in report_text(report)
 
@@ -504,10 +506,10 @@ def test_the_tool_of_rviz_visual_tools_keys_opens_its_panel_and_stays_a_tool() -
     ],
 )
 def test_an_invalid_rviz_file_is_refused_in_one_sentence(text: str, sentence: str) -> None:
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError) as excinfo:
         rviz.read(text, "x.rviz")
-    assert str(caught.value).startswith(sentence)
-    assert "\n" not in str(caught.value)
+    assert str(excinfo.value).startswith(sentence)
+    assert "\n" not in str(excinfo.value)
 
 
 def test_a_few_lines_that_unfold_without_end_are_refused() -> None:
@@ -568,7 +570,7 @@ PLAIN = """\
 
 def values_by_name(text: str) -> dict[str, Any]:
     """The values of the displays of a file about which nothing is reported."""
-    config, report = opened(text)
+    config, report = read_config(text)
     assert report_text(report) == ""
     displays = [item for item in config.displays if isinstance(item, Display)]
     return {

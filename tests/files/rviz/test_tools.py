@@ -39,11 +39,11 @@ QOS = {
 }
 
 
-def opened(tools: str) -> tuple[Config, rviz.Report]:
+def read_tools(tools: str) -> tuple[Config, rviz.Report]:
     return rviz.read(f"Visualization Manager:\n  Tools: {tools}\n", "x.rviz")
 
 
-def written(config: Config) -> Any:
+def tools_of(config: Config) -> Any:
     """The list of tools in the file, after a save as YAML."""
     text, _ = rviz.write(parse(dump(config), "x.yaml"))
     return YAML(typ="safe", pure=True).load(text)["Visualization Manager"].get("Tools")
@@ -64,7 +64,7 @@ def test_tools_with_a_counterpart_are_imported_with_their_properties() -> None:
 
 
 def test_the_toolbar_comes_back_in_its_order_with_every_key() -> None:
-    camera, goal, foreign, second = written(rviz.read(TOOLS, "x.rviz")[0])
+    camera, goal, foreign, second = tools_of(rviz.read(TOOLS, "x.rviz")[0])
     assert (camera["Class"], foreign["Class"]) == (
         "rviz_default_plugins/MoveCamera",
         "nav2_rviz_plugins/CostmapCostTool",
@@ -102,7 +102,7 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
             "Topic": {"Value": "/goal", **QOS, "Durability Policy": "Transient Local"},
         },
     ]
-    config, report = opened(json.dumps(tools))
+    config, report = read_tools(json.dumps(tools))
     assert report.sentences() == []
     estimate, point, goal, _ = config.tools
     assert isinstance(estimate, PoseEstimate)
@@ -112,19 +112,19 @@ def test_estimates_and_points_come_back_as_they_were() -> None:
     assert point.stays
     assert isinstance(goal, GoalPose)
     assert goal.asks
-    assert written(config) == tools
+    assert tools_of(config) == tools
 
 
 def test_the_goal_tool_of_nav2_returns_with_its_changes() -> None:
-    config, _ = opened("[{Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}]")
+    config, _ = read_tools("[{Class: nav2_rviz_plugins/GoalTool, Own: [1, 2]}]")
     tool = config.tools[0]
     assert isinstance(tool, Nav2Goal)
     set_property(tool, "behavior_tree", "/trees/slow.xml")
     set_property(tool, "navigate_to_pose", "/r1/navigate_to_pose")
-    (entry,) = written(config)
+    (entry,) = tools_of(config)
     assert (entry["Class"], entry["Own"]) == ("nav2_rviz_plugins/GoalTool", [1, 2])
     assert entry["Behavior Tree"] == "/trees/slow.xml"
-    again = opened(json.dumps([entry]))[0].tools[0]
+    again = read_tools(json.dumps([entry]))[0].tools[0]
     assert isinstance(again, Nav2Goal)
     assert to_values(again) == to_values(tool)
 
@@ -132,14 +132,14 @@ def test_the_goal_tool_of_nav2_returns_with_its_changes() -> None:
 def test_a_changed_tool_is_written_in_its_place() -> None:
     config, _ = rviz.read(TOOLS, "x.rviz")
     set_property(goals(config)[1], "topic.name", "/third")
-    _, goal, _, second = written(config)
+    _, goal, _, second = tools_of(config)
     assert (goal["Topic"]["Value"], second["Topic"]["Value"]) == ("/go", "/third")
 
 
 def test_a_removed_tool_is_not_written_again() -> None:
     config, _ = rviz.read(TOOLS, "x.rviz")
     del config.tools[0]
-    assert [tool["Class"].rpartition("/")[2] for tool in written(config)] == [
+    assert [tool["Class"].rpartition("/")[2] for tool in tools_of(config)] == [
         "MoveCamera",
         "SetGoal",
         "CostmapCostTool",
@@ -152,32 +152,32 @@ def test_a_file_without_a_list_of_tools_is_saved_without_one(key: str, entries: 
     tools = [tool for tool in config.tools if isinstance(tool, Tool)]
     assert tools
     assert not any(map(to_values, tools))
-    assert written(config) == entries
+    assert tools_of(config) == entries
     set_property(tools[0], "topic.name", "/go")
-    assert len(written(config)) > 5
+    assert len(tools_of(config)) > 5
 
 
 def test_only_a_tool_that_rviz_lacks_is_added_to_a_toolbar_without_a_counterpart() -> None:
-    config, _ = opened("[{Class: rviz_default_plugins/Measure}]")
+    config, _ = read_tools("[{Class: rviz_default_plugins/Measure}]")
     (teleop,) = config.tools
     assert isinstance(teleop, Teleop)
     _, report = rviz.write(config)
     assert report.sentences() == []
-    assert written(config) == [{"Class": "rviz_default_plugins/Measure"}]
+    assert tools_of(config) == [{"Class": "rviz_default_plugins/Measure"}]
     set_property(teleop, "linear", 0.2)
     _, report = rviz.write(config)
     assert report.sentences() == ["Teleop: Teleop: skipped, because RViz has no such tool."]
 
 
 def test_a_tool_without_its_topic_has_the_default_one() -> None:
-    config, report = opened("[{Class: rviz_default_plugins/SetGoal}]")
+    config, report = read_tools("[{Class: rviz_default_plugins/SetGoal}]")
     assert to_values(goals(config)[0]) == {}
     assert report.sentences() == []
     assert report.carried["tools"] == 1
 
 
 def test_a_fault_of_a_tool_is_reported_with_its_line() -> None:
-    _, report = opened("[{Class: rviz/SetGoal, Topic: {Value: /a, Depth: deep}, Glow: 1}]")
+    _, report = read_tools("[{Class: rviz/SetGoal, Topic: {Value: /a, Depth: deep}, Glow: 1}]")
     assert report.sentences() == [
         "2D Goal Pose (line 2): Topic/Depth: expected a number, got `deep`.",
         "2D Goal Pose: Glow: unsupported; kept for export.",
@@ -200,12 +200,14 @@ Visualization Manager: {}
 
 
 def test_deviations_of_ros_1_are_variances() -> None:
-    config, report = opened("[{Class: rviz_default_plugins/SetInitialPose, X std deviation: 0.2}]")
+    config, report = read_tools(
+        "[{Class: rviz_default_plugins/SetInitialPose, X std deviation: 0.2}]"
+    )
     (estimate,) = (each for each in config.tools if isinstance(each, PoseEstimate))
     assert estimate.covariance_x == pytest.approx(0.04)
     assert report.sentences() == []
     set_property(estimate, "covariance_x", 0.5)
-    (entry,) = written(config)
+    (entry,) = tools_of(config)
     assert (entry["Covariance x"], entry["X std deviation"]) == (0.5, 0.2)
     again, _ = rviz.read(rviz.write(config)[0], "x.rviz")
     assert [each.covariance_x for each in again.tools if isinstance(each, PoseEstimate)] == [0.5]

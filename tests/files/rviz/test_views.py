@@ -62,7 +62,7 @@ VIEWS = st.one_of(
 )
 
 
-def opened(views: str) -> tuple[Config, rviz.Report]:
+def read_views(views: str) -> tuple[Config, rviz.Report]:
     """A file with these keys of "Views"."""
     head = "Visualization Manager:\n  Views:\n"
     return rviz.read(head + textwrap.indent(textwrap.dedent(views), "    "), "x.rviz")
@@ -70,7 +70,7 @@ def opened(views: str) -> tuple[Config, rviz.Report]:
 
 def current(view: str) -> tuple[View, str]:
     """The current view of a file, and what is told of it."""
-    config, report = opened(f"Current: {view}\n")
+    config, report = read_views(f"Current: {view}\n")
     return config.settings.view, "\n".join(report.sentences())
 
 
@@ -160,7 +160,7 @@ Saved:
 
 
 def test_saved_views_are_carried_over_by_name() -> None:
-    config, report = opened(SAVED)
+    config, report = read_views(SAVED)
     assert config.settings.views == {
         "Corner": Orbit(distance=2.5),
         "Corner 2": TopDownOrtho(scale=30.0),
@@ -170,12 +170,12 @@ def test_saved_views_are_carried_over_by_name() -> None:
 
 
 def test_unchanged_saved_views_are_written_as_they_were() -> None:
-    saved = exported(opened(SAVED)[0])["Saved"]
+    saved = exported(read_views(SAVED)[0])["Saved"]
     assert saved == YAML(typ="safe").load(SAVED)["Saved"]
 
 
 def test_a_changed_view_keeps_foreign_values() -> None:
-    config, _ = opened(SAVED)
+    config, _ = read_views(SAVED)
     config.settings.views |= {"Corner": Orbit(distance=7.0), "New": FPS(yaw=1.0)}
     del config.settings.views["Corner 2"]
     first, odd, new = exported(config)["Saved"]
@@ -187,7 +187,7 @@ def test_a_changed_view_keeps_foreign_values() -> None:
 
 
 def test_a_view_of_another_type_keeps_nothing_of_the_one_before() -> None:
-    config, _ = opened(SAVED)
+    config, _ = read_views(SAVED)
     assert exported(config)["Current"]["Focal Shape Size"] == 0.1
     config.settings.view = TopDownOrtho(scale=20.0)
     tree = exported(config)["Current"]
@@ -197,7 +197,7 @@ def test_a_view_of_another_type_keeps_nothing_of_the_one_before() -> None:
 
 def test_a_view_without_counterpart_is_kept_until_another_is_chosen() -> None:
     text = "Current: {Class: some_plugins/Spiral, Name: Current View, Yaw: 1}\n"
-    config, _ = opened(text)
+    config, _ = read_views(text)
     assert exported(config)["Current"] == YAML(typ="safe").load(text)["Current"]
     config.settings.view = Orbit(distance=3.0)
     assert exported(config)["Current"]["Class"] == "rviz_default_plugins/Orbit"
@@ -223,7 +223,7 @@ def test_views_that_were_exported_are_imported_as_they_were(
     ],
 )
 def test_unused_values_of_a_view_are_reported(text: str, reason: str, counted: int) -> None:
-    _, report = opened(f"Current: {{Class: rviz_default_plugins/Orbit, {text}}}\n")
+    _, report = read_views(f"Current: {{Class: rviz_default_plugins/Orbit, {text}}}\n")
     key = text.partition(":")[0]
     assert report.sentences() == [f"current view: {key}: {reason}; kept for export."]
     assert report.total["properties"] == counted

@@ -125,9 +125,9 @@ def test_large_cookies_are_refused_and_the_server_goes_on(token_server: TokenSer
 def test_a_websocket_needs_a_cookie(token_server: TokenServer, path: str) -> None:
     url = f"ws://127.0.0.1:{token_server.server.get_port()}{path}"
     url = url.replace("SECRET", token_server.tokens[Role.OWNER].secret)
-    with pytest.raises(websockets.exceptions.InvalidStatus) as caught:
+    with pytest.raises(websockets.exceptions.InvalidStatus) as excinfo:
         websockets.sync.client.connect(url, additional_headers={"Cookie": "webviz_1=x"})
-    assert caught.value.response.status_code in (200, 403)
+    assert excinfo.value.response.status_code in (200, 403)
 
 
 @pytest.mark.parametrize("role", list(Role))

@@ -161,10 +161,10 @@ def test_an_invalid_file_is_an_error_that_quotes_no_secret(path: Path, text: str
     path.parent.mkdir()
     path.write_text(text.replace("SECRET", SECRET))
     path.chmod(0o600)
-    with pytest.raises(TokenError, match="is not a valid file of tokens") as caught:
+    with pytest.raises(TokenError, match="is not a valid file of tokens") as excinfo:
         token_file.read(path)
-    assert SECRET not in str(caught.value)
-    assert caught.value.__cause__ is None
+    assert SECRET not in str(excinfo.value)
+    assert excinfo.value.__cause__ is None
 
 
 def test_a_file_above_a_megabyte_is_not_read(path: Path) -> None:
@@ -183,9 +183,9 @@ def test_a_file_above_a_megabyte_is_not_read(path: Path) -> None:
 
 def test_a_file_that_cannot_be_written_is_an_error_with_the_reason(path: Path) -> None:
     path.parent.write_text("")
-    with pytest.raises(TokenError) as caught:
+    with pytest.raises(TokenError) as excinfo:
         token_file.modify(path, lambda _: [token()])
-    assert str(caught.value) == f"Cannot write {path}: File exists."
+    assert str(excinfo.value) == f"Cannot write {path}: File exists."
     path.parent.unlink()
     path.mkdir(parents=True)
     with pytest.raises(TokenError, match=f"Cannot (read|write) {path}: Is a directory"):
@@ -302,9 +302,9 @@ def test_tokens_are_removed_from_the_environment() -> None:
 
 @pytest.mark.parametrize("secret", ["short", "a b" * 20, "ü" * 30, "x" * 201, "a" * 30 + "\n"])
 def test_a_weak_token_of_the_environment_is_refused_and_not_quoted(secret: str) -> None:
-    with pytest.raises(TokenError, match=r"^WEBVIZ_TOKEN_OWN must have 22 to 200") as caught:
+    with pytest.raises(TokenError, match=r"^WEBVIZ_TOKEN_OWN must have 22 to 200") as excinfo:
         access_to("127.0.0.1", environment={"WEBVIZ_TOKEN_OWN": secret})
-    assert secret not in str(caught.value)
+    assert secret not in str(excinfo.value)
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "::1", "127.3.2.1"])

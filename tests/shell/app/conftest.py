@@ -24,13 +24,13 @@ def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
 
 
 @pytest.fixture
-def refused() -> Callable[[Callable[[], object]], str]:
+def refusal() -> Callable[[Callable[[], object]], str]:
     """The one sentence with which something is refused."""
 
-    def refused(ask: Callable[[], object]) -> str:
+    def refusal(ask: Callable[[], object]) -> str:
         with pytest.raises(webviz.Error) as error:
             ask()
         assert "\n" not in str(error.value)
         return str(error.value)
 
-    return refused
+    return refusal

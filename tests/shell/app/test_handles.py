@@ -13,7 +13,7 @@ from webviz.commands import Refresh
 from webviz.shell.app.handles import DisplayHandle
 from webviz.shell.testing.source import HandFedSource
 
-Refused = Callable[[Callable[[], object]], str]
+Refusal = Callable[[Callable[[], object]], str]
 
 
 def names(displays: list[DisplayHandle]) -> list[str]:
@@ -48,47 +48,47 @@ def test_nested_properties_are_set_by_a_path_or_in_part(viewer: webviz.Viewer) -
 
 
 def test_a_wrong_value_is_refused_and_changes_nothing(
-    viewer: webviz.Viewer, refused: Refused
+    viewer: webviz.Viewer, refusal: Refusal
 ) -> None:
     scan = viewer.add("LaserScan")
 
     def shrink() -> None:
         scan.size = -1
 
-    assert "size: expected > 0" in refused(shrink)
+    assert "size: expected > 0" in refusal(shrink)
     assert scan.size == 0.01
-    assert "size: expected > 0" in refused(lambda: viewer.add("LaserScan", size=-1))
+    assert "size: expected > 0" in refusal(lambda: viewer.add("LaserScan", size=-1))
     assert len(viewer) == 1
 
 
-def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_a_typing_error_names_the_nearest_property(viewer: webviz.Viewer, refusal: Refusal) -> None:
     scan = viewer.add("LaserScan")
     hint = "LaserScan has no property `siez`, did you mean `size`?"
 
     def misspell() -> None:
         scan.siez = 0.1
 
-    assert refused(misspell) == hint
-    assert refused(lambda: scan.siez) == hint
-    assert refused(lambda: viewer.add("LaserScan", siez=0.1)) == hint
-    several = refused(lambda: viewer.add("LaserScan", siez=0.1, alpha=2, topc="/scan", size=1))
+    assert refusal(misspell) == hint
+    assert refusal(lambda: scan.siez) == hint
+    assert refusal(lambda: viewer.add("LaserScan", siez=0.1)) == hint
+    several = refusal(lambda: viewer.add("LaserScan", siez=0.1, alpha=2, topc="/scan", size=1))
     assert several == (
         f"{hint} alpha: expected <= 1, got 2. "
         "LaserScan has no property `topc`, did you mean `topic`?"
     )
-    assert refused(lambda: viewer.add("LaserScn")).endswith("did you mean `LaserScan`?")
+    assert refusal(lambda: viewer.add("LaserScn")).endswith("did you mean `LaserScan`?")
     assert not hasattr(scan, "siez")
 
 
 def test_attributes_that_are_not_properties_cannot_be_set(
-    viewer: webviz.Viewer, refused: Refused
+    viewer: webviz.Viewer, refusal: Refusal
 ) -> None:
     grid = viewer.add("Grid")
 
     def pretend() -> None:
         grid.status = webviz.Status(webviz.Level.OK, "fine")  # pyright: ignore
 
-    assert refused(pretend) == "`status` of a display cannot be set."
+    assert refusal(pretend) == "`status` of a display cannot be set."
 
 
 @pytest.mark.parametrize("name", sorted(display_types()))
@@ -117,7 +117,7 @@ def test_a_list_that_is_changed_in_place_changes_nothing(viewer: webviz.Viewer) 
     assert tf.frames == {}
 
 
-def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refusal: Refusal) -> None:
     first, last = viewer.add("Grid", name="First"), viewer.add("Axes", name="Last")
     copy = first.duplicate()
     assert names(viewer.displays) == ["First", "First 2", "Last"]
@@ -126,12 +126,12 @@ def test_displays_are_copied_moved_and_removed(viewer: webviz.Viewer, refused: R
     copy.remove()
     assert names(viewer.displays) == ["First", "Last"]
     gone = "This display was removed."
-    assert refused(copy.remove) == gone
-    assert refused(lambda: copy.name) == gone
+    assert refusal(copy.remove) == gone
+    assert refusal(lambda: copy.name) == gone
     assert repr(copy) == "<removed display>"
 
 
-def test_groups_hold_displays(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_groups_hold_displays(viewer: webviz.Viewer, refusal: Refusal) -> None:
     front = viewer.add("Group", name="Front")
     scan = viewer.add("LaserScan", group=front, name="Scan")
     grid = viewer.add("Grid", group="Front")
@@ -143,29 +143,29 @@ def test_groups_hold_displays(viewer: webviz.Viewer, refused: Refused) -> None:
     assert front.displays == [scan, axes, grid, inner]
     scan.move()
     assert viewer.displays[-1] == scan
-    assert refused(lambda: front.move(group=inner)) == "Front cannot be moved into itself."
-    assert refused(lambda: scan.move(group=grid)).startswith("Grid is not a group")
-    assert refused(lambda: scan.move(group=inner, before=grid)) == "Grid is in another group."
-    assert refused(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is not a group")
+    assert refusal(lambda: front.move(group=inner)) == "Front cannot be moved into itself."
+    assert refusal(lambda: scan.move(group=grid)).startswith("Grid is not a group")
+    assert refusal(lambda: scan.move(group=inner, before=grid)) == "Grid is in another group."
+    assert refusal(lambda: viewer.add("Grid", group="Grid")).startswith("Grid is not a group")
     front.remove()
     assert viewer.displays == [scan]
 
 
-def test_a_name_that_several_have_is_refused(viewer: webviz.Viewer, refused: Refused) -> None:
+def test_a_name_that_several_have_is_refused(viewer: webviz.Viewer, refusal: Refusal) -> None:
     viewer.add("Grid")
     viewer.add("Axes")
     viewer.add("Grid")
-    assert "Use the number in the list: 0 or 2" in refused(lambda: viewer["Grid"])
-    assert "did you mean `Axes`" in refused(lambda: viewer["Axs"])
-    assert refused(lambda: viewer[3]) == "There is no display 3; the list has 3."
+    assert "Use the number in the list: 0 or 2" in refusal(lambda: viewer["Grid"])
+    assert "did you mean `Axes`" in refusal(lambda: viewer["Axs"])
+    assert refusal(lambda: viewer[3]) == "There is no display 3; the list has 3."
     assert viewer[-1].type == "Grid"
 
 
 def test_a_topic_is_shown_by_the_display_that_fits(
-    viewer: webviz.Viewer, source: HandFedSource, refused: Refused
+    viewer: webviz.Viewer, source: HandFedSource, refusal: Refusal
 ) -> None:
-    assert refused(viewer.add).startswith("Give the type of the display")
-    assert refused(lambda: viewer.add(topic="/x")).startswith("No publisher on /x")
+    assert refusal(viewer.add).startswith("Give the type of the display")
+    assert refusal(lambda: viewer.add(topic="/x")).startswith("No publisher on /x")
     source.put("/rear", "sensor_msgs/msg/LaserScan", b"")
     source.put("/odd", "acme_msgs/msg/Odd", b"")
     viewer.do(Refresh())
@@ -175,12 +175,12 @@ def test_a_topic_is_shown_by_the_display_that_fits(
 
 
 def test_an_invalid_entry_is_refused_with_the_reason(
-    viewer: webviz.Viewer, refused: Refused
+    viewer: webviz.Viewer, refusal: Refusal
 ) -> None:
     viewer.config = {"displays": [{"type": "Gird", "name": "Floor"}]}
     floor = viewer["Floor"]
     assert floor.type == ""
-    assert "did you mean `Grid`" in refused(lambda: floor.cell_size)
+    assert "did you mean `Grid`" in refusal(lambda: floor.cell_size)
 
 
 def test_threads_may_add_displays_at_the_same_time(viewer: webviz.Viewer) -> None:

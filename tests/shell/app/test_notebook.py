@@ -35,7 +35,7 @@ REACH = """() => {
   });
 }"""
 """Sends messages to an embedded page, and returns the parts of its window that can be reached."""
-Refused = Callable[[Callable[[], object]], str]
+Refusal = Callable[[Callable[[], object]], str]
 
 
 @pytest.fixture
@@ -87,11 +87,11 @@ def test_a_saved_notebook_grants_at_most_watching(role: Role, tmp_path: Path) ->
 
 
 def test_a_viewer_in_a_notebook_may_be_embedded_by_it(
-    monkeypatch: pytest.MonkeyPatch, refused: Refused
+    monkeypatch: pytest.MonkeyPatch, refusal: Refusal
 ) -> None:
     assert embedders(None) == ()
     monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
     assert embedders(None) == OF_NOTEBOOKS
     assert embedders(()) == ()
     for wrong in ("http://a b", "http://a; script-src *", "a.org", "'self'"):
-        assert "is not the origin of a page" in refused(lambda w=wrong: embedders((w,)))
+        assert "is not the origin of a page" in refusal(lambda w=wrong: embedders((w,)))

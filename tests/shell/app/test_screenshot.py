@@ -77,11 +77,11 @@ def test_a_robot_is_loaded_before_its_picture_is_made(viewer: webviz.Viewer) -> 
 
 def test_invalid_screenshots_are_refused(
     viewer: webviz.Viewer,
-    refused: Callable[[Callable[[], object]], str],
+    refusal: Callable[[Callable[[], object]], str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert "no supported image extension" in refused(lambda: viewer.screenshot("now.txt"))
-    assert "pixels per side" in refused(lambda: viewer.screenshot(size=(1, 1)))
-    assert "Unknown saved view `Top`" in refused(lambda: viewer.screenshot(view="Top"))
+    assert "no supported image extension" in refusal(lambda: viewer.screenshot("now.txt"))
+    assert "pixels per side" in refusal(lambda: viewer.screenshot(size=(1, 1)))
+    assert "Unknown saved view `Top`" in refusal(lambda: viewer.screenshot(view="Top"))
     monkeypatch.setenv(VARIABLE, "/no/browser")
-    assert "/no/browser" in refused(viewer.screenshot)
+    assert "/no/browser" in refusal(viewer.screenshot)

@@ -46,22 +46,22 @@ ACTIVE = ".wv-tools button[aria-pressed=true]"
 
 
 @pytest.fixture(scope="module")
-def opened(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
-    with open_pages(browser, viewer.url, 900, 600, count=1) as (opened,):
-        yield opened
+def lasting_page(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[Page]:
+    with open_pages(browser, viewer.url, 900, 600, count=1) as (lasting_page,):
+        yield lasting_page
 
 
 @pytest.fixture
-def page(opened: Page, viewer: webviz.Viewer) -> Page:
+def page(lasting_page: Page, viewer: webviz.Viewer) -> Page:
     show(viewer, {"type": "TopDownOrtho", "scale": SCALE})
-    tab = opened.tab
+    tab = lasting_page.tab
     tab.locator(".wv-first-run, .wv-toast").evaluate_all(
         "(all) => all.forEach((one) => one.remove())"
     )
-    opened.wait_for(lambda: tab.locator(".wv-tools button").count() == 10, "the toolbar")
-    opened.draw()
+    lasting_page.wait_for(lambda: tab.locator(".wv-tools button").count() == 10, "the toolbar")
+    lasting_page.draw()
     tab.keyboard.press("Escape")
-    return opened
+    return lasting_page
 
 
 def show(viewer: webviz.Viewer, view: dict[str, Any]) -> None:

@@ -66,9 +66,9 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
 
 
 def test_a_trace_without_browsers_is_refused_with_a_remedy(
-    viewer: webviz.Viewer, refused: Callable[[Callable[[], object]], str]
+    viewer: webviz.Viewer, refusal: Callable[[Callable[[], object]], str]
 ) -> None:
     plan = viewer.add("Path", topic="/plan", name="Plan")
-    assert refused(lambda: plan.trace(timeout=0.1)) == (
+    assert refusal(lambda: plan.trace(timeout=0.1)) == (
         "Plan drew no new sample within 0.1 s. Check its status, and open the page in a browser."
     )

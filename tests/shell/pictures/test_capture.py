@@ -174,10 +174,10 @@ def test_an_unknown_fixed_frame_is_reported(capture):
     ],
 )
 def test_invalid_options_are_refused_in_one_sentence(capture, options, sentence):
-    with pytest.raises(webviz.Error) as caught:
+    with pytest.raises(webviz.Error) as excinfo:
         capture(CONFIG, **options)
-    assert sentence in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert sentence in str(excinfo.value)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize(

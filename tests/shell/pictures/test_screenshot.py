@@ -35,10 +35,10 @@ PATIENCE_S = 180.0
 
 
 @pytest.fixture
-def refused(screenshot, tmp_path: Path) -> Callable[..., str]:
+def refusal(screenshot, tmp_path: Path) -> Callable[..., str]:
     """The sentence with which the command refuses; nothing may be written."""
 
-    def refused(*arguments: str) -> str:
+    def refusal(*arguments: str) -> str:
         before = sorted(os.listdir(tmp_path))
         result = screenshot(*arguments)
         assert result.status == 1, result.errors
@@ -46,7 +46,7 @@ def refused(screenshot, tmp_path: Path) -> Callable[..., str]:
         (line,) = result.errors.splitlines()
         return line
 
-    return refused
+    return refusal
 
 
 @pytest.fixture
@@ -193,10 +193,10 @@ def test_help_lists_every_exit_status(capsys):
     ],
 )
 def test_a_mistake_is_one_sentence_and_status_1(
-    run, refused: Callable[..., str], arguments, sentence
+    run, refusal: Callable[..., str], arguments, sentence
 ):
     options = [argument.replace("RUN", str(run)) for argument in arguments]
-    line = refused("-o", "a.png", *SMALL, *options)
+    line = refusal("-o", "a.png", *SMALL, *options)
     assert line.startswith("webviz: ")
     assert sentence.replace("RUN", str(run)) in line
 
@@ -245,9 +245,9 @@ def test_only_skipped_topics_that_a_display_wants_are_listed(tmp_path, screensho
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_is_one_sentence(run, tmp_path, refused: Callable[..., str]):
+def test_a_full_disk_is_one_sentence(run, tmp_path, refusal: Callable[..., str]):
     (tmp_path / "a.png").symlink_to("/dev/full")
-    line = refused("--bag", str(run), "-o", "a.png", *SMALL)
+    line = refusal("--bag", str(run), "-o", "a.png", *SMALL)
     assert line == "webviz: Cannot write a.png: No space left on device."
 
 

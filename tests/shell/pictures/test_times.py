@@ -35,10 +35,10 @@ def test_a_time_is_a_place_in_the_bag(text, seconds):
 
 @pytest.mark.parametrize("at", [-0.5, 46.3, 99, 1.6e9, 1.8e9])
 def test_a_time_outside_of_the_bag_is_refused_with_the_range(at):
-    with pytest.raises(TimeError) as caught:
+    with pytest.raises(TimeError) as excinfo:
         position_ns(at, Span(), "run.mcap")
-    assert "is outside of run.mcap. Give 0 to 46.202 s" in str(caught.value)
-    assert "1700000000.123 to 1700000046.326" in str(caught.value)
+    assert "is outside of run.mcap. Give 0 to 46.202 s" in str(excinfo.value)
+    assert "1700000000.123 to 1700000046.326" in str(excinfo.value)
 
 
 @pytest.mark.parametrize("text", ["", "soon", "nan", "inf", "1,5", "End"])

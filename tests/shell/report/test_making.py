@@ -40,7 +40,7 @@ def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def archive(bag: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("reports") / "bug.zip"
-    with opened(bag) as source:
+    with open_bag(bag) as source:
         config = parse(stories.CONFIG, "the config")
         span = (2.0, "end")
         make_report(config, source, Pictured(None), path, span=span, at=AT_S, name="turned")
@@ -53,7 +53,7 @@ def report(archive: Path, tmp_path: Path) -> UnpackedReport:
 
 
 @contextlib.contextmanager
-def opened(bag: Path) -> Iterator[Player]:
+def open_bag(bag: Path) -> Iterator[Player]:
     with contextlib.closing(Player(BagHistory(bag))) as source:
         yield source
 
@@ -93,7 +93,7 @@ def test_a_report_that_is_too_large_is_refused(
 ) -> None:
     monkeypatch.setattr("webviz.features.reports.writing.MAX_BYTES", 1000)
     path = tmp_path / "bug.zip"
-    with opened(bag) as source, pytest.raises(Error, match="larger than 0 MB"):
+    with open_bag(bag) as source, pytest.raises(Error, match="larger than 0 MB"):
         make_report(parse(stories.CONFIG, "it"), source, Pictured(None), path)
     assert not list(tmp_path.iterdir())
 
@@ -126,11 +126,11 @@ def test_a_slice_has_no_finding_that_the_bag_lacks(tmp_path: Path, ahead_s: floa
     path = bag.write_file(tmp_path / "run.mcap")
     text = "{fixed_frame: odom, displays: [{type: Odometry, topic: /odom}, {type: TF}]}"
     config, zipped = parse(text, "the config"), tmp_path / "bug.zip"
-    with opened(path) as source:
+    with open_bag(path) as source:
         make_report(config, source, Pictured(None), zipped, span=(10.0, 18.0), name="run")
     results: list[set[str]] = []
     for each in (path, read_report(zipped, tmp_path).bag):
-        with opened(each) as source:
+        with open_bag(each) as source:
             report = examine_bag(source, config, each.name, lambda what, share: None)
             results.append({finding.id for finding in report.findings})
     assert not results[1] - results[0]
@@ -149,10 +149,10 @@ def test_a_slice_that_ends_in_a_gap_does_not_say_that_a_topic_stops(tmp_path: Pa
     path = bag.write_file(tmp_path / "run.mcap")
     text = "{fixed_frame: odom, displays: [{type: Odometry, topic: /odom}]}"
     config, zipped = parse(text, "the config"), tmp_path / "bug.zip"
-    with opened(path) as source:
+    with open_bag(path) as source:
         make_report(config, source, Pictured(None), zipped, span=(10.0, 18.2), name="run")
     for each in (path, read_report(zipped, tmp_path).bag):
-        with opened(each) as source:
+        with open_bag(each) as source:
             report = examine_bag(source, config, each.name, lambda what, share: None)
         assert "GRAPH009" not in {finding.id for finding in report.findings}
 
@@ -176,7 +176,7 @@ def test_the_shown_moment_is_in_the_span(
     bag: Path, span: tuple[float, float], at: float | None, sentence: str
 ) -> None:
     config, text = parse("{displays: []}", "it"), ""
-    with opened(bag) as source:
+    with open_bag(bag) as source:
         try:
             listed = make_report(config, source, Pictured(None), None, span=span, at=at)
             assert "slice.mcap: 0.5 s of " in listed

@@ -48,9 +48,9 @@ def test_invalid_addresses_are_refused(url: str) -> None:
 @pytest.mark.parametrize("line", ["no colon: but a space in: the name", "X: \x07", "é: x", ": x"])
 def test_invalid_headers_are_refused_without_their_value(line: str) -> None:
     value = line.partition(":")[2]
-    with pytest.raises(Error, match="is invalid") as caught:
+    with pytest.raises(Error, match="is invalid") as excinfo:
         address("ws://robot", environment={HEADERS: f"A: b\n{line}"})
-    assert not value or value not in str(caught.value)
+    assert not value or value not in str(excinfo.value)
 
 
 def test_a_file_of_headers_is_a_small_file(tmp_path: Path) -> None:

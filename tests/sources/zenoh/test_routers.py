@@ -46,7 +46,7 @@ PLACES = {
 }
 
 
-def opened(stack: ExitStack, text: str) -> zenoh.Session:
+def open_session(stack: ExitStack, text: str) -> zenoh.Session:
     """Open a session with a config, without scouting."""
     zenoh_config = zenoh.Config.from_json5(text)
     zenoh_config.insert_json5("scouting/multicast/enabled", "false")
@@ -70,7 +70,7 @@ def robot_at(stack: ExitStack, endpoint: str) -> ZenohRobot:
 
 def test_a_slow_link_has_fewer_scans_and_no_images(stack: ExitStack) -> None:
     place = f"127.0.0.1:{free_port()}"
-    opened(stack, block("slow.json5", listen=place))
+    open_session(stack, block("slow.json5", listen=place))
     robot, source = robot_at(stack, f"tcp/{place}"), source_at(stack, f"tcp/{place}")
     topics = ("/scan", "/odom", "/camera/image")
     publish = {topic: robot.publisher(topic, STRING) for topic in topics}
@@ -94,7 +94,7 @@ def test_poses_overtake_clouds_on_a_slow_link(stack: ExitStack) -> None:
     port = free_port()
     # On one machine, large messages would go through shared memory.
     text = block("priorities.json5", listen=f"127.0.0.1:{port}")
-    opened(stack, text.replace("qos:", f"transport: {NO_SHARED_MEMORY}, qos:"))
+    open_session(stack, text.replace("qos:", f"transport: {NO_SHARED_MEMORY}, qos:"))
     link = SlowLink(port, rate=125e3, delay_s=0.01)
     stack.callback(link.close)
     robot = robot_at(stack, f"tcp/127.0.0.1:{port}")
@@ -115,7 +115,7 @@ def test_poses_overtake_clouds_on_a_slow_link(stack: ExitStack) -> None:
 
 def test_watchers_cannot_drive(stack: ExitStack) -> None:
     place = f"127.0.0.1:{free_port()}"
-    opened(stack, block("watch.json5", listen=place))
+    open_session(stack, block("watch.json5", listen=place))
     robot, source = robot_at(stack, f"tcp/{place}"), source_at(stack, f"tcp/{place}")
     driven, words = robot.subscription("/cmd_vel", TWIST), robot.subscription("/words", STRING)
     until(lambda: {"/cmd_vel", "/words"} <= set(source.snapshot.readers))
@@ -138,7 +138,7 @@ def test_certificates_on_both_sides(
     port = free_port()
     cloud = block("cloud.json5", listen=f"127.0.0.1:{port}").replace("tls/", f"{protocol}/")
     inner = f"tcp/127.0.0.1:{free_port()}"
-    opened(stack, cloud.replace("endpoints: [", f'endpoints: ["{inner}", '))
+    open_session(stack, cloud.replace("endpoints: [", f'endpoints: ["{inner}", '))
     robot = robot_at(stack, inner)
     publish = robot.publisher("/words", STRING, is_latched=True)
     publish({"data": "over a cloud"})
@@ -170,7 +170,7 @@ def test_a_robot_behind_nat_connects_out(stack: ExitStack) -> None:
     stack.callback(cloud.close)
     inner = f"localhost:{free_port()}"
     text = block("robot.json5", local=inner, cloud=f"127.0.0.1:{cloud.port}")
-    opened(stack, text)
+    open_session(stack, text)
     robot = robot_at(stack, f"tcp/{inner}")
     publish = robot.publisher("/map", STRING, is_latched=True)
     publish({"data": "map"})
