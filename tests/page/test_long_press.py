@@ -100,7 +100,8 @@ def test_menus_and_dialogs_of_a_phone_are_sheets_at_its_bottom(phone: ViewerTab)
     phone.button("Add display").click()
     dialog = phone.page.get_by_role("dialog", name="Add display")
     expect(dialog).to_be_visible()
-    assert dialog.bounding_box() == _at_the_bottom(dialog)
+    # It grows when the types of displays come.
+    phone.wait_for(lambda: dialog.bounding_box() == _at_the_bottom(dialog))
     phone.page.keyboard.press("Escape")
 
 
