@@ -253,7 +253,8 @@ def test_each_tile_is_requested_once(server: tuple[str, list[str]], tmp_path: Pa
 def test_errors_of_a_server_are_one_sentence(
     server: tuple[str, list[str]], tmp_path: Path, path: str, reason: str
 ) -> None:
-    tiles = TileServer(f"{server[0]}/{path}/{{z}}/{{x}}/{{y}}", 0.3, tmp_path)
+    timeout_s = 0.3 if path == "slow" else TIMEOUT_S
+    tiles = TileServer(f"{server[0]}/{path}/{{z}}/{{x}}/{{y}}", timeout_s, tmp_path)
     with pytest.raises(TileError, match=reason):
         tiles.read(2, 1, 0)
     assert len(server[1]) == 1, "a redirect is not followed"
