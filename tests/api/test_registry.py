@@ -83,6 +83,15 @@ def test_plugins_of_two_kinds_may_have_one_name() -> None:
         registry.register("c", {"Bell": Bell})
 
 
+def test_an_owner_replaces_its_own_plugins_and_no_others() -> None:
+    other_bell = type("Bell", (Gadget,), {})
+    registry.register("a", {"Bell": other_bell})
+    assert plugin_type(Gadget, "Bell") is other_bell
+    for owner in ("", "b"):
+        with pytest.raises(ValueError, match=r"^a has a gadget named Bell$"):
+            registry.register(owner, {"Bell": Bell})
+
+
 def test_an_instance_without_a_name_is_named_by_its_title() -> None:
     bell = make(Bell, {"name": ""})
     assert bell.name == "Old Bell"

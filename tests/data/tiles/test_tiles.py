@@ -253,7 +253,7 @@ def test_each_tile_is_requested_once(server: tuple[str, list[str]], tmp_path: Pa
 def test_errors_of_a_server_are_one_sentence(
     server: tuple[str, list[str]], tmp_path: Path, path: str, reason: str
 ) -> None:
-    timeout_s = 0.3 if path == "slow" else TIMEOUT_S
+    timeout_s = 0.3 if path == "slow" else 30.0
     tiles = TileServer(f"{server[0]}/{path}/{{z}}/{{x}}/{{y}}", timeout_s, tmp_path)
     with pytest.raises(TileError, match=reason):
         tiles.read(2, 1, 0)
