@@ -196,7 +196,7 @@ function looks(drawing) {
   return {
     canvas,
     moved,
-    current: current,
+    current,
     showAll: () => (moved.value = null),
     /** @param {Box} box */
     centre: (box) => (moved.value = centred(current(), box, size())),

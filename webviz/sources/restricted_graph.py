@@ -134,8 +134,9 @@ class RestrictedGraph:
 
     def _is_from_the_start(self, name: str) -> bool:
         rights = self._rights
-        is_own = rights.publish is None and self._is_on(rights.own, name)
-        return is_own or self._is_on(rights.names, name)
+        if rights.publish is not None:
+            return self._is_on(rights.publish, name)
+        return self._is_on(rights.own, name) or self._is_on(rights.addable(), name)
 
     def _not_from_the_start(self, name: str) -> str:
         if self._rights.publish is None:
