@@ -39,6 +39,7 @@ import * as whole from "webviz/scene/whole.js";
 
 // Before viser's page handles the first messages: it draws with what it has then.
 async function install() {
+  const features = Promise.all(constants.FEATURES.map(load)); // meanwhile, and not one by one
   await viser.until(viser.hasScene);
   const ofScene = [
     scheme,
@@ -60,15 +61,25 @@ async function install() {
   for (const part of [view, mouse, fingers, saveImage, overlay, capacity, blocks]) part.install();
   if (!isExported) vitals.install();
   toolbar.install(shell.places);
-  for (const module of constants.FEATURES) await installFeature(module);
+  for (const feature of await features) {
+    try {
+      feature?.install();
+    } catch (error) {
+      console.error(error); // one may fail without the others
+    }
+  }
 }
 
-/** @param {string} module of a feature, which may fail without others */
-async function installFeature(module) {
+/**
+ * @param {string} module of a feature
+ * @returns {Promise<{install(): void} | null>} null if it is broken
+ */
+async function load(module) {
   try {
-    (await import(`webviz/${module}`)).install();
+    return await import(`webviz/${module}`);
   } catch (error) {
     console.error(error);
+    return null;
   }
 }
 

@@ -3,6 +3,7 @@
 import * as viser from "webviz/viser_page.js";
 
 export function install() {
+  viser.drawOnceShown();
   // Colours as they were sent: no film curve (viser's page turns ACES on).
   Object.defineProperty(viser.gl(), "toneMapping", { get: () => 0, set: () => {} });
 }

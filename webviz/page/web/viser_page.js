@@ -114,7 +114,21 @@ export async function connectToNothing() {
 }
 
 /** Shows viser's page, which is hidden until it is ours. */
-export const reveal = () => (document.documentElement.dataset.wvShown = "");
+export function reveal() {
+  document.documentElement.dataset.wvShown = "";
+  if (hasScene()) requestRender();
+}
+
+/** Draws only what is seen: without a graphics card, a frame takes a processor as long as a picture. */
+export function drawOnceShown() {
+  const { dataset } = document.documentElement;
+  const renderer = gl();
+  const { render } = renderer;
+  renderer.render = function (object, ...rest) {
+    // Others than the scene are drawn into textures.
+    if (object !== scene() || "wvShown" in dataset) render.call(this, object, ...rest);
+  };
+}
 
 /**
  * Resolves when a condition holds, which is looked at before each frame.
