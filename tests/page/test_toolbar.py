@@ -103,11 +103,24 @@ def test_a_frame_that_the_viewer_refuses_does_not_stay_in_the_field(
     wide: ViewerTab, field: str, before: str, name: str, reason: str
 ) -> None:
     box = toolbar(wide).get_by_role("combobox", name=field)
+    playwright.expect(box).to_have_value(before)  # not that of the test before
     box.fill(name)
     box.press("Enter")
     wide.wait_for(lambda: reason in wide.text())
     playwright.expect(box).to_have_value(before)
     playwright.expect(box).not_to_have_attribute("aria-invalid", "true")
+
+
+def test_what_is_typed_replaces_a_frame_that_came_after_the_field_was_entered(
+    wide: ViewerTab,
+) -> None:
+    box = toolbar(wide).get_by_role("combobox", name="Fixed frame")
+    playwright.expect(box).to_have_value("map")
+    box.focus()
+    wide.viewer.do(SetFixedFrame("odom"))
+    playwright.expect(box).to_have_value("odom")
+    wide.page.keyboard.type("base_link")
+    playwright.expect(box).to_have_value("base_link")
 
 
 @pytest.mark.parametrize("field", ["Follow", "Fixed frame"])

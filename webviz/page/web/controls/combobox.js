@@ -159,8 +159,18 @@ class Combobox {
     const current = this.#current.value;
     const option = this.#options.value.find((one) => one.value === current);
     const text = current === MIXED ? "" : (option?.label ?? current);
-    if (this.input.value !== text) this.input.value = text;
+    if (this.input.value !== text) this.#replace(text);
     this.#content.value = { text, note: option?.note ?? "", level: option?.level };
+  }
+
+  // What is typed next replaces a text that is marked as a whole, also if another comes meanwhile.
+  /** @param {string} text */
+  #replace(text) {
+    const { input } = this;
+    const { selectionStart, selectionEnd, value } = input;
+    const isMarked = value && selectionStart === 0 && selectionEnd === value.length;
+    input.value = text;
+    if (isMarked && input.matches(":focus")) input.select();
   }
 
   /** @param {string} [text] */
