@@ -42,22 +42,22 @@ def anchors(page: Path) -> set[str]:
 
 def test_pages_are_as_the_declarations_say() -> None:
     for name, text in GENERATED.items():
-        written = (docs.PAGES / name).read_text(encoding="utf-8")
-        assert written == text, f"{name}: run {docs.COMMAND} and commit displays/docs"
+        committed = (docs.PAGES / name).read_text(encoding="utf-8")
+        assert committed == text, f"{name}: run {docs.COMMAND} and commit displays/docs"
 
 
 def test_every_check_has_a_page() -> None:
     result = check_docs.pages()
     folder = docs.PAGES / check_docs.FOLDER
-    written = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
-    assert written.keys() == {"README.md", *result}
-    assert [name for name in result if written[name] != result[name]] == [], f"run {docs.COMMAND}"
+    committed = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
+    assert committed.keys() == {"README.md", *result}
+    assert [name for name in result if committed[name] != result[name]] == [], f"run {docs.COMMAND}"
 
 
 def test_the_types_of_the_page_are_those_of_python() -> None:
     for path, text in typings.files().items():
-        written = path.read_text(encoding="utf-8")
-        assert written == text, f"run {docs.COMMAND} and commit {path.name}"
+        committed = path.read_text(encoding="utf-8")
+        assert committed == text, f"run {docs.COMMAND} and commit {path.name}"
 
 
 def test_every_environment_variable_is_in_the_reference() -> None:

@@ -261,13 +261,13 @@ def test_the_page_itself_reads_no_other_stores_of_features() -> None:
 
 
 def test_the_page_itself_opens_no_panel_of_a_feature() -> None:
-    opened = {
+    open_features = {
         (name, panel)
         for name, text in texts_of_the_page().items()
         for panel in re.findall(r'\bopenPanel\("(\w+)"', text)
     }
-    assert opened
-    assert {panel for _, panel in opened} == {"displays"}
+    assert open_features
+    assert {panel for _, panel in open_features} == {"displays"}
 
 
 def texts_of_the_page() -> dict[str, str]:

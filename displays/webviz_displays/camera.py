@@ -162,7 +162,7 @@ class Camera(AnnotatedImage):
         pane = Pane(
             picture, stamp_ns, ctx.order, camera, self.marks(state.annotations, stamp_ns, ctx)
         )
-        ctx.add("pane", self.kept(pane, ctx))
+        ctx.add("pane", self.reuse(pane, ctx))
 
     def _camera(
         self, picture: Pixels | Encoded, image: Sample, pose: Pose, ctx: Context

@@ -83,9 +83,9 @@ def test_empty_and_non_finite_points_have_no_box() -> None:
 def test_a_moved_box_is_around_all_that_was_in_it() -> None:
     box = Box(np.zeros(3), np.array((2.0, 0.0, 0.0)))
     half = math.pi / 8
-    moved = box.moved(Pose((1.0, 0.0, 0.0), (math.cos(half), 0.0, 0.0, math.sin(half))))
-    np.testing.assert_allclose(moved.low, (1, 0, 0), atol=1e-12)
-    np.testing.assert_allclose(moved.high, (1 + 2**0.5, 2**0.5, 0), atol=1e-12)
+    box_in_world = box.moved(Pose((1.0, 0.0, 0.0), (math.cos(half), 0.0, 0.0, math.sin(half))))
+    np.testing.assert_allclose(box_in_world.low, (1, 0, 0), atol=1e-12)
+    np.testing.assert_allclose(box_in_world.high, (1 + 2**0.5, 2**0.5, 0), atol=1e-12)
 
 
 def test_a_union_holds_all() -> None:

@@ -138,10 +138,10 @@ def _use(type_: str, cdr: bytes, types: MessageTypes = KNOWN) -> None:
 def _bridge(door: str, type_: str, text: str, message: bytes) -> Iterator[str]:
     """Serve a hostile and a good topic, in the protocol that a door names; its address."""
     talk = _foxglove if door == "foxglove" else _rosbridge
-    opened = list[ServerConnection]()
+    connections = list[ServerConnection]()
 
     def answer(connection: ServerConnection) -> None:
-        opened.append(connection)
+        connections.append(connection)
         with contextlib.suppress(ConnectionClosed):
             talk(connection, type_, text, message)
 
@@ -149,7 +149,7 @@ def _bridge(door: str, type_: str, text: str, message: bytes) -> Iterator[str]:
     server = served(answer, "127.0.0.1", 0, subprotocols=protocols, compression=None, max_size=None)
     with serving(server):
         yield f"ws://127.0.0.1:{server.socket.getsockname()[1]}"
-        assert len(opened) == 1, "the bridge was connected to again"
+        assert len(connections) == 1, "the bridge was connected to again"
 
 
 def _foxglove(connection: ServerConnection, type_: str, text: str, message: bytes) -> None:

@@ -134,9 +134,9 @@ def _show(image: RawImage | Encoded | Decompression) -> None:
     """Make the pixels that a page would show."""
     match image:
         case Encoded():
-            opened = open_compressed(np.asarray(image.data, np.uint8))
+            stream = open_compressed(np.asarray(image.data, np.uint8))
             try:
-                opened.load()
+                stream.load()
             except (OSError, SyntaxError, ValueError) as error:  # left to browsers
                 raise ImageError("The image is damaged.") from error
         case Decompression():

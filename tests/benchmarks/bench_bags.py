@@ -57,9 +57,9 @@ def memory_mb() -> float:
 def measure(path: Path, count: int) -> None:
     """Print what one bag takes."""
     print(f"\n{path.name}, {path.stat().st_size / 1e9:.1f} GB      median      p99  longest   ms")
-    opened: list[BagViewer] = []
-    report("webviz: open", [timed(lambda: opened.append(BagViewer(path)))])
-    with closing(opened[0]) as viewer:
+    viewers: list[BagViewer] = []
+    report("webviz: open", [timed(lambda: viewers.append(BagViewer(path)))])
+    with closing(viewers[0]) as viewer:
         chance = random.Random(1)
         duration_s = (viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9
         report("webviz: first seek, with meshes", [timed(lambda: viewer.do(Seek(duration_s / 3)))])

@@ -169,7 +169,7 @@ def test_displays_outside_the_view(room: Room) -> None:
 def test_a_map_below_an_opaque_one(room: Room) -> None:
     room.add("Map", topic={"name": "/costmap"}, alpha=0.7)
     upper = room.add("Map", topic={"name": "/map"}, alpha=1.0)
-    room.page.wait_for(lambda: "/map" in room.source.wanted)
+    room.page.wait_for(lambda: "/map" in room.source.subscriptions)
     room.put("/costmap", GRID, "map", building.grid())
     room.put("/map", GRID, "map", building.grid())
     finding = room.wait("VIEW006")
@@ -248,7 +248,7 @@ def publish_points(room: Room, count: int) -> None:
 
 def test_clouds_that_are_too_large_for_a_browser(room: Room) -> None:
     room.add("PointCloud2", topic={"name": "/points"})
-    room.page.wait_for(lambda: "/points" in room.source.wanted)
+    room.page.wait_for(lambda: "/points" in room.source.subscriptions)
     publish_points(room, 2_000_000)
     finding = room.wait("WEB005")
     assert finding is not None
@@ -259,7 +259,7 @@ def test_clouds_that_are_too_large_for_a_browser(room: Room) -> None:
 
 def test_the_way_of_samples_to_the_screen(room: Room) -> None:
     cloud = room.add("PointCloud2", topic={"name": "/points"})
-    room.page.wait_for(lambda: "/points" in room.source.wanted)
+    room.page.wait_for(lambda: "/points" in room.source.subscriptions)
     room.viewer.do(InspectLatency())
 
     def ways() -> list[BrowserLatency]:
@@ -285,7 +285,7 @@ def test_a_slow_link(browser: playwright.Browser) -> None:
         room = Room(viewer, source, browser)
         room.transform("base", 0.0)
         room.add("PointCloud2", topic={"name": "/points"})
-        room.page.wait_for(lambda: "/points" in source.wanted)
+        room.page.wait_for(lambda: "/points" in source.subscriptions)
 
         def reduced() -> Finding | None:
             publish_points(room, 50_000)

@@ -304,7 +304,7 @@ def test_odometry_against_the_transform_of_its_node(
         ("/odom", "/wheels", "nav_msgs/msg/Odometry"),
     ):
         publisher = Publisher(sender, type_name, "reliable", "volatile")
-        stage.source.known[topic] = Offer((publisher,), ("reliable", "volatile"))
+        stage.source.topics[topic] = Offer((publisher,), ("reliable", "volatile"))
 
     def publish() -> None:
         now = stage.source.now
@@ -415,7 +415,7 @@ def test_joint_states_that_are_invalid(
 ) -> None:
     stage = webviz_harness(RobotModel(), fixed_frame="map")
     state = "sensor_msgs/msg/JointState"
-    stage.source.known["/joint_states"] = Offer(
+    stage.source.topics["/joint_states"] = Offer(
         (Publisher("/wheels", state, "reliable", "volatile"),), ("reliable", "volatile")
     )
     stage.publish("/robot_description", "std_msgs/msg/String", {"data": WHEEL})

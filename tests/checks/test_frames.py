@@ -37,7 +37,7 @@ def viewer(make: Make, display: Display | None = None) -> Harness:
     """A viewer whose static transforms are latched."""
     stage = make(display or LaserScan(name="Scan"), fixed_frame="map")
     latched = Publisher("/test", "tf2_msgs/msg/TFMessage", "reliable", "transient_local")
-    stage.source.known["/tf_static"] = Offer((latched,), ("reliable", "transient_local"))
+    stage.source.topics["/tf_static"] = Offer((latched,), ("reliable", "transient_local"))
     return stage
 
 
@@ -90,9 +90,9 @@ def test_no_transforms(webviz_harness: Make) -> None:
     assert finding.id == "TF001"
     assert {each.status for each in finding.explains} == {"Fixed Frame", "Transform"}
     talker = Publisher("/talker", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
-    stage.source.known["/tf"] = Offer((talker,))
+    stage.source.topics["/tf"] = Offer((talker,))
     assert examined(stage) == {}, "webviz has not subscribed yet"
-    stage.source.known["/tf"] = Offer((talker,), ("reliable", "volatile"))
+    stage.source.topics["/tf"] = Offer((talker,), ("reliable", "volatile"))
     assert only(examined(stage)).cause == "/talker publishes transforms, but none has arrived."
 
 
@@ -137,7 +137,7 @@ def test_a_leading_slash(robot: Harness) -> None:
 
 def test_static_transforms_that_are_not_latched(robot: Harness) -> None:
     volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
-    robot.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
+    robot.source.topics["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
     finding = only(examined(robot))
     assert (finding.id, finding.subject) == ("TF024", "/mount")
 
@@ -147,7 +147,7 @@ def test_static_transforms_that_were_missed_come_before_their_symptoms(
 ) -> None:
     stage = webviz_harness(LaserScan(name="Scan"), fixed_frame="map")
     volatile = Publisher("/mount", "tf2_msgs/msg/TFMessage", "reliable", "volatile")
-    stage.source.known["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
+    stage.source.topics["/tf_static"] = Offer((volatile,), ("reliable", "volatile"))
     scan(stage)
     finding = only(examined(stage))  # not that no transform has arrived
     assert finding.id == "TF024"
@@ -280,7 +280,7 @@ def test_two_publishers_of_a_frame(
 
 
 def test_robot_state_publisher_is_missing(robot: Harness) -> None:
-    del robot.source.known["/tf_static"]
+    del robot.source.topics["/tf_static"]
     scan(robot)
     drive(robot)
     assert only(examined(robot)).id == "TF012"

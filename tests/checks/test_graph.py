@@ -417,7 +417,7 @@ def noted(viewer: LiveViewer) -> dict[str, webviz.Severity]:
 
 def test_a_publisher_that_stops(webviz_harness: Callable[..., Harness]) -> None:
     stage = webviz_harness(scan("/scan"), fixed_frame="map")
-    stage.source.known["/scan"] = Offer((Publisher("/lidar", SCAN, "reliable", "volatile"),), None)
+    stage.source.topics["/scan"] = Offer((Publisher("/lidar", SCAN, "reliable", "volatile"),), None)
 
     def publish() -> None:
         stage.publish("/scan", SCAN, {"ranges": [2.0], "range_max": 10.0}, frame="map")
@@ -435,7 +435,7 @@ def test_topics_that_stop_together_are_one_finding(webviz_harness: Callable[...,
     stage = webviz_harness(scan("/front"), scan("/rear"), fixed_frame="map")
     for topic in ("/front", "/rear"):
         offered = Publisher(f"{topic}_lidar", SCAN, "reliable", "volatile")
-        stage.source.known[topic] = Offer((offered,), None)
+        stage.source.topics[topic] = Offer((offered,), None)
 
     def publish(*topics: str) -> None:
         for topic in topics:
@@ -452,7 +452,7 @@ def test_topics_that_stop_together_are_one_finding(webviz_harness: Callable[...,
 def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[..., Harness]) -> None:
     stage = webviz_harness(PoseWithCovariance(topic=webviz.Topic("/amcl_pose")), fixed_frame="map")
     offered = Publisher("/amcl", POSE, "reliable", "volatile")
-    stage.source.known["/amcl_pose"] = Offer((offered,), None)
+    stage.source.topics["/amcl_pose"] = Offer((offered,), None)
     values = {"pose": {"pose": {"orientation": {"w": 1.0}}}}
     moved = partial(stage.publish, "/amcl_pose", POSE, values, frame="map")
     examined(stage, CauseLevel.GRAPH, 0.2, moved)

@@ -33,7 +33,7 @@ Make = Callable[..., Harness]
 def offer(stage: Harness, topic: str, type_name: str, *nodes: str) -> None:
     """Let nodes publish a topic."""
     publishers = tuple(Publisher(node, type_name, *QOS) for node in nodes)
-    stage.source.known[topic] = Offer(publishers, QOS)
+    stage.source.topics[topic] = Offer(publishers, QOS)
 
 
 def ids(stage: Harness, publish: Callable[[], object] = lambda: None, rounds: int = 4) -> set[str]:
@@ -182,7 +182,7 @@ def test_a_robot_that_ended_as_a_whole_has_left(
         offer(stage, "/scan", SCAN, "/lidar")
         stage.publish("/scan", SCAN, three_ranges("map", WALL_NS))
         stage.turn()
-        stage.source.known.clear()
+        stage.source.topics.clear()
     ids(stage)
     (empty,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH001"]
     text = "All other ROS nodes have left" if has_begun else "No other ROS node is visible in"

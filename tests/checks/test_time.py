@@ -77,7 +77,7 @@ def test_stamps(stage: Harness, id: str, stamp_ns: Callable[[int], int]) -> None
 
 def clocks(stage: Harness, *publishers: Publisher) -> None:
     """Let these nodes publish /clock."""
-    stage.source.known["/clock"] = Offer(publishers, None)
+    stage.source.topics["/clock"] = Offer(publishers, None)
     stage.source.clock_count = 10
 
 

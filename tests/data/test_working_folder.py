@@ -81,17 +81,17 @@ def test_folders_of_other_users_stay(tmp_path: Path) -> None:
 def test_a_folder_removed_as_abandoned_before_its_lock_is_recreated(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    lock, taken = module.lock, list[Path]()
+    lock, folders = module.lock, list[Path]()
 
     def late(descriptor: int) -> bool:
-        if not taken:
-            taken.extend(tmp_path.iterdir())
-            module.remove_if_abandoned(taken[0])
+        if not folders:
+            folders.extend(tmp_path.iterdir())
+            module.remove_if_abandoned(folders[0])
         return lock(descriptor)
 
     monkeypatch.setattr(module, "lock", late)
     with working_folder("own_", tmp_path) as folder:
         assert folder.exists()
-        assert folder not in taken
-        assert len(taken) == 1
+        assert folder not in folders
+        assert len(folders) == 1
     assert [*tmp_path.iterdir()] == []

@@ -264,12 +264,12 @@ def test_points_hidden_by_nearer_ones_stay_at_half_their_brightness(bench: Bench
     assert len(at.xyz("points")) == 192
 
 
-@pytest.mark.parametrize(("moved", "remaining"), [(0.009, 193), (0.011, 192)])
+@pytest.mark.parametrize(("distance", "remaining"), [(0.009, 193), (0.011, 192)])
 def test_hidden_points_go_when_the_camera_moves(
-    bench: Benches, moved: float, remaining: int
+    bench: Benches, distance: float, remaining: int
 ) -> None:
     at = hiding(bench)
-    at.transform("map", "camera", (1.0 + moved, 0.0, 0.0), FACING_X)
+    at.transform("map", "camera", (1.0 + distance, 0.0, 0.0), FACING_X)
     near = np.full((12, 16), 4.0, np.float32)
     near[3, 10] = 1.0
     at.send(photos.RAW, photos.raw(COLORS, "rgb8"), frame="camera", topic=COLOR)

@@ -411,13 +411,13 @@ def test_shapes_in_frames_of_their_own_are_looked_for_when_transforms_come() -> 
     draw()
     server_marker = marker_server.by_name["a"]
     assert marker_server.is_waiting
-    assert "tool" in server_marker.lost
+    assert "tool" in server_marker.transform_error
     frame = server_marker.drawn_in
     draw()
     assert server_marker.drawn_in == frame  # nothing is new
     around.buffer.set_transform("map", "tool", 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), True)
     draw()
-    assert not server_marker.lost
+    assert not server_marker.transform_error
     assert not marker_server.is_waiting
 
 

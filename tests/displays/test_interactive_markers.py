@@ -133,9 +133,11 @@ def test_overlong_names_titles_and_frames_are_reported() -> None:
         ({"name": "n" * 1001}, "name"),
         ({"header": {"frame_id": "f" * 1001}}, ""),
     ):
-        refused = completed_marker(**values)
-        assert isinstance(refused, RefusedMarker)
-        assert f"{what or 'frame id'} has 1001 characters; the limit is 1000" in refused.reason
+        invalid_marker = completed_marker(**values)
+        assert isinstance(invalid_marker, RefusedMarker)
+        assert (
+            f"{what or 'frame id'} has 1001 characters; the limit is 1000" in invalid_marker.reason
+        )
 
 
 @pytest.mark.parametrize(

@@ -67,8 +67,8 @@ def test_an_arrow_of_negative_length_points_back() -> None:
     node = nodes_by_key(marker(Marker.ARROW, (-2, 0.2, 0.1)))["cone"]
     np.testing.assert_allclose(corners(node), [(9.8, -2, -0.1), (10.2, -1.54, 0.1)], atol=1e-6)
     tip = np.array((0.0, 0.0, 0.5)) * node.scales[0]
-    moved = matrices(node.wxyzs[0]) @ tip + node.positions[0]
-    np.testing.assert_allclose(moved, (10, -2, 0), atol=1e-6)
+    tip_position = matrices(node.wxyzs[0]) @ tip + node.positions[0]
+    np.testing.assert_allclose(tip_position, (10, -2, 0), atol=1e-6)
 
 
 @pytest.mark.parametrize(("head_length", "length"), [(0, 0.69), (0.5, 0.5), (9, 3)])

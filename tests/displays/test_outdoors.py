@@ -93,11 +93,11 @@ def test_a_new_fix_moves_the_map_and_sends_no_tile_again(map_bench: Benches) -> 
     at = loaded(map_bench())
     before = at.nodes()
     poses = {key: pose.position for key, pose, _ in at.scene.visible()}
-    moved = (HERE.latitude + 1e-5, HERE.longitude + 2e-5)
-    at.send(FIX, fix(*moved), frame="gps")
+    neighbour = (HERE.latitude + 1e-5, HERE.longitude + 2e-5)
+    at.send(FIX, fix(*neighbour), frame="gps")
     loaded(at)
     assert all(at.nodes()[key] is node for key, node in before.items())
-    east, north, _ = to_enu([(*moved, HERE.altitude)], HERE)[0]
+    east, north, _ = to_enu([(*neighbour, HERE.altitude)], HERE)[0]
     for key, pose, _ in at.scene.visible():
         change = np.subtract(pose.position, poses[key])
         np.testing.assert_allclose(change, (-east, -north, 0.0), atol=1e-3)

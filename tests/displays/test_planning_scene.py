@@ -153,12 +153,12 @@ def test_colors_of_objects_override_those_of_the_display(world: Any) -> None:
 def test_the_robot_follows_the_state_of_the_scene(arm: Any) -> None:
     arm.transform("map", "cell", (3.0, 0.0, 0.0))
     assert arm.statuses()["Joints"] == ("OK", "The positions of 1 joint are known.")
-    moved = state("cell", wrist=1.0)
-    moved["multi_dof_joint_state"] = {
+    new_state = state("cell", wrist=1.0)
+    new_state["multi_dof_joint_state"] = {
         "joint_names": ["virtual_joint"],
         "transforms": [{"translation": {"x": 2.0}, "rotation": UNTURNED}],
     }
-    tell(arm, {"is_diff": True, "robot_state": moved})
+    tell(arm, {"is_diff": True, "robot_state": new_state})
     assert arm.poses()["base visual visual_0"].position == pytest.approx((5.0, 0.0, 0.0))
     assert arm.poses()["tool visual grip"].wxyz == pytest.approx((np.cos(0.5), np.sin(0.5), 0, 0))
     tell(arm, {"is_diff": True, "robot_state": state("cell", elbow=1.0)})

@@ -152,7 +152,7 @@ def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(la
     points = np.random.default_rng(0).random((1000, 3))
     bench = lab(xyz_cloud(points.tolist()), color_transformer="FlatColor")
     assert len(bench.xyz("points")) == 1000
-    bench.scene.held = 200
+    bench.scene.max_points = 200
     bench.turn(0.1)
     assert len(bench.xyz("points")) == 200
     assert bench.statuses()["Points"][1] == (
@@ -168,7 +168,7 @@ def test_as_many_points_as_browsers_hold_are_shown_and_all_of_a_cloud_at_rest(la
     assert bench.statuses()["Points"][1] == (
         "Showing 1 000 of 1 000 points; browsers thin out distant ones to keep 20 frames a second."
     )
-    bench.scene.held = 400
+    bench.scene.max_points = 400
     bench.turn(1.0)
     assert bench.nodes() == {"blocks": points_node}, "is not sent again"
     bench.send(CLOUD, xyz_cloud(points.tolist()), frame="sensor")

@@ -99,9 +99,9 @@ def outcome(
     here = folder / "here"
     here.mkdir()
     words = () if isinstance(work, str) else work
-    written = {after for before, after in itertools.pairwise(words) if before == "-o"}
+    outputs = {after for before, after in itertools.pairwise(words) if before == "-o"}
     for path in example_folder.iterdir():
-        if path.name not in written:
+        if path.name not in outputs:
             (here / path.name).symlink_to(path)
     log = folder / "output.txt"
     log.touch()

@@ -105,10 +105,10 @@ def start_s(start: Callable[..., Program]) -> float:
     assert b"<html" in urllib.request.urlopen(program.url(), timeout=60).read()
     program.wait_for("ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET shows it to all others")
     assert has_simulator(program)
-    taken = time.monotonic() - began
+    duration = time.monotonic() - began
     ended = check_end(program, signal.SIGINT, "once it has started", in_terminal=True)
     assert "stopped" in ended
-    return taken
+    return duration
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

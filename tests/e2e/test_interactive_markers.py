@@ -61,11 +61,11 @@ def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
 def pages(
     browser: playwright.Browser, viewer: webviz.Viewer, server: MarkerServer
 ) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 900, 700, resolution=RESOLUTION) as opened:
-        for page in opened:
+    with open_pages(browser, viewer.url, 900, 700, resolution=RESOLUTION) as open_tabs:
+        for page in open_tabs:
             page.wait_for(lambda page=page: len(markers_on_page(page)) == 13, "all markers", 60)
             page.tab.evaluate("document.body.classList.add('wv-folded')")
-        yield opened
+        yield open_tabs
 
 
 @pytest.fixture
@@ -277,8 +277,8 @@ def test_a_finger_that_rests_opens_the_menu_and_one_that_moves_drags(
     for step in range(1, 6):
         touch("touchMove", (place[0], place[1] - 10.0 * step))
     touch("touchEnd")
-    moved = wait_for(page, server, UP)[-1]
-    assert moved.pose.position.y == pytest.approx(y + 0.5, abs=0.05)
+    move_feedback = wait_for(page, server, UP)[-1]
+    assert move_feedback.pose.position.y == pytest.approx(y + 0.5, abs=0.05)
     page.wait_for(lambda: page.tab.locator(".wv-menu").count() == 0, "no menu")
 
 

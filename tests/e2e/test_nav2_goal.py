@@ -59,8 +59,8 @@ def viewer(ros_env: dict[str, str]) -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 900, 600) as opened:
-        yield opened
+    with open_pages(browser, viewer.url, 900, 600) as open_tabs:
+        yield open_tabs
 
 
 @pytest.fixture

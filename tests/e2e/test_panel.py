@@ -100,8 +100,8 @@ def test_saved_displays_return_and_unsaved_changes_survive_a_kill(
     dialog.get_by_role("textbox").fill("lab")
     dialog.get_by_role("button", name="Save", exact=True).click()
     page.wait_for(lambda: "Saved lab.yaml." in page.text(), "the answer")
-    saved = lab.read_text()
-    assert "color_scheme: costmap" in saved
+    lab_text = lab.read_text()
+    assert "color_scheme: costmap" in lab_text
     assert config.read_text() == EMPTY
     tab.reload()
     tab.wait_for_function("window.webviz?.hasView()")
@@ -139,7 +139,7 @@ def test_saved_displays_return_and_unsaved_changes_survive_a_kill(
     tree.get_by_text("Ground").wait_for()
     tab.locator(".wv-toast").get_by_role("button", name="Undo").click()
     tree.get_by_text("Map", exact=True).wait_for()
-    assert lab.read_text() == saved
+    assert lab.read_text() == lab_text
     assert viewer.end() == 0
     assert not any(state.rglob("lab-*.yaml"))
 

@@ -111,8 +111,8 @@ def viewer(robot: VelocityListener, channels: list[ServerConnection]) -> Iterato
 
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 700, 500) as opened:
-        yield opened
+    with open_pages(browser, viewer.url, 700, 500) as open_tabs:
+        yield open_tabs
 
 
 @pytest.fixture

@@ -52,11 +52,11 @@ def test_axes_are_turned(pose: Pose, inner: Pose) -> None:
     node = Axes(
         np.array([inner.position], np.float32), np.array([inner.wxyz], np.float32), 1.0, 0.1
     )
-    moved = baked(node, pose, (0.0, 0.0, 0.0))
-    assert isinstance(moved, Axes)
+    result = baked(node, pose, (0.0, 0.0, 0.0))
+    assert isinstance(result, Axes)
     outer = Rotation.from_quat(np.roll(pose.wxyz, -1))
     expected = outer * Rotation.from_quat(np.roll(inner.wxyz, -1))
-    rotation = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
+    rotation = Rotation.from_quat(np.roll(result.wxyzs[0], -1))
     assert (expected.inv() * rotation).magnitude() < 1e-5
 
 
@@ -66,15 +66,15 @@ def test_instances_are_moved_and_turned(pose: Pose, inner: Pose) -> None:
     turn = np.array([inner.wxyz], np.float32)
     outer = Rotation.from_quat(np.roll(pose.wxyz, -1))
     for wxyzs in (turn, None):
-        moved = baked(Instances(place, size, (1, 2, 3), wxyzs=wxyzs), pose, (0.0, 0.0, 0.0))
-        assert isinstance(moved, Instances)
+        result = baked(Instances(place, size, (1, 2, 3), wxyzs=wxyzs), pose, (0.0, 0.0, 0.0))
+        assert isinstance(result, Instances)
         own = Rotation.identity() if wxyzs is None else Rotation.from_quat(np.roll(inner.wxyz, -1))
         turned = Rotation.identity()
-        if moved.wxyzs is not None:  # at the identity they stay as they are: not turned
-            turned = Rotation.from_quat(np.roll(moved.wxyzs[0], -1))
+        if result.wxyzs is not None:  # at the identity they stay as they are: not turned
+            turned = Rotation.from_quat(np.roll(result.wxyzs[0], -1))
         assert ((outer * own).inv() * turned).magnitude() < 1e-5
         expected = outer.apply(place.astype(float)) + pose.position
-        np.testing.assert_allclose(moved.positions, expected, atol=2e-3)
+        np.testing.assert_allclose(result.positions, expected, atol=2e-3)
 
 
 def test_the_identity_keeps_the_very_arrays() -> None:
@@ -85,9 +85,9 @@ def test_the_identity_keeps_the_very_arrays() -> None:
 @pytest.mark.parametrize("length", [0.0, 1e-200])
 def test_a_quaternion_without_length_turns_nothing(length: float) -> None:
     node = Points(np.ones((2, 3), np.float32), (1, 2, 3), 0.1)
-    moved = baked(node, Pose((1.0, 2.0, 3.0), (length, 0.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
-    assert isinstance(moved, Points)
-    np.testing.assert_array_equal(moved.xyz, [(2, 3, 4)] * 2)
+    result = baked(node, Pose((1.0, 2.0, 3.0), (length, 0.0, 0.0, 0.0)), (0.0, 0.0, 0.0))
+    assert isinstance(result, Points)
+    np.testing.assert_array_equal(result.xyz, [(2, 3, 4)] * 2)
 
 
 def test_far_out_the_origin_comes_along_so_that_millimetres_survive() -> None:

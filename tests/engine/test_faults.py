@@ -96,7 +96,7 @@ class Faulty(Display, Comparable, Draggable, Selective, Sweep):
         self._raise_in("duration_ns")
         return 0
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+    def accept(self, new: Sample, buffered: Sequence[Sample]) -> bool | str:
         self._raise_in("accept")
         return True
 
@@ -256,9 +256,9 @@ def test_a_command_that_raises_is_refused_and_the_next_is_done(
 
     with monkeypatch.context() as patch:
         patch.setattr(b.viewer.get(DisplaysPart).list, "set", boom)
-        refused = b.viewer.enqueue(SetProperty("display1", "enabled", False))
+        command = b.viewer.enqueue(SetProperty("display1", "enabled", False))
         b.turn()
-    assert "Unprintable" in str(refused.exception())
+    assert "Unprintable" in str(command.exception())
     answer = b.viewer.enqueue(Refresh())
     b.turn()
     assert answer.result() == ""

@@ -28,11 +28,11 @@ class Chooser(Display):
 
 def test_an_input_without_a_meaning_is_neither_subscribed_nor_complained_of(bench: Benches) -> None:
     at = bench(Chooser())
-    assert "/pose" in at.source.wanted
+    assert "/pose" in at.source.subscriptions
     assert "Topic" in at.statuses()
     at.viewer.enqueue(SetProperty("display1", "by_topic", False))
     at.turn()
-    assert "/pose" not in at.source.wanted
+    assert "/pose" not in at.source.subscriptions
     assert "Topic" not in at.statuses()
 
 

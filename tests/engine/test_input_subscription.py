@@ -37,7 +37,7 @@ def test_a_topic_without_publishers(b: Bench) -> None:
 
 
 def test_a_topic_without_publishers_suggests_another_of_its_type(b: Bench) -> None:
-    b.source.known = {"/another": offer(), "/goal_pose": offer()}
+    b.source.topics = {"/another": offer(), "/goal_pose": offer()}
     text = "No publisher on /pose. Choose /goal_pose, the nearest topic of its type."
     assert b.statuses()["Topic"] == ("WARN", text)
     remedy = b.states[-1].rows[0].statuses["Topic"].remedy
@@ -45,7 +45,7 @@ def test_a_topic_without_publishers_suggests_another_of_its_type(b: Bench) -> No
 
 
 def test_another_type_names_both(b: Bench) -> None:
-    b.source.known["/pose"] = offer("nav_msgs/msg/Odometry")
+    b.source.topics["/pose"] = offer("nav_msgs/msg/Odometry")
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
     assert "has the type nav_msgs/msg/Odometry" in text
@@ -62,7 +62,7 @@ def test_an_invalid_topic_name(bench: Benches, name: str) -> None:
 
 def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(bench: Benches) -> None:
     b = bench(PoseDot(name="Dot", topic=Topic("/pose", reliability="reliable")))
-    b.source.known["/pose"] = offer(reliability="best_effort")
+    b.source.topics["/pose"] = offer(reliability="best_effort")
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"
     assert "requests reliable, volatile" in text
@@ -72,16 +72,16 @@ def test_qos_that_cannot_connect_names_both_sides_and_the_remedy(bench: Benches)
     assert isinstance(remedy, Remedy)
     assert remedy.label == "Set QoS to automatic"
     b.do(SetProperty("display1", remedy.path, remedy.value))
-    assert b.source.wanted["/pose"].topic == Topic("/pose")
+    assert b.source.subscriptions["/pose"].topic == Topic("/pose")
 
 
 def test_a_problem_of_the_source_is_reported(b: Bench) -> None:
-    b.source.known["/pose"] = Offer((), None, "cannot subscribe: no such type")
+    b.source.topics["/pose"] = Offer((), None, "cannot subscribe: no such type")
     assert b.statuses()["Topic"] == ("ERROR", "/pose: cannot subscribe: no such type")
 
 
 def test_no_message_yet_names_the_publisher_and_its_qos(b: Bench) -> None:
-    b.source.known["/pose"] = offer()
+    b.source.topics["/pose"] = offer()
     text = "No message yet on /pose from /talker (reliable, volatile)."
     assert b.statuses()["Topic"] == ("WARN", text)
 
@@ -102,7 +102,7 @@ def test_silence_after_a_stream_and_a_publisher_that_left(b: Bench) -> None:
         "WARN",
         True,
     )
-    b.source.known["/pose"] = Offer(())
+    b.source.topics["/pose"] = Offer(())
     level, text = b.statuses()["Topic"]
     assert level == "WARN"
     assert text == "No publisher on /pose any more, last message 5.1 s ago. Restart it."
@@ -299,7 +299,7 @@ def test_a_flood_of_junk_leaves_the_viewer_running(b: Bench) -> None:
 
 def test_a_topic_that_another_display_reads_as_another_type(b: Bench) -> None:
     b.transform("map", "base", T, static=True)
-    b.source.known["/pose"] = Offer((), ("reliable", "volatile"), type="nav_msgs/msg/Odometry")
+    b.source.topics["/pose"] = Offer((), ("reliable", "volatile"), type="nav_msgs/msg/Odometry")
     b.source.inbox.put("/pose", Raw(bytes(100), T))
     level, text = b.statuses()["Topic"]
     assert level == "ERROR"

@@ -122,26 +122,26 @@ def test_a_topic_that_no_display_shows_can_be_looked_into(bench: Benches) -> Non
     b = bench()
     assert do(b, InspectTopic("/text")).inspected["/text"].problem == "No publisher on this topic."
     publisher = Publisher("/talker", STRING, "reliable", "volatile")
-    b.source.known["/text"] = Offer((publisher,))
+    b.source.topics["/text"] = Offer((publisher,))
     assert do(b).inspected["/text"].problem == "No message has arrived yet."
-    assert b.source.wanted["/text"].type == STRING
+    assert b.source.subscriptions["/text"].type == STRING
     b.publish("/text", STRING, {"data": "hello"})
     inspected = do(b).inspected["/text"]
     assert (inspected.message, inspected.type) == ({"fields": {"data": "'hello'"}}, STRING)
     assert inspected.received_s == pytest.approx(time.time(), abs=30)
     b.scene.watched = False
     b.turn()
-    assert "/text" not in b.source.wanted
+    assert "/text" not in b.source.subscriptions
     b.scene.watched = True
     b.turn()
-    assert "/text" in b.source.wanted
+    assert "/text" in b.source.subscriptions
     assert do(b, InspectTopic("")).inspected == {}
-    assert "/text" not in b.source.wanted
+    assert "/text" not in b.source.subscriptions
 
 
 def test_a_message_is_read_once_a_second_at_most(bench: Benches) -> None:
     b = bench()
-    b.source.known["/text"] = Offer((Publisher("/talker", STRING, "reliable", "volatile"),))
+    b.source.topics["/text"] = Offer((Publisher("/talker", STRING, "reliable", "volatile"),))
     do(b, InspectTopic("/text"))
     for text in ("one", "two"):
         b.publish("/text", STRING, {"data": text})
@@ -163,7 +163,7 @@ def test_pages_look_into_several_topics_besides_that_of_a_program(bench: Benches
 def test_an_undecodable_message_is_reported(bench: Benches) -> None:
     b = bench()
     publisher = Publisher("/talker", "nav_msgs/msg/Path", "reliable", "volatile")
-    b.source.known["/path"] = Offer((publisher,))
+    b.source.topics["/path"] = Offer((publisher,))
     do(b, InspectTopic("/path"))
     b.publish("/path", STRING, {"data": "no path"})
     assert do(b).inspected["/path"].problem.startswith("The last message cannot be read: ")
@@ -173,7 +173,7 @@ def test_a_topic_that_a_display_shows_is_looked_into_with_its_subscription(bench
     b = bench(Path(name="P", topic=Topic("/path", reliability="best_effort")))
     publish(b, 1.0)
     do(b, InspectTopic("/path"))
-    assert b.source.wanted["/path"].topic.reliability == "best_effort"
+    assert b.source.subscriptions["/path"].topic.reliability == "best_effort"
     publish(b, 7.5)
     b.clock += 1.0
     assert "7.5" in str(do(b).inspected["/path"].message)
@@ -209,18 +209,18 @@ def test_the_transform_between_two_frames_is_read_out(bench: Benches) -> None:
 def test_the_topic_of_a_hidden_pane_is_not_subscribed(bench: Benches) -> None:
     b = bench(Image(name="I", topic=Topic("/image")), Path(name="P", topic=Topic("/path")))
     b.turn()
-    assert "/image" in b.source.wanted
+    assert "/image" in b.source.subscriptions
     b.scene.unseen = {row.id for row in do(b).rows}
     b.turn()
-    assert "/image" not in b.source.wanted
-    assert "/path" in b.source.wanted  # which has no pane
+    assert "/image" not in b.source.subscriptions
+    assert "/path" in b.source.subscriptions  # which has no pane
     row = do(b).rows[0]
     assert row.level is Level.IDLE  # neither OK, as nothing is drawn, nor a problem
     statuses = row.statuses
     assert statuses["Display"].text.startswith("Not received: no browser shows its pane.")
     b.scene.unseen = set()
     b.turn()
-    assert "/image" in b.source.wanted
+    assert "/image" in b.source.subscriptions
 
 
 def test_a_display_without_a_browser_is_ok(bench: Benches) -> None:

@@ -226,10 +226,10 @@ def test_without_a_list_a_viewer_writes_only_to_names_its_config_uses(make: Benc
     assert refusals(b) == {"2D Goal Pose": UNUSED.format("/cmd_vel_raw")}
     assert use(b) == UNUSED.format("/cmd_vel_raw")
     # Nor can a config that is opened from a page; it can have a list.
-    opened = "version: 1\ntools: [{type: GoalPose, topic: /cmd_vel_raw}]\n"
-    b.do(Load(opened, "x.yaml"))
+    config_text = "version: 1\ntools: [{type: GoalPose, topic: /cmd_vel_raw}]\n"
+    b.do(Load(config_text, "x.yaml"))
     assert use(b) == UNUSED.format("/cmd_vel_raw")
-    b.do(Load(f"{opened}publish: ['/*']\n", "x.yaml"))
+    b.do(Load(f"{config_text}publish: ['/*']\n", "x.yaml"))
     assert use(b) == UNUSED.format("/cmd_vel_raw")
     b.do(Load("version: 1\npublish: []\n", "x.yaml"))
     assert use(b) == OF_CONFIG.format("/goal_pose")

@@ -36,8 +36,8 @@ class Trail(Display, Selective):
     def history(self) -> Keep:
         return Keep(0)
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool:
-        return not kept or abs(new.pose.position[0] - kept[-1].pose.position[0]) >= 1.0
+    def accept(self, new: Sample, buffered: Sequence[Sample]) -> bool:
+        return not buffered or abs(new.pose.position[0] - buffered[-1].pose.position[0]) >= 1.0
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         ctx.strip("trail", [sample.pose.position for sample in samples], (0, 255, 0))
@@ -272,11 +272,11 @@ def test_a_disabled_display_hears_nothing_and_draws_nothing_but_forgets_nothing(
     show_dot(b, 1.0)
     b.viewer.enqueue(SetProperty("display1", "enabled", False))
     b.turn()
-    assert (dots(b), "/pose" in b.source.wanted, b.statuses()) == ([], False, {})
+    assert (dots(b), "/pose" in b.source.subscriptions, b.statuses()) == ([], False, {})
     b.viewer.enqueue(SetProperty("display1", "enabled", True))
     b.turn()
     assert dots(b) == [1.0]
-    assert "/pose" in b.source.wanted
+    assert "/pose" in b.source.subscriptions
 
 
 def test_nothing_is_drawn_until_a_browser_connects(bench: Benches) -> None:
@@ -361,7 +361,7 @@ def test_the_same_latched_message_again_is_ignored(b: Bench) -> None:
     from webviz.sources import Offer, Publisher
 
     publisher = Publisher("/test", POSE, "reliable", "transient_local")
-    b.source.known["/pose"] = Offer((publisher,), ("reliable", "transient_local"))
+    b.source.topics["/pose"] = Offer((publisher,), ("reliable", "transient_local"))
     b.transform("map", "base", T, static=True)
     for _ in range(3):
         b.pose("/pose", "base", T, 1.0)
@@ -376,13 +376,13 @@ class WithUpdates(PoseDot):
 
 def test_an_optional_input_follows_the_first_ones_topic_and_may_be_silent(bench: Benches) -> None:
     b = bench(WithUpdates(name="Dot", topic=Topic("/goal")))
-    assert set(b.source.wanted) >= {"/goal", "/goal_updates"}
+    assert set(b.source.subscriptions) >= {"/goal", "/goal_updates"}
     b.transform("map", "base", T, static=True)
     b.pose("/goal", "base", T, 1.0)
     assert {level for level, _ in b.statuses().values()} == {"OK"}
     b.viewer.enqueue(SetProperty("display1", "topic.name", "/other"))
     b.turn()
-    assert {"/other", "/other_updates"} <= set(b.source.wanted)
+    assert {"/other", "/other_updates"} <= set(b.source.subscriptions)
 
 
 class Poster(PoseDot):

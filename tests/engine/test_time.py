@@ -24,7 +24,7 @@ def statuses(b: Bench) -> dict[str, tuple[str, str]]:
 
 
 def publishes(b: Bench, topic: str, *nodes: str) -> None:
-    b.source.known[topic] = Offer(tuple(Publisher(n, "", "reliable", "volatile") for n in nodes))
+    b.source.topics[topic] = Offer(tuple(Publisher(n, "", "reliable", "volatile") for n in nodes))
 
 
 def test_before_the_first_clock_message_the_wait_is_a_status(b: Bench) -> None:
@@ -160,14 +160,18 @@ def test_a_clock_that_is_set_right_by_a_little_resets_nothing(b: Bench) -> None:
 
 def test_a_reset_requests_latched_messages_again(b: Bench) -> None:
     policies = ("reliable", "transient_local")
-    b.source.known["/pose"] = Offer((Publisher("/map_server", POSE, *policies),), policies)
+    b.source.topics["/pose"] = Offer((Publisher("/map_server", POSE, *policies),), policies)
     show_dot(b, 1.0)
     requests = {
-        topic: subscription.resubscriptions for topic, subscription in b.source.wanted.items()
+        topic: subscription.resubscriptions
+        for topic, subscription in b.source.subscriptions.items()
     }
     b.source.now -= 50 * SECOND
     b.turn()
-    again = {topic: subscription.resubscriptions for topic, subscription in b.source.wanted.items()}
+    again = {
+        topic: subscription.resubscriptions
+        for topic, subscription in b.source.subscriptions.items()
+    }
     assert again["/pose"] > requests["/pose"]
     assert again["/tf_static"] > requests["/tf_static"]
     b.pose("/pose", "base", T, 1.0)
@@ -255,7 +259,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(b: Bench) -> None:
     publishes(b, "/tf_static", "/first", "/second")
     b.turn()
     for _ in range(2):
-        requests = b.source.wanted["/tf_static"].resubscriptions
+        requests = b.source.subscriptions["/tf_static"].resubscriptions
         b.transform("base", "laser", T, static=True)
         b.transform("camera", "laser", T, static=True)
         b.clock += 5.0
@@ -263,7 +267,7 @@ def test_a_second_static_publisher_is_found_by_asking_again(b: Bench) -> None:
         b.turn()
         if "Transforms" in statuses(b):
             break
-        assert b.source.wanted["/tf_static"].resubscriptions > requests
+        assert b.source.subscriptions["/tf_static"].resubscriptions > requests
     level, text = statuses(b)["Transforms"]
     assert level == "WARN"
     assert '"laser" has two parents in static transforms, "base" and "camera"' in text
@@ -283,19 +287,19 @@ def test_a_static_publisher_that_restarts_with_another_pose_is_not_a_conflict(b:
     b.transform("base", "laser", T, 2.0, static=True)
     b.clock += 5.0
     assert "Transforms" not in statuses(b)
-    requests = b.source.wanted["/tf_static"].resubscriptions
+    requests = b.source.subscriptions["/tf_static"].resubscriptions
     b.clock += 60.0
     b.turn()
     b.turn()
-    assert b.source.wanted["/tf_static"].resubscriptions == requests
+    assert b.source.subscriptions["/tf_static"].resubscriptions == requests
 
 
 def test_a_second_display_of_a_topic_requests_its_latched_message(
     bench: Benches,
 ) -> None:
     b = bench(PoseDot(name="One"))
-    first = b.source.wanted["/pose"].resubscriptions
+    first = b.source.subscriptions["/pose"].resubscriptions
     b.turn()
-    assert b.source.wanted["/pose"].resubscriptions == first
+    assert b.source.subscriptions["/pose"].resubscriptions == first
     b.do(DuplicateDisplay("display1"))
-    assert b.source.wanted["/pose"].resubscriptions > first
+    assert b.source.subscriptions["/pose"].resubscriptions > first

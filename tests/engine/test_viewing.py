@@ -46,22 +46,22 @@ class TwoBrowsers:
 
     def __init__(self) -> None:
         self.start: View = Orbit()
-        self.shown: dict[int, View] = {ALICE: Orbit(), BOB: FPS()}
+        self.by_browser: dict[int, View] = {ALICE: Orbit(), BOB: FPS()}
         self.images: list[tuple[str, int | None]] = []
 
     def start_with(self, view: View) -> None:
         self.start = view
 
     def show(self, view: View, browser: int | None = None) -> None:
-        for id_ in self.shown:
+        for id_ in self.by_browser:
             if browser in (None, id_):
-                self.shown[id_] = view
+                self.by_browser[id_] = view
 
     def views(self) -> Mapping[int, View]:
-        return dict(self.shown)
+        return dict(self.by_browser)
 
     def target_frames(self) -> set[str]:
-        frames = {view.target_frame for view in (self.start, *self.shown.values())}
+        frames = {view.target_frame for view in (self.start, *self.by_browser.values())}
         return frames - {"<Fixed Frame>"}
 
     def size(self, browser: int) -> tuple[float, float]:
@@ -86,9 +86,9 @@ class Looking:
 
     def refused(self, command: Command) -> str:
         """Return why a command is refused."""
-        before = dict(self.cameras.shown)
+        before = dict(self.cameras.by_browser)
         refusal = self.bench.refused(command)
-        assert self.cameras.shown == before
+        assert self.cameras.by_browser == before
         return refusal
 
 
@@ -103,9 +103,9 @@ def looking(bench: Benches) -> Looking:
 
 def test_a_view_is_shown_in_one_browser_or_in_all(looking: Looking) -> None:
     looking.do(ShowView(TopDownOrtho(scale=50.0), BOB))
-    assert looking.cameras.shown == {ALICE: Orbit(), BOB: TopDownOrtho(scale=50.0)}
+    assert looking.cameras.by_browser == {ALICE: Orbit(), BOB: TopDownOrtho(scale=50.0)}
     state = looking.do(ShowView(XYOrbit()))
-    assert looking.cameras.shown == state.views == {ALICE: XYOrbit(), BOB: XYOrbit()}
+    assert looking.cameras.by_browser == state.views == {ALICE: XYOrbit(), BOB: XYOrbit()}
 
 
 ELSEWHERE = FPS(pitch=0.5)
@@ -132,16 +132,16 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
 
     def acted(command: Command, sender: Sender) -> tuple[list[Any], ...]:
         """Return the changes after a command, for each browser."""
-        cameras.shown = {ALICE: Orbit(pitch=0.1), BOB: Orbit(pitch=0.3)}
-        before = dict(cameras.shown)
+        cameras.by_browser = {ALICE: Orbit(pitch=0.1), BOB: Orbit(pitch=0.3)}
+        before = dict(cameras.by_browser)
         views = looking.do(command, sender).settings.views
         images = [browser for _, browser in cameras.images]
         remaining = [
             id for id, view in before.items() if view in (cameras.start, views.get("Mine"))
         ]
-        moved = [id for id in before if cameras.shown[id] != before[id]]
+        changed_ids = [id for id in before if cameras.by_browser[id] != before[id]]
         cameras.images.clear()
-        return moved, images, remaining
+        return changed_ids, images, remaining
 
     alone = acted(command, Sender(ALICE))
     assert [ALICE] in alone
@@ -152,7 +152,7 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
 
 def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
     looking.do(ChangeView("distance", 3.0, ALICE))
-    assert looking.cameras.shown[ALICE] == Orbit(distance=3.0)
+    assert looking.cameras.by_browser[ALICE] == Orbit(distance=3.0)
     assert "distance: expected > 0" in looking.refused(ChangeView("distance", -3.0, ALICE))
     assert "did you mean `distance`?" in looking.refused(ChangeView("distanc", 3.0, ALICE))
     assert "`TopDownOrtho`" in looking.refused(ChangeView("type", "TopDownOrto", ALICE))
@@ -161,18 +161,18 @@ def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
 def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: Looking) -> None:
     looking.do(ShowView(Orbit(focal_point=(3.0, 2.0, 0.0)), ALICE))
     looking.do(ChangeView("type", "TopDownOrtho", ALICE))
-    view = looking.cameras.shown[ALICE]
+    view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, TopDownOrtho)
     assert (view.x, view.y) == pytest.approx((3.0, 2.0), abs=1e-5)
 
 
 def test_a_view_that_begins_to_follow_a_frame_stays_where_it_is(looking: Looking) -> None:
     looking.do(ChangeView("target_frame", "base", ALICE))
-    view = looking.cameras.shown[ALICE]
+    view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
     assert view.focal_point == pytest.approx((-4.0, 0.0, 0.0), abs=1e-5)  # base is at x = 4
     looking.do(ChangeView("target_frame", "<Fixed Frame>", ALICE))
-    assert looking.cameras.shown[ALICE] == Orbit()
+    assert looking.cameras.by_browser[ALICE] == Orbit()
 
 
 def test_the_frames_that_views_follow_are_in_the_scene_while_they_do(looking: Looking) -> None:
@@ -196,12 +196,12 @@ def test_a_missing_target_frame_is_reported_until_it_arrives(looking: Looking) -
 def test_reset_goes_back_to_where_a_view_of_the_type_begins(looking: Looking) -> None:
     looking.do(ShowView(ThirdPersonFollower(distance=3.0, target_frame="base"), ALICE))
     looking.do(ResetView(ALICE))
-    assert looking.cameras.shown[ALICE] == ThirdPersonFollower(target_frame="base")
+    assert looking.cameras.by_browser[ALICE] == ThirdPersonFollower(target_frame="base")
 
 
 def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     looking.do(FocusDisplay("display1", ALICE))
-    view = looking.cameras.shown[ALICE]
+    view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
     assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     radius = 2.0 * 3**0.5  # of the cube around axes of 2 m
@@ -209,7 +209,7 @@ def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     assert "nothing to focus on" in looking.refused(FocusDisplay("display9", ALICE))
     looking.do(ShowView(Orbit(focal_point=(9.0, 9.0, 9.0)), ALICE))
     looking.do(FocusDisplay("", ALICE))  # everything is this display
-    view = looking.cameras.shown[ALICE]
+    view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
     assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
 
@@ -220,7 +220,7 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     assert state.settings.views == {"Plan": TopDownOrtho(scale=50.0)}
     assert state.file.is_changed
     looking.do(ShowView("Plan", BOB))
-    assert looking.cameras.shown[BOB] == TopDownOrtho(scale=50.0)
+    assert looking.cameras.by_browser[BOB] == TopDownOrtho(scale=50.0)
     looking.do(SaveView("Other", BOB))
     assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
     assert "already" in looking.refused(RenameView("Map", "Other"))
@@ -245,9 +245,9 @@ def test_the_chosen_default_view_is_saved_in_the_config(looking: Looking) -> Non
 def test_opening_a_config_shows_its_view(looking: Looking) -> None:
     looking.do(Load("view: {distance: 4}\nviews: {Near: {distance: 1}}\n", "x.yaml"))
     assert looking.cameras.start == Orbit(distance=4.0)
-    assert set(looking.cameras.shown.values()) == {Orbit(distance=4.0)}
+    assert set(looking.cameras.by_browser.values()) == {Orbit(distance=4.0)}
     looking.do(ShowView("Near"))
-    assert set(looking.cameras.shown.values()) == {Orbit(distance=1.0)}
+    assert set(looking.cameras.by_browser.values()) == {Orbit(distance=1.0)}
 
 
 def test_a_picture_is_requested_from_one_browser(looking: Looking) -> None:
@@ -257,7 +257,7 @@ def test_a_picture_is_requested_from_one_browser(looking: Looking) -> None:
 
 def test_without_browsers_there_is_nothing_to_change(bench: Benches) -> None:
     looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
-    cameras.shown.clear()
+    cameras.by_browser.clear()
     assert "No browser is connected" in looking.refused(ResetView())
     assert "No browser is connected" in looking.refused(SaveView("A"))
 
@@ -266,7 +266,7 @@ def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
     looking: Looking,
 ) -> None:
     looking.do(FocusFrame("base", ALICE))
-    view = looking.cameras.shown[ALICE]
+    view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
     assert view.focal_point == pytest.approx((4.0, 0.0, 0.0))
     assert "moon" in looking.refused(FocusFrame("moon", ALICE))

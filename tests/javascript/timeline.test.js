@@ -127,7 +127,7 @@ test("typed times are seconds, minutes and hours, or a date", () => {
 });
 
 test("the past of live topics goes on with time", () => {
-  const live = playback({ start: 1000, ahead: 2, is_live: true, held: 60 });
+  const live = playback({ start: 1000, ahead: 2, is_live: true, memory_s: 60 });
   const now = atMoment(live, 1102);
   assert.deepEqual(
     [now.get("first"), now.get("duration"), now.get("position"), now.get("ago")],

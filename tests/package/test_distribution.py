@@ -113,7 +113,7 @@ def test_the_licences_of_visers_page_are_listed() -> None:
 
 def test_a_source_distribution_has_all_that_a_wheel_needs_and_no_tests(tmp_path: Path) -> None:
     files()  # skips without a clone
-    clone, made = tmp_path / "clone", tmp_path / "made"
+    clone, output = tmp_path / "clone", tmp_path / "made"
     clone.mkdir()
     tree = subprocess.run(
         ["git", "ls-files", "-z", "--", ".", ":!tests"], cwd=ROOT, capture_output=True, check=True
@@ -123,10 +123,10 @@ def test_a_source_distribution_has_all_that_a_wheel_needs_and_no_tests(tmp_path:
         (clone / name).symlink_to(ROOT / name)
     (clone / "tests").mkdir()
     (clone / "tests/test_none.py").touch()
-    command = [sys.executable, "setup.py", "-q", "sdist", "--formats=tar", "-d", str(made)]
+    command = [sys.executable, "setup.py", "-q", "sdist", "--formats=tar", "-d", str(output)]
     outcome = subprocess.run(command, cwd=clone, capture_output=True, text=True)
     assert outcome.returncode == 0, outcome.stderr
-    with tarfile.open(next(made.iterdir())) as archive:
+    with tarfile.open(next(output.iterdir())) as archive:
         inside = {name.partition("/")[2] for name in archive.getnames()}
     about = {"LICENSE", "THIRD_PARTY.md", "README.md", "package.xml", "setup.py", "pyproject.toml"}
     assert {*map(str, files()), *about} <= inside

@@ -27,7 +27,7 @@ VIDEO = "foxglove_msgs/msg/CompressedVideo"
 def images_in(viewer: PageBench, tab: ViewerTab) -> Iterator[Any]:
     """A tab with two images, which are gone afterwards."""
     show_images(viewer)
-    tab.wait_for(lambda: shown(tab, "Color") and shown(tab, "Depth"))
+    tab.wait_for(lambda: pane_color(tab, "Color") and pane_color(tab, "Depth"))
     yield tab
     viewer.show()
     tab.wait_for(lambda: tab.page.locator(".wv-pane").count() == 0)
@@ -78,7 +78,7 @@ def pane(tab: Any, name: str) -> Any:
     return tab.page.get_by_label(f"Image /{name.lower()}", exact=True)
 
 
-def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
+def pane_color(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int]:
     """The colour of a place in a picture, empty as long as there is none."""
     script = """(pane, [x, y]) => {
       const canvas = pane.querySelector("canvas");
@@ -90,8 +90,8 @@ def shown(tab: Any, name: str, at: tuple[float, float] = (0.5, 0.9)) -> list[int
     return pane(tab, name).evaluate(script, list(at)) if pane(tab, name).count() else []
 
 
-def near(color: list[int], wanted: Any, tolerance: int = 12) -> bool:
-    return len(color) == 3 and bool(np.abs(np.subtract(color, wanted)).max() <= tolerance)
+def near(color: list[int], expected: Any, tolerance: int = 12) -> bool:
+    return len(color) == 3 and bool(np.abs(np.subtract(color, expected)).max() <= tolerance)
 
 
 def hover(tab: Any, name: str, x: float, y: float) -> str:

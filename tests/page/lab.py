@@ -154,7 +154,7 @@ class Lab:
         show(viewer, memory=memory)
         for topic, (type_, values) in LATCHED.items():
             publisher = Publisher("/robot", type_, "reliable", "transient_local")
-            viewer.source.known[topic] = Offer((publisher,), ("reliable", "transient_local"))
+            viewer.source.topics[topic] = Offer((publisher,), ("reliable", "transient_local"))
             viewer.turn()
             viewer.publish_past(0.0, topic, type_, values)
         viewer.publish_past(0.0, "/tf", TRANSFORMS, placed(self._clock.now_ns))

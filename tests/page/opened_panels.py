@@ -28,6 +28,6 @@ def open_panel(tab: ViewerTab, panel: P, *displays: Item, **config: Any) -> P:
     tab.wait_for(lambda: heads.count() == 1)
     tab.show_tab(panel.name)
     tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
-    (shown,) = tab.viewer.states[-1].panels
-    assert isinstance(shown.panel, type(panel))
-    return shown.panel
+    (panel_tab,) = tab.viewer.states[-1].panels
+    assert isinstance(panel_tab.panel, type(panel))
+    return panel_tab.panel

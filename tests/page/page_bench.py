@@ -175,6 +175,7 @@ class PageBench(Bench):
     def __init__(self, page_server: PageServer, **options: Any) -> None:
         self.server = page_server.server
         self.commands: list[Command] = []
+        self._checked = 0
         """Commands of pages that were carried out or refused, but for those that no click makes."""
         self.senders: list[Sender] = []
         """Sender of each."""
@@ -203,6 +204,14 @@ class PageBench(Bench):
     def forget_commands(self) -> None:
         """Forget the commands that came so far."""
         self.commands.clear()
+        self._checked = 0
+
+    def has_received(self, command: Command) -> bool:
+        """Return whether a command came after those that earlier calls have found."""
+        if command not in self.commands[self._checked :]:
+            return False
+        self._checked = self.commands.index(command, self._checked) + 1
+        return True
         self.senders.clear()
 
     def show(
@@ -247,7 +256,7 @@ class PageBench(Bench):
         self, ago_s: float, topic: str, type_name: str, values: Mapping[str, Any]
     ) -> None:
         """Publish a message as if it had arrived some seconds ago, later than all before."""
-        if topic not in self.source.known:
+        if topic not in self.source.topics:
             self.offer(topic, type_name, "/test")
         received_ns = self.source.now - round(ago_s * SECOND)
         raw = Raw(encode(type_name, values), received_ns, time.monotonic() - ago_s)
@@ -256,7 +265,7 @@ class PageBench(Bench):
     def offer(self, topic: str, type_name: str, *nodes: str, problem: str = "") -> None:
         """Have publishers of a topic, best effort and volatile."""
         publishers = (Publisher(each, type_name, "best_effort", "volatile") for each in nodes)
-        self.source.known[topic] = Offer(tuple(publishers), ("best_effort", "volatile"), problem)
+        self.source.topics[topic] = Offer(tuple(publishers), ("best_effort", "volatile"), problem)
 
     @property
     def rows(self) -> Sequence[Row]:

@@ -104,8 +104,8 @@ class ViewerTab:
         raise AssertionError(f"timed out; the tabs are {boxes}, and the page says {self.text()}")
 
     def wait_for_command(self, command: Command) -> None:
-        """Wait until the newest command is this one."""
-        self.wait_for(lambda: self.viewer.commands[-1:] == [command])
+        """Wait until this command has come, after those that a test waited for before."""
+        self.wait_for(lambda: self.viewer.has_received(command))
 
     def _dismiss(self, dialog: playwright.Dialog) -> None:
         self.errors.append(f"a script ran: {dialog.message}")

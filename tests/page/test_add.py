@@ -40,10 +40,10 @@ def dialog(viewer: PageBench, viewer_tab: ViewerTab) -> playwright.Locator:
     for topic, type_ in {"/back": SCAN, "/front": SCAN, "/map": MAP, "/battery": BATTERY}.items():
         viewer.offer(topic, type_, "/driver")
     viewer.turn()
-    return opened(viewer_tab)
+    return open_dialog(viewer_tab)
 
 
-def opened(tab: ViewerTab) -> playwright.Locator:
+def open_dialog(tab: ViewerTab) -> playwright.Locator:
     """The dialog by type."""
     tab.page.keyboard.press("Insert")
     dialog = tab.page.get_by_role("dialog", name="Add display")
@@ -80,7 +80,7 @@ def test_topics_are_shown_with_rate_and_as_text_if_by_nothing_else(
     viewer.offer("/battery", BATTERY, "/driver")
     viewer.show(Everything(name="a", topic=Topic("/front")))
     viewer.stream_scans("/front", 40.0)
-    dialog = opened(viewer_tab)
+    dialog = open_dialog(viewer_tab)
     dialog.get_by_role("tab", name="By topic").click()
     front = dialog.get_by_role("option").filter(has_text="/front")
     playwright.expect(front).to_contain_text("40 Hz · 1 publisher")

@@ -44,10 +44,10 @@ def show_camera(viewer: PageBench) -> None:
     mounted = EYE[0] - model.center[0], EYE[1] - model.center[1], EYE[2]
     static = {"transforms": [stamped_transform("map", "camera", 0, mounted)]}
     viewer.publish("/tf_static", "tf2_msgs/msg/TFMessage", static)
-    _, _, seen = lenses.SEEN["plumb_bob"]
+    _, _, pixels_of_rays = lenses.CAMERAS["plumb_bob"]
     pixels = np.zeros((lenses.HEIGHT, lenses.WIDTH, 3), np.uint8)
     for index, color in CHOSEN.values():
-        column, row = map(round, seen[index])
+        column, row = map(round, pixels_of_rays[index])
         pixels[row - 7 : row + 8, column - 7 : column + 8] = color
     topic = Topic("/camera/image_raw")
     camera = Camera(
@@ -91,7 +91,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     viewer: PageBench, other: Any
 ) -> None:
     show_camera(viewer)
-    chosen, seen = CHOSEN, lenses.SEEN["plumb_bob"][2]
+    chosen, pixels_of_rays = CHOSEN, lenses.CAMERAS["plumb_bob"][2]
     camera = CameraModel.whole(decode(photos.INFO, encode(photos.INFO, lenses.info("plumb_bob"))))
 
     def dots() -> dict[str, Any]:
@@ -130,7 +130,7 @@ def test_the_scene_is_over_the_image_where_the_camera_sees_it(
     x, y = (result["blue"][i] / result["size"][i] for i in range(2))
     canvas = other.page.get_by_label("Image /camera/image_raw", exact=True).locator("canvas")
     box = canvas.bounding_box()
-    column, row = map(round, seen[1])
+    column, row = map(round, pixels_of_rays[1])
     value = other.page.get_by_label("Image /camera/image_raw", exact=True).locator(".wv-pane-value")
 
     def reads() -> bool:

@@ -241,6 +241,8 @@ def test_buttons_and_keys_undo_and_redo(
         act()
         viewer_tab.wait_for_command(command)
         assert viewer.outline() == after
+        viewer_tab.turn()
+        viewer_tab.catch_up()  # else there is nothing to redo yet
 
 
 def test_nothing_can_be_undone_at_first(viewer_tab: ViewerTab) -> None:

@@ -48,7 +48,7 @@ def subscribe(tab: ViewerTab, panel: Panel, **topics: str) -> None:
     heads = tab.page.get_by_role("tab", name=panel.name, exact=True)
     tab.wait_for(lambda: heads.count() == 0)  # that of a test before
     open_panel(tab, panel)
-    tab.wait_for(lambda: panel.subscriptions().keys() <= viewer.source.wanted.keys())
+    tab.wait_for(lambda: panel.subscriptions().keys() <= viewer.source.subscriptions.keys())
 
 
 Line = tuple[int, str, str]

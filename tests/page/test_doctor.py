@@ -100,13 +100,13 @@ def panel(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
     viewer_tab.show_tab("Displays")
 
 
-def show(tab: ViewerTab, *found: Finding) -> None:
+def show(tab: ViewerTab, *findings: Finding) -> None:
     """Show two displays in a fixed frame that is unknown, and have the doctor find this."""
     viewer = tab.viewer
     if not viewer.rows:
         viewer.show(*named("Ground", "Scan"), fixed_frame="mapp")
     viewer.do(SetFixedFrame("mapp"))
-    Reported.found_now = [with_ids(viewer, each) for each in found]
+    Reported.found_now = [with_ids(viewer, each) for each in findings]
     examine(viewer)
     settle(tab)
 
@@ -291,8 +291,8 @@ def test_statuses_lead_to_the_finding_that_explains_them_and_back(panel: ViewerT
 
 
 def test_a_finding_without_a_check_has_no_documentation() -> None:
-    (told,) = findings_store((replace(NOTE, id="DATA999"),), {}, 0.0, 0).all
-    assert (told.why, told.level, told.button) == ((), "ok", None)
+    (entry,) = findings_store((replace(NOTE, id="DATA999"),), {}, 0.0, 0).all
+    assert (entry.why, entry.level, entry.button) == ((), "ok", None)
 
 
 def test_latencies_are_a_waterfall_that_is_measured_while_it_is_open(

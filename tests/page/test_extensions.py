@@ -69,10 +69,10 @@ def test_a_tool_has_a_gesture_of_its_module(viewer: PageBench, viewer_tab: Viewe
     tab.wait_for(lambda: sketch.get_attribute("aria-disabled") is None)
     viewer.show(tools=[tool])
     viewer.viewer.context.graph.allow("/keep_out")
-    shown = tab.button("Keep Out")
-    tab.wait_for(lambda: shown.count() and shown.get_attribute("aria-disabled") is None)
-    assert shown.locator("path").get_attribute("d") == tool.icon
-    shown.click()
+    keep_out = tab.button("Keep Out")
+    tab.wait_for(lambda: keep_out.count() and keep_out.get_attribute("aria-disabled") is None)
+    assert keep_out.locator("path").get_attribute("d") == tool.icon
+    keep_out.click()
     box = tab.page.locator("canvas").first.bounding_box()
     assert box is not None
     x, y = box["x"] + 150, box["y"] + box["height"] - 80
@@ -209,12 +209,12 @@ def test_values_of_a_widget_are_json_of_limited_size(value: object) -> None:
         CustomWidget("dial", {"value": value}, lambda value, browser: None)
 
 
-@pytest.mark.parametrize("sent", [None, True, "{", "[" * 5000, "1" * (MAX_TEXT + 1)])
-def test_what_a_page_sends_of_a_widget_is_json_of_limited_size(sent: object) -> None:
+@pytest.mark.parametrize("content", [None, True, "{", "[" * 5000, "1" * (MAX_TEXT + 1)])
+def test_what_a_page_sends_of_a_widget_is_json_of_limited_size(content: object) -> None:
     entered: list[object] = []
     widget = CustomWidget("dial", {}, lambda value, browser: entered.append(value))
     with pytest.raises(ValueError, match="JSON"):
-        widget.use(sent, 1)
+        widget.use(content, 1)
     assert entered == []
     widget.use('{"share": 0.5}', 1)
     assert entered == [{"share": 0.5}]

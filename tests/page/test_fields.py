@@ -37,7 +37,7 @@ def show(viewer: PageBench, tab: ViewerTab, *curves: str) -> tuple[str, str]:
     """Show a plot and a raw message below the scene, with one topic; return their ids."""
     panels = [Plot(name="Plot", curves=list(curves)), RawMessage(name="Raw")]
     viewer.show(panels=panels, layout=BELOW)
-    viewer.source.known.clear()
+    viewer.source.topics.clear()
     viewer.offer("/cmd", TWIST, "/robot")
     front = tab.page.locator(".wv-docked [role=tab][data-tab=Plot]")
     tab.wait_for(lambda: front.count() == 1)
@@ -62,7 +62,7 @@ def test_a_field_is_added_in_a_popover_by_keys(viewer: PageBench, viewer_tab: Vi
     expect(topic).to_be_focused()
     topic.fill("/cmd")
     topic.press("Enter")
-    tab.wait_for(lambda: "/cmd" in viewer.source.wanted)
+    tab.wait_for(lambda: "/cmd" in viewer.source.subscriptions)
     publish(viewer, 0.0)
     fields = tab.page.get_by_role("listbox", name="Fields").get_by_role("option")
     tab.wait_for(lambda: fields.count() == 6)

@@ -43,7 +43,7 @@ def offer(*publishers: str, to: tuple[Endpoint, ...] = ()) -> Offer:
 
 def open_graph(viewer: PageBench, tab: ViewerTab, offers: dict[str, Offer]) -> None:
     """Open the panel, with these topics and no others."""
-    viewer.source.known = offers
+    viewer.source.topics = offers
     open_panel(tab, make(NodeGraph, {}))
 
 

@@ -16,7 +16,7 @@ from tests.page.image_panes import (
     middle,
     near,
     pane,
-    shown,
+    pane_color,
 )
 from tests.page.page_bench import PageBench, PageServer
 from tests.page.tabs import ViewerTab
@@ -48,13 +48,13 @@ def test_a_page_asks_for_as_many_pictures_as_the_server_allows(
     viewer.show(*(image(f"/camera{number}") for number in range(MAX_PANES + 6)))
     ids = [row.id for row in viewer.rows]
 
-    def seen() -> set[str]:
+    def visible_ids() -> set[str]:
         return {id_ for id_ in ids if not page_server.scene.is_unseen(id_)}
 
-    tab.wait_for(lambda: seen() == set(ids[:MAX_PANES]))
+    tab.wait_for(lambda: visible_ids() == set(ids[:MAX_PANES]))
     for id_ in ids[:10]:
         viewer.do(RemoveDisplay(id_))
-    tab.wait_for(lambda: seen() >= set(ids[10:]))
+    tab.wait_for(lambda: visible_ids() >= set(ids[10:]))
 
 
 def test_two_images_of_one_topic_have_their_names_too(tab: Any) -> None:
@@ -144,14 +144,14 @@ def test_an_image_is_as_high_as_its_picture_and_is_placed_as_a_panel(tab: Any) -
     frame = tab.page.locator(".wv-below .wv-docked")
     tab.wait_for(lambda: "Hz" in frame.locator(".wv-docked-head").inner_text())
     assert frame.locator(".wv-docked-head b").inner_text() == "/color"
-    assert near(shown(tab, "Color"), COLORS[108, 80])
+    assert near(pane_color(tab, "Color"), COLORS[108, 80])
     assert tab.page.locator(".wv-panes .wv-pane").count() == 1
     # Of two in one place, the one behind gets its pictures when it is chosen.
     both = Layout(below=(DockedPanel(panel="image:Image", tabs=("image:Image 2",)),))
     tab.viewer.do(SetLayout(both))
     tab.wait_for(lambda: frame.get_by_role("tab").all_inner_texts() == ["/color", "/depth"])
     frame.get_by_role("tab", name="/depth").click()
-    tab.wait_for(lambda: near(shown(tab, "Depth", (0.02, 0.02)), (0, 0, 0)))
+    tab.wait_for(lambda: near(pane_color(tab, "Depth", (0.02, 0.02)), (0, 0, 0)))
     assert tab.page.locator(".wv-dock").is_hidden()
     frame.get_by_role("button", name="With the images").click()
     tab.wait_for_command(SetLayout(Layout(below=(below,))))

@@ -19,11 +19,11 @@ from tests.page.image_panes import (
     middle,
     near,
     pane,
+    pane_color,
     publish,
     rgba,
     send,
     show_images,
-    shown,
 )
 from tests.page.page_bench import PageBench, PageServer
 from tests.page.tabs import ViewerTab
@@ -71,8 +71,8 @@ def of(viewer: PageBench, name: str, pictures: list[tuple[str, int]]) -> list[in
 
 
 def test_pictures_have_their_colors_and_hovering_reads_values(tab: Any) -> None:
-    assert near(shown(tab, "Color"), COLORS[108, 80])
-    assert near(shown(tab, "Depth", (0.02, 0.02)), (0, 0, 0))  # no measurement
+    assert near(pane_color(tab, "Color"), COLORS[108, 80])
+    assert near(pane_color(tab, "Depth", (0.02, 0.02)), (0, 0, 0))  # no measurement
     tab.wait_for(lambda: f"x 40 · y 100 · {DEPTHS[100, 40]:.3f} m" in hover(tab, "Depth", 40, 100))
     tab.wait_for(lambda: "no measurement" in hover(tab, "Depth", 2, 2))
     red, green, blue = COLORS[72, 96]
@@ -95,7 +95,7 @@ def test_only_what_is_shown_is_sent_and_only_the_newest(
     for number in range(2, 102):
         publish(viewer, "Color", np.full_like(COLORS, number), "rgb8")
         publish(viewer, "Depth", DEPTHS, "32FC1")
-    tab.wait_for(lambda: near(shown(tab, "Color"), (101, 101, 101), 3))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (101, 101, 101), 3))
     assert not of(viewer, "Depth", pictures)
     assert len(of(viewer, "Color", pictures)) < 100
     pane(tab, "Depth").get_by_role("button", name="Expand /depth").click()
@@ -107,12 +107,12 @@ def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any) -> None:
     viewer, red = tab.viewer, np.full((120, 160, 3), (200, 60, 20), np.uint8)
     show_images(viewer, photos.COMPRESSED)
     send(viewer, "Color", photos.COMPRESSED, photos.jpeg(red))
-    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 60, 20)))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (200, 60, 20)))
     tab.wait_for(lambda: "rgb 20" in hover(tab, "Color", 5, 5).replace("rgb 199", "rgb 200"))
     # What a publisher of RGB names BGR has red and blue exchanged.
     swapped = photos.jpeg(red, "bgr8; jpeg compressed rgb8")
     send(viewer, "Color", photos.COMPRESSED, swapped)
-    tab.wait_for(lambda: near(shown(tab, "Color"), (20, 60, 200)))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (20, 60, 200)))
     damaged = photos.jpeg(red)
     data = damaged["data"].copy()
     data[data.tobytes().index(b"\xff\xc4") :] = 0  # all behind the size
@@ -122,7 +122,9 @@ def test_jpeg_is_decoded_by_the_page_and_swapped_if_it_must(tab: Any) -> None:
         lambda: problem.is_visible() and "cannot decode this image/jpeg" in problem.inner_text()
     )
     send(viewer, "Color", photos.COMPRESSED, photos.jpeg(COLORS))
-    tab.wait_for(lambda: near(shown(tab, "Color"), COLORS[108, 80]) and not problem.is_visible())
+    tab.wait_for(
+        lambda: near(pane_color(tab, "Color"), COLORS[108, 80]) and not problem.is_visible()
+    )
 
 
 def test_marks_lie_over_the_picture_and_follow_the_zoom(
@@ -224,9 +226,9 @@ def test_video_is_decoded_by_the_page(tab: Any) -> None:
 
     show_images(viewer, VIDEO)
     play(0, 2)
-    tab.wait_for(lambda: near(shown(tab, "Color"), (80, 40, 40), 25))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (80, 40, 40), 25))
     play(2, 5)
-    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 40, 40), 25))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (200, 40, 40), 25))
     problem = pane(tab, "Color").locator(".wv-pane-problem")
     damaged = {"format": "h264", "data": [0, 0, 0, 1, 0x65, *[0] * 50]}  # a key frame of nothing
 
@@ -236,7 +238,9 @@ def test_video_is_decoded_by_the_page(tab: Any) -> None:
 
     tab.wait_for(again)
     play(0, 5)
-    tab.wait_for(lambda: near(shown(tab, "Color"), (200, 40, 40), 25) and not problem.is_visible())
+    tab.wait_for(
+        lambda: near(pane_color(tab, "Color"), (200, 40, 40), 25) and not problem.is_visible()
+    )
 
 
 def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(tab: Any) -> None:
@@ -255,20 +259,20 @@ def test_a_picture_that_is_decoded_later_is_not_drawn_over_a_newer_one(tab: Any)
     publish(tab.viewer, "Color", np.full_like(COLORS, 100), "rgb8")
     tab.turn()
     tab.page.evaluate("window.decodeIt()")
-    tab.wait_for(lambda: near(shown(tab, "Color"), (100, 100, 100), 3))
+    tab.wait_for(lambda: near(pane_color(tab, "Color"), (100, 100, 100), 3))
     tab.page.wait_for_function("window.isLate")
-    assert near(shown(tab, "Color"), (100, 100, 100), 3)
+    assert near(pane_color(tab, "Color"), (100, 100, 100), 3)
 
 
 def test_two_pages_and_a_flood_leave_no_queue(
     tab: Any, pictures: list[tuple[str, int]], other: Any
 ) -> None:
-    other.wait_for(lambda: shown(other, "Color") and shown(other, "Depth"))
+    other.wait_for(lambda: pane_color(other, "Color") and pane_color(other, "Depth"))
     for _ in range(FLOOD):
         publish(tab.viewer, "Color", COLORS, "rgb8")
     publish(tab.viewer, "Color", np.full_like(COLORS, 7), "rgb8")
     for each in (tab, other):
-        each.wait_for(lambda each=each: near(shown(each, "Color"), (7, 7, 7), 3))
+        each.wait_for(lambda each=each: near(pane_color(each, "Color"), (7, 7, 7), 3))
     assert len(pictures) < FLOOD, "A page is sent the next one once it has shown one before."
 
 

@@ -47,7 +47,7 @@ def tab(viewer_tab: ViewerTab) -> ViewerTab:
 @pytest.fixture
 def silent(viewer: PageBench, tab: ViewerTab) -> ViewerTab:
     """A tab of a viewer in which no node publishes anything."""
-    viewer.source.known.clear()
+    viewer.source.topics.clear()
     return tab
 
 

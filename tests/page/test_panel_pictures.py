@@ -35,7 +35,7 @@ Taken = Callable[..., None]
 
 
 @pytest.fixture
-def taken(
+def compare(
     viewer: PageBench,
     open_viewer_tab: Callable[..., Any],
     request: pytest.FixtureRequest,
@@ -58,7 +58,7 @@ def taken(
     tab.page.add_style_tag(content=STILL)
     tab.page.evaluate(WIDE)
 
-    def taken(name: str, panel: Any, fill: Callable[[], object], *displays: Item) -> None:
+    def compare(name: str, panel: Any, fill: Callable[[], object], *displays: Item) -> None:
         viewer.show()
         tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets").count() == 0)
         open_panel(tab, panel, *displays, memory=MemorySettings(seconds=0.0))
@@ -68,7 +68,7 @@ def taken(
         tab.wait_for(lambda: "." in time.inner_text())  # which stands still
         references.check(name, capture(tab)[:, :WIDTH], tolerance=TOLERANCE)
 
-    return taken
+    return compare
 
 
 def offer(type_: str, *publishers: str, to: tuple[str, ...] = ()) -> Offer:
@@ -78,11 +78,11 @@ def offer(type_: str, *publishers: str, to: tuple[str, ...] = ()) -> Offer:
     return Offer(tuple(Publisher(each, type_, *volatile) for each in publishers), readers=readers)
 
 
-def test_the_graph_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None:
+def test_the_graph_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
     asking: Any = ("reliable", "volatile")
     scan = offer(SCAN, "/laser", to=("/amcl",))
     costmap = Endpoint("/costmap", SCAN, *asking)
-    viewer.source.known = {
+    viewer.source.topics = {
         "/scan": Offer(scan.publishers, readers=(*scan.readers, costmap)),
         "/odom": offer(ODOMETRY, "/base", to=("/amcl", "/controller")),
         "/amcl_pose": offer(NUMBER, "/amcl", to=("/planner",)),
@@ -97,10 +97,10 @@ def test_the_graph_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None
                 viewer.publish(topic, type_, {})
             viewer.turn()
 
-    taken("panel_graph", make(NodeGraph, {}), drive, LaserScan(name="a"), Odometry(name="b"))
+    compare("panel_graph", make(NodeGraph, {}), drive, LaserScan(name="a"), Odometry(name="b"))
 
 
-def test_the_log_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None:
+def test_the_log_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
     lines = (
         (20, "map_server", "Read the map building.yaml"),
         (20, "amcl", "Initial pose: 0.000 0.000 0.000"),
@@ -117,10 +117,10 @@ def test_the_log_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None:
         viewer.turn()
 
     viewer.offer("/rosout", LOG, "/robot")
-    taken("panel_log", make(Log, {}), log)
+    compare("panel_log", make(Log, {}), log)
 
 
-def test_diagnostics_are_as_in_their_picture(viewer: PageBench, taken: Taken) -> None:
+def test_diagnostics_are_as_in_their_picture(viewer: PageBench, compare: Taken) -> None:
     def report() -> None:
         for at_s in range(8):
             load = {"key": "load", "value": f"{2 + math.sin(at_s):.2f} A"}
@@ -133,10 +133,10 @@ def test_diagnostics_are_as_in_their_picture(viewer: PageBench, taken: Taken) ->
         viewer.turn()
 
     viewer.offer("/diagnostics", ARRAY, "/robot")
-    taken("panel_diagnostics", make(Diagnostics, {}), report)
+    compare("panel_diagnostics", make(Diagnostics, {}), report)
 
 
-def test_a_plot_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None:
+def test_a_plot_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
     topics = ("/speed", "/turn", "/voltage")
     curves = [f"{topic}.data" for topic in topics]
 
@@ -151,4 +151,4 @@ def test_a_plot_is_as_in_its_picture(viewer: PageBench, taken: Taken) -> None:
 
     for topic in topics:
         viewer.offer(topic, NUMBER, "/base")
-    taken("panel_plot", make(Plot, {"curves": curves, "own_axis": curves[1:]}), drive)
+    compare("panel_plot", make(Plot, {"curves": curves, "own_axis": curves[1:]}), drive)

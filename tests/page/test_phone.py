@@ -103,13 +103,13 @@ def test_buttons_can_be_hit_with_a_finger(phone: ViewerTab, lab: Path) -> None:
 
 def test_rows_and_heads_of_panels_can_be_hit_with_a_finger(phone: ViewerTab) -> None:
     viewer = phone.viewer
-    viewer.source.known.clear()
+    viewer.source.topics.clear()
     viewer.offer("/scan", SCAN, "/driver")
     phone.button("Show the panels").tap()
     phone.show_tab("Topics")
     phone.wait_for(lambda: phone.page.locator(".wv-topic").count() == 1)
     phone.page.locator(".wv-topic").tap()
-    phone.wait_for(lambda: "/scan" in viewer.source.wanted)
+    phone.wait_for(lambda: "/scan" in viewer.source.subscriptions)
     viewer.publish("/scan", SCAN, {})
     phone.wait_for(lambda: phone.page.locator(".wv-field-row").count() > 3)
     assert too_small(phone) == []
@@ -302,14 +302,14 @@ def tree(phone: ViewerTab) -> Tree:
 
 
 def test_a_finger_that_rests_on_a_row_drags_it(viewer: PageBench, tree: Tree) -> None:
-    moved = MoveDisplay(viewer.id("e"), viewer.id("g"), "")
+    move_command = MoveDisplay(viewer.id("e"), viewer.id("g"), "")
     finger = Finger(tree.tab.page)
     x, y = at(tree, "e", 0.5)
     finger.hold(x, y)
     for step in (0.3, 0.7, 1.0):
         finger.move(x, y + step * (at(tree, "g", 0.5)[1] - y))
     finger.lift()
-    tree.tab.wait_for_command(moved)
+    tree.tab.wait_for_command(move_command)
     assert viewer.outline() == "g(e) d"
 
 

@@ -200,21 +200,21 @@ def test_panels_are_added_and_removed_and_their_properties_edited(
 ) -> None:
     tab = viewer_tab
     panel = open_panel(tab, make(Limited, {}))
-    (shown,) = viewer.states[-1].panels
+    (panel_tab,) = viewer.states[-1].panels
     settings = tab.button("Settings of this panel")
     settings.click()
     most = tab.page.get_by_role("spinbutton", name="Most")
     expect(most).to_be_focused()
     most.fill("7")
     most.press("Enter")
-    tab.wait_for_command(SetPanelProperty(shown.id, "most", 7))
+    tab.wait_for_command(SetPanelProperty(panel_tab.id, "most", 7))
     assert panel.most == 7
     most.press("Escape")
     expect(most).to_have_count(0)
     expect(settings).to_be_focused()
     tab.button("More for this panel").click()
     tab.page.get_by_role("menuitem", name="Remove panel").click()
-    tab.wait_for_command(RemovePanel(shown.id))
+    tab.wait_for_command(RemovePanel(panel_tab.id))
     assert viewer.states[-1].panels == ()
     viewer.show(panels=[make(Limited, {}), make(Limited, {})])
     tab.wait_for(lambda: titles(tab).count("Limited") == 2)

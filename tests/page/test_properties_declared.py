@@ -120,7 +120,7 @@ def test_every_value_has_its_path() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "sent"),
+    ("value", "expected"),
     [
         ("half \ud800", "half ?"),
         ("x" * (MAX_TEXT + 9), "x" * (MAX_TEXT - 1) + "…"),
@@ -128,6 +128,6 @@ def test_every_value_has_its_path() -> None:
         (2**70, 2**70),
     ],
 )
-def test_whatever_a_value_is_can_be_sent(value: Any, sent: Any) -> None:
-    assert sendable(value) == sent
+def test_whatever_a_value_is_can_be_sent(value: Any, expected: Any) -> None:
+    assert sendable(value) == expected
     msgspec.json.encode(sendable(value))

@@ -31,7 +31,7 @@ REMEMBERED_S = 55.0
 """Seconds that the memory reaches back."""
 SAVE = re.compile(r"Save (last|all) \d+ s")
 WATCH = [WatchRule(display="Scan", status="error")]
-SAVED = "2026-11-23_05-12-47_Scan_error"
+FOLDER = "2026-11-23_05-12-47_Scan_error"
 """Name of the recording of a rule."""
 
 
@@ -43,7 +43,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     bag.add("/front", SCAN)
     for at_s in range(10):
         bag.put(at_s, "/front", {})
-    bag.write(tmp_path / "webviz_black_box" / SAVED)
+    bag.write(tmp_path / "webviz_black_box" / FOLDER)
     return tmp_path
 
 
@@ -177,7 +177,7 @@ def test_a_recording_of_a_rule_is_opened_and_left(
     live.wait_for(live.button("Black box").is_visible)
     live.wait_for(is_listed)
     item.click()
-    live.wait_for_command(OpenRecording(str(folder / "webviz_black_box" / SAVED)))
+    live.wait_for_command(OpenRecording(str(folder / "webviz_black_box" / FOLDER)))
     banner = live.page.locator(".wv-rewound-banner")
     live.wait_for(lambda: "Recording " in banner.inner_text())
     expect(banner).to_have_text(f"Recording {name} · not live · press L to return")
@@ -232,7 +232,7 @@ def test_all_buttons_of_the_time_are_within_the_window(
     look_back(viewer, 12.4)
     live.wait_for(live.button("Live (L)").is_visible)
     assert live.page.evaluate(OUTSIDE) == []
-    viewer.do(OpenRecording(str(folder / "webviz_black_box" / SAVED)))
+    viewer.do(OpenRecording(str(folder / "webviz_black_box" / FOLDER)))
     live.wait_for(live.button("Loop").is_visible)
     assert live.page.evaluate(OUTSIDE) == []
 
@@ -253,13 +253,13 @@ def test_live_topics_are_recorded_and_their_last_minute_saved(
     expect(save).to_have_accessible_name(re.compile(r"Save last 5\d s"))
     save.click()
     tab.wait_for_command(SaveMemory())
-    (saved,) = {*folder.iterdir()} - before - {recorded}
+    (new_folder,) = {*folder.iterdir()} - before - {recorded}
     assert [*recorded.glob("*.mcap")]
-    assert [*saved.glob("*.mcap")]
+    assert [*new_folder.glob("*.mcap")]
     look_back(viewer, 20.0)
     expect(save).to_have_accessible_name(re.compile(r"Save all \d\d s"))
     card = tab.page.get_by_role("status", name="File")
-    tab.wait_for(lambda: saved.name in card.inner_text())
+    tab.wait_for(lambda: new_folder.name in card.inner_text())
     page_server.begin(memory=MemorySettings(seconds=0.0))
     tab.wait_for(lambda: tab.page.get_by_role("button", name=SAVE).count() == 0)
     tab.wait_for(card.is_hidden)  # its number would lead to another file

@@ -162,14 +162,14 @@ def test_two_who_look_have_views_of_their_own_with_their_numbers(
     ):
         for key, value in changes.items():
             viewer.do(ChangeView(key, value), Sender(tab.browser))
-    for each, seen, unseen, path, value in (
+    for each, visible, hidden, path, value in (
         (viewer_tab, "Scale", "Position", "scale", "62.3"),
         (other_tab, "Position", "Scale", "yaw", "1.25"),
     ):
         each.show_tab("Views")
         panel = each.page.locator("#wv-panel")
-        each.wait_for(lambda text=panel.inner_text, seen=seen: seen in text())
-        assert unseen not in panel.inner_text()
+        each.wait_for(lambda text=panel.inner_text, visible=visible: visible in text())
+        assert hidden not in panel.inner_text()
         assert panel.locator(f"[data-path='{path}'] input").input_value() == value
         each.show_tab("Displays")
 
@@ -224,7 +224,7 @@ def test_two_who_look_into_topics_choose_for_themselves_until_one_leaves(
         each.page.locator(".wv-cell-name").get_by_text(topic, exact=True).click()
 
     def inspected() -> set[str]:
-        return {topic for topic in topics if topic in viewer.source.wanted}
+        return {topic for topic in topics if topic in viewer.source.subscriptions}
 
     tab.wait_for(lambda: inspected() == set(topics))
     for topic, data in zip(topics, ("mine", "yours"), strict=True):

@@ -132,8 +132,8 @@ def test_displays_of_other_types_share_what_they_declare_alike(
 def test_several_are_selected_without_keys(viewer: PageBench, tree: Tree) -> None:
     viewer.show(*named("a", "b", "c"))
     tree.click("a")
-    for wanted in (["a", "c"], ["b"]):
+    for expected in (["a", "c"], ["b"]):
         tree.tab.button("List options").click()
         tree.tab.page.get_by_role("menu").get_by_text("Select several").click()
-        tree.click(wanted[-1])
-        assert tree.selected() == wanted
+        tree.click(expected[-1])
+        assert tree.selected() == expected

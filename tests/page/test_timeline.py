@@ -32,7 +32,7 @@ from webviz.sources.player import Player
 
 START_S = START_NS // 10**9
 HOSTILE = "<b>lost</b>\x1b\u202e" + "x" * 10_000
-SHOWN = Everything(name="Scan", topic=Topic("/front"))
+DISPLAY = Everything(name="Scan", topic=Topic("/front"))
 NO_MEMORY = MemorySettings(seconds=0.0)
 EDGE = 8
 """Pixels beside the track."""
@@ -69,7 +69,7 @@ def play(
     def play(bag: Path) -> PageBench:
         players.append(Player(BagHistory([bag])))
         viewer = page_server.begin(player=players[-1])
-        viewer.show(SHOWN)
+        viewer.show(DISPLAY)
         return viewer
 
     yield play
@@ -299,7 +299,7 @@ def test_bookmarks_are_added_gone_to_and_removed(timeline: ViewerTab) -> None:
     timeline.wait_for_command(SaveBookmark("lost here", 12.5))
     assert viewer.settings.bookmarks == {"lost here": START_S + 12.5}
     bookmarks = {"of another recording": START_S + 1000.0, "lost here": START_S + 80.0}
-    viewer.show(SHOWN, bookmarks=bookmarks)
+    viewer.show(DISPLAY, bookmarks=bookmarks)
     timeline.turn()
     page.locator(".wv-track").click(position=at(timeline, 80.4))
     timeline.wait_for(lambda: last_seek(timeline) == 80.0)

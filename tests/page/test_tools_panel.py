@@ -18,7 +18,7 @@ SEND = """async (id) => {
 ASKS = """async () => (await import("webviz/tools/registry.js")).all().some(({ asks }) => asks)"""
 
 
-def shown(viewer: PageBench, tab: ViewerTab) -> tuple[str, str]:
+def show_tools(viewer: PageBench, tab: ViewerTab) -> tuple[str, str]:
     """Open the panel with two tools; return their ids."""
     tools = [GoalPose(name="2D Goal Pose"), PoseEstimate(name="2D Pose Estimate")]
     viewer.show(tools=tools, publish=("/goal_pose", "/initialpose"))
@@ -34,7 +34,7 @@ def tool(viewer: PageBench, id_: str) -> Tool:
 
 def test_each_tool_has_its_properties(viewer: PageBench, viewer_tab: ViewerTab) -> None:
     tab = viewer_tab
-    _, estimate = shown(viewer, tab)
+    _, estimate = show_tools(viewer, tab)
     field = tab.page.locator("[data-path='covariance_yaw'] input")
     tab.wait_for(field.is_visible)
     field.fill("0.5")
@@ -49,7 +49,7 @@ def test_each_tool_has_its_properties(viewer: PageBench, viewer_tab: ViewerTab) 
 
 def test_a_tool_that_asks_asks_again(viewer: PageBench, viewer_tab: ViewerTab) -> None:
     tab = viewer_tab
-    goal, _ = shown(viewer, tab)
+    goal, _ = show_tools(viewer, tab)
     tab.page.evaluate(SEND, goal)
     tab.wait_for(lambda: len(viewer.published()) == 1)
     viewer.do(SetToolProperty(goal, "confirm", True))
@@ -75,7 +75,7 @@ def test_what_was_sent_is_listed_sent_again_and_copied(
     viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
     tab = viewer_tab
-    goal, _ = shown(viewer, tab)
+    goal, _ = show_tools(viewer, tab)
     tab.page.evaluate(SEND, goal)
     tab.wait_for(lambda: len(viewer.published()) == 1)
     ((topic, message),) = viewer.published()
@@ -115,7 +115,7 @@ def test_a_flood_of_gestures_is_refused_and_hidden_commands_are_unknown(
     viewer: PageBench, viewer_tab: ViewerTab
 ) -> None:
     tab = viewer_tab
-    goal, _ = shown(viewer, tab)
+    goal, _ = show_tools(viewer, tab)
     send_all = f"async (id) => {{ for (let i = 0; i < 200; i++) await ({SEND})(id); }}"
     tab.page.evaluate(send_all, goal)
     text = "Not sent: more than 20 gestures within a second. Wait a moment."

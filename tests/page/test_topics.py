@@ -7,7 +7,7 @@ from typing import Annotated
 
 import playwright.sync_api as playwright
 import pytest
-from shown_stores import shown_by
+from page_stores import page_store
 
 from tests.page.page_bench import PageBench
 from tests.page.tabs import HEIGHT, WIDTH, ViewerTab
@@ -77,7 +77,7 @@ def choose(tab: ViewerTab, name: str) -> None:
 
 def show(viewer: PageBench, **publishers: tuple[Publisher, ...]) -> None:
     """Have these topics, and no others."""
-    viewer.source.known = {f"/{name}": Offer(each) for name, each in publishers.items()}
+    viewer.source.topics = {f"/{name}": Offer(each) for name, each in publishers.items()}
 
 
 def inspected(viewer: PageBench) -> set[str]:
@@ -88,7 +88,7 @@ def inspected(viewer: PageBench) -> set[str]:
 def measure_scans(viewer: PageBench) -> None:
     """Show scans of 4.5 kB that come at 10 Hz, 6.1 ms after their stamp."""
     viewer.show(LaserScan(name="Scan"))
-    viewer.source.known["/scan"] = Offer((SCAN,), subscribers=3)
+    viewer.source.topics["/scan"] = Offer((SCAN,), subscribers=3)
     viewer.turn()
     for _ in range(40):
         viewer.pass_time(0.1)
@@ -98,7 +98,7 @@ def measure_scans(viewer: PageBench) -> None:
 
 
 def test_a_topic_has_its_facts_in_a_row(viewer: PageBench, panel: ViewerTab) -> None:
-    viewer.source.known[HOSTILE] = Offer((MAP, MAP), subscribers=0)
+    viewer.source.topics[HOSTILE] = Offer((MAP, MAP), subscribers=0)
     measure_scans(viewer)
     panel.wait_for(lambda: "10.0 Hz" in row(panel, "/scan"))
     scan = row(panel, "/scan")
@@ -234,10 +234,10 @@ def test_why_there_is_no_message_is_said(viewer: PageBench, panel: ViewerTab) ->
     show(viewer, text=(SCAN,))
     choose(panel, "/text")
     panel.wait_for(lambda: "No message has arrived yet." in panel.text())
-    viewer.source.known["/text"] = Offer((SCAN,), problem=f"its type is unknown {HOSTILE}")
+    viewer.source.topics["/text"] = Offer((SCAN,), problem=f"its type is unknown {HOSTILE}")
     reason = f"This topic cannot be read: its type is unknown {HOSTILE}."
     panel.wait_for(lambda: reason in panel.text())
-    viewer.source.known["/text"] = Offer(())
+    viewer.source.topics["/text"] = Offer(())
     panel.wait_for(lambda: "No publisher on this topic." in panel.text())
 
 
@@ -245,10 +245,10 @@ def test_a_panel_that_is_closed_looks_into_nothing(viewer: PageBench, panel: Vie
     show(viewer, scan=(SCAN,))
     choose(panel, "/scan")
     panel.wait_for(lambda: inspected(viewer) == {"/scan"})
-    assert "/scan" in viewer.source.wanted
+    assert "/scan" in viewer.source.subscriptions
     panel.show_tab("Displays")
     panel.wait_for(lambda: inspected(viewer) == set())
-    panel.wait_for(lambda: "/scan" not in viewer.source.wanted)
+    panel.wait_for(lambda: "/scan" not in viewer.source.subscriptions)
 
 
 def test_a_topic_is_shown_by_the_display_that_fits_or_says_why_not(
@@ -301,14 +301,14 @@ def test_a_name_that_cannot_be_sent_stops_no_other_store(
     show(viewer, scan=(SCAN,))
     choose(panel, "/scan")
     panel.wait_for(lambda: inspected(viewer) == {"/scan"})
-    viewer.source.known["/half \ud800"] = Offer((SCAN,))
+    viewer.source.topics["/half \ud800"] = Offer((SCAN,))
     viewer.publish("/scan", SCAN.type, {"header": {"frame_id": "still read"}})
     panel.wait_for(lambda: "still read" in panel.text())
 
 
 def test_where_publishers_differ_the_qos_is_mixed() -> None:
     offers = {"/scan": Offer((SCAN,)), "/mixed": Offer((SCAN, MAP))}
-    topics_store = shown_by("topics", State(offers=offers))
+    topics_store = page_store("topics", State(offers=offers))
     assert topics_store["/scan"]["qos"] == "best effort, volatile"
     assert topics_store["/mixed"]["qos"] == "mixed, mixed"
 
@@ -322,7 +322,7 @@ def test_hidden_topics_are_listed_when_they_are_asked_for(
     panel.wait_for(grid.get_by_text("/scan").is_visible)
     switch = panel.button("Hidden topics")
     playwright.expect(switch).to_be_hidden()
-    viewer.source.known["/dock/_action/status"] = Offer((publisher,))
+    viewer.source.topics["/dock/_action/status"] = Offer((publisher,))
     panel.wait_for(switch.is_visible)
     playwright.expect(grid.get_by_text("/dock/_action/status")).to_be_hidden()
     switch.click()

@@ -51,8 +51,8 @@ def move(
     newest = viewer.source.now - round(age_s * SECOND)
     for number in reversed(range(samples)):
         stamp = newest - number * SECOND // 20
-        moved = [stamped_transform(parent, frame, stamp, xyz, xyzw)]
-        viewer.publish("/tf", MESSAGE, {"transforms": moved})
+        stamped_transforms = [stamped_transform(parent, frame, stamp, xyz, xyzw)]
+        viewer.publish("/tf", MESSAGE, {"transforms": stamped_transforms})
     viewer.turn()
 
 
@@ -191,8 +191,8 @@ def test_the_transform_between_two_frames_is_read_out(viewer: PageBench, panel: 
 @pytest.mark.parametrize("argument", ["", "map", '["map"]', '["map", 1]', "[" * 5000, '{"a": 1}'])
 def test_what_names_no_two_frames_is_ignored(argument: str) -> None:
     assert pair_of(argument) is None
-    shown = stand_in(TransformsFeature, transform_between=lambda pair: None)
-    assert shown.between(argument) is None
+    feature = stand_in(TransformsFeature, transform_between=lambda pair: None)
+    assert feature.between(argument) is None
 
 
 @pytest.fixture

@@ -29,7 +29,7 @@ from webviz.commands import (
 from webviz.files.config import Unreadable
 from webviz.shell.testing.messages import header
 
-LOST = {"Laser": Status(Level.ERROR, "The laser is lost. Start its driver.")}
+NO_LASER = {"Laser": Status(Level.ERROR, "The laser is lost. Start its driver.")}
 FEW = {"Points": Status(Level.WARN, "No points.")}
 
 
@@ -71,10 +71,10 @@ def test_an_empty_list_explains_itself_above_the_button_that_adds(
 def test_a_problem_is_a_line_under_the_name_and_a_disabled_display_has_none(
     viewer: PageBench, tree: Tree
 ) -> None:
-    viewer.report(a=LOST, b=FEW)
+    viewer.report(a=NO_LASER, b=FEW)
     viewer.show(*named("a", "b", "c"))
     tree.wait_for_names("a", "b", "c")
-    text = LOST["Laser"].text
+    text = NO_LASER["Laser"].text
     tree.tab.wait_for(lambda: tree.row("a").inner_text().split("\n") == ["a", text])
     assert tree.row("a").get_by_text(text).get_attribute("data-tip") == text
     levels = [tree.row(name).get_attribute("data-level") for name in "abc"]
@@ -162,14 +162,14 @@ def test_a_click_selects_and_ctrl_and_shift_select_several(viewer: PageBench, tr
 def test_groups_fold_and_a_folded_one_says_what_is_wrong_inside(
     viewer: PageBench, tree: Tree
 ) -> None:
-    viewer.report(a=LOST)
+    viewer.report(a=NO_LASER)
     viewer.show(group("g", *named("a")), *named("b"))
     tree.wait_for_names("g", "a", "b")
-    tree.tab.wait_for(lambda: LOST["Laser"].text in tree.row("a").inner_text())
+    tree.tab.wait_for(lambda: NO_LASER["Laser"].text in tree.row("a").inner_text())
     assert tree.row("g").inner_text() == "g"
     tree.fold("g")
     tree.wait_for_names("g", "b")
-    assert tree.row("g").inner_text() == f"g\na: {LOST['Laser'].text}"
+    assert tree.row("g").inner_text() == f"g\na: {NO_LASER['Laser'].text}"
     assert tree.row("g").get_attribute("aria-expanded") == "false"
     tree.fold("g")
     tree.wait_for_names("g", "a", "b")
@@ -192,11 +192,11 @@ def test_a_display_unfolds_its_properties_below_it(viewer: PageBench, tree: Tree
 def test_the_selected_display_is_shown_below_until_that_is_closed(
     viewer: PageBench, tree: Tree
 ) -> None:
-    viewer.report(a=LOST)
+    viewer.report(a=NO_LASER)
     viewer.show(*named("a", "b"))
     tree.click("a")
     details = tree.details
-    tree.tab.wait_for(lambda: LOST["Laser"].text in details.inner_text())
+    tree.tab.wait_for(lambda: NO_LASER["Laser"].text in details.inner_text())
     tree.tab.button("Close properties").click()
     tree.click("b")
     assert not details.is_visible()
@@ -236,7 +236,7 @@ def test_somebody_who_renames_is_not_disturbed_by_what_others_do(
     field = tree.tab.page.get_by_label("Name", exact=True)
     tree.row("b").dblclick()
     field.fill("lab")
-    viewer.report(b=LOST)
+    viewer.report(b=NO_LASER)
     viewer.do(AddDisplay("Grid", {"name": "new"}))
     viewer.do(MoveDisplay(viewer.id("new"), "", a))
     viewer.do(MoveDisplay(a))
@@ -350,14 +350,14 @@ def test_the_search_finds_by_name_type_and_topic(viewer: PageBench, tree: Tree) 
     tree.wait_for_names("Sensors", "scan", "Cloud", "Map")
     field = tree.tab.page.get_by_label("Filter displays")
     tree.fold("Sensors")
-    for text, found in (
+    for text, expected in (
         ("LASER", ["Sensors", "scan"]),
         ("group", ["Sensors", "scan", "Cloud"]),
         ("cloud every", ["Sensors", "Cloud"]),
         ("nothing", []),
     ):
         field.fill(text)
-        tree.wait_for_names(*found)
+        tree.wait_for_names(*expected)
     assert "No matching displays." in tree.tab.text()
     field.press("Escape")
     tree.wait_for_names("Sensors", "Map")
@@ -393,8 +393,8 @@ def test_untrusted_names_are_shown_as_text_on_one_line(viewer: PageBench, tree: 
     viewer.report(**dict.fromkeys(names, status))
     viewer.show(*named(*names))
     tree.tab.wait_for(lambda: len(tree.names()) == len(names))
-    shown = [name.strip() for name in tree.names()]
-    assert shown == list(names.values())
+    texts = [name.strip() for name in tree.names()]
+    assert texts == list(names.values())
     heads = tree.tab.page.locator(".wv-tree-canvas .wv-tree-head").all()
     boxes = [head.bounding_box() for head in heads]
     assert {box["height"] for box in boxes if box} == {26}
@@ -402,7 +402,7 @@ def test_untrusted_names_are_shown_as_text_on_one_line(viewer: PageBench, tree: 
 
 
 def test_nothing_in_the_page_changes_while_nothing_changes(viewer: PageBench, tree: Tree) -> None:
-    viewer.report(a=LOST, b=LOST, c=LOST)
+    viewer.report(a=NO_LASER, b=NO_LASER, c=NO_LASER)
     viewer.show(group("g"), *named("a", "b", "c"))
     tree.click("a")
     tree.tab.page.evaluate(
@@ -424,7 +424,7 @@ def test_nothing_in_the_page_changes_while_nothing_changes(viewer: PageBench, tr
 
 def test_five_hundred_displays_are_a_few_rows_in_the_page(viewer: PageBench, tree: Tree) -> None:
     names = [f"row{i}" for i in range(500)]
-    viewer.report(**{name: LOST for i, name in enumerate(names) if i % 3})
+    viewer.report(**{name: NO_LASER for i, name in enumerate(names) if i % 3})
     viewer.show(*named(*names))
     tree.tab.wait_for(lambda: len(tree.names()) > 10)
     assert len(tree.names()) < 60

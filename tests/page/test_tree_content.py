@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 import pytest
 from msgspec.structs import replace
-from shown_stores import shown_by
+from page_stores import page_store
 
 from tests.support.given_parts import GivenParts
 from webviz.api.declared import Topic
@@ -35,7 +35,7 @@ STATUSES = {
 
 
 def row_of(row: Row) -> dict[str, object]:
-    return shown_by("displays", State(rows=(row,)))[row.id]
+    return page_store("displays", State(rows=(row,)))[row.id]
 
 
 def test_a_row_says_its_worst_status_and_nothing_while_all_is_well(make_row: MakeRow) -> None:
@@ -71,23 +71,23 @@ def test_a_cause_that_the_viewer_names_is_said_once_and_its_remedy_offered_every
         make_row("a", statuses={"Links": few, "Transform": own}),
         make_row("b", statuses=STATUSES),
     )
-    shown = shown_by("displays", State(rows=rows, statuses={"Fixed Frame": cause}))
-    assert (shown["a"]["line"], shown["a"]["level"]) == ("", "error")
-    assert shown["b"]["line"] == "No transform."
-    assert shown_by("displays", State(rows=rows))["a"]["line"] == few.text
+    tree_store = page_store("displays", State(rows=rows, statuses={"Fixed Frame": cause}))
+    assert (tree_store["a"]["line"], tree_store["a"]["level"]) == ("", "error")
+    assert tree_store["b"]["line"] == "No transform."
+    assert page_store("displays", State(rows=rows))["a"]["line"] == few.text
     remedy_values = {
         "label": "Use odom",
         "command": "SetFixedFrame",
         "arguments": [{"frame": "odom"}],
     }
     state = State(rows=rows, statuses={"Fixed Frame": cause})
-    assert shown_by("statuses", state, "a")["statuses"][1] == [
+    assert page_store("statuses", state, "a")["statuses"][1] == [
         "Transform",
         "error",
         own.text,
         remedy_values,
     ]
-    assert shown_by("settings", state)["statuses"][0][3] == remedy_values
+    assert page_store("settings", state)["statuses"][0][3] == remedy_values
 
 
 def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
@@ -97,15 +97,15 @@ def test_a_row_names_the_topics_that_it_listens_to(make_row: MakeRow) -> None:
 
 
 @pytest.mark.parametrize(
-    ("hz", "shown"), [(39.84, 40.0), (9.96, 10.0), (0.5349, 0.53), (123.4, 120.0), (0.0, 0.0)]
+    ("hz", "rounded"), [(39.84, 40.0), (9.96, 10.0), (0.5349, 0.53), (123.4, 120.0), (0.0, 0.0)]
 )
 def test_a_rate_has_two_digits_so_that_it_changes_seldom(
-    make_row: MakeRow, hz: float, shown: float
+    make_row: MakeRow, hz: float, rounded: float
 ) -> None:
     state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(hz, 1.0)})
-    assert shown_by("rate", state, "a") == {"hz": shown}
-    assert shown_by("rate", state, "gone") == {}
-    assert shown_by("rate", replace(state, traffic={}), "a") == {}
+    assert page_store("rate", state, "a") == {"hz": rounded}
+    assert page_store("rate", state, "gone") == {}
+    assert page_store("rate", replace(state, traffic={}), "a") == {}
 
 
 def test_a_topic_whose_last_message_is_repeated_is_latched(make_row: MakeRow) -> None:
@@ -116,7 +116,7 @@ def test_a_topic_whose_last_message_is_repeated_is_latched(make_row: MakeRow) ->
     state = State(rows=(make_row("a"),), traffic={"/scan": Traffic(0.0, 0.0)})
     for count, expected in ((1, {"hz": 0.0, "is_latched": True}), (2, {"hz": 0.0})):
         offers = {"/scan": Offer(publishers[:count])}
-        assert shown_by("rate", replace(state, offers=offers), "a") == expected
+        assert page_store("rate", replace(state, offers=offers), "a") == expected
 
 
 class CountingChannel(Channel):
@@ -125,7 +125,7 @@ class CountingChannel(Channel):
     def __init__(self) -> None:
         super().__init__()
         self.names = {"displays"}
-        self.shown = 0
+        self.count = 0
 
     def watched(self) -> set[str]:
         return self.names
@@ -134,30 +134,30 @@ class CountingChannel(Channel):
         pass
 
     def show(self, store: str, values: Mapping[str, Any]) -> None:
-        self.shown += 1
+        self.count += 1
 
 
 def test_a_store_is_made_anew_only_if_what_it_is_made_of_is_new(
     make_row: MakeRow, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    channel, given = CountingChannel(), GivenParts()
-    pages = Pages(channel, lambda command, sender: Future(), parts=given.parts)
+    channel, parts_bench = CountingChannel(), GivenParts()
+    pages = Pages(channel, lambda command, sender: Future(), parts=parts_bench.parts)
 
-    def shown_after(state: State) -> int:
-        given.show(state)
+    def count_after(state: State) -> int:
+        parts_bench.show(state)
         pages.update()
-        return channel.shown
+        return channel.count
 
     state = State(rows=(make_row("a"),))
-    assert shown_after(state) == 1
-    assert shown_after(replace(state, rows=(*state.rows,), frames=("odom",))) == 1
-    assert shown_after(replace(state, rows=(make_row("b"),))) == 2
+    assert count_after(state) == 1
+    assert count_after(replace(state, rows=(*state.rows,), frames=("odom",))) == 1
+    assert count_after(replace(state, rows=(make_row("b"),))) == 2
     channel.names = set()
-    assert shown_after(state) == 2
+    assert count_after(state) == 2
     channel.names = {"displays"}
-    assert shown_after(state) == 3, "nobody knows what the page had"
+    assert count_after(state) == 3, "nobody knows what the page had"
     monkeypatch.setattr(pages_module, "registered_types", lambda: {"file.py": {}})
-    assert shown_after(state) == 4, "there are other types of displays"
+    assert count_after(state) == 4, "there are other types of displays"
 
 
 def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
@@ -172,16 +172,16 @@ def test_half_a_surrogate_pair_reaches_the_page_as_it_is() -> None:
 def test_of_too_many_statuses_the_worst_are_shown(make_row: MakeRow) -> None:
     statuses = {f"frame {i}": Status(Level.OK, "fine") for i in range(500)}
     statuses["last"] = Status(Level.ERROR, "lost")
-    shown = shown_by("statuses", State(rows=(make_row("a", statuses=statuses),)), "a")
-    assert shown["statuses"][0] == ["last", "error", "lost", None]
-    assert len(shown["statuses"]) + shown["more"] == 501
-    assert shown["more"] > 400
+    tree_store = page_store("statuses", State(rows=(make_row("a", statuses=statuses),)), "a")
+    assert tree_store["statuses"][0] == ["last", "error", "lost", None]
+    assert len(tree_store["statuses"]) + tree_store["more"] == 501
+    assert tree_store["more"] > 400
 
 
 def test_an_entry_that_cannot_be_read_says_why_and_has_nothing_to_edit() -> None:
     reason = Status(Level.ERROR, "displays[0]: unknown display type `Grd`, did you mean `Grid`?")
     row = Row("a", "Grd", None, "Ground", {"Config": reason})
     assert (row_of(row)["line"], row_of(row)["can_edit"]) == (reason.text, False)
-    properties = shown_by("properties", State(rows=(row,)), "a")
+    properties = page_store("properties", State(rows=(row,)), "a")
     assert properties["worst"]["text"] == reason.text
     assert "declared" not in properties

@@ -51,11 +51,11 @@ def test_a_text_is_a_pane_with_fields_that_fold(viewer: PageBench, viewer_tab: V
     publish(viewer, JOINT_STATE, **JOINTS)
     pane = text_pane(viewer_tab)
     viewer_tab.wait_for(lambda: pane.count() and "1e+308" in pane.inner_text())
-    shown = pane.inner_text()
-    assert "/joints · sensor_msgs/msg/JointState" in shown
-    assert "5.000 s" in shown
-    assert HOSTILE in shown
-    assert "left" in shown
+    plot_panel = pane.inner_text()
+    assert "/joints · sensor_msgs/msg/JointState" in plot_panel
+    assert "5.000 s" in plot_panel
+    assert HOSTILE in plot_panel
+    assert "left" in plot_panel
     rows = pane.get_by_role("treeitem")
     before = rows.count()
     rows.filter(has_text="header").click()
@@ -96,7 +96,7 @@ def plot(viewer: PageBench, viewer_tab: ViewerTab) -> Iterator[ViewerTab]:
     viewer.offer("/wheels", JOINT_STATE, "/robot")
     open_panel(viewer_tab, make(Plot, {"curves": CURVES}))
     viewer_tab.wait_for(lambda: viewer_tab.page.locator(".wv-chart-entry").count() == 2)
-    viewer_tab.wait_for(lambda: "/wheels" in viewer.source.wanted)
+    viewer_tab.wait_for(lambda: "/wheels" in viewer.source.subscriptions)
     for i in range(1000):
         turn_wheels(viewer, math.sin(i / 50), math.nan if 400 < i < 600 else i / 1000)
         viewer.pass_time(0.02)
@@ -209,10 +209,10 @@ def test_a_field_is_plotted_from_its_row_and_removed_in_the_legend(
     plot.wait_for(lambda: pane.count() and "3.5" in pane.inner_text())
     pane.get_by_role("button", name="Plot", exact=True).click()
     (panel,) = viewer.states[-1].panels
-    shown: Any = panel.panel
+    plot_panel: Any = panel.panel
     curves = [*CURVES, "/joints.data"]
     plot.wait_for_command(SetPanelProperty(panel.id, "curves", curves))
-    assert shown.curves == curves
+    assert plot_panel.curves == curves
     plot.button(f"Remove {CURVES[0]}").click()
     plot.wait_for_command(SetPanelProperty(panel.id, "curves", curves[1:]))
-    assert shown.curves == curves[1:]
+    assert plot_panel.curves == curves[1:]

@@ -28,12 +28,12 @@ def test_a_video_of_the_scene_is_saved_by_the_browser(
     viewer_tab.page.evaluate(SPIN)
     expect(stop).to_contain_text("Recording a video: ")
     viewer_tab.wait_for(lambda: "· 0 kB" not in stop.inner_text())
-    with viewer_tab.page.expect_download() as found:
+    with viewer_tab.page.expect_download() as download:
         stop.click()
     expect(stop).to_be_hidden()
     viewer_tab.page.evaluate("window.spins = false")
-    path = tmp_path / found.value.suggested_filename
-    found.value.save_as(path)
+    path = tmp_path / download.value.suggested_filename
+    download.value.save_as(path)
     assert path.suffix in (".mp4", ".webm")
     head = path.read_bytes()[:64]
     assert b"ftyp" in head or head.startswith(b"\x1a\x45\xdf\xa3")

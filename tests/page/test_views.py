@@ -120,7 +120,7 @@ def test_buttons_act_where_they_are_clicked(views: ViewsPane) -> None:
     views.wait_for_sent(FocusDisplay(views.viewer.id("Front scan")))
 
 
-def saved(views: ViewsPane, **named: Any) -> None:
+def save_views(views: ViewsPane, **named: Any) -> None:
     views.viewer.show(views=named)
     element = views.page.locator(".wv-saved-show")
     views.tab.wait_for(lambda: element.count() == len(named))
@@ -141,7 +141,7 @@ def test_views_are_saved_under_a_name_or_a_number(views: ViewsPane) -> None:
 
 def test_saved_views_are_shown_renamed_begun_with_and_removed(views: ViewsPane) -> None:
     plan = "Plan <b>"
-    saved(views, **{"Door": Orbit(), plan: TopDownOrtho(scale=40.0)})
+    save_views(views, **{"Door": Orbit(), plan: TopDownOrtho(scale=40.0)})
     views.page.get_by_role("button", name=plan, exact=True).click()
     views.wait_for_sent(ShowView(plan))
     assert isinstance(views.view(), TopDownOrtho)
@@ -160,7 +160,7 @@ def test_saved_views_are_shown_renamed_begun_with_and_removed(views: ViewsPane) 
     views.wait_for_sent(RemoveView("Map"))
     assert RenameView("Map", "Nothing") not in views.viewer.commands
     assert list(views.viewer.settings.views) == ["Door"]
-    saved(views, Door=Orbit())
+    save_views(views, Door=Orbit())
 
 
 def test_a_panel_that_is_not_shown_is_told_nothing(views: ViewsPane) -> None:

@@ -59,14 +59,14 @@ def test_a_number_is_typed_in_degrees(viewer: PageBench, trial: ViewerTab) -> No
     yaw.fill("90°")
     yaw.press("Enter")
     wait_for_pose(trial, *POSE[:5], math.pi / 2)
-    (moved,) = viewer.commands
-    assert isinstance(moved, MoveFrame)
-    assert moved.yaw == 1.57079632679  # to 12 digits
+    (command,) = viewer.commands
+    assert isinstance(command, MoveFrame)
+    assert command.yaw == 1.57079632679  # to 12 digits
     roll = number(trial, "roll")
     roll.fill("much")
     roll.press("Enter")
     expect(card(trial).get_by_role("alert")).to_contain_text("is not a number")
-    assert viewer.commands == [moved]
+    assert viewer.commands == [command]
 
 
 def test_arrow_keys_move_the_frame(trial: ViewerTab) -> None:

@@ -132,10 +132,10 @@ def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Ben
         text = ("/words", "std_msgs/msg/String", {"data": "one"})
         b.publish(*text)
         b.turn()
-        assert "/words" not in b.source.wanted
+        assert "/words" not in b.source.subscriptions
         assert wired.heard == []
         b.do(OpenPanels(frozenset({"Wired"})))
-        assert b.source.wanted["/words"].type == "std_msgs/msg/String"
+        assert b.source.subscriptions["/words"].type == "std_msgs/msg/String"
         assert "/answers" in {advertisement.topic for advertisement in b.graph.advertised}
         b.publish(*text)
         b.publish("/words", "std_msgs/msg/String", {"data": "two"})
@@ -146,7 +146,7 @@ def test_an_open_panel_reads_topics_and_is_advertised(tmp_path: Path, bench: Ben
         ((advertisement, message),) = b.graph.published
         assert (advertisement.topic, message.data) == ("/answers", "yes")
         b.do(OpenPanels(frozenset()))
-        assert "/words" not in b.source.wanted
+        assert "/words" not in b.source.subscriptions
     finally:
         registry.register(str(path), {})
 
@@ -210,8 +210,8 @@ def test_a_panel_on_request_is_added_and_removed_by_a_command(bench: Benches) ->
     added = [AddPanel("Nav2"), AddPanel("Nav2", {"namespace": "robot1", "name": "Second"})]
     assert [b.ask(command) for command in added] == ["Added Navigation 2.", "Added Second."]
     assert [tab.tab for tab in b.viewer.state().panels] == ["Nav2", "Nav2 2"]
-    saved = document(b.viewer.config())["panels"]
-    assert saved[1] == {"type": "Nav2", "name": "Second", "namespace": "robot1"}
+    panel_entries = document(b.viewer.config())["panels"]
+    assert panel_entries[1] == {"type": "Nav2", "name": "Second", "namespace": "robot1"}
     assert b.ask(RemovePanel("Navigation 2")) == "Removed Navigation 2."
     b.do(Undo())
     assert [tab.panel.name for tab in b.viewer.state().panels] == ["Navigation 2", "Second"]

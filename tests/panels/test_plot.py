@@ -288,11 +288,11 @@ def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: 
     assert isinstance(plot, Plot)
     plot.build(RecordedUi(), lambda command, browser=None: None)
     publisher = Publisher("/driver", TWIST, "reliable", "volatile")
-    b.source.known["/cmd_vel"] = Offer((publisher,))
+    b.source.topics["/cmd_vel"] = Offer((publisher,))
     b.do(OpenPanels(frozenset({"Plot"})))
     show_panel(plot, b.viewer.state())
     b.turn()
-    assert b.source.wanted["/cmd_vel"].type == TWIST
+    assert b.source.subscriptions["/cmd_vel"].type == TWIST
     for speed in (0.5, 0.7):
         b.publish("/cmd_vel", TWIST, {"linear": {"x": speed}})
     b.source.put("/cmd_vel", TWIST, b"\0\1\0\0")
@@ -303,4 +303,4 @@ def test_topics_are_read_while_the_panel_is_open_and_time_can_start_over(bench: 
     b.do(Reset())
     assert series.history.points() == []
     b.do(OpenPanels(frozenset()))
-    assert "/cmd_vel" not in b.source.wanted
+    assert "/cmd_vel" not in b.source.subscriptions

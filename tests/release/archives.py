@@ -27,7 +27,7 @@ def build(commit: str, folder: Path) -> list[Path]:
     Returns:
         The wheel and the source distribution.
     """
-    source, made = folder / "source", folder / "made"
+    source, output = folder / "source", folder / "made"
     source.mkdir()
     listed = subprocess.run(
         ["git", "archive", "--format=tar", commit], cwd=ROOT, capture_output=True, check=True
@@ -43,12 +43,12 @@ def build(commit: str, folder: Path) -> list[Path]:
         check=True,
     ).stdout.strip()
     subprocess.run(
-        [sys.executable, "-m", "build", "--outdir", made, source],
+        [sys.executable, "-m", "build", "--outdir", output, source],
         env=os.environ | {"SOURCE_DATE_EPOCH": epoch},
         stdout=subprocess.DEVNULL,
         check=True,
     )
-    (wheel,), (tar,) = made.glob("*.whl"), made.glob("*.tar.gz")
+    (wheel,), (tar,) = output.glob("*.whl"), output.glob("*.tar.gz")
     _without_times(tar, int(epoch))
     return [wheel, tar]
 

@@ -111,8 +111,8 @@ def open_viewer(webviz_domain: int) -> Iterator[Viewers]:
         ros_args = ["--ros-args", *(word for parameter in parameters for word in ("-p", parameter))]
         return webviz.Viewer(config, port=0, ros_args=ros_args, **options)
 
-    with several(open_viewer) as opened:
-        yield opened
+    with several(open_viewer) as viewers:
+        yield viewers
 
 
 @pytest.fixture
@@ -437,12 +437,12 @@ def test_the_program_of_the_readme_runs_as_described(
     readme = (Path(__file__).parents[2] / "displays/docs/python/README.md").read_text()
     section = readme.partition("## From Python and from ROS")[2]
     program = section.partition("```python\n")[2].partition("```")[0]
-    for written, here in (
+    for requested, here in (
         ('"lab.yaml"', '"lab.yaml", port=0'),
         ("viewer.wait()", "values.update(viewer.config)"),
     ):
-        assert written in program
-        program = program.replace(written, here)
+        assert requested in program
+        program = program.replace(requested, here)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "lab.yaml").write_text("displays: [{type: Map}]\n")
     values: dict[str, Any] = {}

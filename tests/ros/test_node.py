@@ -61,7 +61,7 @@ def want(source: RosSource, name: str = "/words", **choices: Any) -> None:
     source.want({name: Subscription(STRING, Topic(name, **choices))})
 
 
-def heard(source: RosSource, topic: str = "/words") -> list[str]:
+def texts(source: RosSource, topic: str = "/words") -> list[str]:
     return [decode(STRING, raw.cdr).data for raw in source.inbox.drain().get(topic, ())]
 
 
@@ -83,7 +83,7 @@ def test_auto_requests_the_qos_of_the_publisher(
 
     def heard_it() -> bool:
         publisher.publish(String(data="hello"))
-        return "hello" in heard(source)
+        return "hello" in texts(source)
 
     until(heard_it)
     until(lambda: source.offers()["/words"].subscribers == 1)
@@ -115,7 +115,7 @@ def test_a_latched_message_from_before_arrives(talker: Node, listen: Listen) -> 
     publisher.publish(String(data="long ago"))
     source = listen()
     want(source)
-    until(lambda: "long ago" in heard(source))
+    until(lambda: "long ago" in texts(source))
 
 
 def test_publishers_of_both_durabilities_are_all_heard(talker: Node, listen: Listen) -> None:
@@ -128,7 +128,7 @@ def test_publishers_of_both_durabilities_are_all_heard(talker: Node, listen: Lis
 
     def both() -> bool:
         volatile.publish(String(data="volatile"))
-        words.update(heard(source))
+        words.update(texts(source))
         return words == {"latched", "volatile"}
 
     until(both)
@@ -143,7 +143,7 @@ def test_an_explicit_qos_is_used_even_if_it_matches_no_publisher(
     until(lambda: requested(source) == ("reliable", "volatile"))
     publisher.publish(String(data="lost"))
     time.sleep(0.3)
-    assert heard(source) == []
+    assert texts(source) == []
 
 
 class Words(Display):
@@ -236,9 +236,9 @@ def test_a_message_that_is_too_large_is_a_problem_until_a_smaller_one_comes(
 
     problem = "a message of 3 MB is above the limit of 1 MB; publish smaller ones"
     until(lambda: problem_after("x" * (3 << 20)) == problem)
-    assert heard(source) == []
+    assert texts(source) == []
     until(lambda: not problem_after("short"))
-    assert "short" in heard(source)
+    assert "short" in texts(source)
 
 
 def test_names_are_resolved_and_remapped_those_that_may_be_published_too(listen: Listen) -> None:

@@ -41,7 +41,7 @@ class News(ToPage, frozen=True):
 
 
 class Weather(ToPage, frozen=True):
-    kept = True
+    is_latched = True
     text: str
 
 

@@ -197,7 +197,7 @@ def cloud(count: int) -> dict[str, np.ndarray]:
     return {"points": points, "colors": points.astype(np.uint8)}
 
 
-def taken(queue: Queue, seconds: float = 10.0) -> list[Any]:
+def take_all(queue: Queue, seconds: float = 10.0) -> list[Any]:
     """Return the messages sent meanwhile."""
     messages = []
     until = queue.now + seconds
@@ -231,7 +231,7 @@ def test_a_slow_link_gets_fewer_points_of_a_cloud_and_all_of_them_once_it_rests(
     queue = Queue(SLOW)
     full = cloud(100_000)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", full))
-    (_, thin), (_, last) = completed(taken(queue))
+    (_, thin), (_, last) = completed(take_all(queue))
     points = thin["points"].reshape(-1, 3)[:, 0]
     assert len(points) == 100_000 // 8
     assert (points.astype(np.uint8) == thin["colors"].reshape(-1, 3)[:, 0]).all()
@@ -249,7 +249,7 @@ def test_scans_and_thinned_clouds_go_on_beside_a_map() -> None:
     for _ in range(50):
         queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
         queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((1000, 3), "f4")}))
-        messages += taken(queue, 0.1)
+        messages += take_all(queue, 0.1)
     names = [name for name, _ in completed(messages)]
     assert names.count("/scan") >= 30
     assert names.count("/lidar") >= 5
@@ -275,7 +275,7 @@ def test_pieces_of_four_messages_are_under_way_at_most() -> None:
     names = [f"/{number}" for number in range(6)]
     for name in names:
         queue.push(image(name, 400_000))
-    messages = taken(queue)
+    messages = take_all(queue)
     assert sorted(name for name, _ in named(messages)) == names
     begun = [(index, piece) for index, piece in enumerate(messages) if piece.start == 0]
     over = [index for index, piece in enumerate(messages) if piece.update]
@@ -291,7 +291,7 @@ def test_messages_in_pieces_take_turns() -> None:
     queue = Queue(SLOW)
     for name in ("/a", "/b"):
         queue.push(image(name, 400_000))
-    slots = [piece.slot for piece in taken(queue)]
+    slots = [piece.slot for piece in take_all(queue)]
     assert slots[:8] in ([0, 1] * 4, [1, 0] * 4)
 
 
@@ -300,17 +300,17 @@ def test_a_message_in_pieces_is_sent_to_its_end_then_the_newest() -> None:
     messages = []
     for version in range(6):
         queue.push(image("/map", 1_000_000, version))
-        messages += taken(queue, 0.01)
-    messages += taken(queue)
+        messages += take_all(queue, 0.01)
+    messages += take_all(queue)
     assert named(messages) == [("/map", 0), ("/map", 5)]
 
 
 def test_the_question_whether_all_arrived_follows_the_last_piece() -> None:
     queue = Queue(SLOW)
     queue.push(image("/map", 400_000))
-    messages = taken(queue, 0.05)
+    messages = take_all(queue, 0.05)
     queue.push(AcknowledgementRequest("1"))
-    messages += taken(queue)
+    messages += take_all(queue)
     assert isinstance(messages[-1], AcknowledgementRequest)
     assert messages[-2].update is not None
 
@@ -319,7 +319,7 @@ def test_messages_before_an_acknowledgement_request_are_not_thinned() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
     queue.push(AcknowledgementRequest("1"))
-    messages = taken(queue)
+    messages = take_all(queue)
     ((name, updates),) = completed(messages[: messages.index(queue.live[1])])
     assert (name, len(updates["points"]) // 3) == ("/lidar", 100_000)
 
@@ -329,9 +329,9 @@ def test_a_thinned_cloud_is_not_sent_whole_once_there_is_a_newer_one() -> None:
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
     messages: list[Any] = []
     while not (messages and isinstance(messages[-1], Piece)):
-        messages += taken(queue, 0.01)  # thinned, then the first piece of the whole
+        messages += take_all(queue, 0.01)  # thinned, then the first piece of the whole
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
-    messages += taken(queue, 0.5)
+    messages += take_all(queue, 0.5)
     assert [len(values["points"]) // 3 for _, values in completed(messages)][:2] == [12_500, 11_250]
 
 
@@ -340,11 +340,11 @@ def test_a_cloud_that_waits_to_be_sent_whole_is_thinned_if_a_newer_one_comes() -
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(100_000)))
     messages: list[Any] = []
     while not messages:
-        messages += taken(queue, 0.01)
+        messages += take_all(queue, 0.01)
     queue.push(AcknowledgementRequest("1"))
     assert queue.outbox.small(queue.live, queue.count - 1, None) == []  # after the whole cloud
     queue.push(wire.SceneNodeUpdateMessage("/lidar", cloud(90_000)))
-    messages += taken(queue, 0.5)
+    messages += take_all(queue, 0.5)
     clouds = [each for each in messages if not isinstance(each, AcknowledgementRequest)]
     assert [len(values["points"]) // 3 for _, values in completed(clouds)][:2] == [12_500, 11_250]
 
@@ -355,7 +355,7 @@ def test_neither_pieces_nor_scans_wait_for_the_others_to_end() -> None:
     messages: list[Any] = []
     while not any(isinstance(each, Piece) and each.update for each in messages):
         queue.push(wire.SceneNodeUpdateMessage("/scan", {"points": np.zeros((2600, 3), "f4")}))
-        messages += taken(queue, 0.01)
+        messages += take_all(queue, 0.01)
         assert queue.now < 110.0
     assert sum(not isinstance(each, Piece) for each in messages) >= 5
 
@@ -363,9 +363,9 @@ def test_neither_pieces_nor_scans_wait_for_the_others_to_end() -> None:
 def test_pieces_of_a_node_that_was_removed_are_not_sent() -> None:
     queue = Queue(SLOW)
     queue.push(wire.SceneNodeUpdateMessage("/map", {"png": bytes(2_000_000)}))
-    assert taken(queue, 0.2)
+    assert take_all(queue, 0.2)
     queue.live.clear()
-    assert not taken(queue, 0.2)
+    assert not take_all(queue, 0.2)
     assert not queue.outbox.is_waiting()
 
 

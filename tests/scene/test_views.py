@@ -430,8 +430,8 @@ def test_a_screenshot_of_the_view_is_downloaded(view: conftest.View, tmp_path: A
         if name:
             assert file.suggested_filename == name
         else:
-            saved = datetime.strptime(file.suggested_filename, "webviz %Y-%m-%d %H.%M.%S.png")
-            assert abs((datetime.now() - saved).total_seconds()) < 60
+            stamp = datetime.strptime(file.suggested_filename, "webviz %Y-%m-%d %H.%M.%S.png")
+            assert abs((datetime.now() - stamp).total_seconds()) < 60
 
 
 def test_a_page_that_lost_its_connection_keeps_its_view(window: Window) -> None:

@@ -86,8 +86,8 @@ def test_a_goal_can_be_rejected_and_cancelled(bench: FibonacciNode) -> None:
     goal.cancel({"sequence": [5]})
     outcome = bench.result_of(ended)
     assert (outcome.status, list(outcome.result.sequence)) == (GoalStatus.STATUS_CANCELED, [5])
-    refused = bench.result_of(handle.cancel_goal_async())
-    assert refused.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
+    response = bench.result_of(handle.cancel_goal_async())
+    assert response.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
 
 
 def test_a_request_without_an_id_cancels_all_goals(bench: FibonacciNode) -> None:

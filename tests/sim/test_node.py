@@ -134,8 +134,8 @@ class RobotClient(Node):
         def is_driven():
             publisher.publish(twist)
             self.spin(0.05)
-            moved = [each for each in odometry[before:] if each.twist.twist == twist]
-            return len(moved) * ODOMETRY_S >= seconds
+            new_pose = [each for each in odometry[before:] if each.twist.twist == twist]
+            return len(new_pose) * ODOMETRY_S >= seconds
 
         self.spin_until(is_driven)
         publisher.publish(Twist())
@@ -253,16 +253,16 @@ def test_commands_move_it_by_the_commanded_amount_and_no_farther(sim, robot):
     robot.spin_until(lambda: odometry)
     assert robot.pose() == pytest.approx(Pose2D())
     robot.drive(twist(0.3, 0.0), 2.0)
-    moved = robot.pose()
+    new_pose = robot.pose()
     driving = [message for message in odometry if message.twist.twist.linear.x == 0.3]
     # As long as the command lasted, which is longer than 2 s where the sender is slow.
-    assert moved == pytest.approx((0.3 * ODOMETRY_S * len(driving), 0.0, 0.0))
-    assert moved.x > 0.59
+    assert new_pose == pytest.approx((0.3 * ODOMETRY_S * len(driving), 0.0, 0.0))
+    assert new_pose.x > 0.59
     robot.spin(0.5)
-    assert robot.pose() == moved
+    assert robot.pose() == new_pose
     robot.drive(twist(0.0, 0.5), 2.0)
     turning = [message for message in odometry if message.twist.twist.angular.z == 0.5]
-    assert robot.pose() == pytest.approx((moved.x, 0.0, 0.5 * ODOMETRY_S * len(turning)))
+    assert robot.pose() == pytest.approx((new_pose.x, 0.0, 0.5 * ODOMETRY_S * len(turning)))
     assert robot.pose().yaw > 0.99
 
 
@@ -396,11 +396,11 @@ def test_sigterm_ends_it_with_status_0(sim, robot):
 
 
 @pytest.fixture
-def refused(capfd):
+def refusal_of(capfd):
     """Run the simulator in this process, where it must not start."""
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
 
-    def refused(*args):
+    def refusal_of(*args):
         try:
             status = main([*args])
         except SystemExit as exit:
@@ -409,15 +409,15 @@ def refused(capfd):
         assert "Traceback" not in printed.err
         return status, printed.out, printed.err
 
-    yield refused
+    yield refusal_of
     for number, handler in handlers.items():
         signal.signal(number, handler)
 
 
-def test_a_params_file_sets_parameters(refused, tmp_path):
+def test_a_params_file_sets_parameters(refusal_of, tmp_path):
     path = tmp_path / "params.yaml"
     path.write_text("/sim:\n  ros__parameters:\n    scan_rate: 3\n    scan_beams: 0\n")
-    status, _, errors = refused("--ros-args", "--params-file", str(path))
+    status, _, errors = refusal_of("--ros-args", "--params-file", str(path))
     assert status == 1
     refusal = "Invalid parameter: Parameter scan_beams out of range. Min: 1, Max: 20000, value: 0"
     assert refusal in errors
@@ -436,21 +436,21 @@ def test_a_params_file_sets_parameters(refused, tmp_path):
         (["--fault", "laser_yaw=9"], 2, "laser_yaw must be between -3.14159 and 3.14159"),
     ],
 )
-def test_wrong_arguments_end_in_one_sentence(refused, args, status, sentence):
-    ended, _, errors = refused(*args)
+def test_wrong_arguments_end_in_one_sentence(refusal_of, args, status, sentence):
+    ended, _, errors = refusal_of(*args)
     assert ended == status
     assert sentence in errors
 
 
-def test_help_lists_the_parameters(refused):
-    status, output, _ = refused("--help")
+def test_help_lists_the_parameters(refusal_of):
+    status, output, _ = refusal_of("--help")
     assert status == 0
     assert "stamped_cmd_vel" in output
 
 
-def test_a_missing_rclpy_is_explained(refused, monkeypatch):
+def test_a_missing_rclpy_is_explained(refusal_of, monkeypatch):
     monkeypatch.setitem(sys.modules, "rclpy", None)
-    status, _, errors = refused()
+    status, _, errors = refusal_of()
     assert status == 1
     assert errors.count("\n") == 1
     assert 'pip install "ros-webviz[ros]"' in errors

@@ -94,8 +94,8 @@ def drive(duration_s: float = DURATION_S) -> Bag:
         turned = [
             joint.transform(now, angle) for joint, angle in zip(wheels, robot.wheels, strict=True)
         ]
-        moved = messages.planar("map", "base_link", now, robot.pose)
-        bag.put(at_s, "/tf", messages.tf([moved, *turned]))
+        base_transform = messages.planar("map", "base_link", now, robot.pose)
+        bag.put(at_s, "/tf", messages.tf([base_transform, *turned]))
         if step % SCAN_STEPS:
             continue
         pose = robot.pose @ scanner

@@ -86,12 +86,12 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, open_bag):
     seconds = [0.001 * i for i in range(3 * MAX_BATCH)]
     bag = open_bag(strings(*seconds).write(tmp_path / "bag"))
     bag.want("/words")
-    source, heard = bag.source, []
+    source, expected = bag.source, []
     while source.reached_ns < source.history.end_ns:
         source.play_until(source.history.end_ns)
-        heard.append(bag.heard())
-    assert max(map(len, heard)) <= MAX_BATCH
-    assert [float(text) for part in heard for text in part] == pytest.approx(seconds)
+        expected.append(bag.heard())
+    assert max(map(len, expected)) <= MAX_BATCH
+    assert [float(text) for part in expected for text in part] == pytest.approx(seconds)
 
 
 def test_large_messages_come_in_parts_too(tmp_path, open_bag, monkeypatch):
@@ -182,9 +182,9 @@ def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, open_bag
     assert bag.heard() == ["9"]
 
 
-@pytest.mark.parametrize(("max_bytes", "heard"), [(20, ["2", "3"]), (1, ["3"])])
+@pytest.mark.parametrize(("max_bytes", "expected"), [(20, ["2", "3"]), (1, ["3"])])
 def test_repeated_latched_messages_are_limited_by_the_inbox(
-    tmp_path, open_bag, monkeypatch, max_bytes, heard
+    tmp_path, open_bag, monkeypatch, max_bytes, expected
 ):
     inbox = functools.partial(Inbox, max_bytes=max_bytes)  # each message has 10
     monkeypatch.setattr("webviz.sources.player.Inbox", inbox)
@@ -193,7 +193,7 @@ def test_repeated_latched_messages_are_limited_by_the_inbox(
     bag.want("/words")
     bag.heard()
     bag.want("/words", resubscriptions=1)
-    assert bag.heard() == heard
+    assert bag.heard() == expected
 
 
 def test_all_static_transforms_are_repeated(tmp_path, open_bag):

@@ -160,8 +160,8 @@ def test_all_stamps_of_a_message_are_moved() -> None:
         for sec, nanosec in stamps
     ]
     cdr = encode(TF, {"transforms": transforms})
-    moved: TFMessage = decode(TF, shifted(TF, cdr, 1_500_000_001))
-    assert [each.stamp_ns for each in moved.transforms] == [6_500_000_001, 0, 9_500_000_000]
+    message: TFMessage = decode(TF, shifted(TF, cdr, 1_500_000_001))
+    assert [each.stamp_ns for each in message.transforms] == [6_500_000_001, 0, 9_500_000_000]
     assert shifted(TF, shifted(TF, cdr, 10**9), -(10**9)) == cdr
 
 

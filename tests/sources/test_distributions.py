@@ -42,23 +42,23 @@ NESTED = (
 """Types that contain one that has changed."""
 
 
-def check_same(store: Any, name: str, written: Any, read: Any) -> None:
+def check_same(store: Any, name: str, expected: Any, read: Any) -> None:
     """Check that a message has the values that were written; those that are missing, defaults."""
     for field, (kind, value) in store.fielddefs[name][1]:
         if hasattr(read, field):
-            _check_value(store, kind, value, getattr(written, field), getattr(read, field))
+            _check_value(store, kind, value, getattr(expected, field), getattr(read, field))
 
 
-def _check_value(store: Any, kind: Nodetype, value: Any, written: Any, read: Any) -> None:
+def _check_value(store: Any, kind: Nodetype, value: Any, expected: Any, read: Any) -> None:
     if kind == Nodetype.NAME:
-        check_same(store, value, written, read)
-    elif kind == Nodetype.BASE or isinstance(written, np.ndarray):
-        np.testing.assert_array_equal(np.asarray(written), np.asarray(read))
+        check_same(store, value, expected, read)
+    elif kind == Nodetype.BASE or isinstance(expected, np.ndarray):
+        np.testing.assert_array_equal(np.asarray(expected), np.asarray(read))
     else:
         (inner, base), _ = value
-        assert len(written) == len(read)
+        assert len(expected) == len(read)
         if not isinstance(read, np.ndarray):  # points and colours become rows of numbers
-            for one, other in zip(written, read, strict=True):
+            for one, other in zip(expected, read, strict=True):
                 _check_value(store, inner, base, one, other)
 
 
@@ -130,9 +130,9 @@ def test_messages_of_each_distribution_have_the_values_that_were_written(
     assert not file.skipped
     assert not file.warnings
     for name in names:
-        written = [message for own, message in messages if own == name]
-        assert len(result[name]) == len(written)
-        for one, other in zip(written, result[name], strict=True):
+        expected = [message for own, message in messages if own == name]
+        assert len(result[name]) == len(expected)
+        for one, other in zip(expected, result[name], strict=True):
             check_same(store, name, one, other)
 
 
@@ -171,11 +171,11 @@ def test_types_of_newer_distributions_are_read_from_bags_without_definitions(
 ) -> None:
     store, name = get_typestore(Stores.ROS2_LYRICAL), "nav_msgs/msg/Trajectory"
     assert not type_exists(name)
-    written = filled(store, name, count(1))
-    file = open_bag(write(tmp_path / "run", store, [(name, written)], StoragePlugin.SQLITE3))
+    expected = filled(store, name, count(1))
+    file = open_bag(write(tmp_path / "run", store, [(name, expected)], StoragePlugin.SQLITE3))
     assert not file.skipped
     (message,) = messages_of(file)[name]
-    check_same(store, name, written, message)
+    check_same(store, name, expected, message)
 
 
 @pytest.mark.parametrize("distribution", [Stores.ROS2_GALACTIC, Stores.ROS2_HUMBLE])
@@ -206,10 +206,10 @@ def test_fields_of_a_newer_definition_are_left_out(
     constants, fields = store.fielddefs.pop(MARKER)
     newer = [*fields, ("smell", (Nodetype.BASE, ("string", 0)))]
     store.register({MARKER: (constants, newer)})
-    written = filled(store, MARKER, count(1))
-    file = open_bag(write(tmp_path / "run", store, [(MARKER, written)], StoragePlugin.MCAP))
+    expected = filled(store, MARKER, count(1))
+    file = open_bag(write(tmp_path / "run", store, [(MARKER, expected)], StoragePlugin.MCAP))
     (marker,) = messages_of(file)[MARKER]
-    assert (marker.id, marker.text) == (written.id, written.text)
+    assert (marker.id, marker.text) == (expected.id, expected.text)
 
 
 def test_a_message_that_is_followed_by_more_than_padding_is_not_whole() -> None:

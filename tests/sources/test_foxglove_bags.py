@@ -45,11 +45,11 @@ def add(
 
 def copy(file: BagFile, path: Path) -> BagFile:
     """Write all messages to another file, as for a span of the timeline."""
-    written = McapFile(path, "test")
+    mcap_file = McapFile(path, "test")
     channels = {(each.topic, each.type): each.written for each in file.channels}
     for message in file.messages(file.channels, 0):
-        written.add(channels[message.topic, message.type], message.stamp_ns, message.cdr)
-    written.close()
+        mcap_file.add(channels[message.topic, message.type], message.stamp_ns, message.cdr)
+    mcap_file.close()
     return BagFile(path)
 
 

@@ -49,10 +49,12 @@ def test_a_name_that_is_in_the_bag_is_valid_there(tmp_path: Path, name: str) -> 
     assert result["Topic"].startswith("OK 1 message")
 
 
-@pytest.mark.parametrize("written", ["words", "/words"])
-def test_a_name_without_a_slash_is_that_of_a_topic_with_one(tmp_path: Path, written: str) -> None:
+@pytest.mark.parametrize("name_in_file", ["words", "/words"])
+def test_a_name_without_a_slash_is_that_of_a_topic_with_one(
+    tmp_path: Path, name_in_file: str
+) -> None:
     path = mcap(tmp_path / "run.mcap", ["words"])
-    assert display_statuses(path, written)["Topic"].startswith("OK 1 message")
+    assert display_statuses(path, name_in_file)["Topic"].startswith("OK 1 message")
     source = Player(BagHistory(path))
     assert list(source.offers()) == ["/words"]
     source.close()

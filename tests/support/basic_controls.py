@@ -84,8 +84,11 @@ def basic_controls() -> list[InteractiveMarker]:
 
     facing = marker("view_facing", -3.0, -3.0)
     add(facing, Control.ROTATE_AXIS, orientation_mode=Control.VIEW_FACING)
-    moved = add(facing, Control.MOVE_PLANE, shapes=True, name="move")
-    moved.orientation_mode, moved.independent_marker_orientation = Control.VIEW_FACING, True
+    move_plane = add(facing, Control.MOVE_PLANE, shapes=True, name="move")
+    move_plane.orientation_mode, move_plane.independent_marker_orientation = (
+        Control.VIEW_FACING,
+        True,
+    )
     messages.append(facing)
 
     flying = marker("quadrocopter", 0.0, -3.0)

@@ -52,18 +52,18 @@ class BuiltInChecks(DisplayChecks):
     def test_several_extreme_values_at_once_are_drawn_or_reported(
         self,
         webviz_bench: Benches,
-        made: Callable[[], Display],
+        make_display: Callable[[], Display],
         name: str,
         monkeypatch: pytest.MonkeyPatch,
     ) -> None:
         """Messages with several of them follow each other."""
         monkeypatch.setattr(PATIENCE_S, -1.0)
-        type_name = inputs_of(type(made()))[name].type
+        type_name = inputs_of(type(make_display()))[name].type
         all_cases = list(cases(type_name, self.messages[type_name]))
         results = []
         hands = dealt(all_cases)
         while row := list(islice(hands, IN_A_ROW)):
-            bench = self.at_work(webviz_bench, made, name)
+            bench = self.at_work(webviz_bench, make_display, name)
             for hand in row:
                 send(bench, name, reduce(changed, hand, self.messages[type_name]))
                 bench.now_ns += 10**8

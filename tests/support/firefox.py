@@ -85,7 +85,7 @@ class Firefox:
 
 
 @contextlib.contextmanager
-def opened(folder: Path) -> Iterator[Firefox]:
+def open_firefox(folder: Path) -> Iterator[Firefox]:
     """Firefox on a screen of its own, since it has no WebGL without one.
 
     Args:

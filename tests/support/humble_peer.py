@@ -105,13 +105,16 @@ def main(domain: int, seconds: float) -> None:
         writer("rt/humble_latched", StringMessage, LATCHED),
     )
     sonar = writer("rt/humble_range", RangeMessage)
-    heard, requests = reader("rt/to_humble", StringMessage), reader("rq/humble_switchRequest", Ask)
+    messages, requests = (
+        reader("rt/to_humble", StringMessage),
+        reader("rq/humble_switchRequest", Ask),
+    )
     replies = writer("rr/humble_switchReply", Reply)
     records = writer("ros_discovery_info", ParticipantRecord, LATCHED)
     node = NodeRecord(
         "/",
         "humble_robot",
-        [gid(each) for each in (heard, requests)],
+        [gid(each) for each in (messages, requests)],
         [gid(each) for each in (text, latched, sonar, replies)],
     )
     records.write(ParticipantRecord(gid(participant), [node]))
@@ -122,7 +125,7 @@ def main(domain: int, seconds: float) -> None:
         now = time.time_ns()
         head = Head(Stamp(now // 10**9, now % 10**9), "sonar")
         sonar.write(RangeMessage(head, 0, 0.5, 0.25, 4.0, 2.0))
-        for message in heard.take(N=10):
+        for message in messages.take(N=10):
             print("heard", message.data, flush=True)
         time.sleep(0.1)
 

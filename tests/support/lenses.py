@@ -27,7 +27,7 @@ RAYS = np.array(
 )
 """Rays in the rectified camera."""
 
-SEEN: dict[str, tuple[str, list[float], list[tuple[float, float]]]] = {
+CAMERAS: dict[str, tuple[str, list[float], list[tuple[float, float]]]] = {
     "plumb_bob": (
         "plumb_bob",
         [-0.28, 0.09, 0.001, -0.0005, -0.01],
@@ -78,6 +78,6 @@ SEEN: dict[str, tuple[str, list[float], list[tuple[float, float]]]] = {
 
 def info(name: str, **changes: Any) -> dict[str, Any]:
     """A sensor_msgs/CameraInfo with one of these lenses."""
-    model, d, _ = SEEN[name]
+    model, d, _ = CAMERAS[name]
     size = {"width": WIDTH, "height": HEIGHT}
     return {**size, "distortion_model": model, "d": d, "k": K, "r": R, "p": P} | changes

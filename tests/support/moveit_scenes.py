@@ -148,8 +148,8 @@ def moveit(bench: Any) -> None:
         bench.transform("map", "base", (x, 0.0, 0.0))
         bench.turn(100.0)
     bench.send("moveit_msgs/msg/DisplayTrajectory", PATH, topic="/display_planned_path")
-    moved = {"robot_state": state(4.0) | {"is_diff": True}, "is_diff": True}
-    bench.send("moveit_msgs/msg/PlanningScene", moved, topic="/monitored_planning_scene")
+    diff = {"robot_state": state(4.0) | {"is_diff": True}, "is_diff": True}
+    bench.send("moveit_msgs/msg/PlanningScene", diff, topic="/monitored_planning_scene")
     for seconds in (0.0, 900.0, 400.0):
         bench.turn(seconds)
     after = time.monotonic() + 0.02  # of which half is the time that a scene stays

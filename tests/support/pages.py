@@ -47,12 +47,12 @@ def open_pages(
 
     They draw the scene only in `pixels`, although a mouse finds it.
     """
-    opened = [Page(browser, url, width, height, resolution=resolution) for _ in range(count)]
-    for page in opened:
+    open_tabs = [Page(browser, url, width, height, resolution=resolution) for _ in range(count)]
+    for page in open_tabs:
         page.hold()
         let_mouse_in(page)
-    yield opened
-    errors = [error for page in opened for error in page.errors]
-    for page in opened:
+    yield open_tabs
+    errors = [error for page in open_tabs for error in page.errors]
+    for page in open_tabs:
         page.close()
     assert errors == []

@@ -9,7 +9,7 @@ import pytest
 
 import webviz_urdf
 from webviz import Pose, compose
-from webviz.shell.testing import Shown
+from webviz.shell.testing import ViewerUnderTest
 from webviz_urdf import Robot, load_file
 
 DEMO = Path(webviz_urdf.__file__).parent / "demo/robot.urdf"
@@ -45,7 +45,7 @@ def link_poses(robot: Robot) -> dict[str, Pose]:
     return poses
 
 
-def place_links(harness: Shown, file: Path, below: str = "map") -> None:
+def place_links(harness: ViewerUnderTest, file: Path, below: str = "map") -> None:
     """Transforms of a robot with all joints at zero, its root on the origin of a frame."""
     for link, pose in link_poses(load_file(file)).items():
         w, x, y, z = pose.wxyz

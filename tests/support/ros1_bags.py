@@ -31,7 +31,7 @@ def head(frame: str, at_s: float) -> Any:
     return T["std_msgs/msg/Header"](7, time(at_s), frame)
 
 
-def moved(parent: str, child: str, at_s: float, x: float) -> Any:
+def ros1_transform(parent: str, child: str, at_s: float, x: float) -> Any:
     vector = T["geometry_msgs/msg/Vector3"](x, 0.0, 0.0)
     turned = T["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
     transform = T["geometry_msgs/msg/Transform"](vector, turned)
@@ -81,10 +81,10 @@ def written(
             writer.write(connections[topic], 1000 * SECOND + round(at_s * 1e9), raw)
 
         tf = T["tf2_msgs/msg/TFMessage"]
-        put(0, "/tf_static", tf([moved("base", "laser", 0, 0.5)]), 1)
+        put(0, "/tf_static", tf([ros1_transform("base", "laser", 0, 0.5)]), 1)
         put(0, "/camera_info", camera())
         put(1, "/harvest", harvest())
         for tenths in range(10 * seconds):
-            put(tenths / 10, "/tf", tf([moved("odom", "base", tenths / 10, tenths / 10)]))
+            put(tenths / 10, "/tf", tf([ros1_transform("odom", "base", tenths / 10, tenths / 10)]))
             put(tenths / 10, "/scan", scan(tenths / 10))
     return path

@@ -137,12 +137,12 @@ def as_trimesh() -> Callable[[Mesh | Glb], trimesh.Trimesh]:
         scene = trimesh.load_scene(io.BytesIO(node.data), "glb", process=False)
         placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
         meshes = [scene.geometry[name] for _, name in placed]
-        moved = [
+        joints = [
             trimesh.transform_points(mesh.vertices, pose)
             for mesh, (pose, _) in zip(meshes, placed, strict=True)
         ]
-        offsets = np.cumsum([0] + [len(vertices) for vertices in moved[:-1]])
+        offsets = np.cumsum([0] + [len(vertices) for vertices in joints[:-1]])
         faces = [mesh.faces + n for mesh, n in zip(meshes, offsets, strict=True)]
-        return trimesh.Trimesh(np.concatenate(moved), np.concatenate(faces), process=False)
+        return trimesh.Trimesh(np.concatenate(joints), np.concatenate(faces), process=False)
 
     return convert

@@ -108,7 +108,7 @@ def test_opaque_materials_of_files_are_opaque() -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "name"),
+    ("line", "name"),
     [
         ("a.png", "a.png"),
         ("my picture.png", "my picture.png"),
@@ -121,9 +121,9 @@ def test_opaque_materials_of_files_are_opaque() -> None:
         ("-strange a.png", "-strange a.png"),
     ],
 )
-def test_options_before_the_texture_of_an_mtl_file_are_ignored(written: str, name: str) -> None:
-    expected = name if written != "-texres 512" else "512"
-    assert without_options(written) == expected
+def test_options_before_the_texture_of_an_mtl_file_are_ignored(line: str, name: str) -> None:
+    expected = name if line != "-texres 512" else "512"
+    assert without_options(line) == expected
 
 
 def test_a_texture_with_options_is_drawn(tmp_path: Path) -> None:

@@ -59,14 +59,14 @@ def test_without_xacro_there_is_a_remedy(path, running):
 
 def test_a_xacro_file_sees_no_token_and_writes_no_file(path, running, monkeypatch):
     monkeypatch.setenv("WEBVIZ_TOKEN_OWN", "a secret")
-    written = path.with_name("written")
+    marker_file = path.with_name("written")
     running(
-        f"file = os.open({str(written)!r}, os.O_WRONLY | os.O_CREAT)\n"
+        f"file = os.open({str(marker_file)!r}, os.O_WRONLY | os.O_CREAT)\n"
         "try:\n    os.write(file, b'x')\nexcept OSError as error:\n"
         f"    return Text({ROBOT!r} if 'a secret' not in str(os.environ) else '')\n"
     )
     assert load_file(path).root == "l"
-    assert not written.stat().st_size
+    assert not marker_file.stat().st_size
 
 
 @pytest.mark.parametrize(

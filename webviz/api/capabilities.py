@@ -26,7 +26,7 @@ class Selective:
 
     __slots__ = ()
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+    def accept(self, new: Sample, buffered: Sequence[Sample]) -> bool | str:
         """Return whether to hold a new sample, given those held of its input (oldest first).
 
         A text reports why the message cannot be shown.

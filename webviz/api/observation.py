@@ -229,7 +229,7 @@ class Observation:
         """Yield the nodes of `stalled` topics and, if transforms are missing, those of /tf."""
         for _, _, offer in self.starved():
             yield from (publisher.node for publisher in offer.publishers if publisher.node)
-        if any(self.lost(*OF_TIME)):
+        if any(self.unplaced(*OF_TIME)):
             for topic in ("/tf", "/tf_static"):
                 yield from (p.node for p in self.offers.get(topic, NO_OFFER).publishers if p.node)
 
@@ -238,7 +238,7 @@ class Observation:
         inputs = [(d, each) for d, each, offer in self.starved() if not offer.publishers]
         starved = [symptom for display, each in inputs for symptom in display.symptom(each.status)]
         if not any(self.offers.get(topic, NO_OFFER).publishers for topic in ("/tf", "/tf_static")):
-            starved += [symptom for symptom, _ in self.lost(Kind.NO_TRANSFORMS)]
+            starved += [symptom for symptom, _ in self.unplaced(Kind.NO_TRANSFORMS)]
         return tuple(starved)
 
     def unreceived(self) -> tuple[Symptom, ...]:
@@ -262,7 +262,7 @@ class Observation:
             and display.statuses[each.status].remedy is None
             for symptom in display.symptom(each.status)
         ]
-        frames = [symptom for symptom, reason in self.lost(*OF_TIME) if not reason.near]
+        frames = [symptom for symptom, reason in self.unplaced(*OF_TIME) if not reason.near]
         return (*self.symptom("Time"), *topics, *frames)
 
     def samples(self, *types: str) -> Iterator[tuple[DisplaySeen, InputSeen]]:
@@ -282,7 +282,7 @@ class Observation:
         return tuple(s for display, _ in self.misfits() for s in display.symptom("Map"))
 
     @functools.cached_property
-    def _lost(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
+    def _unplaced_by_kind(self) -> Mapping[Kind, Sequence[tuple[Symptom, Explanation]]]:
         owners = [(display.id, display.statuses) for display in self.displays]
         by_kind: dict[Kind, list[tuple[Symptom, Explanation]]] = {}
         for id, statuses in [("", self.statuses), *owners]:
@@ -292,14 +292,14 @@ class Observation:
                     by_kind.setdefault(status.reason.kind, []).append((symptom, status.reason))
         return by_kind
 
-    def lost(self, *kinds: Kind) -> Iterator[tuple[Symptom, Explanation]]:
+    def unplaced(self, *kinds: Kind) -> Iterator[tuple[Symptom, Explanation]]:
         """Yield the statuses of frames that have no pose for one of these reasons."""
         for kind in kinds:
-            yield from self._lost.get(kind, ())
+            yield from self._unplaced_by_kind.get(kind, ())
 
     def outlived(self, display: DisplaySeen) -> tuple[Symptom, ...]:
         """Return the statuses of a display whose last data is older than the transforms by now."""
-        return tuple(s for s, _ in self.lost(Kind.BEHIND) if s.display == display.id)
+        return tuple(s for s, _ in self.unplaced(Kind.BEHIND) if s.display == display.id)
 
     def symptom(self, key: str) -> tuple[Symptom, ...]:
         """Return a warning or error of the viewer as a symptom, None for other statuses."""

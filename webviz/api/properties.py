@@ -86,7 +86,7 @@ def ports_of(cls: type[msgspec.Struct]) -> dict[str, Input | Output]:
 
     A viewer needs those of all displays to start, and to describe all their types takes longer.
     """
-    facts = {name: _known(hint) for name, hint in _hints(cls).items()}
+    facts = {name: _facts(hint) for name, hint in _hints(cls).items()}
     return {name: by_field["port"] for name, by_field in facts.items() if "port" in by_field}
 
 
@@ -122,7 +122,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
     info = msgspec.inspect.type_info(cls)
     assert isinstance(info, msgspec.inspect.StructType)
     hints = _hints(cls)
-    facts = {field.name: _known(hints[field.name]) for field in info.fields}
+    facts = {field.name: _facts(hints[field.name]) for field in info.fields}
     properties = []
     for field in info.fields:
         name, hint, fact = field.name, hints[field.name], facts[field.name]
@@ -156,7 +156,7 @@ def _properties(cls: type[msgspec.Struct], prefix: str, group: str) -> tuple[Pro
     return tuple(properties)
 
 
-def _known(hint: Any) -> dict[str, Any]:
+def _facts(hint: Any) -> dict[str, Any]:
     """Return the values of a type's annotations; the outermost wins."""
     facts: dict[str, Any] = {}
     for mark in getattr(hint, "__metadata__", ()):

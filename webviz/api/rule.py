@@ -89,7 +89,7 @@ class Rule:
         names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
         return f"{self.comparison} {names.get(self.limit, f'{self.limit:g}')}"
 
-    def shown(self, value: float) -> str:
+    def text_of(self, value: float) -> str:
         """Return a value for sentences."""
         names = {level: name for name, level in LEVELS.items()} if self.value == "status" else {}
         return names.get(value, f"{value:.4g}")

@@ -58,7 +58,7 @@ class MemoryBudget:
         Raises:
             OverBudgetError: there is not so much even without other work.
         """
-        reserved: int = getattr(self._mine, "held", 0)
+        reserved: int = getattr(self._mine, "reserved", 0)
         with self._changed:
             while not (stopped and stopped.is_set()):
                 if size > self.room:
@@ -73,11 +73,11 @@ class MemoryBudget:
                     break
                 self._changed.wait()
             self._decode_size += size
-        self._mine.held = reserved + size
+        self._mine.reserved = reserved + size
         try:
             yield
         finally:
-            self._mine.held = reserved
+            self._mine.reserved = reserved
             with self._changed:
                 self._decode_size -= size
                 self._changed.notify_all()

@@ -41,7 +41,6 @@ class PublishMessage(SendingPanel):
         self.is_repeating = False
         self.sender: int | None = None
         self.next_s = self.shown_s = 0.0
-        self.known = ""
 
     def publications(self) -> Mapping[str, str]:
         """Return the topic."""

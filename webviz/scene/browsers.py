@@ -81,7 +81,7 @@ class ViserBrowsers:
         link.channel.on(Vitals, self._hear)
         link.channel.on(HasPainted, self._hear_painted)
 
-    def seen(self) -> Sequence[BrowserSeen]:
+    def reports(self) -> Sequence[BrowserSeen]:
         """All browsers as they reported last."""
         now = time.monotonic()
         channel = self._link.channel

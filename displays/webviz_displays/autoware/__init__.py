@@ -82,7 +82,7 @@ class PoseHistory(Display, Selective):
         """Return the newest poses."""
         return Keep(count=self.buffer_size)
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+    def accept(self, new: Sample, buffered: Sequence[Sample]) -> bool | str:
         """Poses that can be drawn."""
         return fault(new.message.pose) or True
 

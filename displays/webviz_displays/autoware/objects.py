@@ -45,7 +45,7 @@ from webviz_displays.autoware.objects_look import (
     ShapeView,
     TrackedTexts,
 )
-from webviz_displays.autoware.seen_object import SeenObject, seen
+from webviz_displays.autoware.seen_object import SeenObject, object_of
 from webviz_displays.autoware.sketch import ObjectSketch
 from webviz_displays.shared.colors import Alpha
 from webviz_displays.shared.geometry import LONGEST, is_drawable, origin_near
@@ -100,7 +100,7 @@ class ObjectsDisplay(Display):
         """Draw the objects, in the frame and at the stamp of the header."""
         objects: Sequence[Any] = sample.message.objects
         chosen = [(number, each) for number, each in enumerate(objects) if self.is_wanted(each)]
-        candidates = [seen(number, each) for number, each in chosen[:MAX_OBJECTS]]
+        candidates = [object_of(number, each) for number, each in chosen[:MAX_OBJECTS]]
         valid = [each for each in candidates if each is not None]
         self._report(len(objects), len(chosen), len(candidates) - len(valid), ctx)
         if not valid:
@@ -131,7 +131,7 @@ class ObjectsDisplay(Display):
     def inspect(self, hit: Hit, ctx: Context) -> Details | None:
         """Return an object: its class, how sure it is, its size and speed."""
         message_object = hit.sample.message.objects[hit.id]
-        detected = seen(hit.id, message_object)
+        detected = object_of(hit.id, message_object)
         if detected is None:
             return None
         values: dict[str, object] = {

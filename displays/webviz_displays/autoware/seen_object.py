@@ -77,7 +77,7 @@ class SeenObject(msgspec.Struct, frozen=True, eq=False):
         return points @ self.turn.T + self.xyz
 
 
-def seen(number: int, item: Any) -> SeenObject | None:
+def object_of(number: int, item: Any) -> SeenObject | None:
     """Return an object of a message, None if its pose or shape cannot be drawn."""
     kinematics = item.kinematics
     pose = _of(kinematics, "pose_with_covariance")

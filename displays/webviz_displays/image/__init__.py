@@ -93,7 +93,7 @@ class Image(AnnotatedImage):
         pane = Pane(
             picture, stamp_ns, ctx.order, marks=self.marks(content.annotations, stamp_ns, ctx)
         )
-        ctx.add("pane", self.kept(pane, ctx))
+        ctx.add("pane", self.reuse(pane, ctx))
 
 
 def _video(clip: video.Clip, ctx: Context) -> Video | None:

@@ -271,7 +271,7 @@ class AnnotatedImage(ImageDisplay):
         before: Pane | None = ctx.state.pane
         return before.stamp_ns if before and before.picture == picture else sample.stamp_ns
 
-    def kept(self, pane: Pane, ctx: Context) -> Pane:
+    def reuse(self, pane: Pane, ctx: Context) -> Pane:
         """Return the pane that was drawn before if it is the same, so that nothing is sent."""
         if ctx.state.pane != pane:
             ctx.state.pane = pane

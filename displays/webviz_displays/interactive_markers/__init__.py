@@ -95,7 +95,7 @@ def _troubles(server: InteractiveMarkerServer, ctx: Context) -> dict[str, tuple[
             troubles[name] = True, "Its header has no frame id. Correct the server."
         elif place is None:
             troubles[name] = True, frames.why_not(source.frame, source.stamp_ns)
-        elif problem := server.by_name[name].lost:
+        elif problem := server.by_name[name].transform_error:
             troubles[name] = True, problem
         elif fault := server.by_name[name].fault:
             troubles[name] = True, fault

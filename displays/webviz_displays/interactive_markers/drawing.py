@@ -55,7 +55,7 @@ class ShownMarker:
     """
 
     def __init__(self, assets: Assets) -> None:
-        self.lost: str = ""
+        self.transform_error: str = ""
         """Reason why a shape has no transform, a sentence."""
         self.fault: str = ""
         """Reason why a shape cannot be drawn wherever it is, a sentence."""
@@ -81,7 +81,7 @@ class ShownMarker:
     def is_current(self, marker: Tracked, place: Place, look: MarkerLook, frames: Frames) -> bool:
         """Return whether its groups need not be made anew."""
         is_same = self._of == (marker.version, place, look)
-        return is_same and not (self.lost and self._tried != frames.buffer.version)
+        return is_same and not (self.transform_error and self._tried != frames.buffer.version)
 
     def show(self, ctx: Context) -> None:
         """Add the groups to a context as they were made."""
@@ -97,7 +97,7 @@ class ShownMarker:
 
     def _make(self, marker: Tracked, place: Place, look: MarkerLook, ctx: Context) -> None:
         completed = marker.content
-        if self._parts is not completed.parts or self._look != look or self.lost:
+        if self._parts is not completed.parts or self._look != look or self.transform_error:
             self._renew(marker, place, look, ctx.frames)
         whole = self._group(ctx, place, marker.key, place.pose.wxyz)
         whole.lines(f"place/{marker.key}", (), (0, 0, 0))  # for pages, even if it is empty
@@ -132,7 +132,7 @@ class ShownMarker:
         parts = marker.content.parts
         if self._parts is not parts:
             self._pinned.clear()
-        self._parts, self._look, self.lost, self.fault = parts, look, "", ""
+        self._parts, self._look, self.transform_error, self.fault = parts, look, "", ""
         self._nodes = []
         self.requests = set()
         for index, part in enumerate(parts):
@@ -195,7 +195,7 @@ class ShownMarker:
         frame, stamp_ns = shapes.frame_ids[row].removeprefix("/"), int(shapes.stamps_ns[row])
         at, base = frames.at(frame, stamp_ns), frames.latest(place.frame)
         if at is None or base is None:
-            self.lost = frames.why_not(frame, stamp_ns)
+            self.transform_error = frames.why_not(frame, stamp_ns)
             return None
         wxyz = orientation(part, place.pose, marker.turned.get(part.control.name, 0.0))
         return compose(inverse(compose(base, Pose(place.pose.position, wxyz))), at)

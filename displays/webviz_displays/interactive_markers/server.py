@@ -117,7 +117,9 @@ class InteractiveMarkerServer:
             drawn_marker.drawn_in = self.drawings
             count += 1
         self.undrawn = len(stale) - count
-        self.is_waiting |= any(drawn_marker.lost for drawn_marker in self.by_name.values())
+        self.is_waiting |= any(
+            drawn_marker.transform_error for drawn_marker in self.by_name.values()
+        )
         self.assets.start(ctx)
 
     def handles(self, frames: Frames, aids: bool, refusal: str) -> Mapping[str, Handle]:

@@ -52,7 +52,12 @@ from webviz_displays.moveit.properties import (
     VoxelRendering,
 )
 from webviz_displays.moveit.robots import RobotLook, Robots
-from webviz_displays.moveit.solutions import KnownSolution, ShownMarkers, SolutionRequest, known
+from webviz_displays.moveit.solutions import (
+    KnownSolution,
+    ShownMarkers,
+    SolutionRequest,
+    known_solution,
+)
 from webviz_displays.moveit.tasks import MAX_TASKS, KnownTasks, TaskStage
 from webviz_displays.moveit.world import DrawnWorld
 
@@ -121,7 +126,7 @@ class TasksDrawing:
         if message is None:
             self.solution = None
         elif self.solution is None or self.solution.message is not message:
-            self.solution = known(message)
+            self.solution = known_solution(message)
         return self.solution
 
 

@@ -71,7 +71,7 @@ class KnownSolution(msgspec.Struct, frozen=True, eq=False):
         return [each.info.markers for each in (*self.message.sub_solution, *chosen)]
 
 
-def known(message: Any) -> KnownSolution:
+def known_solution(message: Any) -> KnownSolution:
     """Return a solution with the scenes that its parts lead to."""
     scene = updated(KnownScene(), message.start_scene)
     parts = message.sub_trajectory[:MAX_PARTS]

@@ -49,7 +49,7 @@ class _Look(msgspec.Struct, frozen=True, eq=False):
         """Return whether nothing has changed."""
         return self.world is world and self.colors is colors and self.default == default
 
-    def drawn(self) -> DrawnObjects:
+    def nodes(self) -> DrawnObjects:
         """Return the nodes."""
         return draw_objects(
             [
@@ -147,8 +147,8 @@ class DrawnWorld(msgspec.Struct):
             look = self._look = _Look(world, scene.colors, default)
         if self._cache[0] is not look:
             if len(world) <= MAX_AT_ONCE:
-                self._cache = look, look.drawn()
-            elif (objects := ctx.background(look, look.drawn)) is not None:
+                self._cache = look, look.nodes()
+            elif (objects := ctx.background(look, look.nodes)) is not None:
                 self._cache = look, objects
         return self._cache[1]
 

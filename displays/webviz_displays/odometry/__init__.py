@@ -235,7 +235,7 @@ class Odometry(Display, Selective):
         """Return the rule by which poses are kept."""
         return TrailRule(self.position_tolerance, self.angle_tolerance, self.covariance.value)
 
-    def accept(self, new: Sample, kept: Sequence[Sample]) -> bool | str:
+    def accept(self, new: Sample, buffered: Sequence[Sample]) -> bool | str:
         """Return whether the robot moved by one of the tolerances, or why the pose is invalid.
 
         A robot at rest counts as well when its covariance becomes invalid, or valid again.
@@ -243,7 +243,9 @@ class Odometry(Display, Selective):
         if problem := fault(new.message):
             return problem
         rule = self.rule()
-        return not kept or rule.keeps(rule.place_of(new.message), rule.place_of(kept[-1].message))
+        return not buffered or rule.keeps(
+            rule.place_of(new.message), rule.place_of(buffered[-1].message)
+        )
 
     def draw_all(self, samples: Sequence[Sample], ctx: Context) -> None:
         """All poses as one node, and their covariances as a few more."""

@@ -65,7 +65,7 @@ class Result:
     bytes: float = 0.0
     """Bytes to one client, per second."""
     published: dict[int, float] = field(default_factory=dict)
-    shown: dict[int, float] = field(default_factory=dict)
+    drawn_per_s: dict[int, float] = field(default_factory=dict)
     latency: list[float] = field(default_factory=list)
     """Latency of every publication of the scene's first lane that was shown."""
     others: float = 0.0
@@ -193,7 +193,7 @@ class Case:
         if watchers:
             result.bytes = (watchers[0].bytes - sizes[0]) / (took + 0.3)
             late = log.latencies(watchers[0].sightings, start_ns, end_ns)
-            result.shown = {lane: len(each) / result.seconds for lane, each in late.items()}
+            result.drawn_per_s = {lane: len(each) / result.seconds for lane, each in late.items()}
             result.latency = late.get(self.scene.lane, [])
         return result
 

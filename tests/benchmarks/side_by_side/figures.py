@@ -50,8 +50,8 @@ def rows(cases: Sequence[tuple[str, str, CaseResult]]) -> list[Row]:
 
 def _figures(case: CaseResult, result: Result) -> dict[str, float | None]:
     late = result.latency
-    published, drawn_per_s = sum(result.published.values()), sum(result.shown.values())
-    is_watched = bool(result.shown) or result.bytes > 0
+    published, drawn_per_s = sum(result.published.values()), sum(result.drawn_per_s.values())
+    is_watched = bool(result.drawn_per_s) or result.bytes > 0
     return {
         "p50_ms": float(np.percentile(late, 50)) if late else None,
         "p99_ms": float(np.percentile(late, 99)) if late else None,

@@ -32,11 +32,11 @@ def cells(lane: int, publication: int) -> NDArray[np.int8]:
 
 def read(picture: bytes) -> list[tuple[int, int]]:
     """Lane and publication (modulo CYCLE) of every strip in a PNG or JPEG."""
-    opened = PIL.Image.open(io.BytesIO(picture))
-    width, height = opened.size
-    opened.draft(None, (width // BLOCK, height // BLOCK))  # a JPEG with a pixel for each block
-    red = np.asarray(opened.convert("RGBA"))[:, :, 0]
-    step = BLOCK if opened.width == width else 1
+    image = PIL.Image.open(io.BytesIO(picture))
+    width, height = image.size
+    image.draft(None, (width // BLOCK, height // BLOCK))  # a JPEG with a pixel for each block
+    red = np.asarray(image.convert("RGBA"))[:, :, 0]
+    step = BLOCK if image.width == width else 1
     is_set = red[step // 2 :: step, step // 2 :: step] < 128
     last = is_set.shape[1] - LENGTH + 1
     if last < 1:

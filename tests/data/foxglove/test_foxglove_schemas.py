@@ -85,8 +85,8 @@ def test_a_cloud_is_at_its_pose() -> None:
     still = converted(fox.PointCloud(**cloud))
     assert (still.width, still.point_step) == (2, 12)
     assert still.data.tobytes() == xyz.tobytes()
-    moved = converted(fox.PointCloud(**cloud, pose=TURNED)).data.view(np.float32).reshape(2, 3)
-    assert moved == pytest.approx(np.array([[10, 1, 0], [9, 0, 0]]), abs=1e-6)
+    positions = converted(fox.PointCloud(**cloud, pose=TURNED)).data.view(np.float32).reshape(2, 3)
+    assert positions == pytest.approx(np.array([[10, 1, 0], [9, 0, 0]]), abs=1e-6)
     with pytest.raises(ConversionError, match="fields outside of its points"):
         converted(fox.PointCloud(**{**cloud, "point_stride": 11}))
 

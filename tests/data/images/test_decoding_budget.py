@@ -111,14 +111,14 @@ def test_loaded_data_uses_the_budget_until_it_is_freed() -> None:
 
 def test_work_that_waits_learns_that_there_will_never_be_room() -> None:
     budget = MemoryBudget(100)
-    refused = threading.Event()
+    refusal = threading.Event()
     is_tried = threading.Event()
 
     def other() -> None:
         is_tried.set()
         with contextlib.suppress(OverBudgetError), budget.take(90):
             return
-        refused.set()
+        refusal.set()
 
     owner = Owner()
     with budget.take(60):
@@ -126,7 +126,7 @@ def test_work_that_waits_learns_that_there_will_never_be_room() -> None:
         thread.start()
         assert is_tried.wait(60)
         budget.hold(owner, 50)
-    assert refused.wait(60)
+    assert refusal.wait(60)
     thread.join()
 
 

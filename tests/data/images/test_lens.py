@@ -18,10 +18,10 @@ def info(name: str, roi: tuple[int, int, int, int] = (0, 0, 0, 0), **changes: An
     return SimpleNamespace(**lenses.info(name, **changes), roi=part, binning_x=0, binning_y=0)
 
 
-@pytest.mark.parametrize("name", lenses.SEEN)
+@pytest.mark.parametrize("name", lenses.CAMERAS)
 def test_rays_meet_the_pixels_that_opencv_computes(name: str) -> None:
     pixels = Lens.of(info(name)).project(lenses.RAYS)
-    np.testing.assert_allclose(pixels, lenses.SEEN[name][2], atol=2e-4)
+    np.testing.assert_allclose(pixels, lenses.CAMERAS[name][2], atol=2e-4)
     far = Lens.of(info(name)).project(7.0 * lenses.RAYS)
     np.testing.assert_allclose(far, pixels, atol=1e-9)
 

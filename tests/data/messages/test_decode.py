@@ -96,10 +96,12 @@ def test_messages_of_real_robots_are_decoded_as_rosbags_decodes_them(
 
 def test_classes_written_by_hand_have_the_fields_and_constants_of_their_definitions():
     for type_name in WRITTEN:
-        written = message_class(type_name)
-        assert list(written.__struct_fields__) == [attribute(f.name) for f in fields(type_name)]
+        struct_class = message_class(type_name)
+        assert list(struct_class.__struct_fields__) == [
+            attribute(f.name) for f in fields(type_name)
+        ]
         for name, value in constants(type_name).items():
-            assert getattr(written, name) == value, type_name
+            assert getattr(struct_class, name) == value, type_name
 
 
 @pytest.mark.parametrize("package", TYPES)

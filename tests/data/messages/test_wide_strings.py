@@ -80,8 +80,8 @@ def test_stamps_behind_a_wstring_are_found() -> None:
     register("wide_msgs/msg/Late", "wstring text\nstd_msgs/Header header\n")
     values = {"text": "ab", "header": {"stamp": {"sec": 7}}}
     cdr = shifted("wide_msgs/msg/Late", encode("wide_msgs/msg/Late", values), 10**9)
-    moved: Any = decode("wide_msgs/msg/Late", cdr)
-    assert (moved.text, moved.header.stamp_ns) == ("ab", 8 * 10**9)
+    late_message: Any = decode("wide_msgs/msg/Late", cdr)
+    assert (late_message.text, late_message.header.stamp_ns) == ("ab", 8 * 10**9)
 
 
 @pytest.mark.skipif(not REPORT.exists(), reason="../shared/data is absent")

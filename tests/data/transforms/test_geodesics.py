@@ -57,9 +57,9 @@ def test_a_lookup_from_time_to_time_joins_both_poses(before: Pose, after: Pose) 
     buffer = TransformBuffer()
     for stamp_ns, pose in ((S, before), (2 * S, after)):
         buffer.set_transform("map", "base", stamp_ns, pose[:3], pose[3:])
-    moved = buffer.lookup_full("base", 2 * S, "base", S, "map")
+    body_motion = buffer.lookup_full("base", 2 * S, "base", S, "map")
     then, now = buffer.lookup("map", "base", S), buffer.lookup("map", "base", 2 * S)
-    assert matrix(now) @ matrix(moved) == pytest.approx(matrix(then), abs=1e-8)
+    assert matrix(now) @ matrix(body_motion) == pytest.approx(matrix(then), abs=1e-8)
 
 
 @given(st.lists(poses(), min_size=1, max_size=6))

@@ -79,7 +79,7 @@ def test_a_buffer_equals_that_of_tf2(seed: int) -> None:
     dice = random.Random(seed)
     buffer, reference = TransformBuffer(CACHE_NS), Reference()
     start = dice.choice([0, 0, S, 1_700_000_000 * S])
-    now, refused = start, 0
+    now, refusals = start, 0
     lists = [[(dice.choice("ab"), name) for name in FRAMES] for _ in range(3)]
 
     def stamp() -> int:
@@ -99,7 +99,7 @@ def test_a_buffer_equals_that_of_tf2(seed: int) -> None:
                 rows = np.array([[x, 0.0, 0.0, *UNIT] for x in xs])
                 buffer.set_moving(names, stamps, rows, "a", 0)
                 for (parent, child), ns, x in zip(names, stamps, xs, strict=True):
-                    refused += not reference.insert(child, (ns, parent, x), False)
+                    refusals += not reference.insert(child, (ns, parent, x), False)
             case 5 | 6 | 7 | 8 | 9:
                 parent, child, ns = dice.choice("aab"), dice.choice(FRAMES), stamp()
                 x, is_static = float(dice.randrange(3)), dice.random() < 0.03
@@ -113,7 +113,7 @@ def test_a_buffer_equals_that_of_tf2(seed: int) -> None:
                 pin(buffer, pinned, (9.0, 0.0, 0.0, *UNIT))
                 unpin(buffer, pinned)
         assert_same(buffer, reference, dice, now)
-    assert refused
+    assert refusals
 
 
 def assert_same(

@@ -57,7 +57,7 @@ def message(dice: random.Random, tick: int) -> list[Row]:
 def test_all_at_once_is_as_one_by_one(seed: int) -> None:
     dice = random.Random(seed)
     expected, actual = TransformBuffer(2 * S), TransformBuffer(2 * S)
-    refused = False
+    has_refusal = False
     for tick in range(60):
         rows = message(dice, tick)
         authority, received_ns = dice.choice(["a", "a", "a", "b"]), (tick + 2) * S // 10
@@ -67,8 +67,8 @@ def test_all_at_once_is_as_one_by_one(seed: int) -> None:
         one_by_one(expected, rows, authority, received_ns)
         at_once(actual, rows, authority, received_ns)
         assert actual.refusals.rejections == expected.refusals.rejections
-        refused = refused or bool(actual.refusals.rejections)
-    assert refused
+        has_refusal = has_refusal or bool(actual.refusals.rejections)
+    assert has_refusal
     assert_same(actual, expected, expected.tree.caches)
 
 

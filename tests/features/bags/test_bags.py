@@ -29,10 +29,10 @@ def test_live_topics_make_room_for_a_bag_and_come_back_with_their_memory(desk: D
 
 def test_a_saved_bag_is_listed_and_opened(desk: Desk) -> None:
     assert desk.guest.do("SaveMemory").startswith("Saved the last")
-    (saved,) = desk.store("outputs").values()
-    assert desk.bags() == sorted(["run.mcap", saved["name"]])
-    assert desk.guest.do("OpenRecording", path=saved["path"]) == ""
-    assert desk.names() == (saved["name"],)
+    (output,) = desk.store("outputs").values()
+    assert desk.bags() == sorted(["run.mcap", output["name"]])
+    assert desk.guest.do("OpenRecording", path=output["path"]) == ""
+    assert desk.names() == (output["name"],)
 
 
 def test_a_report_is_unpacked_and_its_messages_are_played(desk: Desk) -> None:

@@ -68,21 +68,21 @@ def test_a_saved_bag_is_shown_with_path_and_download(desk: Desk, page: playwrigh
     page.get_by_role("button", name="Save last").click()
     card = page.get_by_label("File", exact=True)
     expect(card).to_contain_text("Saved the last")
-    (saved,) = desk.store("outputs").values()
-    expect(card).to_contain_text(saved["path"])
+    (output,) = desk.store("outputs").values()
+    expect(card).to_contain_text(output["path"])
     card.get_by_role("button", name="Copy path").click()
     expect(page.get_by_text("Path copied.")).to_be_visible()
-    assert page.evaluate("navigator.clipboard.readText()") == saved["path"]
+    assert page.evaluate("navigator.clipboard.readText()") == output["path"]
     downloads: list[playwright.Download] = []
     page.on("download", lambda download: downloads.append(download))
     card.get_by_role("button", name="Download").click()
-    files = sorted(Path(saved["path"]).iterdir())
+    files = sorted(Path(output["path"]).iterdir())
     until(lambda: len(downloads) == len(files), turn=lambda: page.wait_for_timeout(50))
     for download, file in zip(downloads, files, strict=True):
         assert download.suggested_filename == file.name
         assert Path(download.path()).read_bytes() == file.read_bytes()
     card.get_by_role("button", name="Open here").click()
-    until(lambda: desk.names() == (saved["name"],))
+    until(lambda: desk.names() == (output["name"],))
     expect(card).to_be_hidden()
 
 

@@ -174,7 +174,7 @@ def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Benches]:
             bench = make_bench(PathDisplay(name="Plan"))
             bench.viewer.settings.watch = rules
             bench.viewer.settings.watch_limits = WatchLimits(per_day, gigabytes)
-            bench.source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+            bench.source.topics["/path"] = Offer((PUBLISHER,), type=PATH)
             bench.turn()
             return bench
 
@@ -209,7 +209,7 @@ def causes(bench: Bench) -> set[str]:
 
 def fail(bench: Bench) -> None:
     """Let the display fail: its publisher has another type."""
-    bench.source.known["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
+    bench.source.topics["/path"] = Offer((PUBLISHER,), problem="its type differs", type=PATH)
 
 
 def is_saving(state: State) -> bool:
@@ -224,7 +224,7 @@ def messages(path: Path) -> list[bytes]:
         return [m.data for m in recording.messages(recording.channels, *recording.span_ns)]
 
 
-def saved(bench: Bench) -> list[Path]:
+def recording_files(bench: Bench) -> list[Path]:
     """The recordings once none is being made."""
 
     def is_done(state: State) -> bool:
@@ -242,7 +242,7 @@ def test_a_rule_saves_messages_before_and_after_it_fires(make: Benches) -> None:
     fail(bench)
     until(bench, is_saving)
     publish(bench, 3.0)
-    (path,) = saved(bench)
+    (path,) = recording_files(bench)
     assert path.parent.name == "webviz_black_box"
     assert path.name.startswith(f"{datetime.now():%Y-%m-%d}_")
     assert path.name.endswith("_Plan_error")
@@ -275,7 +275,7 @@ def test_a_violated_condition_saves_earlier_messages(make: Benches) -> None:
     publish(bench, 1.0)
     fail(bench)
     bench.clock += 2.0  # for another round of the doctor
-    (path,) = saved(bench)
+    (path,) = recording_files(bench)
     assert path.name.endswith("_Plan_status_error")
 
 
@@ -334,12 +334,12 @@ def test_a_display_that_has_received_nothing_yet_fires_no_rule(
     for _ in range(10):
         assert bench.do(Refresh()).rows[0].level >= Level.WARN
         bench.clock += 1.0  # for another round of the doctor
-    bench.source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    bench.source.topics["/path"] = Offer((PUBLISHER,), type=PATH)
     bench.turn()
     assert not Path("webviz_black_box").exists()
     publish(bench, 1.0)
     fail(bench)
-    saved(bench)
+    recording_files(bench)
 
 
 def test_a_status_does_not_count_while_a_robot_starts(
@@ -353,7 +353,7 @@ def test_a_status_does_not_count_while_a_robot_starts(
     assert causes(bench) == {""}
     assert not Path("webviz_black_box").exists()
     monkeypatch.setattr(black_box, "SETTLE_S", 0.0)
-    saved(bench)
+    recording_files(bench)
 
 
 def test_a_recording_stays_below_the_limit(make: Benches) -> None:
@@ -365,7 +365,7 @@ def test_a_recording_stays_below_the_limit(make: Benches) -> None:
     until(bench, is_saving)
     for _ in range(10):
         bench.publish("/path", PATH, {"header": {"frame_id": "x" * 15_000}})
-    (path,) = saved(bench)
+    (path,) = recording_files(bench)
     assert sum(file.stat().st_size for file in path.iterdir()) < 100_000
     paths = [decode(PATH, cdr) for cdr in messages(path)]
     assert paths[-1].header.frame_id.startswith("9 "), "those before the fault go first"
@@ -395,8 +395,8 @@ def test_a_driver_that_crashes_fires_a_rule_about_its_rate(make: Benches) -> Non
     for tenths in range(round(SPAN_S * 10)):
         bench.source.inbox.put("/path", Raw(b"", 0, began_s + tenths / 10))
     bench.turn()
-    del bench.source.known["/path"]
-    (path,) = saved(bench)
+    del bench.source.topics["/path"]
+    (path,) = recording_files(bench)
     assert path.name.endswith("_path_rate_5")
     assert len(messages(path)) == 30
 
@@ -405,11 +405,11 @@ def test_a_recording_that_was_cut_off_is_listed(make: Benches) -> None:
     bench = make(WatchRule(display="Plan", status="error"))
     publish(bench, 1.0)
     fail(bench)
-    (path,) = saved(bench)
+    (path,) = recording_files(bench)
     (path / "metadata.yaml").unlink()
     bench.viewer.settings.watch = (WatchRule(topic="/none", rate="<1"),)
     bench.do(Refresh())
-    assert saved(bench) == [path]
+    assert recording_files(bench) == [path]
 
 
 def test_a_rule_about_a_missing_display_has_a_status(make: Benches) -> None:

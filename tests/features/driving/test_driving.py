@@ -172,10 +172,10 @@ def test_a_silent_driver_is_stopped_between_two_commands(
 
 def test_nothing_is_advertised_without_a_driver(b: Bench, hold: Hands) -> None:
     assert advertised(b) == set()
-    assert "/odom" not in b.source.wanted
+    assert "/odom" not in b.source.subscriptions
     assert steer(b, teleop(b), 1, STILL).driver is None
     assert advertised(b) == {CMD_VEL}
-    assert b.source.wanted["/odom"].type == ODOMETRY
+    assert b.source.subscriptions["/odom"].type == ODOMETRY
     time.sleep(2 * PERIOD_S)
     assert b.graph.published == []
     until(lambda: advertised(b) == set())

@@ -136,8 +136,8 @@ def test_wide_panels_open_below_the_scene_in_one_place_and_narrow_ones_in_the_ta
     b.do(SetLayout(Layout()))
     for name in ("Plot", "Joints", "Log", "Plot"):
         b.do(AddPanel(name, {}))
-    opened = Layout(below=(DockedPanel(panel="Plot", tabs=("Log", "Plot 2")),))
-    assert layouts(b)[0] == opened
+    open_layout = Layout(below=(DockedPanel(panel="Plot", tabs=("Log", "Plot 2")),))
+    assert layouts(b)[0] == open_layout
     b.do(Undo())
     assert layouts(b)[0] == Layout(below=(DockedPanel(panel="Plot", tabs=("Log",)),))
     b.do(Redo())
@@ -233,8 +233,8 @@ def test_the_largest_layouts_are_written_and_read_in_seconds() -> None:
     assert time.process_time() - start_s < 6.0
 
 
-@pytest.mark.parametrize(("key", "saved"), [("layouts", {}), ("views", {}), ("bookmarks", 0.0)])
-def test_the_number_of_saved_entries_is_bounded(key: str, saved: object) -> None:
-    entries = {f"{number}": saved for number in range(1001)}
+@pytest.mark.parametrize(("key", "value"), [("layouts", {}), ("views", {}), ("bookmarks", 0.0)])
+def test_the_number_of_saved_entries_is_bounded(key: str, value: object) -> None:
+    entries = {f"{number}": value for number in range(1001)}
     with pytest.raises(ConfigError, match=f"`?{key}`?: expected at most"):
         read(f"version: 1\n{key}: {json.dumps(entries)}\n", "x.yaml")

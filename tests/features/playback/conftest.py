@@ -17,7 +17,7 @@ from webviz.engine.commands import Command
 from webviz.engine.loop import FrameLoop
 from webviz.files.opening import parse
 from webviz.shell.testing.recording import RecordingScene
-from webviz.shell.testing.seeking import BagViewer, shown
+from webviz.shell.testing.seeking import BagViewer, visible_nodes
 from webviz.shell.testing.source import HandFedSource
 from webviz.sources import Offer, Raw
 from webviz.sources.bag.files import BagFiles
@@ -66,7 +66,7 @@ class LiveDrive:
         self.scene = RecordingScene()
         self.files = BagFiles([path])
         for channel in self.files.channels:
-            self.source.known[channel.topic] = Offer(channel.publishers, type=channel.type)
+            self.source.topics[channel.topic] = Offer(channel.publishers, type=channel.type)
         self.loop = FrameLoop(parse(config, "the config"), self.source, self.scene, strict=True)
         self.loop.turn()
         for message in self.files.messages(self.files.channels, self.files.start_ns):
@@ -96,8 +96,8 @@ class LiveDrive:
         assert state is not None
         return state
 
-    def shown(self) -> dict[str, Any]:
-        return shown(self.loop, self.scene)
+    def visible_nodes(self) -> dict[str, Any]:
+        return visible_nodes(self.loop, self.scene)
 
     def close(self) -> None:
         self.loop.close()

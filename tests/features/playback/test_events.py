@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 from bags import START_NS, Bag, ns, strings
+from page_stores import page_store
 from rosbags.rosbag2 import StoragePlugin
-from shown_stores import shown_by
 
 from webviz.api.status import LOADING, Level, Status
 from webviz.commands import RemoveDisplay, Seek
@@ -46,7 +46,7 @@ def test_a_worker_reads_warnings_of_rosout(
         Event(START_NS + ns(4), Level.ERROR, "driver", ""),
     ]
     assert viewer.loop.state().logged is state.logged
-    assert shown_by("events", state)["logged"][0] == [2.0, "warn", "driver: slow"]
+    assert page_store("events", state)["logged"][0] == [2.0, "warn", "driver: slow"]
 
 
 def test_over_the_limit_the_most_severe_events_and_a_sample_of_the_others_are_kept(

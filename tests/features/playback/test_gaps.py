@@ -143,7 +143,7 @@ def test_the_end_of_a_report_with_a_message_of_1970_is_shown() -> None:
     viewer = BagViewer(REPORTS / "zero_first")
     viewer.do(Seek((viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9))
     assert viewer.source.reached_ns == viewer.source.history.end_ns
-    assert "10." in str(viewer.shown())
+    assert "10." in str(viewer.visible_nodes())
     viewer.close()
 
 
@@ -154,7 +154,7 @@ def test_a_seek_beyond_thirty_years_reaches_the_last_message(tmp_path: Path, lat
     for _ in range(2):
         viewer.do(Seek((viewer.source.history.end_ns - viewer.source.history.start_ns) / 1e9))
         assert viewer.source.reached_ns == viewer.source.history.end_ns
-        assert "119." in str(viewer.shown())
+        assert "119." in str(viewer.visible_nodes())
         viewer.do(Seek(0.0))
         assert viewer.source.reached_ns == viewer.source.history.start_ns
     viewer.do(Seek(1e300))

@@ -49,7 +49,7 @@ def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
 ) -> None:
     live = drive(recorded(4), STEADY)
     live.do(Refresh())
-    before = live.shown()
+    before = live.visible_nodes()
     live.do(SaveMemory(path="saved"))
     with contextlib.closing(BagViewer(Path("saved"), STEADY)) as played:
         start_s = (played.source.history.start_ns - START_NS) / 1e9
@@ -57,7 +57,7 @@ def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
         for at_s in (0.58, 2.08, 3.78):
             played.play_to(at_s - start_s)
             played.settle()
-            truth[at_s] = played.shown()
+            truth[at_s] = played.visible_nodes()
 
     live.do(OpenRecording("saved"))
     live.do(Pause(True))
@@ -66,13 +66,13 @@ def test_an_opened_recording_is_played_like_a_bag_and_live_topics_come_back(
     assert live.playback.names == ("saved",)
     for at_s in (3.78, 0.58, 2.08):
         live.do(Seek(at_s - start_s))
-        assert live.shown() == truth[at_s], at_s
+        assert live.visible_nodes() == truth[at_s], at_s
 
     live.do(ReturnToLive())
     assert live.playback.is_live
     assert not live.playback.is_opened
     assert live.playback.names == ()
-    assert live.shown() == before
+    assert live.visible_nodes() == before
 
 
 def test_topics_stay_subscribed_to_and_remembered_while_a_recording_is_shown(
@@ -80,11 +80,13 @@ def test_topics_stay_subscribed_to_and_remembered_while_a_recording_is_shown(
 ) -> None:
     live = drive(recorded(4), STEADY)
     live.do(SaveMemory(path="saved"))
-    expected = live.source.wanted
+    expected = live.source.subscriptions
     live.do(OpenRecording("saved"))
     live.do(Seek(1.0))
     live.do(Seek(0.5))
-    assert live.source.wanted == expected, "nothing is asked for again, so that nothing is missed"
+    assert live.source.subscriptions == expected, (
+        "nothing is asked for again, so that nothing is missed"
+    )
 
     def remembered() -> int:
         memory = live.loop.state().memory

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bags import START_NS, Bag, ns, strings
-from shown_stores import shown_by
+from page_stores import page_store
 
 from webviz.commands import (
     Pause,
@@ -220,19 +220,19 @@ def test_bookmarks_name_moments_and_can_be_undone(theater: Callable, bag: Bag) -
     viewer.do(Seek(2.0))
     viewer.do(SaveBookmark("here"))
     viewer.do(SaveBookmark("later", 3.5))
-    bookmarks = shown_by("bookmarks", viewer.loop.state())
+    bookmarks = page_store("bookmarks", viewer.loop.state())
     assert bookmarks == {"all": [["here", 2.0], ["later", 3.5]]}
     viewer.do(RemoveBookmark("here"))
-    assert shown_by("bookmarks", viewer.loop.state()) == {"all": [["later", 3.5]]}
+    assert page_store("bookmarks", viewer.loop.state()) == {"all": [["later", 3.5]]}
     viewer.do(Undo())
-    assert shown_by("bookmarks", viewer.loop.state()) == bookmarks
+    assert page_store("bookmarks", viewer.loop.state()) == bookmarks
 
 
 def test_bookmarks_are_saved_in_the_config(theater: Callable, bag: Bag) -> None:
     viewer = theater(bag)
     viewer.do(SaveBookmark("door opens", 1.5))
-    saved = parse(dump(viewer.loop.config()), "the config")
-    assert saved.settings.bookmarks == {"door opens": (START_NS + ns(1.5)) / 1e9}
+    reread = parse(dump(viewer.loop.config()), "the config")
+    assert reread.settings.bookmarks == {"door opens": (START_NS + ns(1.5)) / 1e9}
 
 
 def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(
@@ -241,7 +241,7 @@ def test_bookmarks_are_read_from_a_config_and_those_of_other_recordings_kept(
     config = f"bookmarks: {{a: {(START_NS + ns(1.5)) / 1e9}, b: 12}}\ndisplays: []\n"
     viewer = theater(bag, config)
     state = viewer.loop.state()
-    assert shown_by("bookmarks", state) == {"all": [["a", 1.5]]}
+    assert page_store("bookmarks", state) == {"all": [["a", 1.5]]}
     assert set(state.settings.bookmarks) == {"a", "b"}
 
 

@@ -75,11 +75,11 @@ def test_a_rewound_viewer_equals_one_of_the_saved_memory(
             first_s = (played.source.history.start_ns - START_NS) / 1e9
             played.play_to(at_s - first_s)
             played.settle()
-            truth[at_s] = played.shown()
+            truth[at_s] = played.visible_nodes()
     for at_s in (3.78, 0.58, 5.58, 2.08, 3.78):
         live.seek(at_s)
         assert live.playback.is_live is False
-        for display, nodes in live.shown().items():
+        for display, nodes in live.visible_nodes().items():
             assert nodes == truth[at_s][display], (display, at_s)
 
 
@@ -89,7 +89,7 @@ def test_a_rewound_span_is_saved_after_the_memory_dropped_it(
     """A crash that somebody rewound to is in the file, however long they look at it."""
     live = drive(recorded(1), f"memory: {{seconds: 20}}\n{CONFIG}")
     live.seek(2.08)
-    drawing = live.shown()
+    drawing = live.visible_nodes()
     channel = next(each for each in live.files.channels if each.topic == "/odom")
     *_, message = live.files.messages([channel], live.files.start_ns)
     late_s = 28.0
@@ -99,7 +99,7 @@ def test_a_rewound_span_is_saved_after_the_memory_dropped_it(
     with contextlib.closing(BagViewer(Path("saved"), CONFIG)) as played:
         played.play_to(2.08 - (played.source.history.start_ns - START_NS) / 1e9)
         played.settle()
-        assert played.shown() == drawing
+        assert played.visible_nodes() == drawing
     live.do(ReturnToLive())
     assert "the last" in live.do(SaveMemory(path="live"))
 
@@ -136,12 +136,12 @@ def test_back_at_now_everything_is_shown_that_came_meanwhile(
 ) -> None:
     live = drive(recorded(4), LASTING)
     live.do(Refresh())
-    before = live.shown()
+    before = live.visible_nodes()
     live.seek(1.08)
-    assert live.shown() != before
+    assert live.visible_nodes() != before
     live.do(ReturnToLive())
     assert live.playback.is_live
-    assert live.shown() == before
+    assert live.visible_nodes() == before
 
 
 def test_displays_that_never_catch_up_are_live_after_a_while(
@@ -149,19 +149,19 @@ def test_displays_that_never_catch_up_are_live_after_a_while(
 ) -> None:
     monkeypatch.setattr("webviz.sources.player.RETURNING_S", 0.05)
     live = drive(recorded(4), LASTING)
-    before = live.shown()
+    before = live.visible_nodes()
     live.seek(1.08)
     with monkeypatch.context() as patch:
         patch.setattr("webviz.engine.pipeline.runner.Runner.is_late", lambda runner: True)
         live.do(ReturnToLive())
     assert live.playback.is_live
-    assert live.shown() == before
+    assert live.visible_nodes() == before
 
 
 def test_playing_from_the_past_becomes_live(drive: Callable[..., LiveDrive]) -> None:
     live = drive(recorded(5), LASTING)
     live.do(Refresh())
-    before = live.shown()
+    before = live.visible_nodes()
     live.seek(4.08)
     assert live.loop.state().clock.is_paused
     live.do(SetRate(0))
@@ -169,7 +169,7 @@ def test_playing_from_the_past_becomes_live(drive: Callable[..., LiveDrive]) -> 
     while not live.playback.is_live:
         live.loop.turn()
     live.do(Refresh())
-    assert live.shown() == before
+    assert live.visible_nodes() == before
     assert not live.loop.state().clock.is_paused
 
 
@@ -197,7 +197,7 @@ def publish(bench: Bench, ago_s: float, topic: str = "/path", now_s: float | Non
     pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": float(ago_s)}}}
     cdr = encode(PATH, {"header": {"frame_id": "map"}, "poses": [pose, pose]})
     now_s = now_s or time.monotonic()
-    bench.source.known.setdefault(topic, Offer((PUBLISHER,), type=PATH))
+    bench.source.topics.setdefault(topic, Offer((PUBLISHER,), type=PATH))
     bench.source.inbox.put(topic, Raw(cdr, bench.source.now - ns(ago_s), now_s - ago_s))
     bench.turn()
 
@@ -265,7 +265,7 @@ def test_live_topics_are_not_played(bench: Bench) -> None:
 
 def test_a_topic_not_displayed_at_that_time_has_a_status(bench: Bench) -> None:
     rewind(bench, 1.5)
-    bench.source.known["/late"] = Offer((PUBLISHER,), type=PATH)
+    bench.source.topics["/late"] = Offer((PUBLISHER,), type=PATH)
     bench.do(SetProperty(bench.states[-1].rows[0].id, "topic.name", "/late"))
     publish(bench, 0, "/late")
     assert bench.statuses()["Topic"] == (
@@ -327,7 +327,7 @@ def test_a_driven_vehicle_stops_first(make: Benches) -> None:
 def remembering() -> tuple[HandFedSource, MemoryHistory, Player]:
     """A source whose topic /path is remembered for a minute, the memory, and its player."""
     source = HandFedSource()
-    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    source.topics["/path"] = Offer((PUBLISHER,), type=PATH)
     memory = MemoryHistory(source)
     memory.recent.seconds, memory.recent.max_bytes = 60, 10**6
     source.inbox.read_along(lambda: memory.recent.put)
@@ -338,7 +338,7 @@ def remembering() -> tuple[HandFedSource, MemoryHistory, Player]:
 
 def test_a_seek_looks_back_as_far_as_displays_need_now() -> None:
     source = HandFedSource()
-    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    source.topics["/path"] = Offer((PUBLISHER,), type=PATH)
     player = Player(MemoryHistory(source))
     recent = player.memory.recent  # pyright: ignore[reportOptionalMemberAccess]
     recent.seconds, recent.max_bytes = 60, 10**6
@@ -440,7 +440,7 @@ def test_a_moment_is_forgotten_once_a_recording_replaces_it(tmp_path: Path) -> N
 def test_a_new_subscription_does_not_repeat_messages_read_by_a_seek() -> None:
     source = HandFedSource()
     latched = Publisher("/planner", PATH, "reliable", "transient_local")
-    source.known["/path"] = Offer((latched,), type=PATH)
+    source.topics["/path"] = Offer((latched,), type=PATH)
     player = Player(MemoryHistory(source))
     recent = player.memory.recent  # pyright: ignore[reportOptionalMemberAccess]
     recent.seconds, recent.max_bytes = 60, 10**6
@@ -460,7 +460,7 @@ def test_a_new_subscription_does_not_repeat_messages_read_by_a_seek() -> None:
 
 def test_messages_received_since_the_last_read_are_read_once() -> None:
     source = HandFedSource()
-    source.known["/path"] = Offer((PUBLISHER,), type=PATH)
+    source.topics["/path"] = Offer((PUBLISHER,), type=PATH)
     memory = MemoryHistory(source)
     player, recent = Player(memory), memory.recent
     recent.seconds, recent.max_bytes = 60, 10**6
@@ -514,7 +514,7 @@ def test_the_timeline_counts_messages_in_memory_and_on_display(make: Benches) ->
 def test_the_timeline_marks_log_messages(make: Benches) -> None:
     bench = make()
     publisher = Publisher("/driver", LOG, "reliable", "transient_local")
-    bench.source.known[ROSOUT] = Offer((publisher,), type=LOG)
+    bench.source.topics[ROSOUT] = Offer((publisher,), type=LOG)
     bench.turn()
     now_s = time.monotonic()
     texts = (3.0, 20, "fine"), (2.0, 40, "lost track\nof it"), (1.0, 30, "late")

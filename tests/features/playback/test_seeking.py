@@ -117,7 +117,7 @@ def test_links_whose_transforms_ended_long_before_stay_in_grey(tmp_path: Path) -
     check_seeks(path, config, times=[35.0, 3.0, 20.0, 39.0, 30.0])
     with contextlib.closing(BagViewer(path, config)) as viewer:
         viewer.do(Seek(35.0))
-        (nodes,) = viewer.shown().values()
+        (nodes,) = viewer.visible_nodes().values()
         assert nodes
 
 
@@ -143,12 +143,12 @@ def test_stepping_equals_playing_in_both_directions(tmp_path: Path) -> None:
         topic = chance.choice(["", "/odom", "/scan"])
         stepped.do(StepMessage(topic, is_forward=chance.random() < 0.4))
         result[(stepped.source.reached_ns - stepped.source.history.start_ns) / 1e9] = plain(
-            stepped.shown()
+            stepped.visible_nodes()
         )
     assert len(result) > 4
     for at_s, drawing in sorted(result.items()):
         played.play_to(at_s)
-        assert drawing == plain(played.shown()), at_s
+        assert drawing == plain(played.visible_nodes()), at_s
     stepped.close()
     played.close()
 
@@ -179,7 +179,7 @@ def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
         newest_s, _ = series.history.newest
         return [point for point in series.history.points() if point[0] > newest_s - 2.0]
 
-    def opened() -> Any:
+    def open_seeking() -> Any:
         viewer = theater(bag, config)
         (tab,) = viewer.loop.state().panels
         tab.panel.build(RecordedUi(), lambda *_: None)
@@ -188,7 +188,7 @@ def test_a_plot_shows_its_window_after_a_seek(theater: Callable) -> None:
         return viewer
 
     bag = recorded(duration_s=8.0)
-    played, sought = opened(), opened()
+    played, sought = open_seeking(), open_seeking()
     played.do(SetRate(0.0))
     played.do(Seek(0.0))
     played.do(SelectSpan(0.0, 5.0))
@@ -230,7 +230,9 @@ def test_a_seek_while_seeking_goes_to_the_last(theater: Callable) -> None:
     viewer.turn_until(lambda: all(answer.done() for answer in answers))
     assert viewer.playback.position_s == 3.0
     straight.do(Seek(3.0))
-    assert plain(list(viewer.shown().values())) == plain(list(straight.shown().values()))
+    assert plain(list(viewer.visible_nodes().values())) == plain(
+        list(straight.visible_nodes().values())
+    )
 
 
 def test_nothing_is_drawn_on_the_way(theater: Callable, monkeypatch: pytest.MonkeyPatch) -> None:

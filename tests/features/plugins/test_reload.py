@@ -264,8 +264,8 @@ def test_the_drawing_of_a_removed_hook_is_removed(b: Bench, plugin: Any) -> None
 def test_another_topic_in_the_file_is_listened_to(b: Bench, plugin: Any) -> None:
     plugin.edit(('Topic("/polygon")', 'Topic("/fence")'))
     reloaded(b, plugin)
-    assert "/fence" in b.source.wanted
-    assert "/polygon" not in b.source.wanted
+    assert "/fence" in b.source.subscriptions
+    assert "/polygon" not in b.source.subscriptions
     assert outlines(b) == []
     publish(b, topic="/fence")
     assert outlines(b) == [(GREEN, 1.0)]
@@ -306,6 +306,6 @@ def test_a_preserved_rviz_display_becomes_supported_and_keeps_foreign_properties
     reloaded(b, plugin)
     publish(b)
     assert outlines(b) == [((0, 0, 255), 1.0)]
-    written = rviz_trees.texts(rviz.write(b.viewer.config())[0])
-    (tree,) = written["Visualization Manager"]["Displays"]
+    rviz_texts = rviz_trees.texts(rviz.write(b.viewer.config())[0])
+    (tree,) = rviz_texts["Visualization Manager"]["Displays"]
     assert (tree["Class"], tree["Name"], tree["Glow"]) == ("x/Outline", "Fence", "1")

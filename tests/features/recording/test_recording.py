@@ -58,7 +58,7 @@ def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     with benches() as make:
         bench = make(PathDisplay(), RobotModel())
         latched = Publisher("/robot_state_publisher", STRING, "reliable", "transient_local")
-        bench.source.known["/robot_description"] = Offer((latched,))
+        bench.source.topics["/robot_description"] = Offer((latched,))
         yield bench
 
 
@@ -419,7 +419,7 @@ def test_the_store_of_recordings_has_memory_and_recording() -> None:
     assert recording_store(None, running, LIMITS) is None
     store = recording_store(msgspec.structs.replace(memory, held_s=95.3), None, LIMITS)
     assert store is not None
-    assert store.held == 95
+    assert store.past_s == 95
 
 
 @pytest.mark.parametrize("off", [{"seconds": 0.0}, {"megabytes": 0.0}])

@@ -41,20 +41,20 @@ def picture(size: tuple[int, int] = (2, 1), kind: str = "PNG", behind: int = 0) 
 
 @pytest.mark.parametrize(("kind", "ending"), [("PNG", ".png"), ("JPEG", ".jpg")])
 def test_a_picture_is_a_member_with_the_ending_of_its_format(kind: str, ending: str) -> None:
-    result = read_picture(sent := picture(kind=kind))
+    result = read_picture(picture_text := picture(kind=kind))
     assert result is not None
     assert result[0].endswith(ending)
-    assert result[1] == base64.b64decode(sent)
+    assert result[1] == base64.b64decode(picture_text)
 
 
 def test_an_empty_picture_is_left_out() -> None:
     assert read_picture("") is None
 
 
-@pytest.mark.parametrize("sent", ["%", "AAAA", picture(kind="GIF"), picture()[:40]])
-def test_a_picture_that_is_not_png_or_jpeg_is_refused(sent: str) -> None:
+@pytest.mark.parametrize("picture_text", ["%", "AAAA", picture(kind="GIF"), picture()[:40]])
+def test_a_picture_that_is_not_png_or_jpeg_is_refused(picture_text: str) -> None:
     with pytest.raises(webviz.Error, match="not a PNG or JPEG"):
-        read_picture(sent)
+        read_picture(picture_text)
 
 
 def test_a_picture_may_have_16_megabytes() -> None:
@@ -125,8 +125,8 @@ def test_a_report_records_its_size_and_whether_it_has_names(
 ) -> None:
     path = tmp_path / "bug.zip"
     image = base64.b64decode(picture()) + os.urandom(1_234_567)
-    sent = base64.b64encode(image).decode()
-    answer = live.do(SaveReport(sent, path=str(path), with_names=with_names))
+    picture_text = base64.b64encode(image).decode()
+    answer = live.do(SaveReport(picture_text, path=str(path), with_names=with_names))
     assert float(answer.removeprefix("Saved bug.zip, ").removesuffix(" MB.")) == pytest.approx(
         path.stat().st_size / 1e6, rel=0.01
     )

@@ -184,14 +184,14 @@ def test_a_config_without_a_list_keeps_its_names_when_one_is_added(
 def test_autosave_and_another_config_do_not_keep_allowed_names(
     make: Callable[..., TokenViewer], tmp_path: Path
 ) -> None:
-    saved = tmp_path / "last.yaml"
-    token_viewer = make(autosave=saved)
+    file = tmp_path / "last.yaml"
+    token_viewer = make(autosave=file)
     owner = token_viewer.enter(Role.OWNER)
     assert owner.do("Allow", name=CALIBRATE).startswith("Allowed")
     assert owner.do("Load", text="version: 1\npublish: []\n", name="x.yaml").startswith("Opened")
     assert token_viewer.call() == ""
     token_viewer.close()
-    assert CALIBRATE not in saved.read_text()
+    assert CALIBRATE not in file.read_text()
 
 
 def test_a_restricted_graph_compares_session_names_as_they_are() -> None:

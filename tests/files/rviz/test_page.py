@@ -18,6 +18,6 @@ def test_the_page_counts_as_the_import_does() -> None:
 def test_every_kind_of_thing_is_counted(tmp_path: Path) -> None:
     path = tmp_path / "own.rviz"
     path.write_text("Visualization Manager: {Displays: [{Class: x/Y}], Tools: [{Class: x/Z}]}")
-    written = page([path])
-    assert "| own.rviz | 0 of 1 | 0 of 0 | 1 of 1 | 0 of 1 | 0 of 0 |" in written
-    assert "| `x/Y` | 1 |" in written
+    html = page([path])
+    assert "| own.rviz | 0 of 1 | 0 of 0 | 1 of 1 | 0 of 1 | 0 of 0 |" in html
+    assert "| `x/Y` | 1 |" in html

@@ -59,13 +59,13 @@ def install() -> Iterator[Callable[[], None]]:
 
 
 def test_kept_displays_are_read_once_their_type_is_there(install: Callable[[], None]) -> None:
-    saved = dump(rviz.read(TEXT, "x.rviz")[0])
-    before = parse(saved, "x.yaml")
+    yaml_text = dump(rviz.read(TEXT, "x.rviz")[0])
+    before = parse(yaml_text, "x.yaml")
     group: Any = before.displays[0]
     assert isinstance(group.displays[0], Unreadable)
     assert before.report == []
     install()
-    after = parse(saved, "x.yaml")
+    after = parse(yaml_text, "x.yaml")
     branch, twin, other, radar = after.displays
     assert isinstance(branch, Branch)
     (front,) = branch.displays
@@ -80,11 +80,9 @@ def test_kept_displays_are_read_once_their_type_is_there(install: Callable[[], N
 
 
 def test_no_key_is_lost_by_coming_alive(install: Callable[[], None]) -> None:
-    saved = dump(rviz.read(TEXT, "x.rviz")[0])
+    yaml_text = dump(rviz.read(TEXT, "x.rviz")[0])
     install()
-    config = parse(dump(parse(saved, "x.yaml")), "x.yaml")
-    written = rviz.write(config)[0]
-    assert list(differences(texts(TEXT), texts(written))) == []
-    assert [each["Glow"] for each in texts(written)["Visualization Manager"]["Displays"][1:2]] == [
-        "2"
-    ]
+    config = parse(dump(parse(yaml_text, "x.yaml")), "x.yaml")
+    text = rviz.write(config)[0]
+    assert list(differences(texts(TEXT), texts(text))) == []
+    assert [each["Glow"] for each in texts(text)["Visualization Manager"]["Displays"][1:2]] == ["2"]

@@ -501,8 +501,8 @@ def test_radii_of_rviz_which_are_diameters_are_halved_and_doubled_again() -> Non
     read = [axes.radius, pose.shaft_radius, pose.head_radius, point.radius]  # pyright: ignore[reportAttributeAccessIssue]
     assert read == [0.15, 0.035, 0.05, 0.1]
     assert odometry.shape.axes_radius == 0.01  # pyright: ignore[reportAttributeAccessIssue]
-    written, _ = opening.text_of(config, "b.rviz")
+    rviz_text, _ = opening.text_of(config, "b.rviz")
     for line in ("Radius: 0.3\n", "Shaft Radius: 0.07\n", "Axes Radius: 0.02\n"):
-        assert line in written
-    again = parse(written, "b.rviz").displays
+        assert line in rviz_text
+    again = parse(rviz_text, "b.rviz").displays
     assert [again[0].radius, again[3].shape] == [axes.radius, odometry.shape]  # pyright: ignore[reportAttributeAccessIssue]

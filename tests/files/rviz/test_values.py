@@ -24,12 +24,12 @@ def test_a_property_without_a_value_is_unfit(raw: object, kind: type) -> None:
 
 
 @pytest.mark.parametrize(
-    ("own", "first", "written"),
+    ("own", "first", "output"),
     [("", "/map", "/map_updates"), ("/own", "/map", "/own"), ("", "", "")],
 )
 def test_a_topic_beside_the_first_is_written_with_its_name(
-    own: str, first: str, written: str
+    own: str, first: str, output: str
 ) -> None:
     tree = topics.write(Topic(own), UPDATES, Topic(first))
     assert isinstance(tree, dict)
-    assert tree["Value"] == written
+    assert tree["Value"] == output

@@ -150,7 +150,7 @@ def test_unsupported_values_of_a_view_are_reported(text: str, sentence: str) -> 
     assert sentence in sentences
 
 
-SAVED = """\
+VIEWS_FILE = """\
 Current: {Class: rviz_default_plugins/Orbit, Focal Shape Size: 0.1}
 Saved:
   - {Class: rviz_default_plugins/Orbit, Name: Corner, Distance: 2.5, Near Clip Distance: 0.1}
@@ -160,7 +160,7 @@ Saved:
 
 
 def test_saved_views_are_carried_over_by_name() -> None:
-    config, report = read_views(SAVED)
+    config, report = read_views(VIEWS_FILE)
     assert config.settings.views == {
         "Corner": Orbit(distance=2.5),
         "Corner 2": TopDownOrtho(scale=30.0),
@@ -170,12 +170,12 @@ def test_saved_views_are_carried_over_by_name() -> None:
 
 
 def test_unchanged_saved_views_are_written_as_they_were() -> None:
-    saved = exported(read_views(SAVED)[0])["Saved"]
-    assert saved == YAML(typ="safe").load(SAVED)["Saved"]
+    view_table = exported(read_views(VIEWS_FILE)[0])["Saved"]
+    assert view_table == YAML(typ="safe").load(VIEWS_FILE)["Saved"]
 
 
 def test_a_changed_view_keeps_foreign_values() -> None:
-    config, _ = read_views(SAVED)
+    config, _ = read_views(VIEWS_FILE)
     config.settings.views |= {"Corner": Orbit(distance=7.0), "New": FPS(yaw=1.0)}
     del config.settings.views["Corner 2"]
     first, odd, new = exported(config)["Saved"]
@@ -187,7 +187,7 @@ def test_a_changed_view_keeps_foreign_values() -> None:
 
 
 def test_a_view_of_another_type_keeps_nothing_of_the_one_before() -> None:
-    config, _ = read_views(SAVED)
+    config, _ = read_views(VIEWS_FILE)
     assert exported(config)["Current"]["Focal Shape Size"] == 0.1
     config.settings.view = TopDownOrtho(scale=20.0)
     tree = exported(config)["Current"]
@@ -206,11 +206,11 @@ def test_a_view_without_counterpart_is_kept_until_another_is_chosen() -> None:
 @settings(deadline=None)
 @given(VIEWS, st.dictionaries(st.sampled_from(["A", "View", "b c"]), VIEWS, max_size=3))
 def test_views_that_were_exported_are_imported_as_they_were(
-    view: View, saved: dict[str, View]
+    view: View, view_table: dict[str, View]
 ) -> None:
-    config = Config(Settings(view=view, views=saved))
+    config = Config(Settings(view=view, views=view_table))
     again = rviz.read(rviz.write(config)[0], "x.rviz")[0].settings
-    assert (again.view, again.views) == (view, saved)
+    assert (again.view, again.views) == (view, view_table)
 
 
 @pytest.mark.parametrize(

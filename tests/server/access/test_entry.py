@@ -346,8 +346,8 @@ def test_invitations_in_a_burst_are_all_answered(token_server: TokenServer) -> N
     remaining = [token.name for token in token_file.read(token_server.path)]
     assert sorted(link_names) == sorted(name for name in remaining if name in names)
     assert link_names
-    refused = {answer["text"] for answer in answers if not answer["result"]}
-    assert refused <= {
+    refusal = {answer["text"] for answer in answers if not answer["result"]}
+    assert refusal <= {
         "Failed: too many at once. Try again later.",
         f"Cannot write {token_server.path}: another program is saving in this folder; try again.",
     }
@@ -472,10 +472,10 @@ def test_a_page_that_keeps_sending_too_much_is_ended_with_the_reason(
     assert ended.value.rcvd is not None
     assert (ended.value.rcvd.code, ended.value.rcvd.reason) == (1008, FLOODED)
     assert token_server.reached.count("ResetView") < 300
-    refused = token_server.ask(
+    refusal = token_server.ask(
         "/", Cookie=token_server.cookie(Role.WATCHER)
     )  # neither the page nor a channel
-    assert (refused.status, token_server.body) == (429, f"{FLOODED} Try again in 10 s.\n".encode())
+    assert (refusal.status, token_server.body) == (429, f"{FLOODED} Try again in 10 s.\n".encode())
     with pytest.raises(websockets.exceptions.InvalidStatus, match="429"):
         token_server.enter(Role.WATCHER)
     assert token_server.enter(Role.OPERATOR).do("ResetView") == ""
@@ -526,10 +526,10 @@ def test_a_message_has_the_size_that_the_role_may_send(token_server: TokenServer
     guest = token_server.enter(Role.WATCHER)
     name = "x" * roles.LIMITS[Role.WATCHER].max_characters
     guest.send("CommandRequest", number=1, command="FocusFrame", arguments={"frame": name})
-    refused = guest.receive("CommandResult")
-    assert (refused["number"], refused["level"]) == (1, "error")
+    refusal = guest.receive("CommandResult")
+    assert (refusal["number"], refusal["level"]) == (1, "error")
     limit = roles.LIMITS[Role.WATCHER].max_characters
-    assert refused["text"].endswith(f" characters in one message; the limit is {limit}.")
+    assert refusal["text"].endswith(f" characters in one message; the limit is {limit}.")
     guest.send("CommandRequest", number=2, command="Export", arguments={})
     assert guest.receive("CommandResult")["number"] == 2
 
@@ -541,9 +541,9 @@ def test_watchers_may_send_a_selection_and_no_lists_that_are_slow_to_read(
     items = [[number, number, [0.5, 0.5, 0.5], [1, 2, 3]] for number in range(MAX_SELECTED)]
     pick = {"group": "a", "key": "b", "items": items}
     assert guest.do("Select", picks=[pick], keep=[], total=MAX_SELECTED) == ""
-    refused = guest.do("ChangeView", key="distance", value=30_000 * [[]])
-    assert refused.startswith("Failed: 60")
-    assert refused.endswith(" values in one message; the limit is 20000.")
+    refusal = guest.do("ChangeView", key="distance", value=30_000 * [[]])
+    assert refusal.startswith("Failed: 60")
+    assert refusal.endswith(" values in one message; the limit is 20000.")
     assert token_server.reached == ["Select"]
 
 

@@ -28,10 +28,10 @@ def test_entries_are_lines_of_a_file_that_others_cannot_read(tmp_path: Path) -> 
         Journal(journal_file.write).note(ADA if "Saved" in text else None, text)
         journal_file.close()
     assert path.stat().st_mode & 0o777 == 0o600
-    saved, opened = path.read_text().splitlines()
+    save, opening = path.read_text().splitlines()
     time = r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00"
-    assert re.fullmatch(time + r" Ada \(owner, 192\.0\.2\.1\): Saved a\.yaml\.", saved)
-    assert re.fullmatch(time + r" \(a page that is gone\): Opened \?\?\[2J\.yaml\.", opened)
+    assert re.fullmatch(time + r" Ada \(owner, 192\.0\.2\.1\): Saved a\.yaml\.", save)
+    assert re.fullmatch(time + r" \(a page that is gone\): Opened \?\?\[2J\.yaml\.", opening)
 
 
 def test_the_newest_entries_come_first_and_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:

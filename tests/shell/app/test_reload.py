@@ -75,10 +75,10 @@ def test_a_camera_that_was_moved_by_hand_stays(page: Page, viewer: webviz.Viewer
     page.tab.mouse.up()
     page.wait_for(lambda: not are_near(view_of(page, viewer), Orbit()), "the view has turned")
     page.tab.wait_for_timeout(500.0)  # viser's camera comes to rest
-    moved = view_of(page, viewer)
-    assert moved is not None
+    new_view = view_of(page, viewer)
+    assert new_view is not None
     load_again(page)
-    page.wait_for(lambda: are_near(view_of(page, viewer), moved), "the same view")
+    page.wait_for(lambda: are_near(view_of(page, viewer), new_view), "the same view")
 
 
 def test_another_page_begins_with_the_view_of_the_config(

@@ -278,15 +278,15 @@ def test_boxes_select_and_keys_add_and_remove(
 
     viewer.do(SetProperty("display1", "selectable", False))
 
-    def taken() -> list[str]:
+    def picture_names() -> list[str]:
         tab.mouse.click(*on_screen(page, (0.0, 0.0)))
         return tab.locator(TITLE).all_inner_texts()
 
     # The grid is below it, and a click takes it.
-    page.wait_for(lambda: taken() == ["Grid"], "a display that is not selectable")
+    page.wait_for(lambda: picture_names() == ["Grid"], "a display that is not selectable")
     box(page, (-1.5, -1.5), (0.5, 0.5))
     viewer.do(SetProperty("display1", "selectable", True))
-    page.wait_for(lambda: taken() == ["Point 4"], "a display that is selectable again")
+    page.wait_for(lambda: picture_names() == ["Point 4"], "a display that is selectable again")
 
     box(page, (-1.5, -1.5), (0.5, 0.5))
     wait_for_titles(page, ["Point 0", "Point 1", "Point 3", "Point 4"])

@@ -137,8 +137,8 @@ def test_two_fingers_pan_the_view(viewer: webviz.Viewer, fingers: Fingers) -> No
     before = show(viewer, fingers, VIEWS[2])
     fingers.drag(beside(100), beside(100, (MIDDLE[0] + 60, MIDDLE[1] - 30)))
     fingers.page.tab.wait_for_timeout(500)
-    moved = {"x": before["x"] - 2.0, "y": before["y"] - 1.0}
-    assert camera(fingers) == pytest.approx(before | moved, abs=0.05)  # a pixel is 0.03 m
+    new_place = {"x": before["x"] - 2.0, "y": before["y"] - 1.0}
+    assert camera(fingers) == pytest.approx(before | new_place, abs=0.05)  # a pixel is 0.03 m
 
 
 def test_one_finger_turns_as_the_mouse_does(viewer: webviz.Viewer, fingers: Fingers) -> None:

@@ -42,7 +42,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, str
 
 @pytest.fixture(scope="module")
 def viewers(folder: tuple[Path, str]) -> Iterator[list[webviz.Viewer]]:
-    def made(text: str) -> webviz.Viewer:
+    def make_viewer(text: str) -> webviz.Viewer:
         return webviz.Viewer(
             port=0,
             source=HandFedSource(),
@@ -51,7 +51,7 @@ def viewers(folder: tuple[Path, str]) -> Iterator[list[webviz.Viewer]]:
             token=True,
         )
 
-    with made(CONFIGS[0]) as first, made(CONFIGS[1]) as second:
+    with make_viewer(CONFIGS[0]) as first, make_viewer(CONFIGS[1]) as second:
         yield [first, second]
 
 
@@ -111,17 +111,17 @@ def test_each_has_its_own_connection_role_and_displays(
 
 
 def test_each_has_its_own_view(frames: list[playwright.Frame]) -> None:
-    for moved, still in (frames, frames[::-1]):
-        before = moved.evaluate(PLACE), still.evaluate(PLACE)
-        canvas = moved.locator("canvas").first
+    for turning, still in (frames, frames[::-1]):
+        before = turning.evaluate(PLACE), still.evaluate(PLACE)
+        canvas = turning.locator("canvas").first
         box = canvas.bounding_box()
         assert box
-        mouse = moved.page.mouse
+        mouse = turning.page.mouse
         mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"])
         mouse.down()
         mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.65 * box["height"], steps=4)
         mouse.up()
-        moved.wait_for_function(f"async (before) => await ({PLACE})() !== before", arg=before[0])
+        turning.wait_for_function(f"async (before) => await ({PLACE})() !== before", arg=before[0])
         assert still.evaluate(PLACE) == before[1]
 
 

@@ -31,8 +31,8 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webviz.Viewer]:
 
 @pytest.fixture(scope="module")
 def pages(browser: playwright.Browser, viewer: webviz.Viewer) -> Iterator[list[Page]]:
-    with open_pages(browser, viewer.url, 900, 600) as opened:
-        yield opened
+    with open_pages(browser, viewer.url, 900, 600) as open_tabs:
+        yield open_tabs
 
 
 def row(page: Page, name: str) -> playwright.Locator:

@@ -31,16 +31,16 @@ SCHEMA = schema(INSTALLED, plugin_types(Tool), plugin_types(Panel))
 CHECK = Draft7Validator(SCHEMA)
 
 
-def faults(written: str) -> list[str]:
+def faults(config_text: str) -> list[str]:
     """Return the errors the schema reports for the text of a config."""
-    values = json.loads(json.dumps(YAML(typ="safe", pure=True).load(io.StringIO(written))))
+    values = json.loads(json.dumps(YAML(typ="safe", pure=True).load(io.StringIO(config_text))))
     return [f"{error.json_path}: {error.message}" for error in CHECK.iter_errors(values)]
 
 
-def accepts(written: str) -> bool:
+def accepts(config_text: str) -> bool:
     """Return whether webviz has nothing against the text of a config."""
     try:
-        config = parse(written, "x.yaml")
+        config = parse(config_text, "x.yaml")
     except ConfigError:
         return False
     return not any(isinstance(item, Unreadable) for item in [*config.displays, *config.tools])
@@ -74,16 +74,16 @@ def test_every_display_is_valid_with_its_defaults_written_out(name: str) -> None
 
 
 @pytest.mark.parametrize(
-    "written",
+    "config_text",
     [
         "tools:",
         "tools: [{type: GoalPose}]",
         "tools: [{type: GoalPose, name: Go, topic: {name: /goal, reliability: best_effort}}]",
     ],
 )
-def test_tools_that_webviz_accepts_are_valid(written: str) -> None:
-    assert accepts(written)
-    assert faults(written) == []
+def test_tools_that_webviz_accepts_are_valid(config_text: str) -> None:
+    assert accepts(config_text)
+    assert faults(config_text) == []
 
 
 @pytest.mark.parametrize(
@@ -99,13 +99,13 @@ def test_tools_that_webviz_accepts_are_valid(written: str) -> None:
     ],
 )
 def test_accepted_displays_are_valid(entry: str) -> None:
-    written = f"displays: [{entry}]"
-    assert accepts(written)
-    assert faults(written) == []
+    config_text = f"displays: [{entry}]"
+    assert accepts(config_text)
+    assert faults(config_text) == []
 
 
 @pytest.mark.parametrize(
-    "written",
+    "config_text",
     [
         "colour: red",
         "version: 2",
@@ -132,9 +132,9 @@ def test_accepted_displays_are_valid(entry: str) -> None:
         "tools: [{type: GoalPose, enabled: true}]",
     ],
 )
-def test_refused_displays_are_invalid(written: str) -> None:
-    assert not accepts(written)
-    assert len(faults(written)) == 1
+def test_refused_displays_are_invalid(config_text: str) -> None:
+    assert not accepts(config_text)
+    assert len(faults(config_text)) == 1
 
 
 def test_a_mistake_in_a_group_is_found() -> None:
@@ -158,15 +158,15 @@ def test_properties_are_described_with_unit_and_default() -> None:
 def test_the_command_writes_it_with_displays_of_a_plugin(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    plugin, written = tmp_path / "beacon.py", tmp_path / "out.json"
+    plugin, config_text = tmp_path / "beacon.py", tmp_path / "out.json"
     plugin.write_text(
         "from webviz import Display\n\n\n"
         'class Beacon(Display):\n    """A light."""\n\n    height: float = 2.0\n'
     )
     try:
-        assert cli(["schema", "--plugin", str(plugin), "-o", str(written)]) == 0
-        assert capsys.readouterr().out == f"webviz: wrote {written}\n"
-        schema = json.loads(written.read_text())
+        assert cli(["schema", "--plugin", str(plugin), "-o", str(config_text)]) == 0
+        assert capsys.readouterr().out == f"webviz: wrote {config_text}\n"
+        schema = json.loads(config_text.read_text())
         assert schema["definitions"]["Beacon"]["properties"]["height"]["default"] == 2.0
     finally:
         registry.register(str(plugin), {})

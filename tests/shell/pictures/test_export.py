@@ -302,7 +302,7 @@ def differing(first: np.ndarray, second: np.ndarray) -> int:
 def test_firefox_shows_the_file_in_any_order_without_a_network(
     folder: Path, tmp_path: Path
 ) -> None:
-    with firefox.opened(tmp_path) as tab:
+    with firefox.open_firefox(tmp_path) as tab:
         tab.open(folder / "run.html")
         tab.wait_for("return window.webviz?.hasView()")
         tab.run("document.getElementById('webviz').style.visibility = 'hidden'")
@@ -517,7 +517,9 @@ MARKED_PIXELS = """() => {
 
 def pane_of(viewer: BagViewer) -> Pane:
     """The only pane that a viewer draws."""
-    snapshots = [each for runner in viewer.loop.runners() for *_, each in runner.drawn.snapshots()]
+    snapshots = [
+        each for runner in viewer.loop.runners() for *_, each in runner.scene_diff.snapshots()
+    ]
     groups = [group for snapshot in snapshots for group in snapshot.groups.values()]
     (pane,) = [node for each in groups for node in each.nodes.values() if isinstance(node, Pane)]
     return pane
@@ -543,17 +545,17 @@ def test_images_and_plots_are_in_the_file_and_no_text_becomes_markup(
         dialog.dismiss()
 
     page.on("dialog", dismiss)
-    opened = OpenFile(page, path, COARSE)
+    open_file = OpenFile(page, path, COARSE)
     with contextlib.closing(BagViewer(tmp_path / "run", HOSTILE)) as viewer:
         for at_s in (1.5, 0.3):
-            opened.seek(at_s)
+            open_file.seek(at_s)
             viewer.do(Seek(at_s))
             (mark,) = pane_of(viewer).marks
             assert f"{at_s * 10:.0f}</script>" in mark.about
             page.locator(".wv-pane canvas").first.hover()
             expect(page.locator(".wv-pane")).to_contain_text(mark.about)
             assert page.evaluate(MARKED_PIXELS) > 0
-    opened.seek(1.0)
+    open_file.seek(1.0)
     stamp = (START_NS + ns(1.0)) / 1e9
     pane = page.locator(f".wv-pane[data-stamp='{stamp:.0f}']")
     expect(pane).to_have_count(1)

@@ -51,7 +51,7 @@ def let_go() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def opened(config: Config, bag: Path) -> Iterator[tuple[OfflineViewer, Player]]:
+def open_viewer(config: Config, bag: Path) -> Iterator[tuple[OfflineViewer, Player]]:
     """A viewer of a bag at its end."""
     with contextlib.closing(Player(BagHistory(bag))) as source:
         viewer = OfflineViewer(config, source, NoScene())  # pyright: ignore[reportArgumentType]
@@ -80,7 +80,7 @@ def test_a_display_still_loading_at_the_time_out_gets_more_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(offline_viewer, "LOADING_S", SHORT_S)
-    with opened(of_a_display(Loading(name="Dot")), write_bag(tmp_path / "bag")) as (viewer, _):
+    with open_viewer(of_a_display(Loading(name="Dot")), write_bag(tmp_path / "bag")) as (viewer, _):
         began = time.monotonic()
         readiness = viewer.wait(["Dot"], deadline=began)
         assert time.monotonic() - began >= SHORT_S
@@ -96,7 +96,7 @@ def test_a_display_still_loading_at_the_time_out_gets_more_time(
 
 def test_a_message_without_transforms_at_the_end_of_a_bag_is_ok(tmp_path: Path) -> None:
     config = opening.parse(SCAN, "scan.yaml")
-    with opened(config, write_bag(tmp_path / "bag", last_scan_s=1.05)) as (viewer, _):
+    with open_viewer(config, write_bag(tmp_path / "bag", last_scan_s=1.05)) as (viewer, _):
         readiness = viewer.wait(["LaserScan"], deadline=time.monotonic() + PATIENCE_S)
     assert readiness.statuses["LaserScan"].level is Level.IDLE
     assert readiness.is_ok

@@ -28,14 +28,14 @@ def viewer(source: HandFedSource) -> Iterator[webviz.Viewer]:
         yield viewer
 
 
-def saved(viewer: webviz.Viewer, folder: Path) -> BugReport:
+def save_report(viewer: webviz.Viewer, folder: Path) -> BugReport:
     folder.mkdir()
     assert "Saved bug.zip" in viewer.do(SaveReport(path=str(folder / "bug.zip")))
     return read_report(folder / "bug.zip", folder).report
 
 
 def test_a_report_of_live_topics_ends_now(viewer: webviz.Viewer, tmp_path: Path) -> None:
-    report = saved(viewer, tmp_path / "live")
+    report = save_report(viewer, tmp_path / "live")
     assert report.source == "live"
     assert report.at_ns == report.last_ns
     assert report.last_ns - report.first_ns >= 5 * SECOND
@@ -46,7 +46,7 @@ def test_a_report_of_the_past_shows_that_moment(viewer: webviz.Viewer, tmp_path:
     playback = viewer.state.playback
     assert playback is not None
     viewer.do(Seek(playback.first_s))
-    report = saved(viewer, tmp_path / "past")
+    report = save_report(viewer, tmp_path / "past")
     assert report.at_ns < report.last_ns
 
 

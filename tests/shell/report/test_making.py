@@ -65,7 +65,9 @@ def test_a_report_equals_the_bag_at_its_moment(bag: Path, report: UnpackedReport
     ):
         before.do(Seek(AT_S))
         after.do(Seek(report.report.at_s))
-        first, second = (list(map(plain, each.shown().values())) for each in (before, after))
+        first, second = (
+            list(map(plain, each.visible_nodes().values())) for each in (before, after)
+        )
         assert first == second
         assert after.source.history.end_ns - after.source.history.start_ns == pytest.approx(
             4e9, abs=1e8
@@ -159,7 +161,7 @@ def test_a_slice_that_ends_in_a_gap_does_not_say_that_a_topic_stops(tmp_path: Pa
 
 def test_the_browser_of_the_picture_is_not_listed(browser: playwright.Browser) -> None:
     with contextlib.closing(HeadlessRenderer(browser, 200, 150)) as renderer:
-        assert not renderer.scene.browsers.seen()
+        assert not renderer.scene.browsers.reports()
 
 
 @pytest.mark.parametrize(

@@ -106,12 +106,12 @@ def test_a_domain_in_use_is_skipped() -> None:
         pass  # other tests may have any that is named here
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         other.bind(("", 7400 + 250 * used + 10))
-        taken = set()
+        positions = set()
         for _ in range(98):
             with isolated_domain() as domain:
-                taken.add(domain)
-        assert used not in taken
-        assert len(taken) > 20
+                positions.add(domain)
+        assert used not in positions
+        assert len(positions) > 20
 
 
 def test_nothing_is_left_running(webviz_viewer: Viewers) -> None:

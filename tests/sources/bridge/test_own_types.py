@@ -185,8 +185,12 @@ def test_messages_of_an_older_distribution_have_defaults_for_missing_fields(liar
     """Galactic's Marker has no textures, which its class here has."""
     store, name = get_typestore(Stores.ROS2_GALACTIC), "visualization_msgs/msg/Marker"
     text, _ = store.generate_msgdef(name, ros_version=2)
-    written = filled(store, name, count(1))
-    cdr = bytes(store.serialize_cdr(written, name))
+    own_message = filled(store, name, count(1))
+    cdr = bytes(store.serialize_cdr(own_message, name))
     marker = read(liar(served({"/marker": (name, text, cdr[4:])})), "marker", name)
-    assert (marker.id, marker.text, marker.scale.x) == (written.id, written.text, written.scale.x)
+    assert (marker.id, marker.text, marker.scale.x) == (
+        own_message.id,
+        own_message.text,
+        own_message.scale.x,
+    )
     assert (marker.texture_resource, marker.mesh_file.filename) == ("", "")

@@ -78,8 +78,8 @@ def test_robots_are_drawn_remembered_and_saved_together(config: Path, tmp_path: 
         viewer.return_to_live()
         folder = viewer.save_last(folder=tmp_path / "saved")
         with closing(BagFiles([folder])) as bag:
-            saved = {channel.topic for channel in bag.channels}
-        assert {"/r1/scan", "/r2/scan", "/r1/tf", "/r2/tf_static"} <= saved
+            topics = {channel.topic for channel in bag.channels}
+        assert {"/r1/scan", "/r2/scan", "/r1/tf", "/r2/tf_static"} <= topics
 
 
 def test_a_config_that_is_opened_later_is_connected(config: Path, tmp_path: Path) -> None:

@@ -84,16 +84,16 @@ def listening(stack: ExitStack, endpoint: str) -> tuple[ZenohSource, Callable[[]
     source.want({"/words": Subscription(STRING, Topic("/words"))})
     until(lambda: source.offers().get("/words") and source.offers()["/words"].subscribers)
 
-    def heard() -> list[str]:
+    def texts() -> list[str]:
         return [decode(STRING, raw.cdr).data for raw in source.inbox.drain().get("/words", ())]
 
-    return source, heard
+    return source, texts
 
 
 def test_a_huge_message_takes_bounded_memory(stack: ExitStack) -> None:
     sender = Sender()
     stack.callback(sender.close)
-    source, heard = listening(stack, sender.endpoint)
+    source, texts = listening(stack, sender.endpoint)
     process = psutil.Process()
     before = peak = process.memory_info().rss
     sender.send(str(HUGE))
@@ -103,7 +103,7 @@ def test_a_huge_message_takes_bounded_memory(stack: ExitStack) -> None:
     def look() -> None:
         nonlocal peak
         peak = max(peak, process.memory_info().rss)
-        results.extend(heard())
+        results.extend(texts())
 
     until(lambda: "small" in results, turn=look, look_s=0.005)
     assert results[-1] == "small"
@@ -125,13 +125,13 @@ def test_a_robot_whose_clock_is_wrong(
     subprocess.run([compiler, *build], check=True)
     sender = Sender(router.endpoint, LD_PRELOAD=library, SHIFT_S=str(hours * 3600))
     stack.callback(sender.close)
-    _, heard = listening(stack, router.endpoint)
+    _, texts = listening(stack, router.endpoint)
     results: list[str] = []
-    until(lambda: results.extend(heard()) or results)
+    until(lambda: results.extend(texts()) or results)
     assert results == ["cached"]
     for number in range(10):
         sender.send(f"live {number}")
-    until(lambda: results.extend(heard()) or len(results) > 10)
+    until(lambda: results.extend(texts()) or len(results) > 10)
     assert results == ["cached", *(f"live {number}" for number in range(10))]
 
 
@@ -152,7 +152,7 @@ def test_one_router_of_a_tree_restarts(stack: ExitStack, place: str) -> None:
     stack.callback(robot.close)
     publish = robot.publisher("/words", STRING)
     driven = robot.subscription("/orders", STRING)
-    source, heard = listening(stack, routers["laptop"].endpoint)
+    source, texts = listening(stack, routers["laptop"].endpoint)
     order = Advertisement("/orders", STRING)
 
     def both_ways(text: str) -> None:
@@ -162,7 +162,7 @@ def test_one_router_of_a_tree_restarts(stack: ExitStack, place: str) -> None:
             publish({"data": text})
             if source.bridges[0].is_up:
                 source.graph.publish(order, encode(STRING, {"data": text})).result(5)
-            results.extend(heard())
+            results.extend(texts())
 
         until(lambda: text in results, turn=send, look_s=0.1)
         until(lambda: text in [message.data for message, _ in driven], turn=send, look_s=0.1)

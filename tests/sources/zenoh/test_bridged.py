@@ -28,7 +28,7 @@ def bridged(router: ZenohRouter) -> Iterator[BridgedRobot]:
     robot.close()
 
 
-def heard(source: ZenohSource, topic: str) -> list[str]:
+def texts(source: ZenohSource, topic: str) -> list[str]:
     arrived = source.inbox.drain().get(topic, ())
     return [decode(STRING, raw.cdr, raw.types).data for raw in arrived]
 
@@ -46,12 +46,12 @@ def test_messages_come_by_the_keys_of_the_bridge(
     source.want({"/robot1/words": Subscription(STRING, Topic("/robot1/words"))})
     if is_latched:
         results: list[str] = []
-        until(lambda: results.extend(heard(source, "/robot1/words")) or results)
+        until(lambda: results.extend(texts(source, "/robot1/words")) or results)
         assert results == ["before"]
     time.sleep(0.3)
     publish({"data": "after"})
     later: list[str] = []
-    until(lambda: later.extend(heard(source, "/robot1/words")) or later)
+    until(lambda: later.extend(texts(source, "/robot1/words")) or later)
     assert later == ["after"]
     assert "does not report which nodes" in source.bridges[0].limits[0]
 
@@ -98,7 +98,7 @@ def test_two_ways_to_one_robot(source: ZenohSource, router: ZenohRouter, robot: 
         through({"data": "twice"})
         direct({"data": "twice"})
         time.sleep(0.3)
-        assert heard(source, "/words") == ["twice"]
+        assert texts(source, "/words") == ["twice"]
     finally:
         bridge.close()
 

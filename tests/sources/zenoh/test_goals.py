@@ -42,14 +42,14 @@ def test_a_goal_from_acceptance_to_result(source: ZenohSource, robot: ZenohRobot
     until(lambda: "/spin/_action/get_result" in source.snapshot.servers)
     assert "/spin/_action/send_goal" not in source.graph.services(), "parts are not listed"
     parts = interfaces.action(SPIN)
-    heard: list[float] = []
+    feedback_values: list[float] = []
 
     def feedback(cdr: bytes) -> None:
-        heard.append(decode(parts.feedback, cdr).feedback.angular_distance_traveled)
+        feedback_values.append(decode(parts.feedback, cdr).feedback.angular_distance_traveled)
 
     goal = source.graph.send_goal("/spin", SPIN, encode(parts.goal, {"target_yaw": 1.0}), feedback)
     assert goal.accepted.result(10) is True
-    until(lambda: heard == [0.5])
+    until(lambda: feedback_values == [0.5])
     assert not goal.result.done()
     assert goal.cancel().result(10) == 0
     released.set()

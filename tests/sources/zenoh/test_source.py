@@ -24,7 +24,7 @@ def want(source: ZenohSource, topic: str, type: str = STRING, resubscriptions: i
     source.want({topic: Subscription(type, Topic(topic), resubscriptions=resubscriptions)})
 
 
-def heard(source: ZenohSource, topic: str = "/words") -> list[str]:
+def texts(source: ZenohSource, topic: str = "/words") -> list[str]:
     arrived = source.inbox.drain().get(topic, ())
     return [decode(STRING, raw.cdr, raw.types).data for raw in arrived]
 
@@ -51,7 +51,7 @@ def test_messages_arrive_and_the_robot_sees_the_subscription(
     time.sleep(0.1)
     publish({"data": "over Zenoh"})
     results: list[str] = []
-    until(lambda: results.extend(heard(source)) or results)
+    until(lambda: results.extend(texts(source)) or results)
     assert results == ["over Zenoh"]
     (own,) = [token for token in tokens_of(robot) if "/MS/" in token]
     assert "/MS/%/%/webviz/%words/std_msgs::msg::dds_::String_/RIHS01_" in own
@@ -76,11 +76,11 @@ def test_latched_messages_come_from_the_cache_of_the_publisher(
     assert source.offers()["/words"].is_latched
     want(source, "/words")
     results: list[str] = []
-    until(lambda: results.extend(heard(source)) or results)
+    until(lambda: results.extend(texts(source)) or results)
     assert results == ["latched"]
     want(source, "/words", resubscriptions=1)
     again: list[str] = []
-    until(lambda: again.extend(heard(source)) or again)
+    until(lambda: again.extend(texts(source)) or again)
     assert again == ["latched"], "asked again, the cache answers again"
 
 
@@ -96,7 +96,7 @@ def test_only_messages_of_the_subscribed_type_arrive(
     other({})
     publish({"data": "right"})
     time.sleep(0.2)
-    assert heard(source) == ["right"]
+    assert texts(source) == ["right"]
 
 
 def test_other_domains_are_others(source: ZenohSource, router: ZenohRouter) -> None:
@@ -179,7 +179,7 @@ def test_reconnects_to_a_router_that_restarts() -> None:
 
         def again() -> bool:
             publish({"data": "again"})
-            results.extend(heard(source))
+            results.extend(texts(source))
             return bool(results)
 
         until(again)

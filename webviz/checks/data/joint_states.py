@@ -37,7 +37,7 @@ class InvalidJointStates(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such topic while links of a robot lack transforms."""
-        symptoms = tuple(symptom for symptom, _ in observation.lost(*OF_LINKS))
+        symptoms = tuple(symptom for symptom, _ in observation.unplaced(*OF_LINKS))
         stateless = dict(_stateless(observation))
         for topic, state in observation.joint_states.items() if symptoms else ():
             names, positions = state.name, np.asarray(state.position)
@@ -83,6 +83,6 @@ def _stateless(observation: Observation) -> Iterator[tuple[Symptom, str]]:
         for p in observation.offers.get(topic, NO_OFFER).publishers
     ]
     joints = {name for state in observation.joint_states.values() for name in state.name}
-    for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME) if len(publishers) == 1 else ():
+    for symptom, reason in observation.unplaced(Kind.UNKNOWN_FRAME) if len(publishers) == 1 else ():
         if reason.joint and reason.joint not in joints:
             yield symptom, reason.joint

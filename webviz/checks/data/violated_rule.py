@@ -31,7 +31,7 @@ class ViolatedRule(Check):
             rule = verdict.rule
             if verdict.is_violated and verdict.value is not None:
                 yield self.found(
-                    f"{rule.about} is {rule.shown(verdict.value)}, expected {rule.expectation}.",
+                    f"{rule.about} is {rule.text_of(verdict.value)}, expected {rule.expectation}.",
                     "Find out what led to it, or change the rule.",
                     subject=rule.text,
                     evidence={"rule": rule.text, "value": verdict.value, "limit": rule.limit},

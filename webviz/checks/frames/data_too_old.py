@@ -28,7 +28,7 @@ class DataTooOld(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.BEHIND):
+        for symptom, reason in observation.unplaced(Kind.BEHIND):
             yield self.found(
                 f'Data in "{reason.frame}" is older than the transforms of "{reason.link}".',
                 "Look for a slow node or network, and for wrong stamps.",

@@ -27,7 +27,7 @@ class EmptyFrameId(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.EMPTY_FRAME):
+        for symptom, reason in observation.unplaced(Kind.EMPTY_FRAME):
             if not observation.fixed_frame:
                 continue
             yield self.found(

@@ -27,7 +27,7 @@ class FixedFrameMisspelt(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if a known frame resembles the fixed frame."""
-        unknown = list(observation.lost(Kind.UNKNOWN_FIXED_FRAME))
+        unknown = list(observation.unplaced(Kind.UNKNOWN_FIXED_FRAME))
         near = next((reason.near for _, reason in unknown if reason.near), "")
         if near:
             yield self.found(

@@ -27,7 +27,9 @@ class FixedFrameUnknown(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if the fixed frame is unknown."""
-        unknown = [each for each in observation.lost(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near]
+        unknown = [
+            each for each in observation.unplaced(Kind.UNKNOWN_FIXED_FRAME) if not each[1].near
+        ]
         if unknown:
             root, size = observation.buffer.largest_tree()
             yield self.found(

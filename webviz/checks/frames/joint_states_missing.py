@@ -34,7 +34,7 @@ class JointStatesMissing(Check):
         """Yield a finding if links are missing and no joint state is published."""
         models = {each.id for each in observation.displays if each.type == "RobotModel"}
         unknown = [
-            each for each in observation.lost(Kind.UNKNOWN_FRAME) if each[0].display in models
+            each for each in observation.unplaced(Kind.UNKNOWN_FRAME) if each[0].display in models
         ]
         types = {p.type for offer in observation.offers.values() for p in offer.publishers}
         if not unknown or JOINT_STATES in types:

@@ -29,7 +29,7 @@ class LeadingSlash(Check):
         names = [
             (each.frame, each.topic) for _, each in observation.inputs() if each.frame[:1] == "/"
         ]
-        explains = tuple(symptom for symptom, _ in observation.lost(Kind.LEADING_SLASH))
+        explains = tuple(symptom for symptom, _ in observation.unplaced(Kind.LEADING_SLASH))
         if observation.fixed_frame[:1] == "/":
             names.append((observation.fixed_frame, "the fixed frame"))
         for frame, where in names:

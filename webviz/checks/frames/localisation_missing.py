@@ -38,13 +38,13 @@ class LocalisationMissing(Check):
         robot = next((frame for name in ROBOT for frame in frames if is_named(frame, name)), "")
         is_wanted = is_named(observation.fixed_frame, "map")
         missing: dict[str, list[Symptom]] = {}
-        for symptom, reason in observation.lost(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
+        for symptom, reason in observation.unplaced(Kind.UNKNOWN_FIXED_FRAME, Kind.NOT_CONNECTED):
             root, fixed_root = reason.roots or ("", "")
             if is_named(root, "odom") and fixed_root == observation.fixed_frame:
                 missing.setdefault(root, []).append(symptom)
             elif reason.kind is Kind.UNKNOWN_FIXED_FRAME and not reason.near:
                 missing.setdefault(robot, []).append(symptom)
-        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.unplaced(Kind.UNKNOWN_FRAME):
             if is_named(reason.frame, "map"):
                 missing.setdefault(robot, []).append(symptom)
                 is_wanted = True

@@ -29,7 +29,7 @@ class LoopOfFrames(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each loop."""
-        symptoms: list[Symptom] = [symptom for symptom, _ in observation.lost(Kind.LOOP)]
+        symptoms: list[Symptom] = [symptom for symptom, _ in observation.unplaced(Kind.LOOP)]
         for loop in loops(observation.buffer):
             yield self.found(
                 f"The frames {listed(loop, ' → ')} form a loop.",

@@ -27,7 +27,7 @@ class MisspeltFrame(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.unplaced(Kind.UNKNOWN_FRAME):
             if not reason.near:
                 continue
             yield self.found(

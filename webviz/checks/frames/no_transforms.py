@@ -29,7 +29,7 @@ class NoTransforms(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if nothing is known of any frame: a note if all data can be drawn."""
-        explains = tuple(symptom for symptom, _ in observation.lost(Kind.NO_TRANSFORMS))
+        explains = tuple(symptom for symptom, _ in observation.unplaced(Kind.NO_TRANSFORMS))
         if not explains or (
             observation.is_recorded and "none" not in (observation.buffer.recorded or "none")
         ):

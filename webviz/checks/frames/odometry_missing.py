@@ -55,13 +55,13 @@ def odometry_lost(observation: Observation) -> tuple[Symptom, ...]:
 def unconnected(observation: Observation) -> Iterator[tuple[Symptom, str, str]]:
     """Yield these statuses, each with the frames of the base and of the odometry."""
     tree = observation.buffer.tree
-    for symptom, reason in observation.lost(Kind.NOT_CONNECTED):
+    for symptom, reason in observation.unplaced(Kind.NOT_CONNECTED):
         root, fixed_root = reason.roots or ("", "")
         if (base := BASE.fullmatch(root)) is None:
             continue
         own = f"{base[1] or ''}odom"
         if own in tree.names and tree.root(own) == fixed_root:
             yield symptom, root, own
-    for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
+    for symptom, reason in observation.unplaced(Kind.UNKNOWN_FRAME):
         if is_named(reason.frame, "odom"):
             yield symptom, observation.fixed_frame, reason.frame

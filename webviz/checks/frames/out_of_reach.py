@@ -35,7 +35,7 @@ class OutOfReach(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.OUT_OF_REACH):
+        for symptom, reason in observation.unplaced(Kind.OUT_OF_REACH):
             yield self.found(
                 f'The frame "{reason.frame}" is too far from "{observation.fixed_frame}" '
                 "to be drawn.",

@@ -27,7 +27,7 @@ class QueueFull(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.QUEUE_FULL):
+        for symptom, reason in observation.unplaced(Kind.QUEUE_FULL):
             yield self.found(
                 f'Messages in "{reason.frame}" are dropped before their transform arrives.',
                 f"Set the filter size of the topic to {reason.filter_size}.",

@@ -35,7 +35,7 @@ class RefusedTransforms(Check):
         """Yield a finding for each frame whose transform is refused, or that lacks it since."""
         refusals = [
             (reason.link, symptom)
-            for symptom, reason in observation.lost(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
+            for symptom, reason in observation.unplaced(Kind.REFUSED, Kind.AHEAD, Kind.NO_DATA)
             if reason.kind is Kind.REFUSED or is_refused(observation, reason.link)
         ]
         causes = {link for link, _ in refusals}

@@ -34,7 +34,7 @@ class RobotStatePublisherMissing(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding if frames are missing and nothing describes the robot."""
-        unknown = [each for each in observation.lost(Kind.UNKNOWN_FRAME) if not each[1].near]
+        unknown = [each for each in observation.unplaced(Kind.UNKNOWN_FRAME) if not each[1].near]
         described = any(topic.endswith(DESCRIPTION) for topic in published(observation))
         if (
             not unknown

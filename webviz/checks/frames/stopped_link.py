@@ -28,7 +28,7 @@ class StoppedLink(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.AHEAD, Kind.NO_DATA):
+        for symptom, reason in observation.unplaced(Kind.AHEAD, Kind.NO_DATA):
             if reason.is_catching_up or is_refused(observation, reason.link):
                 continue
             frame = reason.link or reason.frame

@@ -34,7 +34,7 @@ class TwoTrees(Check):
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each pair of trees that displays need together."""
         contested = {frame for frame, _ in observation.conflicts(ConflictKind.TWO_PARENTS)}
-        for symptom, reason in observation.lost(Kind.NOT_CONNECTED):
+        for symptom, reason in observation.unplaced(Kind.NOT_CONNECTED):
             if not reason.roots:
                 continue  # it was not connected at that time, and now it is
             if contested & {*ancestors(observation.buffer.tree, reason.frame)}:

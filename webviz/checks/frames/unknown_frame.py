@@ -34,7 +34,7 @@ class UnknownFrame(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such frame."""
-        for symptom, reason in observation.lost(Kind.UNKNOWN_FRAME):
+        for symptom, reason in observation.unplaced(Kind.UNKNOWN_FRAME):
             if reason.near:
                 continue
             is_world = is_named(reason.frame, *WORLDS)

@@ -31,7 +31,9 @@ class VolatileStatic(Check):
         if offer is None or offer.is_recorded:
             return
         kinds = Kind.NO_TRANSFORMS, Kind.UNKNOWN_FIXED_FRAME, Kind.UNKNOWN_FRAME, Kind.NOT_CONNECTED
-        symptoms = tuple(symptom for symptom, reason in observation.lost(*kinds) if not reason.near)
+        symptoms = tuple(
+            symptom for symptom, reason in observation.unplaced(*kinds) if not reason.near
+        )
         links = map(observation.buffer.link, observation.buffer.frames())
         explains = () if any(link and link.is_static for link in links) else symptoms
         for publisher in offer.publishers:

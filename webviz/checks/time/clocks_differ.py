@@ -47,13 +47,13 @@ class ClocksDiffer(Check):
         # Where data has the time of this computer, webviz need not follow another: TIME011.
         links = [
             observation.buffer.tree.caches.get(reason.link)
-            for _, reason in observation.lost(Kind.CLOCKS)
+            for _, reason in observation.unplaced(Kind.CLOCKS)
         ]
         is_mixed = any(link is not None and link.newest_stamp < YEAR_NS for link in links)
         if problem and explains and not is_mixed:
             unconverted = [
                 symptom
-                for symptom, reason in observation.lost(*OF_LINKS)
+                for symptom, reason in observation.unplaced(*OF_LINKS)
                 if is_off(observation.buffer, reason.frame, observation.now_ns)
             ]
             yield self.found(

@@ -27,7 +27,7 @@ class JumpedBack(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield a finding for each such link."""
-        for symptom, reason in observation.lost(Kind.JUMPED_BACK):
+        for symptom, reason in observation.unplaced(Kind.JUMPED_BACK):
             yield self.found(
                 f'Time has jumped back: transforms of "{reason.link}" are refused as too old.',
                 "Press Reset.",

@@ -27,7 +27,7 @@ class TwoTimes(Check):
 
     def find(self, observation: Observation) -> Iterator[Finding]:
         """Yield one finding for all such links."""
-        unplaced = list(observation.lost(Kind.CLOCKS))
+        unplaced = list(observation.unplaced(Kind.CLOCKS))
         for _, reason in unplaced[:1]:
             yield self.found(
                 f'Data in "{reason.frame}" and the transform of "{reason.link}" are stamped by '
@@ -40,6 +40,6 @@ class TwoTimes(Check):
                 explains=(
                     *(symptom for symptom, _ in unplaced),
                     *observation.symptom("Clocks"),
-                    *(other for other, _ in observation.lost(Kind.AHEAD, Kind.NO_DATA)),
+                    *(other for other, _ in observation.unplaced(Kind.AHEAD, Kind.NO_DATA)),
                 ),
             )

@@ -87,14 +87,14 @@ class TopicOffer(msgspec.Struct, frozen=True):
     Args:
         publishers: how many there are.
         rate: see `LiveTopic`.
-        shown: names of the displays that show it.
+        displays: names of the displays that show it.
         problem: of its QoS, a sentence or "".
         is_latched: see `Offer`.
     """
 
     publishers: int
     rate: float | None
-    shown: Sequence[str]
+    displays: Sequence[str]
     problem: str
     is_latched: bool
 
@@ -167,7 +167,7 @@ def topic_offers(
             str(sendable(name)): TopicOffer(
                 publishers=sum(map(fits, offer.publishers)),
                 rate=_rate(name, traffic),
-                shown=displays.get(name, []),
+                displays=displays.get(name, []),
                 problem=str(sendable(offer.problem)),
                 is_latched=offer.is_latched,
             )

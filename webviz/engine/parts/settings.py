@@ -74,7 +74,7 @@ class SettingsPart(Part):
             raise not_changed(error, Settings, key, value) from error
 
     @store(name="settings", of=lambda part: (part.settings, part.context.statuses))
-    def shown(self, argument: str) -> SettingsStore:
+    def settings_store(self, argument: str) -> SettingsStore:
         """Return the settings, and the statuses of the viewer as a whole."""
         settings = self.settings
         status_lines = lines(self.context.statuses)

@@ -29,7 +29,7 @@ class Painted(msgspec.Struct, frozen=True):
 class Browsers(Protocol):
     """The browsers of a scene; see `webviz.scene.browsers.ViserBrowsers`."""
 
-    def seen(self) -> Sequence[BrowserSeen]:
+    def reports(self) -> Sequence[BrowserSeen]:
         """All browsers as they reported last."""
         ...
 
@@ -53,7 +53,7 @@ class Browsers(Protocol):
 class NoBrowsers:
     """The browsers of a scene without any."""
 
-    def seen(self) -> Sequence[BrowserSeen]:
+    def reports(self) -> Sequence[BrowserSeen]:
         """None."""
         return ()
 

@@ -51,9 +51,9 @@ class Runner:
         self.external_statuses: dict[str, Status] = {}
         """Statuses from elsewhere, shown with those of the display."""
         self._services = services
-        self.drawn = SceneDiff(services.scene, id)
+        self.scene_diff = SceneDiff(services.scene, id)
         """Nodes that are drawn."""
-        self._renderer = Renderer(id, self.drawn, services.workers, services.points)
+        self._renderer = Renderer(id, self.scene_diff, services.workers, services.points)
         self._dragging = Dragging(id, display, services)
         self._comparable = capability(display, Comparable)
         self._boundary = self._new_boundary()
@@ -177,18 +177,20 @@ class Runner:
         """Return the frames whose poses `draw` needs."""
         if not self.display.enabled:
             return set()
-        return self.drawn.followed() | self._dragging.followed()
+        return self.scene_diff.followed() | self._dragging.followed()
 
     def report(self) -> DrawReport:
         """Return what the display says of what it draws; no colours or credits if that is empty."""
         report = self._renderer.report()
         return (
-            DrawReport(report.statuses, offered=report.offered) if self.drawn.is_empty() else report
+            DrawReport(report.statuses, offered=report.offered)
+            if self.scene_diff.is_empty()
+            else report
         )
 
     def consistency_input(self, frames: Frames) -> ConsistencyInput | None:
         """Return the inputs of the consistency check; None if nothing of it can be seen."""
-        if self._comparable is None or self.drawn.is_empty():
+        if self._comparable is None or self.scene_diff.is_empty():
             return None
         context = self._renderer.context(self.display, self._boundary, self._own(frames))
         if context is None:
@@ -217,7 +219,7 @@ class Runner:
 
     def find(self, picks: NodePicks) -> dict[int, PickedItem]:
         """Return the items browsers picked, by id; none that was on no recent screen."""
-        return self._boundary.attempt("selection", {}, self.drawn.find, picks)
+        return self._boundary.attempt("selection", {}, self.scene_diff.find, picks)
 
     def inspect(self, item: PickedItem, frames: Frames) -> Details | None:
         """Return the details the display reports of a selected item, if it still exists."""
@@ -243,7 +245,7 @@ class Runner:
         for text in self._boundary.crashes.values():
             result["Display"] = Status(Level.ERROR, text)
         result |= self.external_statuses
-        is_missing = self.drawn.is_empty() and not type(self.display).reports_only
+        is_missing = self.scene_diff.is_empty() and not type(self.display).reports_only
         if worst(result.values()) is Level.OK and is_missing:
             if not is_watched:
                 result["Display"] = NO_BROWSER
@@ -266,7 +268,7 @@ class Runner:
         if known_by != self._known_by:
             self._known_by = known_by
             self._robot = robot_of([*self._sample_buffer.inputs.topics(), *known_by[-1]], robots)
-            self.drawn.tint = self._tint()
+            self.scene_diff.tint = self._tint()
         return RobotFrames(frames, self._robot) if self._robot else frames
 
     def _tint(self) -> Tint | None:
@@ -295,13 +297,13 @@ class Runner:
         self, offers: Mapping[str, Offer], frames: Frames, dropped: Callable[[str], int]
     ) -> dict[str, Status]:
         result = self._sample_buffer.statuses(offers, frames, dropped)
-        if unplaced := self.drawn.lost(frames):
+        if unplaced := self.scene_diff.unplaced_frames(frames):
             reason = frames.explain(unplaced[0])
             remedy = OtherFixedFrame.of(reason)
             result["Transform"] = Status(Level.ERROR, reason.sentence, remedy, reason)
         size = self._sample_buffer.busy_with or self._renderer.busy_with
         if size:
-            level = Level.IDLE if self.drawn.is_empty() else Level.OK
+            level = Level.IDLE if self.scene_diff.is_empty() else Level.OK
             result[LOADING] = Status(level, f"Loading a message of {round(size / 1e6, 1):g} MB.")
         if self._sample_buffer.busy_with and self._sample_buffer.is_empty:
             return result  # the display would say that no message was received

@@ -254,7 +254,7 @@ class SceneDiff:
             for entry in groups.values()
         )
 
-    def lost(self, frames: Frames) -> list[str]:
+    def unplaced_frames(self, frames: Frames) -> list[str]:
         """Return the frames without a pose that hidden groups follow."""
         placements = [each.placement for each in self._following()]
         return sorted(

@@ -90,7 +90,7 @@ class SelectableValues:
 
 
 def _nodes(runner: Runner) -> Iterator[_SelectableNode]:
-    for name, group, snapshot in runner.drawn.snapshots():
+    for name, group, snapshot in runner.scene_diff.snapshots():
         frame = snapshot.groups[group].placement.frame
         own = snapshot.samples[-1].frame if snapshot.samples else ""
         for key, node in snapshot.groups[group].nodes.items():

@@ -36,7 +36,7 @@ class WatchedMoment(msgspec.Struct, frozen=True):
         levels: the worst level of the last messages by topic.
         numbers: those that paths name, by path: of the messages since the last moment, or else of
             the last ones.
-        kept: whether the conditions of rules hold, by their text; None while that is unknown.
+        conditions: whether the conditions of rules hold, by their text; None while that is unknown.
     """
 
     at_s: float
@@ -44,7 +44,7 @@ class WatchedMoment(msgspec.Struct, frozen=True):
     rates: Mapping[str, float] = msgspec.field(default_factory=dict)
     levels: Mapping[str, Level] = msgspec.field(default_factory=dict)
     numbers: Mapping[str, Sequence[float]] = msgspec.field(default_factory=dict)
-    kept: Mapping[str, bool | None] = msgspec.field(default_factory=dict)
+    conditions: Mapping[str, bool | None] = msgspec.field(default_factory=dict)
 
 
 class TopicObserver:

@@ -36,7 +36,7 @@ class RuleWatcher:
 def holds(rule: WatchRule, now: WatchedMoment) -> bool | None:
     """Return whether the condition of a rule holds; None while that is unknown."""
     if condition := rule.condition:
-        is_kept = now.kept.get(condition.text)
+        is_kept = now.conditions.get(condition.text)
         return None if is_kept is None else not is_kept
     if rule.path:
         numbers = now.numbers.get(rule.path)

@@ -164,7 +164,7 @@ class DoctorFeature(Examiner, Feature):
         }
 
     @store(name="findings", of=lambda part: part.made_of)
-    def shown(self, argument: str) -> FindingsStore:
+    def findings_store(self, argument: str) -> FindingsStore:
         """Return the findings of the last round."""
         findings, names, start_ns, examined_ns = self.made_of
         return findings_store(findings, dict(names), (start_ns or 0) / 1e9, examined_ns)
@@ -255,7 +255,10 @@ class DoctorFeature(Examiner, Feature):
         observation = observe(context, self._displays, self._environment(), load, cores)
         others = [each for each in self.findings if each.id != OF_RULES]
         observation = replace(
-            observation, findings=others, numbers=self._numbers.numbers(), clock=self._clock.seen()
+            observation,
+            findings=others,
+            numbers=self._numbers.numbers(),
+            clock=self._clock.observation(),
         )
         listened_s = time.monotonic() - self.listening_since_s
         joint_states = dict(self._clock.joint_states)

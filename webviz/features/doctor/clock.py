@@ -87,7 +87,7 @@ class ClockWatch:
             if time_ns != self._time_ns:
                 self._time_ns, self._moved_s = time_ns, self._context.clock()
 
-    def seen(self) -> ClockSeen | None:
+    def observation(self) -> ClockSeen | None:
         """Return what is known of /clock, None while it is not looked at."""
         if self._began_s is None:
             return None

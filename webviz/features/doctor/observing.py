@@ -58,7 +58,7 @@ def observe(
         if row.id in runners and isinstance(row.display, Display) and not is_group(row)
     ]
     times = context.get(TimePart).times
-    browsers = context.boundary.attempt("Scene", (), context.scene.browsers.seen)
+    browsers = context.boundary.attempt("Scene", (), context.scene.browsers.reports)
     cameras = {each.id: camera for each in browsers if (camera := _camera(each, context.frames))}
     return Observation(
         now_ns=context.frames.now_ns,

@@ -173,7 +173,7 @@ class GoalsFeature(Feature):
         return tuple(goal.progress(now) for goal in visible)
 
     def _turn(self, goal: RunningGoal) -> None:
-        self.context.boundary(goal.shown.title, goal.turn, self.context.clock())
+        self.context.boundary(goal.initial.title, goal.turn, self.context.clock())
 
     def _is_worth_keeping(self, goal: RunningGoal) -> bool:
         if goal.outcome is None:

@@ -81,7 +81,7 @@ class RunningGoal:
     ) -> None:
         self.tool = tool
         self.action = action
-        self.shown = progress
+        self.initial = progress
         self.before = tuple(before)
         self.is_accepted = False
         self.outcome: Status | None = None
@@ -153,7 +153,7 @@ class RunningGoal:
 
     def progress(self, now: float) -> GoalProgress:
         """Return the progress pages show."""
-        progress = self.shown
+        progress = self.initial
         if self.outcome is not None:
             return replace(progress, phase="ended", status=self.outcome, values={})
         if not self.is_accepted:

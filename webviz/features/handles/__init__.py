@@ -206,7 +206,7 @@ class HandlesFeature(PageFeature):
         return {"handles": self.found()}
 
     @store(name="handles")
-    def shown(self, argument: str) -> HandlesStore:
+    def handles_store(self, argument: str) -> HandlesStore:
         """Return the handles of all displays."""
         entries = self.found()
         if self._store is None or self._store[0] is not entries:

@@ -73,7 +73,7 @@ class Painting:
 
     def measure(self, passed_s: float) -> None:
         """Measure the bytes of each display on each link since the last call."""
-        self._names = {each.id: brief(each.name) for each in self._browsers.seen()}
+        self._names = {each.id: brief(each.name) for each in self._browsers.reports()}
         bytes_sent = self._browsers.bytes_sent()
         self._rates = {
             (display, browser): (size - self._bytes.get(browser, {}).get(display, 0)) / passed_s

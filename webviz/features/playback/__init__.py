@@ -134,7 +134,7 @@ class PlaybackFeature(Feature):
         return start_ns, self._time.logged, warned, self.context.fact("found", ())
 
     @store(name="playback")
-    def shown(self, argument: str) -> PlaybackStore | None:
+    def playback_store(self, argument: str) -> PlaybackStore | None:
         """Return the recording or the memory, None without either."""
         if self.playback is None:
             return None

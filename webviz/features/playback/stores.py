@@ -33,7 +33,7 @@ class PlaybackStore(PageStore, frozen=True):
         is_opened: whether a recording is shown in the place of live topics.
         limit: seconds that the memory keeps at most.
         ahead: wall time over that of recording.
-        held: seconds in memory, of live topics.
+        memory_s: seconds in memory, of live topics.
         first: of the memory, unset while it is live.
         duration: of a recording.
         position: unset while it is live.
@@ -52,7 +52,7 @@ class PlaybackStore(PageStore, frozen=True):
     is_opened: bool
     limit: float | msgspec.UnsetType = msgspec.UNSET
     ahead: float | msgspec.UnsetType = msgspec.UNSET
-    held: float | msgspec.UnsetType = msgspec.UNSET
+    memory_s: float | msgspec.UnsetType = msgspec.UNSET
     first: float | msgspec.UnsetType = msgspec.UNSET
     duration: float | msgspec.UnsetType = msgspec.UNSET
     position: float | msgspec.UnsetType = msgspec.UNSET
@@ -131,7 +131,7 @@ def playback_store(
         ahead=round(wall_s - recording.start_ns / 1e9 - duration_s),
     )
     if recording.is_live:
-        return replace(store, held=round(duration_s - recording.first_s))
+        return replace(store, memory_s=round(duration_s - recording.first_s))
     first_s = round(recording.first_s, 3)
     gap = recording.gap
     return replace(store, first=first_s, position=position_s, gap=gap, leader=leader)

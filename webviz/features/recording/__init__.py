@@ -96,14 +96,14 @@ class RecordingStore(PageStore, frozen=True):
         is_remembering: whether there is a memory.
         about: sentences on the memory.
         recording: None for none.
-        held: seconds that people look back on, which are saved while they do; None live.
+        past_s: seconds that people look back on, which are saved while they do; None live.
     """
 
     remembered: tuple[int, int]
     is_remembering: bool
     about: str
     recording: RunningRecording | None
-    held: int | None = None
+    past_s: int | None = None
 
 
 class RecordingFeature(Feature):
@@ -310,7 +310,7 @@ def recording_store(
         is_remembering=bounds.seconds > 0 and bounds.size_mb > 0,
         about=str(sendable(_about(memory, bounds))),
         recording=running,
-        held=None if memory.held_s is None else int(memory.held_s),
+        past_s=None if memory.held_s is None else int(memory.held_s),
     )
 
 

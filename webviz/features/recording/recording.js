@@ -17,7 +17,7 @@ export const install = () => timeBarButton(buttons());
 function facts() {
   const values = store("recording");
   const [seconds, megabytes] = values.get("remembered") ?? [0, 0];
-  const pastSeconds = values.get("held") ?? null;
+  const pastSeconds = values.get("past_s") ?? null;
   return {
     ...{ seconds, megabytes, pastSeconds },
     isLive: values.has("remembered"),

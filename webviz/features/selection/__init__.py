@@ -133,7 +133,7 @@ class _Selection(msgspec.Struct):
     told_at: float | None = None
 
     @property
-    def held(self) -> Mapping[int, tuple[str, bool]]:
+    def displays(self) -> Mapping[int, tuple[str, bool]]:
         """The display of each thing, and whether it moves, by its id."""
         return {id: (each.runner.id, each.is_moving) for id, each in self.things.items()}
 
@@ -155,7 +155,7 @@ class SelectionFeature(Feature):
         """Forget what belongs to removed displays, and renew what is looked at."""
         runners = self._displays.list.runners()
         for runner in runners:
-            runner.drawn.remember(self._is_picking)
+            runner.scene_diff.remember(self._is_picking)
         current, now = set(runners), self.context.clock()
         for browser, selection in self._selections.items():
             if not current.issuperset(each.runner for each in selection.things.values()):
@@ -194,7 +194,7 @@ class SelectionFeature(Feature):
         """Return what a browser has selected."""
         selection = self._selection_of(browser)
         return SelectedStore(
-            {str(id): each for id, each in selection.held.items()} if selection else {}
+            {str(id): each for id, each in selection.displays.items()} if selection else {}
         )
 
     @store(of=lambda part: part.rows)
@@ -219,7 +219,7 @@ class SelectionFeature(Feature):
         """Return what browsers have selected, and what is known of it for those that show it."""
         selections, viewers = self._selections.items(), self._viewers
         values = {id: each.values if id in viewers else {} for id, each in selections}
-        return {"selected": {id: each.held for id, each in selections}, "selections": values}
+        return {"selected": {id: each.displays for id, each in selections}, "selections": values}
 
     @command(None)
     def inspect_selections(

@@ -298,7 +298,7 @@ export interface Thing {
 export interface TopicOffer {
   publishers: number;
   rate: number | null;
-  shown: Array<string>;
+  displays: Array<string>;
   problem: string;
   is_latched: boolean;
 }
@@ -375,11 +375,11 @@ export interface Stores {
   permission: { own: { refusal?: string; is_open?: boolean; is_allowed?: boolean; file?: string; requests?: Array<number>; declined?: Array<number> }; items: never };
   permission_requests: { own: { allowed: Array<string> }; items: PermissionRequest };
   picking: { own: {  }; items: boolean };
-  playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; is_memory?: boolean; is_opened?: boolean; limit?: number; ahead?: number; held?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null; leader?: number | null }; items: never };
+  playback: { own: { names?: Array<string>; start?: number; rate?: number; is_playing?: boolean; loop?: boolean; selected?: [number, number] | null; is_live?: boolean | null; is_memory?: boolean; is_opened?: boolean; limit?: number; ahead?: number; memory_s?: number; first?: number; duration?: number; position?: number; gap?: [number, number] | null; leader?: number | null }; items: never };
   properties: { own: { name?: string; type?: string; worst?: WorstStatus | null; declared?: Array<DeclaredProperty>; [key: `value.${string}`]: unknown; [key: `offered.${string}`]: Record<string, number | string>; [key: `topic.${string}`]: LiveTopic }; items: never };
   rate: { own: { hz?: number; is_latched?: boolean }; items: never };
   recorded: { own: {  }; items: Array<number> };
-  recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null; held?: number | null }; items: never };
+  recording: { own: { remembered?: [number, number]; is_remembering?: boolean; about?: string; recording?: RunningRecording | null; past_s?: number | null }; items: never };
   reported: { own: { things?: Array<ReportedThing> }; items: never };
   routes: { own: {  }; items: Route };
   selected: { own: {  }; items: [string, boolean] };

@@ -17,7 +17,7 @@ export function atMoment(values, wall, behind = 0) {
   const moment = new Map(values);
   if (isLive === null) return new Map([["first", 0], ["ago", 0], ...moment]);
   const duration = wall - moment.get("start") - moment.get("ahead");
-  const first = isLive ? duration - moment.get("held") : moment.get("first");
+  const first = isLive ? duration - moment.get("memory_s") : moment.get("first");
   const position = isLive ? Math.max(first, duration - behind) : moment.get("position");
   return new Map([
     ...moment,

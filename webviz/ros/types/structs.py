@@ -100,7 +100,7 @@ def finder(handles: dict[str, int]) -> int:
     """Return the `func` of a handle: returns the handle of an identifier, or null."""
     named = {name.encode(): each for name, each in handles.items()}
     return function(
-        lambda _, wanted: named.get(wanted), ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p
+        lambda _, key: named.get(key), ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p
     )
 
 

@@ -125,7 +125,7 @@ class Channel:
         Without `browser`, pages that join later receive the newest of each kind that is `kept`.
         """
         with self._lock:
-            if browser is None and message.kept:
+            if browser is None and message.is_latched:
                 self._last_messages[type(message)] = message
             data = msgspec.json.encode(message)
             filled = [each for id_, each in self._outboxes.items() if browser in (None, id_)]

@@ -13,7 +13,7 @@ Number = Annotated[int, msgspec.Meta(ge=0, lt=1 << 53)]
 class ToPage(msgspec.Struct, frozen=True, tag=True):
     """A message from the server to a page."""
 
-    kept: ClassVar[bool] = False
+    is_latched: ClassVar[bool] = False
     """True if only the newest of a kind counts: pages that join receive it, and it replaces
     older ones that wait to be sent."""
 
@@ -40,7 +40,7 @@ class Identity(ToPage, frozen=True):
         name: of the token of its browser, "" if none is asked for.
     """
 
-    kept = True
+    is_latched = True
 
     role: str
     name: str
@@ -65,7 +65,7 @@ class Ping(FromPage, frozen=True):
 class Pong(ToPage, frozen=True):
     """Answers a `Ping`."""
 
-    kept = True
+    is_latched = True
 
 
 class Heartbeat(ToPage, frozen=True):
@@ -75,7 +75,7 @@ class Heartbeat(ToPage, frozen=True):
         wall: its time in seconds since 1970; clocks of browsers may be wrong.
     """
 
-    kept = True
+    is_latched = True
 
     wall: float
 
@@ -191,7 +191,7 @@ class ShownTool(msgspec.Struct, frozen=True):
 class Tools(ToPage, frozen=True):
     """The toolbar, in order."""
 
-    kept = True
+    is_latched = True
 
     tools: tuple[ShownTool, ...]
 
@@ -241,7 +241,7 @@ class DrivingReport(ToPage, frozen=True):
         problem: why commands do not reach the robot, with a remedy; "" if they do.
     """
 
-    kept = True
+    is_latched = True
 
     tool: str
     beat: Number
@@ -256,7 +256,7 @@ class Shell(ToPage, frozen=True):
         debug: whether viser's own panel is shown too.
     """
 
-    kept = True
+    is_latched = True
 
     debug: bool = False
 

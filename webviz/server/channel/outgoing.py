@@ -51,7 +51,7 @@ class PageQueue:
             message: what it says.
             data: the same as JSON.
         """
-        key = type(message) if message.kept else next(self._numbers)
+        key = type(message) if message.is_latched else next(self._numbers)
         self.waiting.pop(key, None)
         size = len(data) + sum(map(len, self.waiting.values()))
         if len(self.waiting) < MAX_WAITING and size <= MAX_WAITING_BYTES and not self.is_full:

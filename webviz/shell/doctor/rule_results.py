@@ -43,7 +43,7 @@ class RuleResult(msgspec.Struct):
         """The reason why the rule failed, a sentence; "" if it held."""
         name = self.rule.about
         if self.violated is not None and self.violated.value is not None:
-            value = self.rule.shown(self.violated.value)
+            value = self.rule.text_of(self.violated.value)
             return f"{name} is {value} at {self.at_s:.1f} s, expected {self.rule.expectation}."
         if self.lowest is None:
             return (
@@ -57,7 +57,7 @@ class RuleResult(msgspec.Struct):
         """The values that were seen, such as "0.93 to 1"."""
         if self.lowest is None or self.highest is None:
             return "no value"
-        ends = dict.fromkeys(map(self.rule.shown, (self.lowest, self.highest)))
+        ends = dict.fromkeys(map(self.rule.text_of, (self.lowest, self.highest)))
         return " to ".join(ends)
 
 

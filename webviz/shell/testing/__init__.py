@@ -12,8 +12,8 @@ from webviz.shell.testing.live import LiveViewer
 from webviz.shell.testing.messages import header, turned
 from webviz.shell.testing.replaying import Replayed, looks_like, replay
 from webviz.shell.testing.seeking import BagViewer, check_seeks
-from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import SECOND
+from webviz.shell.testing.viewer_under_test import ViewerUnderTest
 
 __all__ = [
     "NOTICEABLE",
@@ -25,7 +25,7 @@ __all__ = [
     "Harness",
     "LiveViewer",
     "Replayed",
-    "Shown",
+    "ViewerUnderTest",
     "check_details",
     "check_seeks",
     "header",

@@ -261,8 +261,8 @@ class DisplayChecks:
                 each for each in changes(self.display) if each.path not in self.elsewhere
             ]
             metafunc.parametrize("changed", own_changes, ids=lambda each: each.path)
-        if "made" in metafunc.fixturenames:
-            metafunc.parametrize(("made", "name"), list(self.read_inputs()))
+        if "make_display" in metafunc.fixturenames:
+            metafunc.parametrize(("make_display", "name"), list(self.read_inputs()))
 
     @classmethod
     def read_inputs(cls) -> Iterator[Any]:
@@ -303,25 +303,27 @@ class DisplayChecks:
     def test_an_extreme_value_is_neither_drawn_as_nonsense_nor_ignored_in_silence(
         self,
         webviz_bench: Benches,
-        made: Callable[[], Display],
+        make_display: Callable[[], Display],
         name: str,
         monkeypatch: pytest.MonkeyPatch,
     ) -> None:
         """Infinite, huge, negative and empty values of every field of a message."""
         monkeypatch.setattr(PATIENCE_S, -1.0)
-        type_name = inputs_of(type(made()))[name].type
+        type_name = inputs_of(type(make_display()))[name].type
         all_cases = list(cases(type_name, self.messages[type_name]))
         problems = []
         for case in all_cases[:: len(all_cases) // MAX_CASES or 1]:
-            bench = self.at_work(webviz_bench, made, name)
+            bench = self.at_work(webviz_bench, make_display, name)
             send(bench, name, changed(self.messages[type_name], case))
             problems += [f"{case[0]} = {str(case[1])[:40]}: {fault}" for fault in faults(bench)]
         assert problems == []
 
     @classmethod
-    def at_work(cls, benches: Benches, made: Callable[[], Display], name: str) -> DisplayBench:
+    def at_work(
+        cls, benches: Benches, make_display: Callable[[], Display], name: str
+    ) -> DisplayBench:
         """Return a display that has what it needs before a message for an input arrives."""
-        bench = benches(made())
+        bench = benches(make_display())
         bench.transform("map", "sensor", (1.0, 2.0, 0.0), (0.0, 0.0, 0.6, 0.8))
         for number, (other, spec) in enumerate(inputs_of(type(bench.display)).items()):
             if other != name and (number == 0 or spec.latched) and spec.type in cls.messages:

@@ -21,8 +21,8 @@ from webviz.page.recorded_ui import RecordedUi
 from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
 from webviz.shell.testing.remembering_graph import RememberingGraph
-from webviz.shell.testing.shown import Shown
 from webviz.shell.testing.source import SECOND, HandFedSource
+from webviz.shell.testing.viewer_under_test import ViewerUnderTest
 from webviz.shell.testing.watched import WatchedViewer
 
 
@@ -91,7 +91,7 @@ ROUNDS = 4
 may wait."""
 
 
-class Harness(Shown):
+class Harness(ViewerUnderTest):
     """A viewer that only runs in `turn`, one turn of its frame loop.
 
     Args:

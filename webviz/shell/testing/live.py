@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from webviz.files.config import Config
 from webviz.shell.testing.pictures import SnapshotFixture
 from webviz.shell.testing.recording import RecordingScene
-from webviz.shell.testing.shown import Shown
+from webviz.shell.testing.viewer_under_test import ViewerUnderTest
 from webviz.shell.testing.watched import WatchedViewer
 from webviz.sources import Inbox, Raw
 
@@ -52,7 +52,7 @@ class _WatchedInbox(Inbox):
         return [topic for topic, expected in self._expected.items() if expected]
 
 
-class LiveViewer(Shown):
+class LiveViewer(ViewerUnderTest):
     """A viewer whose frame loop runs in a thread, on real ROS.
 
     Args:
@@ -112,7 +112,7 @@ class LiveViewer(Shown):
         """
         is_latched = topic == "/tf_static" if latched is None else latched
         publisher = self._publisher_node.open(topic, type_name, is_latched)
-        subscription = self.viewer.wanted().get(topic)
+        subscription = self.viewer.subscriptions().get(topic)
         if subscription is not None and subscription.type == type_name:
             self.wait_for(
                 lambda: self._is_connected(topic, type_name) and publisher.get_subscription_count(),
@@ -214,7 +214,8 @@ class LiveViewer(Shown):
         """Return whether the subscription knows all its publishers, including the test's."""
         from webviz.ros.qos import adapt
 
-        subscription, offer = self.viewer.wanted().get(topic), self.source.offers().get(topic)
+        subscription = self.viewer.subscriptions().get(topic)
+        offer = self.source.offers().get(topic)
         if subscription is None or offer is None:
             return False
         names = [publisher.node for publisher in offer.publishers if publisher.type == type_name]

@@ -69,8 +69,8 @@ class ReferenceImages:
         path = self.folder / f"{name}.png"
         if not path.exists() and not self.update:
             raise AssertionError(
-                f"{self.shown(path)} is missing. Run pytest with {UPDATE}, check the picture, and "
-                "commit it."
+                f"{self.relative(path)} is missing. Run pytest with {UPDATE}, check the picture, "
+                "and commit it."
             )
         actual = masked(pixels, mask)
         expected = load(path) if path.exists() else None
@@ -87,7 +87,7 @@ class ReferenceImages:
             raise AssertionError(self._complaint(name, path, share, actual, expected))
         return expected
 
-    def shown(self, path: Path) -> str:
+    def relative(self, path: Path) -> str:
         """Return a path relative to the root, if it is inside."""
         return str(path.relative_to(self.root) if path.is_relative_to(self.root) else path)
 
@@ -96,7 +96,7 @@ class ReferenceImages:
     ) -> str:
         output = self.output / f"{name}.png"
         store(actual, output)
-        link, reference = self.shown(output), self.shown(path)
+        link, reference = self.relative(output), self.relative(path)
         remedy = f"If it is correct, run pytest with {UPDATE} and check the picture."
         if actual.shape != expected.shape:
             sizes = [f"{p.shape[1]} x {p.shape[0]}" for p in (actual, expected)]
@@ -108,7 +108,7 @@ class ReferenceImages:
         store(difference_image(actual, expected), marked)
         return (
             f"{100 * share:.2f} % of the picture differ from {reference}. See {link} and "
-            f"{self.shown(marked)}. {remedy}"
+            f"{self.relative(marked)}. {remedy}"
         )
 
 

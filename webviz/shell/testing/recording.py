@@ -31,7 +31,7 @@ class RecordingScene:
     hidden: set[str] = field(default_factory=set)
     watched: bool = True
     upserts: int = 0
-    held: int = POINTS_HELD
+    max_points: int = POINTS_HELD
     unseen: set[str] = field(default_factory=set)
     """Ids of displays whose panes nobody sees."""
     background: Rgb | None = None
@@ -127,7 +127,7 @@ class RecordingScene:
 
     def points_held(self) -> int:
         """Return the number of points browsers draw fast enough."""
-        return self.held
+        return self.max_points
 
     def visible(self, prefix: str = "") -> Iterator[tuple[str, Pose, Node]]:
         """Key, pose in the fixed frame and node of all visible nodes.

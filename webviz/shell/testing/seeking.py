@@ -96,9 +96,9 @@ class BagViewer:
                 self.source.inbox.arrived.wait(LOOK_S)
         raise AssertionError("The viewer did not reach this state.")
 
-    def shown(self) -> dict[str, Any]:
+    def visible_nodes(self) -> dict[str, Any]:
         """Return the nodes that are seen of each display, with their poses in the fixed frame."""
-        return shown(self.loop, self.scene)
+        return visible_nodes(self.loop, self.scene)
 
     @property
     def playback(self) -> PlaybackState:
@@ -152,12 +152,12 @@ def check_seeks(
         for at_s in sorted(set(targets)):
             played.play_to(at_s)
             played.settle()
-            truth[at_s] = played.shown(), _statuses(played)
+            truth[at_s] = played.visible_nodes(), _statuses(played)
         for before_s, at_s in zip([0.0, *targets], targets, strict=False):
             sought.do(commands.Seek(at_s))
             nodes, statuses = truth[at_s]
             when = f"differs at {at_s:g} s after a seek from {before_s:g} s"
-            for display, sought_nodes in sought.shown().items():
+            for display, sought_nodes in sought.visible_nodes().items():
                 if plain(sought_nodes) != plain(nodes[display]):
                     raise AssertionError(
                         f"{display} {when}:\n"
@@ -172,7 +172,7 @@ def check_seeks(
                     )
 
 
-def shown(loop: FrameLoop, scene: RecordingScene) -> dict[str, Any]:
+def visible_nodes(loop: FrameLoop, scene: RecordingScene) -> dict[str, Any]:
     """Return the nodes that are seen of each display, with their poses in the fixed frame."""
     by_display: dict[str, Any] = {}
     for row in loop.state().rows:

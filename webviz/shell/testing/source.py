@@ -19,36 +19,36 @@ class HandFedSource:
 
     inbox: Inbox = field(default_factory=Inbox)
     graph: Graph = field(default_factory=lambda: ReadOnly("This source can only be read."))
-    wanted: Mapping[str, Subscription] = field(default_factory=dict)
-    known: dict[str, Offer] = field(default_factory=dict)
+    subscriptions: Mapping[str, Subscription] = field(default_factory=dict)
+    topics: dict[str, Offer] = field(default_factory=dict)
     now: int = 100 * SECOND
     """ROS time in ns."""
     bridges: Sequence[Bridge] = ()
     """Connections to bridges."""
     clock_count: int | None = None
     """Number of messages on /clock; None is wall time."""
-    _told: dict[str, Offer] = field(default_factory=dict)
+    _snapshot: dict[str, Offer] = field(default_factory=dict)
 
     def put(self, topic: str, type_name: str, cdr: bytes) -> None:
         """Receive a message now, from a reliable publisher."""
-        if topic not in self.known:
+        if topic not in self.topics:
             publisher = Publisher("/test", type_name, "reliable", "volatile")
-            self.known[topic] = Offer((publisher,), ("reliable", "volatile"))
+            self.topics[topic] = Offer((publisher,), ("reliable", "volatile"))
         self.inbox.put(topic, Raw(cdr, self.now))
 
     def want(self, subscriptions: Mapping[str, Subscription]) -> None:
         """Replace all subscriptions."""
-        for topic in self.wanted.keys() - subscriptions.keys():
+        for topic in self.subscriptions.keys() - subscriptions.keys():
             self.inbox.close(topic)
-        for topic in subscriptions.keys() - self.wanted.keys():
+        for topic in subscriptions.keys() - self.subscriptions.keys():
             self.inbox.open(topic, LIMIT)
-        self.wanted = dict(subscriptions)
+        self.subscriptions = dict(subscriptions)
 
     def offers(self) -> Mapping[str, Offer]:
         """All topics; the same mapping until something changes."""
-        if self._told != self.known:
-            self._told = dict(self.known)
-        return self._told
+        if self._snapshot != self.topics:
+            self._snapshot = dict(self.topics)
+        return self._snapshot
 
     def now_ns(self) -> int:
         """ROS time."""

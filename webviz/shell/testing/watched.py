@@ -47,7 +47,7 @@ class WatchedViewer(FrameLoop):
         with self._lock:
             return self.state()
 
-    def wanted(self) -> Mapping[str, Subscription]:
+    def subscriptions(self) -> Mapping[str, Subscription]:
         """All subscriptions by topic."""
         with self._lock:
             return self._parts.subscriptions()

@@ -103,7 +103,7 @@ class FoxgloveSession:
     @property
     def parameters(self) -> BridgeParameters:
         """The nodes with parameters that the bridge itself has."""
-        return self._parameters.known
+        return self._parameters.parameters
 
     @property
     def remarks(self) -> Sequence[str]:

@@ -57,7 +57,7 @@ class ParameterServices:
         """Answers by the id of their request, with the type and a function that makes each."""
         self._telling: asyncio.TimerHandle | None = None
         self._next_id = 1
-        self.known = BridgeParameters()
+        self.parameters = BridgeParameters()
         """The nodes with parameters."""
 
     def start(self, is_told: bool) -> None:
@@ -72,7 +72,7 @@ class ParameterServices:
     def serves(self, service: str) -> bool:
         """Return whether a service is of a node whose parameters the server has."""
         node, _, name = service.rpartition("/")
-        return name in SERVICES and node in self.known.nodes
+        return name in SERVICES and node in self.parameters.nodes
 
     def call(self, service: str, type: str, request: bytes, answer: Future[bytes]) -> None:
         """Call a service; raises NotConnected."""
@@ -115,7 +115,7 @@ class ParameterServices:
 
     def _tell(self) -> None:
         self._telling = None
-        self.known = replace(self.known, changes=self.known.changes + 1)
+        self.parameters = replace(self.parameters, changes=self.parameters.changes + 1)
         self._changed()
 
     def forget(self, answer: Future[bytes]) -> None:
@@ -145,8 +145,8 @@ class ParameterServices:
         if self._is_told:
             self._send(wire.subscribe_parameter_updates(new))
         nodes = tuple(sorted({_split(name)[0] for name in self._locked}))
-        if nodes != self.known.nodes:
-            self.known = replace(self.known, nodes=nodes)
+        if nodes != self.parameters.nodes:
+            self.parameters = replace(self.parameters, nodes=nodes)
             self._changed()
 
     def _names_of(self, node: str) -> Take:

@@ -254,11 +254,11 @@ class BridgeSource:
                 break
             if time.monotonic() - began_s > LAST_RETRY_S:
                 wait_s = FIRST_RETRY_S
-            self._lost(outcome)
+            self._on_disconnect(outcome)
             # Not all viewers of a robot at the same moment.
             await asyncio.wait({stopped}, timeout=wait_s * random.uniform(0.8, 1.2))
             wait_s = min(LAST_RETRY_S, wait_s * 2)
-        self._lost(NotConnected("The viewer has ended."))
+        self._on_disconnect(NotConnected("The viewer has ended."))
 
     async def _talk(self) -> None:
         """Open the connection once, and talk until it breaks."""
@@ -318,7 +318,7 @@ class BridgeSource:
         self.graph.readvertise(session)
         self._look()
 
-    def _lost(self, outcome: object) -> None:
+    def _on_disconnect(self, outcome: object) -> None:
         """Note why there is no connection, and fail what is pending."""
         session, self._session, self._socket = self._session, None, None
         error = outcome if isinstance(outcome, BaseException) else ConnectionError("it has ended")

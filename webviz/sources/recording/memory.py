@@ -71,8 +71,8 @@ class LiveHistogram:
     def __init__(self, memory: RecentMessages, clock: WallClock) -> None:
         self._memory = memory
         self._clock = clock
-        self._held: dict[str, Counter[int]] = {}
-        self._held_part_s = 0.0
+        self._old_counts: dict[str, Counter[int]] = {}
+        self._old_part_s = 0.0
         self._key: object = None
         self._counts = NOT_COUNTED
         self.span_ns = (0, 0)
@@ -80,11 +80,11 @@ class LiveHistogram:
 
     def hold(self) -> None:
         """Keep the counts of all that is in memory now, until `release`."""
-        self._held_part_s, self._held = self._memory.counts()
+        self._old_part_s, self._old_counts = self._memory.counts()
 
     def release(self) -> None:
         """Forget what is not in memory."""
-        self._held = {}
+        self._old_counts = {}
 
     def counts(self, now_ns: int) -> Mapping[str, Sequence[int]]:
         """Messages by topic; the same mapping until a part is over.
@@ -93,8 +93,8 @@ class LiveHistogram:
             now_ns: time of recording.
         """
         part_s, by_topic = self._memory.counts() if self._memory.is_on else (1.0, {})
-        if self._held and self._held_part_s == part_s:
-            for topic, own in self._held.items():
+        if self._old_counts and self._old_part_s == part_s:
+            for topic, own in self._old_counts.items():
                 by_topic[topic] = own | by_topic.get(topic, Counter())  # the greater of each part
         end = int(self._clock.arrived_s(now_ns) // part_s)
         first = min((part for own in by_topic.values() for part in own), default=end)
@@ -129,22 +129,22 @@ class MemoryHistory(EntriesHistory):
         self._histogram = LiveHistogram(self.recent, self.clock)
         self._log = LiveLog(self.clock)
         live.inbox.read_along(lambda: self._log.put)
-        self._held: list[Entry] = []
+        self._old_entries: list[Entry] = []
         self._subscriptions: Mapping[str, Subscription] = {}
         self._passed_on: Mapping[str, Subscription] = {}
         """Subscriptions of the live source."""
 
     def hold(self) -> bool:
         """Keep what is in memory now until `release`; whether that is anything."""
-        self._held = self.recent.last(math.inf).whole
+        self._old_entries = self.recent.last(math.inf).whole
         self._entries, self._by_topic, self._validity = [], {}, ValidityIntervals()
         self._histogram.hold()
-        self._add(self._held)
-        return bool(self._held)
+        self._add(self._old_entries)
+        return bool(self._old_entries)
 
     def release(self) -> None:
         """Forget what is not in memory."""
-        self._held, self._entries, self._by_topic = [], [], {}
+        self._old_entries, self._entries, self._by_topic = [], [], {}
         self._histogram.release()
 
     def since(self, at_ns: int) -> list[Entry]:
@@ -154,19 +154,19 @@ class MemoryHistory(EntriesHistory):
     @property
     def is_held(self) -> bool:
         """Return whether the past is kept that people look back on."""
-        return bool(self._held)
+        return bool(self._old_entries)
 
     @property
     def held_s(self) -> float:
         """Return the seconds of `entries` while they are held."""
         newest_s = self.recent.newest_s
-        if not self._held or newest_s is None:
+        if not self._old_entries or newest_s is None:
             return 0.0
-        return max(newest_s, self._entries[-1][1].arrived_s) - self._held[0][1].arrived_s
+        return max(newest_s, self._entries[-1][1].arrived_s) - self._old_entries[0][1].arrived_s
 
     def entries(self) -> list[Entry]:
         """Return all messages until now, latched ones first, in the order of arrival."""
-        if not self._held:
+        if not self._old_entries:
             return self.recent.last(math.inf).whole
         return [*self._entries, *self.recent.after(self._entries[-1][1].arrived_s)]
 
@@ -175,8 +175,8 @@ class MemoryHistory(EntriesHistory):
     @property
     def start_ns(self) -> int:
         """Time of the oldest message."""
-        if self._held:
-            return self._stamp(self._held[0])
+        if self._old_entries:
+            return self._stamp(self._old_entries[0])
         oldest_s = self.recent.oldest_s
         return self.end_ns if oldest_s is None else self.clock.stamp_ns(oldest_s)
 
@@ -212,7 +212,7 @@ class MemoryHistory(EntriesHistory):
     def gap_ns(self) -> tuple[int, int] | None:
         """From the newest message that is held to the oldest in memory, if it is older."""
         oldest_s = self.recent.oldest_s
-        held_s = self._held[-1][1].arrived_s if self._held else math.inf
+        held_s = self._old_entries[-1][1].arrived_s if self._old_entries else math.inf
         if oldest_s is None or self.recent.forgotten_s <= held_s:
             return None
         return self.clock.stamp_ns(held_s), self.clock.stamp_ns(oldest_s)

@@ -44,7 +44,7 @@ class LinkUser(Protocol):
         """Do what is due, some times a second."""
         ...
 
-    def lost(self, problem: str) -> None:
+    def on_disconnect(self, problem: str) -> None:
         """Fail what is pending, as the session is over."""
         ...
 
@@ -143,7 +143,7 @@ class ZenohLink:
                 self._watch()
             self._jobs.run()
             self._user.turn()
-        self._user.lost(ENDED)
+        self._user.on_disconnect(ENDED)
         self._jobs.end()
         if self._session is not None:
             self._session.close()
@@ -191,7 +191,7 @@ class ZenohLink:
         if not info.routers_zid() and not info.peers_zid():
             if not self._gone_s:
                 self._gone_s = now_s
-                self._user.lost(str(gone(self._address, now_s)))
+                self._user.on_disconnect(str(gone(self._address, now_s)))
             self._probe = None
             self._set_problem(gone(self._address, self._gone_s))
             return
@@ -226,7 +226,7 @@ class ZenohLink:
         self._session = self._probe = None
         text = f"The Zenoh router at {self._address.name} has not answered for {silent_s:.0f} s."
         self._set_problem(Problem(text, "Restart it, or check the network."))
-        self._user.lost(text)
+        self._user.on_disconnect(text)
         # It may wait for the link that hangs.
         threading.Thread(target=session.close, name="webviz-close", daemon=True).start()
 

@@ -175,7 +175,7 @@ class ZenohSource:
             self._survey.turn(session, self.snapshot.is_empty)
         self.calls.turn(session)
 
-    def lost(self, problem: str) -> None:
+    def on_disconnect(self, problem: str) -> None:
         """Fail what is pending."""
         self.calls.close(problem)
 

@@ -45,7 +45,7 @@ export function topic({ type, default: standard }, options) {
 }
 
 /** @param {TopicOffer} offer */
-function describe({ publishers, rate, shown: displays, problem, is_latched }) {
+function describe({ publishers, rate, displays, problem, is_latched }) {
   if (problem) return { note: problem, level: "error" };
   const notes = [publishers === 1 ? "1 publisher" : `${publishers} publishers`];
   if (rate !== null) notes.unshift(hertz(rate, is_latched));

@@ -45,7 +45,7 @@ Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
 
-class Shown(ABC):
+class ViewerUnderTest(ABC):
     """A viewer under test, whose content can be changed, read and compared with pictures.
 
     Displays are given by name; None is the first in the list. Positions are in metres in the fixed
@@ -86,8 +86,8 @@ class Shown(ABC):
     def nodes(self, display: str | None = None) -> dict[str, tuple[Pose, Node]]:
         """All visible nodes of a display with their poses in the fixed frame, by key."""
         with self.scene.lock:
-            seen = self.scene.visible(self._prefix(display))
-            return {key: (pose, node) for key, pose, node in seen}
+            visible = self.scene.visible(self._prefix(display))
+            return {key: (pose, node) for key, pose, node in visible}
 
     def points(self, display: str | None = None) -> F64:
         """Positions (N, 3) of the points of a display."""
@@ -139,7 +139,7 @@ class Shown(ABC):
 
     # Inside
 
-    def _drawn(self) -> dict[str, str]:
+    def _display_names(self) -> dict[str, str]:
         """Names of the displays that draw something, by the prefix of their groups."""
         with self.scene.lock:
             return {
@@ -302,7 +302,7 @@ class Shown(ABC):
         self.settle()
         if each_display is None:
             each_display = self.snapshots.references.each_display
-        must_be_seen = self._drawn() if each_display else {}
+        must_be_seen = self._display_names() if each_display else {}
         self.snapshots.check(name, must_be_seen, mask, tolerance)
 
 

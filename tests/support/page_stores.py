@@ -11,12 +11,10 @@ from webviz.engine.parts.declaring import stores_of
 from webviz.engine.state import State
 
 
-def shown_by(store: str, state: State, argument: str = "") -> dict[str, Any]:
+def page_store(store: str, state: State, argument: str = "") -> dict[str, Any]:
     """Return the values of a store by key, as JSON brings them to a page."""
     given_parts = GivenParts()
     given_parts.show(state)
     (part,) = (each for each in given_parts.parts if store in stores_of(type(each)))
-    page_store = stores_of(type(part))[store].make(part, argument)
-    return (
-        {} if page_store is None else msgspec.json.decode(msgspec.json.encode(page_store.by_key()))
-    )
+    content = stores_of(type(part))[store].make(part, argument)
+    return {} if content is None else msgspec.json.decode(msgspec.json.encode(content.by_key()))
