@@ -26,6 +26,12 @@ COLOR = """(name) => {
 
 WATCH = """
   window.seen = new Set();
+  window.unseenFrames = 0;
+  const { clear } = WebGL2RenderingContext.prototype;
+  WebGL2RenderingContext.prototype.clear = function (mask) {
+    if (!("wvShown" in document.documentElement.dataset)) window.unseenFrames += 1;
+    clear.call(this, mask);
+  };
   (function look() {
     for (const one of document.querySelectorAll("#root *")) {
       const nodes = [...one.childNodes].filter((node) => node.nodeType === 3);
@@ -36,7 +42,7 @@ WATCH = """
     requestAnimationFrame(look);
   })();
 """
-"""Notes the words of viser's page that are seen in any frame."""
+"""Notes the words of viser's page that are seen in any frame, and counts frames that nobody sees."""
 
 
 @pytest.fixture
@@ -128,6 +134,7 @@ def test_a_new_page_shows_nothing_before_it_is_ours_and_no_hint_that_was_closed(
     page.goto(f"http://127.0.0.1:{tab.viewer.server.get_port()}/?fixedDpr={COARSE}")
     page.get_by_role("tablist").first.wait_for()
     assert page.evaluate("[...window.seen]") == []
+    assert page.evaluate("window.unseenFrames") <= 2, "those before the page is ours"
     tab.wait_for(lambda: page.locator(".wv-file").inner_text() == "webviz")
     assert page.get_by_role("region", name="Nothing is published").count() == 0
     page.close()
