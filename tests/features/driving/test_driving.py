@@ -313,6 +313,21 @@ def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
     until(lambda: lone.speeds[-TAIL:] == [0.0] * TAIL)
 
 
+def test_closing_waits_until_the_last_commands_are_published(lone: Lone) -> None:
+    publications: list[Future[int]] = []
+
+    def publish_later(advertisement: Advertisement, cdr: bytes) -> Future[int]:
+        publications.append(Future())
+        threading.Timer(0.1, publications[-1].set_result, (1,)).start()
+        return publications[-1]
+
+    lone.graph.publish = publish_later
+    lone.steer(AHEAD)
+    until(lambda: publications)
+    lone.controllers.close()
+    assert publications[-1].done()
+
+
 def test_a_command_that_fails_is_reported_until_one_succeeds(
     lone: Lone, caplog: pytest.LogCaptureFixture
 ) -> None:
