@@ -317,15 +317,21 @@ def test_closing_waits_until_the_last_commands_are_published(lone: Lone) -> None
     publications: list[Future[int]] = []
 
     def publish_later(advertisement: Advertisement, cdr: bytes) -> Future[int]:
-        publications.append(Future())
-        threading.Timer(0.1, publications[-1].set_result, (1,)).start()
+        publications.append(node.submit(publish_slowly, advertisement, cdr))
         return publications[-1]
 
+    def publish_slowly(advertisement: Advertisement, cdr: bytes) -> int:
+        time.sleep(0.1)
+        return publish_now(advertisement, cdr).result()
+
+    publish_now = lone.graph.publish
+
     lone.graph.publish = publish_later
-    lone.steer(AHEAD)
-    until(lambda: publications)
-    lone.controllers.close()
-    assert publications[-1].done()
+    with ThreadPoolExecutor(max_workers=1) as node:
+        lone.steer(AHEAD)
+        until(lambda: publications)
+        lone.controllers.close()
+        assert publications[-1].done()
 
 
 def test_a_command_that_fails_is_reported_until_one_succeeds(
