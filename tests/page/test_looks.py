@@ -42,7 +42,7 @@ WATCH = """
     requestAnimationFrame(look);
   })();
 """
-"""Notes the words of viser's page that are seen in any frame, and counts frames that nobody sees."""
+"""Notes the words of viser's page that are seen in any frame, and counts the frames before."""
 
 
 @pytest.fixture
