@@ -454,8 +454,8 @@ def test_a_pose_that_is_sent_while_the_robot_moves(webviz_harness: Callable[...,
     offered = Publisher("/amcl", POSE, "reliable", "volatile")
     stage.source.topics["/amcl_pose"] = Offer((offered,), None)
     values = {"pose": {"pose": {"orientation": {"w": 1.0}}}}
-    moved = partial(stage.publish, "/amcl_pose", POSE, values, frame="map")
-    examined(stage, CauseLevel.GRAPH, 0.2, moved)
+    publish_pose = partial(stage.publish, "/amcl_pose", POSE, values, frame="map")
+    examined(stage, CauseLevel.GRAPH, 0.2, publish_pose)
     assert examined(stage, CauseLevel.GRAPH) == {}
     (finding,) = [each for each in stage.viewer.snapshot().findings if each.id == "GRAPH009"]
     assert finding.severity is webviz.Severity.NOTE

@@ -22,7 +22,7 @@ START = Pose2D(-2.0, 0.0)
 TWO_DAYS = 172_800.0
 
 
-def moved(at_s: float) -> float:
+def distance_driven(at_s: float) -> float:
     """The way in metres that the robot has driven, before it stops."""
     return SPEED * min(at_s, MOVING_S)
 
@@ -66,9 +66,13 @@ def write(path: Path, namespace: str, prefix: str) -> Path:
         bag.put(
             at_s + 0.02,
             "/tf",
-            {"transforms": [stamped(f"{prefix}odom", f"{prefix}base_link", at_ns, moved(at_s))]},
+            {
+                "transforms": [
+                    stamped(f"{prefix}odom", f"{prefix}base_link", at_ns, distance_driven(at_s))
+                ]
+            },
         )
-        place = {"position": {"x": moved(at_s)}, "orientation": {"w": 1.0}}
+        place = {"position": {"x": distance_driven(at_s)}, "orientation": {"w": 1.0}}
         slipping = {"linear": {"x": 1.4 * SPEED}}
         odometry = {"pose": {"pose": place}, "twist": {"twist": slipping}}
         bag.put(at_s, f"{namespace}/odom", {"header": head(f"{prefix}odom", at_s)} | odometry)
@@ -77,16 +81,19 @@ def write(path: Path, namespace: str, prefix: str) -> Path:
     for at_s in times(5.0):
         ahead = stamped("map", f"{prefix}odom", START_NS + ns(at_s + 1.0), START.x)
         bag.put(at_s, "/tf", {"transforms": [ahead]})
-        scan = building.scan(Pose2D(START.x + moved(at_s), START.y))
+        scan = building.scan(Pose2D(START.x + distance_driven(at_s), START.y))
         scan["ranges"] = np.where(np.arange(360) % 5, scan["ranges"], 0.0).astype(np.float32)
         scan["intensities"] = np.zeros(360, np.float32)
         bag.put(at_s + 0.05, f"{namespace}/scan", {"header": head(f"{prefix}laser", at_s)} | scan)
-        corner = {"position": {"x": moved(at_s) - 1.5, "y": -1.5}, "orientation": {"w": 1.0}}
+        corner = {
+            "position": {"x": distance_driven(at_s) - 1.5, "y": -1.5},
+            "orientation": {"w": 1.0},
+        }
         info = {"resolution": 0.05, "width": 60, "height": 60, "origin": corner}
         cells = {"info": info, "data": np.zeros(3600, np.int8)}
         bag.put(at_s, local, {"header": head(f"{prefix}odom", at_s)} | cells)
         if at_s < MOVING_S:
-            way = building.path([(START.x + moved(at_s), 0.0), (START.x + 1.0, 0.0)])
+            way = building.path([(START.x + distance_driven(at_s), 0.0), (START.x + 1.0, 0.0)])
             bag.put(at_s, f"{namespace}/plan", way | {"header": head("map", at_s)})
             pose = {"pose": {"pose": {"orientation": {"w": 1.0}}, "covariance": [0.1] * 36}}
             bag.put(at_s, f"{namespace}/amcl_pose", {"header": head("map", at_s)} | pose)

@@ -86,7 +86,7 @@ def test_a_part_that_is_added_does_its_commands_and_shows_its_state(bench: Bench
     assert state.more["count"] == (3, (Sender(None), Sender(4)))
     assert b.ask(Count(0)) == "Counted to 3."
     assert state.statuses["Counter"].text == "3 so far."
-    assert b.refused(Count(-1)) == "A counter cannot go back. Reset it instead."
+    assert b.refusal(Count(-1)) == "A counter cannot go back. Reset it instead."
     assert b.do(Reset()).more["count"][0] == 0
 
 
@@ -106,7 +106,7 @@ class Listener(Part):
 def test_a_part_observes_commands_of_other_parts(bench: Benches) -> None:
     b = bench(parts=[Counter, Listener])
     b.do(Count(), Sender(browser=4))
-    b.refused(Count(-1))
+    b.refusal(Count(-1))
     b.do(Load("displays: []", "x.yaml"))  # has a slow part
     assert b.viewer.get(Listener).commands == [("Count", Sender(4)), ("Load", Sender())]
 
@@ -225,7 +225,7 @@ def test_only_commands_about_files_have_a_slow_part(bench: Benches) -> None:
             return {Count: lambda command, sender: Job(lambda: 1, str)}
 
     b = bench(parts=[Slow], strict=False)
-    assert "no FileCommand" in b.refused(Count())
+    assert "no FileCommand" in b.refusal(Count())
     assert b.do(Refresh())
 
 

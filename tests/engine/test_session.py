@@ -89,7 +89,7 @@ def test_saving_as_rviz_names_unsupported_parts(folder: Path, bench: Benches) ->
 
 
 def test_a_config_without_a_file_needs_a_name(folder: Path, bench: Benches) -> None:
-    assert bench(Axes(name="A")).refused(Save()) == ("This config has no file yet. Choose a name.")
+    assert bench(Axes(name="A")).refusal(Save()) == ("This config has no file yet. Choose a name.")
 
 
 def test_unsaved_changes_are_marked_until_saved_or_undone(folder: Path, bench: Benches) -> None:
@@ -133,7 +133,7 @@ def test_a_file_that_cannot_be_opened_changes_nothing(
         os.mkfifo(folder / "bad.yaml")
     elif text is not None:
         (folder / "bad.yaml").write_text(text)
-    assert sentence in b.refused(Open("bad.yaml"))
+    assert sentence in b.refusal(Open("bad.yaml"))
     state = b.states[-1]
     assert (names(state), state.file.path) == (["A"], "")
 
@@ -144,14 +144,14 @@ def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(folder: Path, benc
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)  # for which saving waits
-        saved, opened = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Open("b.yaml"))
+        saving, opening = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Open("b.yaml"))
         assert do(b, SetBackground((1, 2, 3))).settings.background == (1, 2, 3)
-        assert not saved.done()
-        assert not opened.done()
+        assert not saving.done()
+        assert not opening.done()
     finally:
         os.close(descriptor)
-    b.until_done(opened)
-    assert saved.result() == "Saved a.yaml."
+    b.until_done(opening)
+    assert saving.result() == "Saved a.yaml."
     assert b.states[-1].file.path == str(folder / "b.yaml")
     assert names(b.states[-1]) == ["B"]
     saved_config = load(folder / "a.yaml")
@@ -160,10 +160,10 @@ def test_the_frame_loop_goes_on_while_files_wait_for_the_disk(folder: Path, benc
 
 def test_the_end_waits_for_a_file_that_is_being_written(folder: Path, bench: Benches) -> None:
     b = bench(Axes(name="A"))
-    saved, later = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Save("b.yaml"))
+    saving, later = b.viewer.enqueue(Save("a.yaml")), b.viewer.enqueue(Save("b.yaml"))
     b.turn()
     b.viewer.close()
-    assert saved.result(timeout=0) == "Saved a.yaml."
+    assert saving.result(timeout=0) == "Saved a.yaml."
     assert str(later.exception(timeout=0)) == "The viewer has ended."
     assert [path.name for path in folder.iterdir()] == ["a.yaml"]
 
@@ -204,12 +204,12 @@ def test_files_of_higher_roles_go_first(bench: Benches) -> None:
 
 def test_a_lower_role_leaves_room_in_the_queue(bench: Benches) -> None:
     b = bench()
-    refused: list[int] = []
+    refusals: list[int] = []
     for priority in (1, 2, 3):
         pages = [Sender(browser, 0, priority) for browser in range(MAX_REQUESTS)]
         answers = [b.viewer.enqueue(Refresh(), page) for page in pages]
-        refused.append(sum(answer.done() for answer in answers))
-    assert refused == [
+        refusals.append(sum(answer.done() for answer in answers))
+    assert refusals == [
         MAX_REQUESTS - MAX_REQUESTS // 3,
         MAX_REQUESTS - MAX_REQUESTS // 3,
         MAX_REQUESTS - MAX_REQUESTS // 3 - 1,
@@ -226,11 +226,11 @@ def test_the_text_of_a_file_from_elsewhere_is_shown_and_counts_as_not_saved(
     assert names(do(b, Load(rviz, "x.rviz"))) == ["R"]
     assert not list(folder.iterdir())
     large = "version: 1\n" + "# comment\n" * (2 << 17)
-    assert b.refused(Load(large, "l.yaml")).endswith("it is larger than 2 MB.")
+    assert b.refusal(Load(large, "l.yaml")).endswith("it is larger than 2 MB.")
 
 
 def test_saving_to_a_missing_folder_is_refused(folder: Path, bench: Benches) -> None:
-    refusal = bench(Axes(name="A")).refused(Save("nowhere/lab.yaml"))
+    refusal = bench(Axes(name="A")).refusal(Save("nowhere/lab.yaml"))
     assert "No such file or directory" in refusal
 
 
@@ -334,8 +334,8 @@ def test_displays_are_written_as_a_config_file_has_them(bench: Benches) -> None:
     unreadable = Unreadable({"type": "Gone", "list": [1]}, "displays[0]: no such type")
     group = Branch(DisplayGroup(name="G"), [Axes(name="A", length=3.0), unreadable])
     b = bench(group, Axes(name="B"), Grid(name="Grid"))
-    written = b.ask(WriteDisplays(("display2", "display5", "display1", "gone")))
-    assert written == (
+    yaml = b.ask(WriteDisplays(("display2", "display5", "display1", "gone")))
+    assert yaml == (
         "- type: Group\n  name: G\n  displays:\n  - {type: Axes, length: 3.0, name: A}\n"
         "  - type: Gone\n    list: [1]\n- {type: Grid}\n"
     )
@@ -418,7 +418,7 @@ def test_a_refused_command_changes_nothing(
 ) -> None:
     b = bench(Axes(name="A"), DisplayGroup(name="G"), PathDisplay(name="P"))
     before = b.viewer.config()
-    assert b.refused(command).startswith(sentence)
+    assert b.refusal(command).startswith(sentence)
     assert not caplog.records  # whoever asked is told, and nobody twice
     assert document(b.viewer.config()) == document(before)
 
@@ -475,12 +475,12 @@ def test_a_page_gives_no_file_a_name_that_deceives(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     b = bench(Axes(name="A"))
-    refused = b.viewer.enqueue(Save(name), Sender(browser=1))
-    b.until_done(refused)
-    assert str(refused.exception()) == sentence
-    opened = b.viewer.enqueue(Open(name), Sender(browser=1))
-    b.until_done(opened)
-    assert opened.exception() is not None
+    saving = b.viewer.enqueue(Save(name), Sender(browser=1))
+    b.until_done(saving)
+    assert str(saving.exception()) == sentence
+    opening = b.viewer.enqueue(Open(name), Sender(browser=1))
+    b.until_done(opening)
+    assert opening.exception() is not None
     assert not caplog.records
     assert not [*folder.iterdir()]
 
@@ -498,7 +498,7 @@ def test_a_page_gives_no_file_a_name_that_deceives(
 def test_a_view_or_picture_has_no_name_that_deceives(
     bench: Benches, command: Command, sentence: str
 ) -> None:
-    assert bench().refused(command) == sentence
+    assert bench().refusal(command) == sentence
 
 
 def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(bench: Benches) -> None:
@@ -520,7 +520,7 @@ def test_names_of_displays_and_of_files_from_elsewhere_are_made_readable(bench: 
 )
 @pytest.mark.parametrize("suffix", ["yaml", "rviz"])
 def test_a_config_with_half_a_letter_is_refused(bench: Benches, text: str, suffix: str) -> None:
-    answer = bench().refused(Load(text, f"x.{suffix}"))
+    answer = bench().refusal(Load(text, f"x.{suffix}"))
     half = "a text contains half of a surrogate pair, such as \\ud800. Remove it."
     assert answer == f"x.{suffix}:1: {half}"
 

@@ -84,10 +84,10 @@ class Looking:
         assert answer.exception(0) is None
         return self.bench.states[-1]
 
-    def refused(self, command: Command) -> str:
+    def refusal(self, command: Command) -> str:
         """Return why a command is refused."""
         before = dict(self.cameras.by_browser)
-        refusal = self.bench.refused(command)
+        refusal = self.bench.refusal(command)
         assert self.cameras.by_browser == before
         return refusal
 
@@ -153,9 +153,9 @@ def test_a_view_command_acts_in_the_browser_that_sends_it_unless_it_names_anothe
 def test_a_property_of_a_view_is_changed_and_checked(looking: Looking) -> None:
     looking.do(ChangeView("distance", 3.0, ALICE))
     assert looking.cameras.by_browser[ALICE] == Orbit(distance=3.0)
-    assert "distance: expected > 0" in looking.refused(ChangeView("distance", -3.0, ALICE))
-    assert "did you mean `distance`?" in looking.refused(ChangeView("distanc", 3.0, ALICE))
-    assert "`TopDownOrtho`" in looking.refused(ChangeView("type", "TopDownOrto", ALICE))
+    assert "distance: expected > 0" in looking.refusal(ChangeView("distance", -3.0, ALICE))
+    assert "did you mean `distance`?" in looking.refusal(ChangeView("distanc", 3.0, ALICE))
+    assert "`TopDownOrtho`" in looking.refusal(ChangeView("type", "TopDownOrto", ALICE))
 
 
 def test_a_view_keeps_its_focal_point_when_its_type_changes(looking: Looking) -> None:
@@ -206,7 +206,7 @@ def test_a_display_comes_into_the_middle(looking: Looking) -> None:
     assert view.focal_point == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     radius = 2.0 * 3**0.5  # of the cube around axes of 2 m
     assert radius < view.distance < 4 * radius
-    assert "nothing to focus on" in looking.refused(FocusDisplay("display9", ALICE))
+    assert "nothing to focus on" in looking.refusal(FocusDisplay("display9", ALICE))
     looking.do(ShowView(Orbit(focal_point=(9.0, 9.0, 9.0)), ALICE))
     looking.do(FocusDisplay("", ALICE))  # everything is this display
     view = looking.cameras.by_browser[ALICE]
@@ -223,13 +223,13 @@ def test_views_are_saved_shown_renamed_and_removed(looking: Looking) -> None:
     assert looking.cameras.by_browser[BOB] == TopDownOrtho(scale=50.0)
     looking.do(SaveView("Other", BOB))
     assert list(looking.do(RenameView("Plan", "Map")).settings.views) == ["Map", "Other"]
-    assert "already" in looking.refused(RenameView("Map", "Other"))
-    assert "name is empty" in looking.refused(RenameView("Map", ""))
-    assert "the limit is 200" in looking.refused(SaveView("x" * 201, ALICE))
-    assert "did you mean `Map`?" in looking.refused(ShowView("Mapp", ALICE))
+    assert "already" in looking.refusal(RenameView("Map", "Other"))
+    assert "name is empty" in looking.refusal(RenameView("Map", ""))
+    assert "the limit is 200" in looking.refusal(SaveView("x" * 201, ALICE))
+    assert "did you mean `Map`?" in looking.refusal(ShowView("Mapp", ALICE))
     assert list(looking.do(RemoveView("Map")).settings.views) == ["Other"]
-    assert "Unknown saved view `Map`" in looking.refused(RemoveView("Map"))
-    assert "name is empty" in looking.refused(SaveView("", ALICE))
+    assert "Unknown saved view `Map`" in looking.refusal(RemoveView("Map"))
+    assert "name is empty" in looking.refusal(SaveView("", ALICE))
 
 
 def test_the_chosen_default_view_is_saved_in_the_config(looking: Looking) -> None:
@@ -258,8 +258,8 @@ def test_a_picture_is_requested_from_one_browser(looking: Looking) -> None:
 def test_without_browsers_there_is_nothing_to_change(bench: Benches) -> None:
     looking = Looking(bench(cameras=(cameras := TwoBrowsers())), cameras)
     cameras.by_browser.clear()
-    assert "No browser is connected" in looking.refused(ResetView())
-    assert "No browser is connected" in looking.refused(SaveView("A"))
+    assert "No browser is connected" in looking.refusal(ResetView())
+    assert "No browser is connected" in looking.refusal(SaveView("A"))
 
 
 def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
@@ -269,4 +269,4 @@ def test_a_frame_is_looked_at_where_it_is_and_one_without_a_pose_is_refused(
     view = looking.cameras.by_browser[ALICE]
     assert isinstance(view, Orbit)
     assert view.focal_point == pytest.approx((4.0, 0.0, 0.0))
-    assert "moon" in looking.refused(FocusFrame("moon", ALICE))
+    assert "moon" in looking.refusal(FocusFrame("moon", ALICE))

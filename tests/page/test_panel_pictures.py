@@ -31,7 +31,7 @@ LOG, ARRAY = "rcl_interfaces/msg/Log", "diagnostic_msgs/msg/DiagnosticArray"
 SCAN, ODOMETRY = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry"
 WIDE = f"document.documentElement.style.setProperty('--wv-width', '{WIDTH}px')"
 
-Taken = Callable[..., None]
+Compare = Callable[..., None]
 
 
 @pytest.fixture
@@ -40,8 +40,8 @@ def compare(
     open_viewer_tab: Callable[..., Any],
     request: pytest.FixtureRequest,
     monkeypatch: pytest.MonkeyPatch,
-) -> Taken:
-    """Compare a panel with its picture: `taken(name, panel, fill, *displays)`."""
+) -> Compare:
+    """Compare a panel with its picture: `compare(name, panel, fill, *displays)`."""
     # A picture that takes longer would end the curves.
     monkeypatch.setattr("webviz.panels.plot.CLOSED_S", 60.0)
     # Checks of this machine would find other problems on each.
@@ -78,7 +78,7 @@ def offer(type_: str, *publishers: str, to: tuple[str, ...] = ()) -> Offer:
     return Offer(tuple(Publisher(each, type_, *volatile) for each in publishers), readers=readers)
 
 
-def test_the_graph_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
+def test_the_graph_is_as_in_its_picture(viewer: PageBench, compare: Compare) -> None:
     asking: Any = ("reliable", "volatile")
     scan = offer(SCAN, "/laser", to=("/amcl",))
     costmap = Endpoint("/costmap", SCAN, *asking)
@@ -100,7 +100,7 @@ def test_the_graph_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> No
     compare("panel_graph", make(NodeGraph, {}), drive, LaserScan(name="a"), Odometry(name="b"))
 
 
-def test_the_log_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
+def test_the_log_is_as_in_its_picture(viewer: PageBench, compare: Compare) -> None:
     lines = (
         (20, "map_server", "Read the map building.yaml"),
         (20, "amcl", "Initial pose: 0.000 0.000 0.000"),
@@ -120,7 +120,7 @@ def test_the_log_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None
     compare("panel_log", make(Log, {}), log)
 
 
-def test_diagnostics_are_as_in_their_picture(viewer: PageBench, compare: Taken) -> None:
+def test_diagnostics_are_as_in_their_picture(viewer: PageBench, compare: Compare) -> None:
     def report() -> None:
         for at_s in range(8):
             load = {"key": "load", "value": f"{2 + math.sin(at_s):.2f} A"}
@@ -136,7 +136,7 @@ def test_diagnostics_are_as_in_their_picture(viewer: PageBench, compare: Taken) 
     compare("panel_diagnostics", make(Diagnostics, {}), report)
 
 
-def test_a_plot_is_as_in_its_picture(viewer: PageBench, compare: Taken) -> None:
+def test_a_plot_is_as_in_its_picture(viewer: PageBench, compare: Compare) -> None:
     topics = ("/speed", "/turn", "/voltage")
     curves = [f"{topic}.data" for topic in topics]
 

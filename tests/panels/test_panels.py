@@ -90,7 +90,7 @@ def test_a_property_is_set_saved_undone_and_kept_when_the_file_is_edited(
         return panels(b.do(command) and b.viewer.config())
 
     assert do(SetPanelProperty("Notes", "most", 5)) == [("Jobs", None), ("Notes", 5)]
-    assert "most: expected >= 1, got 0" in b.refused(SetPanelProperty("Notes", "most", 0))
+    assert "most: expected >= 1, got 0" in b.refusal(SetPanelProperty("Notes", "most", 0))
     changed = b.viewer.state().panels[1].panel
     assert do(Undo()) == [("Jobs", None), ("Notes", 3)]
     assert b.viewer.state().panels[1].panel is changed, "it keeps what it has read"
@@ -200,7 +200,7 @@ def test_a_service_answers_or_has_a_reason(bench: Benches) -> None:
     b.graph.responses["/start"] = response
     b.do(call)
     assert (answers[0].success, answers[0].message) == (True, "on")
-    unknown = b.refused(CallService("/start", "std_srvs/srv/Nothing", {}))
+    unknown = b.refusal(CallService("/start", "std_srvs/srv/Nothing", {}))
     assert unknown == "Not called: No definition of std_srvs/srv/Nothing is known."
 
 
@@ -215,6 +215,6 @@ def test_a_panel_on_request_is_added_and_removed_by_a_command(bench: Benches) ->
     assert b.ask(RemovePanel("Navigation 2")) == "Removed Navigation 2."
     b.do(Undo())
     assert [tab.panel.name for tab in b.viewer.state().panels] == ["Navigation 2", "Second"]
-    assert b.refused(AddPanel("Nav3")) == "Unknown panel type `Nav3`: did you mean `Nav2`?"
+    assert b.refusal(AddPanel("Nav3")) == "Unknown panel type `Nav3`: did you mean `Nav2`?"
     sentence = "Not added: namespace: expected text, got 5."
-    assert b.refused(AddPanel("Nav2", {"namespace": 5})) == sentence
+    assert b.refusal(AddPanel("Nav2", {"namespace": 5})) == sentence

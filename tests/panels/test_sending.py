@@ -96,9 +96,9 @@ def test_presets_are_properties_and_history_is_bounded() -> None:
     presets = {"hello": "data: hello", "again": "data: hello"}
     assert panel_view.commands.pop() == SetPanelProperty("id", "presets", presets)
     panel_view.panel.presets = {str(i): "" for i in range(MAX_PRESETS)}
-    for refused in ("more", " "):
+    for key in ("more", " "):
         with pytest.raises(Error):
-            panel_view.panel.use({"keep": refused}, 1)
+            panel_view.panel.use({"keep": key}, 1)
     for i in range(3 * HISTORY):
         panel_view.panel.use({"yaml": f"data: '{i}'"}, 1)
         panel_view.panel.use({}, 1)

@@ -36,7 +36,7 @@ class PlayedBag:
         while self.source.reached_ns < until_ns:
             self.source.play_until(until_ns)
 
-    def heard(self, topic: str = "/words", type_name: str = STRING) -> Sequence[str]:
+    def texts(self, topic: str = "/words", type_name: str = STRING) -> Sequence[str]:
         """The strings that arrived since the last call."""
         arrived = self.source.inbox.drain().get(topic, ())
         return [decode(type_name, raw.cdr, raw.types).data for raw in arrived]
@@ -45,7 +45,7 @@ class PlayedBag:
         """The strings of /words up to so many seconds from the start."""
         self.want("/words")
         self.play(to_s)
-        return self.heard()
+        return self.texts()
 
 
 @pytest.fixture

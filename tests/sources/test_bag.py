@@ -29,12 +29,12 @@ KINDS = [
 def test_messages_arrive_up_to_the_time_played(tmp_path, open_bag, storage, compression):
     bag = open_bag(strings(0, 1, 2.5, 4).write(tmp_path / "bag", storage, compression))
     bag.want("/words")
-    assert bag.heard() == []
+    assert bag.texts() == []
     bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.texts() == ["0", "1"]
     assert bag.source.now_ns() == START_NS + ns(1)
     bag.play(4)
-    assert bag.heard() == ["2.5", "4"]
+    assert bag.texts() == ["2.5", "4"]
     assert (bag.source.history.start_ns, bag.source.history.end_ns) == (START_NS, START_NS + ns(4))
 
 
@@ -89,7 +89,7 @@ def test_many_messages_come_in_parts_and_none_is_lost(tmp_path, open_bag):
     source, expected = bag.source, []
     while source.reached_ns < source.history.end_ns:
         source.play_until(source.history.end_ns)
-        expected.append(bag.heard())
+        expected.append(bag.texts())
     assert max(map(len, expected)) <= MAX_BATCH
     assert [float(text) for part in expected for text in part] == pytest.approx(seconds)
 
@@ -100,7 +100,7 @@ def test_large_messages_come_in_parts_too(tmp_path, open_bag, monkeypatch):
     bag.want("/words")
     for texts in (["0", "1"], ["2"]):
         bag.source.play_until(bag.source.history.end_ns)
-        assert bag.heard() == texts
+        assert bag.texts() == texts
 
 
 def test_playing_to_a_time_that_is_over_changes_nothing(tmp_path, open_bag):
@@ -117,7 +117,7 @@ def steps(bag):
     counts = []
     while bag.source.reached_ns < bag.source.history.end_ns:
         bag.source.play_step(bag.source.history.end_ns)
-        counts.append(len(bag.heard()))
+        counts.append(len(bag.texts()))
     return counts
 
 
@@ -159,7 +159,7 @@ def test_a_second_subscription_after_a_seek_loses_no_message_of_the_first(tmp_pa
     bag.source.jump(START_NS + ns(2))
     bag.want("/words", "/more")
     bag.play(3)
-    assert bag.heard() == ["2", "3"]
+    assert bag.texts() == ["2", "3"]
 
 
 def test_an_unsubscribed_topic_is_silent(tmp_path, open_bag):
@@ -168,18 +168,18 @@ def test_an_unsubscribed_topic_is_silent(tmp_path, open_bag):
     bag.play(0)  # of which the message waits
     bag.want()
     bag.play(1)
-    assert bag.heard() == []
+    assert bag.texts() == []
 
 
 def test_latched_messages_are_repeated_for_late_subscriptions(tmp_path, open_bag):
     bag = open_bag(strings(0, 1, 2, 9, latched=True, depth=2).write(tmp_path / "bag"))
     bag.play(5)
     bag.want("/words")
-    assert bag.heard() == ["1", "2"]
+    assert bag.texts() == ["1", "2"]
     bag.want("/words", resubscriptions=1)
-    assert bag.heard() == ["1", "2"]
+    assert bag.texts() == ["1", "2"]
     bag.play(9)
-    assert bag.heard() == ["9"]
+    assert bag.texts() == ["9"]
 
 
 @pytest.mark.parametrize(("max_bytes", "expected"), [(20, ["2", "3"]), (1, ["3"])])
@@ -191,9 +191,9 @@ def test_repeated_latched_messages_are_limited_by_the_inbox(
     bag = open_bag(strings(0, 1, 2, 3, latched=True, depth=3).write(tmp_path / "bag"))
     bag.play(3)
     bag.want("/words")
-    bag.heard()
+    bag.texts()
     bag.want("/words", resubscriptions=1)
-    assert bag.heard() == expected
+    assert bag.texts() == expected
 
 
 def test_all_static_transforms_are_repeated(tmp_path, open_bag):
@@ -246,7 +246,7 @@ def test_a_type_that_was_known_before_is_read_as_the_bag_defines_it(tmp_path, op
     bag = open_bag(recorded.write(tmp_path / "bag"))
     bag.want("/own", type_name="aged_msgs/msg/Own")
     bag.play(1)
-    assert bag.heard("/own", "aged_msgs/msg/Own") == ["hi"]
+    assert bag.texts("/own", "aged_msgs/msg/Own") == ["hi"]
 
 
 @pytest.mark.parametrize("text", ["", "nonsense of a definition!", "other_msgs/Missing part\n"])
@@ -262,7 +262,7 @@ def test_a_subscribed_type_without_a_definition_is_skipped_and_reported(tmp_path
     assert "odd_msgs/msg/Odd" in warning
     assert bag.source.offers()["/odd"].problem
     bag.play(1)
-    assert bag.heard() == ["0", "1"]
+    assert bag.texts() == ["0", "1"]
 
 
 @pytest.mark.parametrize("text", ["string request\n---\nstring response\n", "string words\n"])
@@ -327,10 +327,10 @@ def test_messages_of_one_stamp_arrive_together_however_many_they_are(tmp_path, o
     bag = open_bag(strings(*[0.0] * (MAX_BATCH + 5), 1).write(tmp_path / "bag"))
     bag.want("/words")
     bag.source.play_until(bag.source.history.end_ns)
-    assert len(bag.heard()) == MAX_BATCH + 5
+    assert len(bag.texts()) == MAX_BATCH + 5
     assert bag.source.reached_ns == START_NS
     bag.source.play_until(bag.source.history.end_ns)
-    assert bag.heard() == ["1"]
+    assert bag.texts() == ["1"]
 
 
 def test_latched_messages_of_all_publishers_are_repeated(tmp_path, open_bag):
@@ -343,7 +343,7 @@ def test_latched_messages_of_all_publishers_are_repeated(tmp_path, open_bag):
         bag = open_bag(path)
         bag.play(4)
         bag.want("/words")
-        assert bag.heard() == expected
+        assert bag.texts() == expected
 
 
 def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, open_bag):
@@ -357,7 +357,7 @@ def test_a_publisher_of_unknown_depth_latches_one_message(tmp_path, open_bag):
     bag = open_bag(file)
     bag.play(4)
     bag.want("/words")
-    assert bag.heard() == ["2", "3", "4"]
+    assert bag.texts() == ["2", "3", "4"]
 
 
 def test_a_broken_message_of_the_clock_changes_no_time(tmp_path, open_bag):

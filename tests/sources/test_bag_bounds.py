@@ -71,7 +71,7 @@ def test_a_chunk_that_unfolds_to_more_than_memory(
     bag = open_bag(file)
     bag.want("/words")
     bag.source.play_until(9)
-    assert bag.heard() == ["0", "1", "7", "9"]
+    assert bag.texts() == ["0", "1", "7", "9"]
     (warning,) = bag.source.warnings
     assert warning.startswith("bomb.mcap is damaged: 1 chunk is incomplete (it ")
     assert warning.endswith("; everything else is shown.")
@@ -118,7 +118,7 @@ def test_honest_chunks_open_however_they_are_packed(
     bag = open_bag(file)
     bag.want("/words")
     bag.source.play_until(99)
-    assert bag.heard() == [str(number) for number in range(100)]
+    assert bag.texts() == [str(number) for number in range(100)]
     assert bag.source.warnings == []
 
 

@@ -148,7 +148,7 @@ def test_a_truncated_mcap_file_is_shown_up_to_its_end(tmp_path, open_bag, compre
         ]
         bag.want("/noise")
         bag.play(300)
-        counts.append(_beginning(recorded, bag.heard("/noise")))
+        counts.append(_beginning(recorded, bag.texts("/noise")))
     assert counts == sorted(counts)
     assert counts[0] > 60
     assert counts[-1] == 300
@@ -164,7 +164,7 @@ def test_complete_pages_of_a_truncated_database_are_shown(tmp_path, open_bag):
         bag = open_bag(file)
         bag.want("/noise")
         bag.play(300)
-        texts = bag.heard("/noise")
+        texts = bag.texts("/noise")
         # Pages of a later message may come before those of an earlier one.
         assert texts == [text for text in _texts(recorded) if text in set(texts)]
         counts.append(len(texts))
@@ -359,7 +359,7 @@ def test_damage_in_the_middle_is_reported_and_the_rest_is_shown(tmp_path, open_b
     bag = open_bag(file)
     bag.want("/noise")
     bag.play(60)
-    texts = bag.heard("/noise")
+    texts = bag.texts("/noise")
     expected = _texts(recorded)
     assert texts == expected[:26] + expected[52:]
     (warning,) = bag.source.warnings
@@ -401,11 +401,11 @@ def test_an_mcap_file_that_grows_while_played_shows_the_messages_it_had_when_ope
         growing.write(data[len(data) // 2 :])
     end_ns = bag.source.history.end_ns
     bag.source.jump(bag.source.history.start_ns)
-    bag.heard("/noise")
+    bag.texts("/noise")
     while bag.source.reached_ns < end_ns:
         bag.source.play_until(end_ns)
     assert bag.source.history.end_ns == end_ns
-    assert 60 < _beginning(recorded, bag.heard("/noise")) < 300
+    assert 60 < _beginning(recorded, bag.texts("/noise")) < 300
 
 
 @pytest.mark.parametrize("journal_mode", ["wal", "delete"])

@@ -133,7 +133,7 @@ class Bench:
         self.until_done(answer)
         return answer.result(0)
 
-    def refused(self, command: Command) -> str:
+    def refusal(self, command: Command) -> str:
         """Return why a command is refused."""
         answer = self.viewer.enqueue(command)
         self.until_done(answer)

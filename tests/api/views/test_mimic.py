@@ -108,9 +108,9 @@ def test_up_in_the_picture_stays_up_from_above() -> None:
 
 @given(st.one_of(ORBITS, FPS_VIEWS), RIGS, RIGS)
 def test_another_target_frame_leaves_the_camera_where_it_is(view: View, a: Rig, b: Rig) -> None:
-    moved = mimic(view, a, like(type(view), view, "other"), b, HEIGHT)
-    assert moved.target_frame == "other"
-    before, after = a.outward(camera_of(view, HEIGHT)), b.outward(camera_of(moved, HEIGHT))
+    follower = mimic(view, a, like(type(view), view, "other"), b, HEIGHT)
+    assert follower.target_frame == "other"
+    before, after = a.outward(camera_of(view, HEIGHT)), b.outward(camera_of(follower, HEIGHT))
     assert same_picture(before, after)
 
 

@@ -77,10 +77,10 @@ def frames(prefix: str, root: str, count: int, branching: int = 6) -> list[Value
     messages = []
     for variant in range(VARIANTS):
         angle = 0.05 * math.sin(math.tau * variant / VARIANTS)
-        moved = [_moved(root, f"{prefix}mark", (NO_MARK, 0, FRAME_Z), angle)]
+        moved = [_transform(root, f"{prefix}mark", (NO_MARK, 0, FRAME_Z), angle)]
         for i in range(1, count):
             parent = root if i <= branching else f"{prefix}{(i - 1) // branching}"
-            moved.append(_moved(parent, f"{prefix}{i}", np.abs(places[i]), angle + 0.001 * i))
+            moved.append(_transform(parent, f"{prefix}{i}", np.abs(places[i]), angle + 0.001 * i))
         messages.append({"transforms": moved})
     return messages
 
@@ -90,7 +90,7 @@ def passing_frames(groups: int, repeats: int, count: int = 8) -> list[Values]:
     return [
         {
             "transforms": [
-                _moved("map", f"passing_{group}_{i}", (group, i, 0.1 * repeat), 0)
+                _transform("map", f"passing_{group}_{i}", (group, i, 0.1 * repeat), 0)
                 for i in range(count)
             ]
         }
@@ -104,9 +104,9 @@ def links(count: int) -> list[Values]:
     messages = []
     for variant in range(VARIANTS):
         angle = 0.3 * math.sin(math.tau * variant / VARIANTS)
-        moved = [_moved("map", "link_0", (NO_MARK, 0, LINK_Z), 0)]
+        moved = [_transform("map", "link_0", (NO_MARK, 0, LINK_Z), 0)]
         moved += [
-            _moved(f"link_{(i - 1) // 3}", f"link_{i}", (0.3, 0.1 * (i % 3), 0.2), angle)
+            _transform(f"link_{(i - 1) // 3}", f"link_{i}", (0.3, 0.1 * (i % 3), 0.2), angle)
             for i in range(1, count)
         ]
         messages.append({"transforms": moved})
@@ -132,13 +132,13 @@ def robot(count: int) -> list[Values]:
 
 def static(*pairs: tuple[str, str]) -> list[Values]:
     """Frames that stand half a metre above their parents."""
-    return [{"transforms": [_moved(parent, child, (0, 0, 0.5), 0) for parent, child in pairs]}]
+    return [{"transforms": [_transform(parent, child, (0, 0, 0.5), 0) for parent, child in pairs]}]
 
 
 def moving(parent: str, child: str) -> list[Values]:
     """A frame that drives to and fro along y, which leaves marks in x as they are."""
     angles = np.linspace(0, math.tau, 500, endpoint=False)
-    return [{"transforms": [_moved(parent, child, (0, math.sin(a), 0), 0)]} for a in angles]
+    return [{"transforms": [_transform(parent, child, (0, math.sin(a), 0), 0)]} for a in angles]
 
 
 def maps(size: int, variants: int = 1) -> list[Values]:
@@ -265,7 +265,7 @@ def _yaw(angle: float) -> Values:
     return {"z": math.sin(angle / 2), "w": math.cos(angle / 2)}
 
 
-def _moved(parent: str, child: str, xyz: Any, yaw: float) -> Values:
+def _transform(parent: str, child: str, xyz: Any, yaw: float) -> Values:
     x, y, z = (float(value) for value in xyz)
     transform = {"translation": {"x": x, "y": y, "z": z}, "rotation": _yaw(yaw)}
     return {"header": header(parent), "child_frame_id": child, "transform": transform}

@@ -146,7 +146,7 @@ def test_an_aborted_goal_shows_its_reason_until_dismissed(
 ) -> None:
     goal = robot.drag()
     robot.accept(goal)
-    assert "Cancel it first" in robot.bench.refused(DismissGoal(robot.only().id))
+    assert "Cancel it first" in robot.bench.refusal(DismissGoal(robot.only().id))
     end(goal, ABORTED, **result)
     assert robot.outcome() == (Level.ERROR, expected)
     robot.bench.clock += SHOWN_S
@@ -189,7 +189,7 @@ def test_a_cancellation_is_requested_once_and_its_refusal_shown(robot: GoalServe
     goal.cancels[-1].set_result(0)
     end(goal, CANCELED)
     assert robot.outcome() == (Level.OK, "Cancelled.")
-    assert robot.bench.refused(CancelGoal("goal99")) == "This goal has ended."
+    assert robot.bench.refusal(CancelGoal("goal99")) == "This goal has ended."
 
 
 def test_a_goal_that_the_server_has_forgotten_ends_when_it_is_cancelled(robot: GoalServers) -> None:
@@ -340,7 +340,7 @@ def test_a_goal_that_the_server_never_ends_can_be_dismissed(robot: GoalServers, 
     goal.cancels[-1].set_result(code)
     robot.bench.clock += SILENCE_S - 0.1
     assert not robot.only().can_dismiss
-    assert "Cancel it first" in robot.bench.refused(DismissGoal(id))
+    assert "Cancel it first" in robot.bench.refusal(DismissGoal(id))
     robot.bench.clock += 0.2
     progress = robot.only()
     assert progress.can_dismiss

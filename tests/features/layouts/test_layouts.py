@@ -165,7 +165,7 @@ def test_a_template_adds_the_panels_that_are_missing_in_one_step(b: Bench, name:
     b.do(Undo())
     assert layouts(b) == before
     assert [tab.tab for tab in b.states[-1].panels] == ["Plot"]
-    assert "did you mean `Tune`" in b.refused(UseTemplate("Tun"))
+    assert "did you mean `Tune`" in b.refusal(UseTemplate("Tun"))
 
 
 def test_a_place_takes_as_many_tabs_as_can_be_saved() -> None:
@@ -204,15 +204,15 @@ def test_pages_see_the_layout_and_the_name_of_the_saved_one() -> None:
 
 def test_invalid_commands_are_refused(b: Bench) -> None:
     for command in (SetLayout("nowhere"), SetLayout(LAB, "nowhere"), RemoveLayout("nowhere")):
-        assert "Unknown saved layout `nowhere`" in b.refused(command)
-    assert "name" in b.refused(SaveLayout(""))
+        assert "Unknown saved layout `nowhere`" in b.refusal(command)
+    assert "name" in b.refusal(SaveLayout(""))
     assert layouts(b) == (CURRENT, {"lab": LAB})
 
 
 def test_a_page_cannot_save_more_layouts_than_a_file_may_have(b: Bench) -> None:
     for number in range(1, MAX_LAYOUTS):
         b.do(SaveLayout(f"{number}"))
-    assert f"at most {MAX_LAYOUTS}" in b.refused(SaveLayout("more"))
+    assert f"at most {MAX_LAYOUTS}" in b.refusal(SaveLayout("more"))
     assert len(layouts(b)[1]) == MAX_LAYOUTS
     b.do(SaveLayout("lab"))
 

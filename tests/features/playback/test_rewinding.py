@@ -253,11 +253,11 @@ def test_a_moment_that_is_shown_is_not_forgotten(make: Benches) -> None:
 def test_nothing_is_remembered_without_a_memory(make: Benches) -> None:
     bench = make(memory=MemorySettings(seconds=0))
     assert bench.do(Refresh()).playback is None
-    assert bench.refused(Seek(0.0)) == MEMORY_OFF
+    assert bench.refusal(Seek(0.0)) == MEMORY_OFF
 
 
 def test_live_topics_are_not_played(bench: Bench) -> None:
-    assert bench.refused(Play()) == LIVE
+    assert bench.refusal(Play()) == LIVE
     assert bench.do(Pause(True)).clock.is_paused
     assert rewind(bench, 1.5).is_playing is False
     assert not bench.do(ReturnToLive()).clock.is_paused

@@ -195,7 +195,7 @@ def test_a_recording_begins_with_latched_messages_and_ends_on_request(bench: Ben
     assert [topic for topic, _ in contents(state.path)] == ["/robot_description", "/path", "/path"]
     assert stamps[-2:] == [102, 103]
     assert not Path("other").exists()
-    assert bench.refused(StopRecording()) == "Nothing is being recorded."
+    assert bench.refusal(StopRecording()) == "Nothing is being recorded."
 
 
 def test_messages_keep_their_bytes_and_type(bench: Bench) -> None:
@@ -230,7 +230,7 @@ def test_settings_bound_the_memory(bench: Bench) -> None:
     bench.viewer.get(SettingsPart).settings = Settings(memory=MemorySettings(seconds=0.0))
     bench.do(StopRecording())
     publish(bench)
-    assert "raise memory.seconds in the config" in bench.refused(SaveMemory())
+    assert "raise memory.seconds in the config" in bench.refusal(SaveMemory())
 
 
 @pytest.mark.parametrize(
@@ -246,7 +246,7 @@ def test_invalid_recordings_are_refused_with_the_reason(
     bench: Bench, command: SaveMemory | StartRecording, reason: str
 ) -> None:
     Path("file").touch()
-    assert reason in bench.refused(command)
+    assert reason in bench.refusal(command)
 
 
 def test_a_page_cannot_choose_the_folder(bench: Bench) -> None:

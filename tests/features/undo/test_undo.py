@@ -142,7 +142,7 @@ def test_a_new_change_clears_redo(b: Bench) -> None:
     b.do(Undo())
     b.do(SetFixedFrame("base"))
     assert b.do(Refresh()).history.redo == ()
-    assert b.refused(Redo()) == "There is nothing to redo."
+    assert b.refusal(Redo()) == "There is nothing to redo."
 
 
 def test_dragging_a_property_is_one_step_and_another_browser_begins_another(b: Bench) -> None:

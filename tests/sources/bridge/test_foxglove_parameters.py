@@ -75,8 +75,8 @@ def test_parameters_are_set_and_refusals_of_the_server_reported(reader: BridgeRe
     assert change(reader, "gains", type=8, double_array_value=[3.0]).successful
     result = values(reader, "count", "key", "gains")
     assert [result[0].integer_value, bytes(result[1].byte_array_value)] == [7, b"\x05"]
-    refused = change(reader, "wheel_radius", type=3, double_value=0.2)
-    assert (refused.successful, refused.reason) == (False, "The bridge keeps it at 0.1.")
+    rejection = change(reader, "wheel_radius", type=3, double_value=0.2)
+    assert (rejection.successful, rejection.reason) == (False, "The bridge keeps it at 0.1.")
     with pytest.raises(NotConnected, match="does not accept infinite numbers"):
         change(reader, "max_speed", type=3, double_value=float("nan"))
 
@@ -163,8 +163,8 @@ def test_a_change_that_the_bridge_does_not_confirm_has_failed(
 
     reader = liar(script)
     reader.until(lambda: reader.bridge.parameters.nodes)
-    refused = change(reader, "speed", type=3, double_value=0.2)
-    assert (refused.successful, refused.reason) == (
+    rejection = change(reader, "speed", type=3, double_value=0.2)
+    assert (rejection.successful, rejection.reason) == (
         False,
         "The bridge does not return this parameter.",
     )

@@ -66,9 +66,9 @@ class SimulatedLink:
         self._begun = 0
         self._subscribed: deque[tuple[float, set[str]]] = deque([(0.0, set())])
         self._due = {t: self.now + self._chance.random() / p.hz for t, p in topics.items()}
-        self._moved()
+        self._update_large()
 
-    def _moved(self) -> None:
+    def _update_large(self) -> None:
         subscriptions = {t: Subscription(p.type, Topic(t)) for t, p in self.topics.items()}
         self.large = set(self.rate_controller.large(subscriptions))
 
@@ -80,7 +80,7 @@ class SimulatedLink:
             self._send_large()
             self._arrive()
             if self.rate_controller.step(self.now):
-                self._moved()
+                self._update_large()
             self._subscribed.append(
                 (self.now + self.delay_s / 10, set(self.rate_controller.subscribed()))
             )
@@ -134,7 +134,7 @@ class SimulatedLink:
             elif self.rate_controller.note_small(
                 topic, published.type, published.size, late_s, self.now
             ):
-                self._moved()
+                self._update_large()
             if topic == "/tf":
                 self.rate_controller.note_trip(self.delay_s + late_s, self.delay_s, self.now)
 
