@@ -202,6 +202,20 @@ def test_a_program_that_has_to_be_ended_by_force_leaves_no_part(tmp_path: Path) 
     assert not list(tmp_path.iterdir())
 
 
+def test_a_program_whose_threads_cannot_run_ends_all_the_same() -> None:
+    program = (
+        "import ctypes\n"
+        "from webviz.shell.cli import ending\n"
+        "ending.HUNG_S = 0.5\n"
+        "ending.end_in_time()\n"
+        "ctypes.PyDLL(None).pause()\n"  # keeps all other threads of Python waiting
+    )
+    completed = subprocess.run(
+        [sys.executable, "-c", program], timeout=COMMAND_S, capture_output=True, check=False
+    )
+    assert (completed.returncode, completed.stdout, completed.stderr) == (1, b"", b"")
+
+
 def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "webviz", *arguments],

@@ -6,6 +6,7 @@ printed. Imports are few, because signals are handled only once this module is l
 
 import contextlib
 import errno
+import faulthandler
 import math
 import os
 import signal
@@ -27,6 +28,8 @@ INTERRUPTED = 130
 PATIENCE_S = 3.0
 """Time from a signal until the program exits by force."""
 CHILD_PATIENCE_S = 1.0
+HUNG_S = 10.0
+"""The same where no thread of Python runs any more."""
 
 
 def on_signal(action: Callable[[], object]) -> None:
@@ -128,7 +131,11 @@ def finish(status: int) -> NoReturn:
 
 
 def end_in_time() -> None:
-    """Exit by force after `PATIENCE_S`, unless the program ends before."""
+    """Exit by force after `PATIENCE_S`, unless the program ends before.
+
+    Fast DDS may wait for itself when a node is destroyed while another one is discovered, and rclpy
+    does not let other threads run meanwhile; so there is a limit that needs none of them.
+    """
 
     def end() -> None:
         time.sleep(PATIENCE_S)
@@ -136,6 +143,7 @@ def end_in_time() -> None:
         _exit(1)
 
     threading.Thread(target=end, name="webviz-ending", daemon=True).start()
+    faulthandler.dump_traceback_later(HUNG_S, exit=True, file=os.open(os.devnull, os.O_WRONLY))
 
 
 def end_children() -> None:
