@@ -26,6 +26,7 @@ def open_panel(tab: ViewerTab, panel: P, *displays: Item, **config: Any) -> P:
     tab.viewer.show(*displays, panels=[panel], **config)
     heads = tab.page.get_by_role("tab", name=panel.name, exact=True)
     tab.wait_for(lambda: heads.count() == 1)
+    tab.catch_up()  # else its layout may come after the click, and put another panel in front
     tab.show_tab(panel.name)
     tab.wait_for(lambda: tab.page.locator(".wv-plugin-widgets > *").count() > 0)
     (panel_tab,) = tab.viewer.states[-1].panels

@@ -39,6 +39,9 @@ def lab(folder: Path, viewer: PageBench, tab: ViewerTab) -> Path:
         opening.save(Config(Settings(), [Grid(name=name)]), folder / name)
     opening.save(Config(Settings(), [*named("scan")]), folder / "lab.yaml")
     show(tab, folder / "lab.yaml")
+    tab.wait_for(lambda: "office.yaml" in viewer.states[-1].file.others)
+    tab.turn()
+    tab.catch_up()
     return folder / "lab.yaml"
 
 
