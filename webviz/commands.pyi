@@ -479,9 +479,15 @@ class ReturnToLive(Command, frozen=True):
     """Show what arrives again, instead of the past of live topics or a recording."""
 
 class Save(FileCommand, frozen=True):
-    """Save the current config to a file; "" is the file it came from."""
+    """Save the current config to a file.
+
+    Args:
+        path: "" is the file that the config came from.
+        replace: whether to replace another file of that name.
+    """
 
     path: str = ...
+    replace: bool = ...
 
 class SaveBookmark(Command, frozen=True):
     """Give a moment of the recording a name, in place of a moment of that name.

@@ -234,6 +234,18 @@ def test_saving_to_a_missing_folder_is_refused(folder: Path, bench: Benches) -> 
     assert "No such file or directory" in refusal
 
 
+def test_another_file_is_replaced_only_if_that_was_said(folder: Path, bench: Benches) -> None:
+    (folder / "b.yaml").write_text("of somebody else")
+    b = bench(Axes(name="A"))
+    do(b, Save("a.yaml", replace=False))
+    do(b, Save("a.yaml", replace=False))  # its own
+    refusal = b.refusal(Save("b.yaml", replace=False))
+    assert refusal == "b.yaml exists already. Choose another name."
+    assert (folder / "b.yaml").read_text() == "of somebody else"
+    do(b, Save("b.yaml"))
+    assert load(folder / "b.yaml").displays
+
+
 def test_the_config_files_of_the_folder_are_on_offer(folder: Path, bench: Benches) -> None:
     for name in ("b.rviz", "a.yml", "notes.txt"):
         (folder / name).write_text("")

@@ -95,7 +95,7 @@ def test_save_without_a_file_asks_for_a_name(tab: ViewerTab, folder: Path) -> No
     assert f"In {folder} of the machine that runs webviz" in dialog(tab, "Save as").inner_text()
     dialog(tab, "Save as").get_by_label("File name").fill("hall")
     dialog(tab, "Save as").get_by_role("button", name="Save").click()
-    tab.wait_for_command(Save("hall.yaml"))
+    tab.wait_for_command(Save("hall.yaml", replace=False))
     assert names_in(folder / "hall.yaml") == []
     wait_for_name(tab, "hall.yaml")
 
@@ -106,7 +106,7 @@ def test_enter_saves_and_the_answer_is_told(tab: ViewerTab, lab: Path) -> None:
     assert field.input_value() == "lab.yaml"
     field.fill("hall.rviz")
     field.press("Enter")
-    tab.wait_for_command(Save("hall.rviz"))
+    tab.wait_for_command(Save("hall.rviz", replace=False))
     tab.wait_for(lambda: "Saved hall.rviz." in tab.text())
     assert lab.with_name("hall.rviz").read_text().startswith("Panels:\n")
 

@@ -135,8 +135,13 @@ class FilesFeature(Feature):
         label=lambda each: f"Save as {PurePath(each.path).name}",
         is_noted=True,
     )
-    def save(self, sender: Sender, path: str = "") -> Job[list[str]]:
-        """Save the current config to a file; "" is the file it came from."""
+    def save(self, sender: Sender, path: str = "", replace: bool = True) -> Job[list[str]]:
+        """Save the current config to a file.
+
+        Args:
+            path: "" is the file that the config came from.
+            replace: whether to replace another file of that name.
+        """
         target = self._in_folder(path, sender) if path else self._config.path
         is_named = bool(path) and sender.browser is not None
         if is_named and (problem := file_problem_of(path)):
@@ -148,6 +153,8 @@ class FilesFeature(Feature):
 
         def work() -> list[str]:
             check()
+            if not replace and target != self._config.path and target.exists():
+                raise ConfigError(f"{target.name} exists already. Choose another name.")
             return opening.save(config, target)
 
         def then(left_out: list[str]) -> str:

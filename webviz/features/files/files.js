@@ -167,7 +167,9 @@ function saveAs() {
   input.setSelectionRange(0, stem > 0 ? stem : input.value.length);
   return answer.then((value) => {
     const { name } = checkedName(input.value);
-    if (value === "save") act("Save", { path: name });
+    // A file that this page does not know of yet is not replaced.
+    if (value === "save")
+      act("Save", { path: name, replace: name === confirmed || name === fileName() });
     if (value === "download") act("Export", { name });
   });
 }

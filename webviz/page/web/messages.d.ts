@@ -241,7 +241,7 @@ export interface Commands {
   ResetView: Record<string, never>;
   ReturnToLive: Record<string, never>;
   Revoke: { name: string };
-  Save: { path?: string };
+  Save: { path?: string; replace?: boolean };
   SaveBookmark: { name: string; at_s?: number | null };
   SaveImage: { name?: string };
   SaveLayout: { name: string };
