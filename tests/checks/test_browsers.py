@@ -288,6 +288,7 @@ def test_a_slow_link(browser: playwright.Browser) -> None:
         room.page.wait_for(lambda: "/points" in source.subscriptions)
 
         def reduced() -> Finding | None:
+            source.now += 10**8  # another cloud: one that stays is sent whole
             publish_points(room, 50_000)
             return room.findings().get("WEB004")
 
