@@ -1,4 +1,4 @@
-// Changes to viser's page, besides drawing.
+// Changes to the page of viser as a whole.
 
 import * as viser from "webviz/viser_page.js";
 
