@@ -35,7 +35,7 @@ def take(connection: DisplayConnection, *sizes: int) -> None:
     connection.take({WORDS: [Raw(bytes(size), 0) for size in sizes]}, {})
 
 
-@pytest.mark.parametrize(("limit", "number"), [("LIMIT", 3), ("MAX_BYTES", 100)])
+@pytest.mark.parametrize(("limit", "number"), [("LIMIT", 3), ("MAX_BYTES", 90)])
 def test_messages_waiting_for_a_display_are_bounded_and_a_gap_is_reported(
     connected: DisplayConnection, monkeypatch: pytest.MonkeyPatch, limit: str, number: int
 ) -> None:

@@ -7,6 +7,7 @@ from bench import Bench, Benches
 from dots import POSE, SECOND, PoseDot, T, dots, show_dot
 
 from webviz.commands import DuplicateDisplay, Pause, Reset
+from webviz.engine.pipeline.listener import BACK_MESSAGES, BACK_S
 from webviz.sources import Offer, Publisher
 
 
@@ -222,6 +223,15 @@ def test_many_old_transforms_at_once_are_not_a_loop_of_the_bag(b: Bench) -> None
     assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
 
 
+def test_a_few_old_transforms_in_a_long_time_are_not_a_loop_of_the_bag(b: Bench) -> None:
+    loop(b, 10, 40, "base")
+    for half in range(20, 20 + BACK_MESSAGES - 1):
+        b.transform("map", "base", half * SECOND // 2)
+        b.clock += BACK_S
+        b.turn()
+    assert b.viewer.buffer.tree.caches["base"].newest_stamp == 39.5 * SECOND
+
+
 def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Bench) -> None:
     loop(b, 10, 40, "base", "arm")
     for half in range(80, 140):
@@ -237,6 +247,16 @@ def test_one_frame_that_goes_back_while_others_go_on_resets_nothing(b: Bench) ->
     b.source.now += 6 * SECOND
     b.clock += 6.0
     assert "Transforms" not in statuses(b)
+
+
+@pytest.mark.parametrize(("count", "end"), [(1, "Fix the publisher."), (5, "And 2 more.")])
+def test_refused_transforms_are_a_few_sentences(b: Bench, count: int, end: str) -> None:
+    for number in range(count):
+        b.transform("map", f"arm{number}", T, float("nan"))
+    b.turn()
+    text = statuses(b)["Transforms"][1]
+    assert text.count("were refused") == min(count, 3)
+    assert text.endswith(end)
 
 
 def test_a_machine_whose_clock_is_ahead_is_named_with_its_offset(b: Bench) -> None:

@@ -175,8 +175,9 @@ class PageBench(Bench):
     def __init__(self, page_server: PageServer, **options: Any) -> None:
         self.server = page_server.server
         self.commands: list[Command] = []
-        self._checked = 0
         """Commands of pages that were carried out or refused, but for those that no click makes."""
+        self._checked = 0
+        """Number of them up to the last that `has_received` has found."""
         self.senders: list[Sender] = []
         """Sender of each."""
         self._pages: Pages | None = None
@@ -204,6 +205,7 @@ class PageBench(Bench):
     def forget_commands(self) -> None:
         """Forget the commands that came so far."""
         self.commands.clear()
+        self.senders.clear()
         self._checked = 0
 
     def has_received(self, command: Command) -> bool:
@@ -212,7 +214,6 @@ class PageBench(Bench):
             return False
         self._checked = self.commands.index(command, self._checked) + 1
         return True
-        self.senders.clear()
 
     def show(
         self,
