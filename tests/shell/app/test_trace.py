@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -9,8 +10,11 @@ from itertools import pairwise
 
 import playwright.sync_api as playwright
 import pytest
+from waiting import until
 
 import webviz
+from tests.scene.conftest import Peer
+from tests.support.guest import Served
 from webviz.data.messages import encode
 from webviz.shell.testing.messages import header
 from webviz.shell.testing.source import HandFedSource
@@ -52,6 +56,7 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
     page = browser.new_page()
     try:
         page.goto(viewer.url)
+        until(lambda: viewer.acknowledged(60))
         first, second = plan.trace(timeout=60), plan.trace(timeout=60)
     finally:
         page.close()
@@ -63,6 +68,14 @@ def test_a_sample_passes_each_place_on_its_way_in_order(
     assert str(first).startswith("published +0.0 ms, received +20.0 ms, ready +")
     assert second.number > first.number
     assert second.received_ns > first.received_ns
+
+
+@pytest.mark.usefixtures("published")
+def test_a_page_that_still_loads_has_applied_nothing(viewer: webviz.Viewer) -> None:
+    plan = viewer.add("Path", topic="/plan", name="Plan")
+    with contextlib.closing(Peer(Served(viewer.port))):
+        trace = plan.trace(timeout=60)
+    assert list(trace.times())[-1] == "sent"
 
 
 def test_a_trace_without_browsers_is_refused_with_a_remedy(

@@ -53,11 +53,14 @@ class Acknowledgements:
         self._changed = threading.Condition()
         server.channel.on(SyncReply, self._receive)
 
-    def wait(self, timeout: float, browser: int | None = None) -> None:
+    def wait(self, timeout: float, browser: int | None = None) -> int:
         """Wait until one connected browser, or all of them, have applied everything queued so far.
 
         There are three queues: the shared one, that of each browser, and the channel. Applied means
         handled in order; the next frame shows it. Must not be called on viser's event loop.
+
+        Returns:
+            Number of browsers that answered; those that are still loading are not waited for.
 
         Raises:
             TimeoutError: a browser that is still connected did not answer within `timeout` seconds,
@@ -93,6 +96,7 @@ class Acknowledgements:
                     if time.monotonic() > deadline:
                         raise TimeoutError(f"A browser did not answer within {timeout:g} s.")
                     self._changed.wait(0.05)
+            return len(set.intersection(*answered.values()))
         finally:
             for token in tokens:
                 del self._answered[token]

@@ -141,13 +141,16 @@ class Adapter:
         """Send what is queued now instead of at the end of viser's 16 ms window."""
         self.server.flush()
 
-    def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> None:
+    def acknowledge(self, timeout: float = 10.0, client_id: int | None = None) -> int:
         """Wait until one browser, or all of them, have applied everything queued so far.
+
+        Returns:
+            Number of browsers that answered; those that are still loading are not waited for.
 
         Raises:
             TimeoutError: see `Acknowledgements.wait`.
         """
-        self._acknowledgements.wait(timeout, client_id)
+        return self._acknowledgements.wait(timeout, client_id)
 
     def probe(self, number: int) -> None:
         """Ask every page when it has painted everything queued so far; replace unsent probes."""

@@ -125,20 +125,22 @@ class DisplayHandle:
         """
         name = self._row().name
         answer: Future[Trace] = Future()
-        answer.add_done_callback(lambda _: sent_s.append(time.monotonic()))
-        sent_s: list[float] = []
+        # Who waits for a future may go on before its callbacks are called.
+        sent: Future[float] = Future()
+        answer.add_done_callback(lambda _: sent.set_result(time.monotonic()))
         self._viewer.do(TraceDisplay(self.id, answer))
         try:
-            trace = answer.result(timeout)
+            sent_s = sent.result(timeout)
         except FutureTimeout:
             answer.cancel()
             raise Error(
                 f"{name} drew no new sample within {timeout:g} s. Check its status, and open the "
                 "page in a browser."
             ) from None
+        trace = answer.result(0)
         if not self._viewer.acknowledged(timeout):
             return trace
-        elapsed_ns = round((time.monotonic() - sent_s[0]) * 1e9)
+        elapsed_ns = round((time.monotonic() - sent_s) * 1e9)
         return replace(trace, acknowledged_ns=trace.sent_ns + elapsed_ns)
 
     def duplicate(self) -> DisplayHandle:

@@ -324,19 +324,18 @@ class Running(PictureControls):
         raise Error(BUSY)
 
     def acknowledged(self, timeout: float) -> bool:
-        """Wait until every connected browser has applied everything sent so far.
+        """Wait until every connected browser that has loaded has applied everything sent so far.
 
         Args:
             timeout: in seconds.
 
         Returns:
-            False if a browser did not answer, or none is connected.
+            False if a browser did not answer, or none has loaded.
         """
         try:
-            self._scene.link.acknowledge(timeout)
+            return self._scene.link.acknowledge(timeout) > 0
         except TimeoutError:
             return False
-        return self._scene.link.watchers > 0
 
     def attend(self, seconds: float) -> None:
         """Draw and examine for some seconds as if a browser were connected; thread-safe."""
