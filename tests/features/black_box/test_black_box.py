@@ -131,7 +131,11 @@ def test_levels_are_those_of_messages(type_name: str, values: dict[str, Any], le
     observer.put("/log", Raw(encode(type_name, values), 0, 10.0))
     observer.put("/log", Raw(b"\1\2", 0, 10.1))
     assert observer.levels(11.0) == {"/log": level}
+    observer.observe([], {"/log": type_name})
+    assert observer.levels(11.0) == {"/log": level}
     assert observer.levels(20.0) == {"/log": Level.OK}
+    observer.observe([], {})
+    assert observer.levels(20.0) == {}
 
 
 @pytest.mark.parametrize(
@@ -295,7 +299,7 @@ def test_no_more_is_saved_than_the_limits_allow(make: Benches) -> None:
     ("per_day", "gigabytes", "reason"),
     [
         (2, 5.0, "2 recordings were made today"),
-        (3, 0.00015, "webviz_black_box has 0.0 GB, which is the limit"),
+        (3, 0.0015, "webviz_black_box has 0.0 GB, which is the limit"),
     ],
 )
 def test_recordings_that_were_made_before_count(
@@ -305,10 +309,13 @@ def test_recordings_that_were_made_before_count(
         moment = datetime.now() - timedelta(days=days)
         path = Path("webviz_black_box") / f"{moment:{black_box.MOMENT}}_{cause}"
         path.mkdir(parents=True)
-        (path / "metadata.yaml").write_bytes(bytes(40_000))
+        (path / "metadata.yaml").write_bytes(bytes(400_000))
     bench = make(WatchRule(display="Plan", status="error"), per_day=per_day, gigabytes=gigabytes)
     publish(bench, 1.0)
     until(bench, lambda state: state.black_box is not None and len(state.black_box.saved) == 4)
+    store = bench.viewer.get(black_box.BlackBoxFeature).black_box("")
+    assert store is not None
+    assert [megabytes for _, megabytes, *_ in store.saved] == [0.4] * 4
     fail(bench)
     statuses = until(bench, lambda state: "Black box" in state.statuses).statuses
     assert statuses["Black box"].text.startswith(f"A rule fired, but {reason}")

@@ -11,7 +11,7 @@ from bench import Bench, Benches
 from webviz.api.status import Level, Status
 from webviz.commands import CancelGoal, DismissGoal, Refresh, UseTool
 from webviz.data.messages import encode
-from webviz.features.goals import MAX_ACTIVE, SHOWN_S
+from webviz.features.goals import MAX_ACTIVE, SHOWN_S, GoalsFeature, Route
 from webviz.features.goals.running import ANSWER_S, SILENCE_S, GoalProgress
 from webviz.shell.testing.remembering_graph import RememberingGraph, SentGoal
 from webviz.sources import Missing
@@ -97,8 +97,11 @@ def test_a_pose_is_sent_to_nav2_in_the_fixed_frame_with_a_stamp_of_zero(robot: G
     robot.accept(goal)
     assert robot.statuses == [Status(Level.OK, "/navigate_to_pose accepted the goal.")]
     assert robot.only().phase == "active"
+    feature = robot.bench.viewer.get(GoalsFeature)
+    assert list(feature.routes("").routes.values()) == [Route("map", [(1.0, 2.0, 0.0, 0.5)])]
     end(goal, SUCCEEDED)
     assert robot.outcome() == (Level.OK, "Reached the goal.")
+    assert feature.routes("").routes == {}
     robot.bench.clock += SHOWN_S
     assert robot.goals() == []
 

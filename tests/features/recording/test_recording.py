@@ -238,6 +238,7 @@ def test_settings_bound_the_memory(bench: Bench) -> None:
     [
         (SaveMemory(), "No messages are kept in memory."),
         (SaveMemory(-1.0), "-1 s is not a valid time span."),
+        (SaveMemory(0.0), "0 s is not a valid time span."),
         (SaveMemory(float("nan")), "nan s is not a valid time span."),
         (StartRecording("."), "is not empty. Give the name of a new folder."),
     ],

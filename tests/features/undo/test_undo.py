@@ -31,7 +31,9 @@ from webviz.commands import (
     Undo,
 )
 from webviz.engine.commands import Command, Sender
+from webviz.engine.parts.snapshots import Snapshot
 from webviz.features.undo import MAX_STEPS, SAME_S
+from webviz.features.undo.diff import UndoSnapshot, difference
 from webviz.files.config import dump
 from webviz_displays.axes import Axes
 
@@ -246,6 +248,18 @@ def test_two_changes_are_taken_back_in_the_other_order(
     assert set(ids(b).values()) == set(at.values())
     if label != other and not label.startswith("Move"):
         assert dump(b.viewer.config()) == before
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "name"),
+    [("ab", "ba", "b"), ("dcba", "cbad", "d"), ("abcd", "dabc", "d"), ("abcde", "edcba", "e")],
+)
+def test_the_display_that_was_moved_is_named(before: str, after: str, name: str) -> None:
+    old, new = (
+        UndoSnapshot(displays={id: Snapshot(Axes, {"name": id}) for id in order})
+        for order in (before, after)
+    )
+    assert difference(old, new).label == f"Move {name}"
 
 
 def test_undoing_a_change_of_a_removed_display_changes_nothing_else(b: Bench) -> None:
