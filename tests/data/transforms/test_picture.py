@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from tests.data.transforms.conftest import HandFedBuffer
 from webviz.data.transforms import TransformBuffer, diagnose
 from webviz.data.transforms.layout import lay_out
-from webviz.data.transforms.picture import draw_tree
+from webviz.data.transforms.picture import MAX_PROBLEMS, draw_tree
 from webviz.shell.cli import main
 
 S = 1_000_000_000
@@ -101,6 +101,23 @@ def test_faults_are_red(buffer: HandFedBuffer) -> None:
     buffer.put("world", "drone")
     buffer.put("map", "odom")
     assert faulty(buffer) == {"world", "map"}, "roots that nothing connects"
+
+
+def test_problems_are_lines_below_the_boxes_and_counted_beyond_a_limit(
+    buffer: HandFedBuffer,
+) -> None:
+    for number in range(MAX_PROBLEMS + 2):  # frames that stopped long ago
+        for tenth in range(10):
+            buffer.put("map", f"arm{number}", 1.0 + tenth / 10)
+    diagnosis = diagnose(buffer, 30 * S)
+    picture = draw_tree(diagnosis, "Frames", ["A note."])
+    root = ElementTree.fromstring(picture.svg)
+    lowest = max(float(each.attrib["y"]) for each in root.iter(f"{SVG}rect") if "y" in each.attrib)
+    lines = {text.text: float(text.attrib["y"]) for text in root.findall(f"{SVG}text")}
+    texts = [*diagnosis.problems[:MAX_PROBLEMS], "And 2 more.", "A note."]
+    assert list(lines)[2:] == texts
+    heights = [lowest, *(lines[text] for text in texts), picture.height]
+    assert all(above < below for above, below in pairwise(heights))
 
 
 def test_a_second_parent_has_a_red_edge(buffer: HandFedBuffer) -> None:
