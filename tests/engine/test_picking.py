@@ -42,6 +42,15 @@ def test_a_point_belongs_to_the_nearest_face(point: Point, face: int) -> None:
     assert pick(mesh, None, point) == (10 + face, point)
 
 
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_mesh_has_as_many_ids_as_faces(count: int) -> None:
+    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
+    faces = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+    mesh = Mesh(corners, faces, (1, 2, 3), ids=np.arange(count))
+    with pytest.raises(ValueError, match=f"a mesh has 2 faces, but {count} ids"):
+        pick(mesh, None, (0.5, 0.5, 0.0))
+
+
 def test_a_point_on_a_face_belongs_to_it() -> None:
     random = np.random.default_rng(0)
     vertices = random.uniform(-5.0, 5.0, (30, 3)).astype(np.float32)
