@@ -1,4 +1,4 @@
-"""What pages are sent of a recording, of live topics and of their past."""
+"""A recording, live topics and their past, as pages are sent them."""
 
 from __future__ import annotations
 
