@@ -120,6 +120,20 @@ def test_transforms_come_late_end_and_start_over(tmp_path: Path, seed: int) -> N
     check_seeks(path, f"fixed_frame: map\n{DISPLAYS}", count=7, seed=seed)
 
 
+def test_between_two_transforms_the_last_message_that_one_places_is_shown(tmp_path: Path) -> None:
+    bag = Bag()
+    bag.add("/point", "geometry_msgs/msg/PointStamped")
+    for step in range(400):  # more wait for the next transform than are held
+        at_s = step / 50
+        if step % 40 == 0:
+            bag.transform(at_s, "map", "base", x=at_s)
+        head = header("base", START_NS + ns(at_s))
+        bag.put(at_s + 0.01, "/point", {"header": head, "point": {"x": at_s}})
+    path = bag.write_file(tmp_path / "run.mcap")
+    config = "fixed_frame: map\ndisplays: [{type: PointStamped, topic: /point}]\n"
+    check_seeks(path, config, times=[5.55, 2.35, 7.15])
+
+
 TIME = Path(__file__).parents[4] / "shared/data/reports/time"
 """Bags with which seeks once showed other things than playing."""
 REPORTS = [
