@@ -8,23 +8,11 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import msgspec
 import websockets.exceptions
-from guest import Connections
-
-
-@dataclass(frozen=True)
-class At:
-    """Address of a viewer on this machine."""
-
-    port: int
-
-    def get_port(self) -> int:
-        """Its port."""
-        return self.port
+from guest import Connections, Served
 
 
 class Visitor(Connections):
@@ -36,7 +24,7 @@ class Visitor(Connections):
     """
 
     def __init__(self, port: int, **headers: str) -> None:
-        super().__init__(At(port), **headers)
+        super().__init__(Served(port), **headers)
         self._number = 0
         self._answers: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
         for receive in (self._receive_scene, self._receive_answers):

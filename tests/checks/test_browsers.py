@@ -63,7 +63,7 @@ def read(*_: object) -> Config:
     return parse(CONFIG, "x.yaml")
 
 
-class Room:
+class PageDoctor:
     """A viewer with a browser, and the findings of its doctor."""
 
     def __init__(self, viewer: Running, source: HandFedSource, browser: playwright.Browser) -> None:
@@ -129,111 +129,119 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
 
 
 @pytest.fixture(scope="module")
-def room(viewer: tuple[Running, HandFedSource], browser: playwright.Browser) -> Iterator[Room]:
-    room = Room(*viewer, browser)
-    room.transform("base", 0.0)
-    yield room
-    room.page.close()
+def page_doctor(
+    viewer: tuple[Running, HandFedSource], browser: playwright.Browser
+) -> Iterator[PageDoctor]:
+    page_doctor = PageDoctor(*viewer, browser)
+    page_doctor.transform("base", 0.0)
+    yield page_doctor
+    page_doctor.page.close()
 
 
-def test_displays_outside_the_view(room: Room) -> None:
+def test_displays_outside_the_view(page_doctor: PageDoctor) -> None:
     away = Orbit(focal_point=(0.0, 5000.0, 0.0), distance=10.0)
-    room.look(away)
-    finding = room.wait("VIEW004")
+    page_doctor.look(away)
+    finding = page_doctor.wait("VIEW004")
     assert finding is not None
     assert finding.severity is Severity.WARNING
     assert finding.cause == "The camera looks at nothing: all displays are outside the view."
-    room.look(Orbit())
-    room.wait("VIEW004", False)
-    axes = next(row.id for row in room.viewer.state.rows if row.name == "Origin")
-    room.viewer.do(SetProperty(axes, "length", 0.001))
-    room.viewer.do(SetProperty(axes, "radius", 0.0001))
-    finding = room.wait("VIEW003")
+    page_doctor.look(Orbit())
+    page_doctor.wait("VIEW004", False)
+    axes = next(row.id for row in page_doctor.viewer.state.rows if row.name == "Origin")
+    page_doctor.viewer.do(SetProperty(axes, "length", 0.001))
+    page_doctor.viewer.do(SetProperty(axes, "radius", 0.0001))
+    finding = page_doctor.wait("VIEW003")
     assert finding is not None
     assert "less than a pixel" in finding.cause
-    room.viewer.do(SetProperty(axes, "length", 1.0))
-    room.wait("VIEW003", False)
-    room.transform("far", 3e5)
-    room.viewer.do(SetProperty(axes, "length", 9e3))
-    room.viewer.do(SetProperty(axes, "reference_frame", "far"))
-    room.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
-    finding = room.wait("VIEW005")
+    page_doctor.viewer.do(SetProperty(axes, "length", 1.0))
+    page_doctor.wait("VIEW003", False)
+    page_doctor.transform("far", 3e5)
+    page_doctor.viewer.do(SetProperty(axes, "length", 9e3))
+    page_doctor.viewer.do(SetProperty(axes, "reference_frame", "far"))
+    page_doctor.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
+    finding = page_doctor.wait("VIEW005")
     assert finding is not None
     assert "km away" in finding.cause
-    room.viewer.do(SetProperty(axes, "reference_frame", "map"))
-    room.viewer.do(SetProperty(axes, "length", 1.0))
-    room.wait("VIEW005", False)
-    room.look(Orbit())
+    page_doctor.viewer.do(SetProperty(axes, "reference_frame", "map"))
+    page_doctor.viewer.do(SetProperty(axes, "length", 1.0))
+    page_doctor.wait("VIEW005", False)
+    page_doctor.look(Orbit())
 
 
-def test_a_map_below_an_opaque_one(room: Room) -> None:
-    room.add("Map", topic={"name": "/costmap"}, alpha=0.7)
-    upper = room.add("Map", topic={"name": "/map"}, alpha=1.0)
-    room.page.wait_for(lambda: "/map" in room.source.subscriptions)
-    room.put("/costmap", GRID, "map", building.grid())
-    room.put("/map", GRID, "map", building.grid())
-    finding = room.wait("VIEW006")
+def test_a_map_below_an_opaque_one(page_doctor: PageDoctor) -> None:
+    page_doctor.add("Map", topic={"name": "/costmap"}, alpha=0.7)
+    upper = page_doctor.add("Map", topic={"name": "/map"}, alpha=1.0)
+    page_doctor.page.wait_for(lambda: "/map" in page_doctor.source.subscriptions)
+    page_doctor.put("/costmap", GRID, "map", building.grid())
+    page_doctor.put("/map", GRID, "map", building.grid())
+    finding = page_doctor.wait("VIEW006")
     assert finding is not None
     assert finding.button is not None
-    room.viewer.do(SetProperty(upper, "alpha", 0.7))
-    room.wait("VIEW006", False)
+    page_doctor.viewer.do(SetProperty(upper, "alpha", 0.7))
+    page_doctor.wait("VIEW006", False)
 
 
-def test_a_browser_without_a_graphics_card(room: Room) -> None:
-    finding = room.wait("WEB002")
+def test_a_browser_without_a_graphics_card(page_doctor: PageDoctor) -> None:
+    finding = page_doctor.wait("WEB002")
     assert finding is not None
     assert "SwiftShader" in str(finding.evidence["renderer"])
     assert finding.severity is Severity.NOTE, "all is drawn, only slowly"
 
 
-def test_a_page_that_hangs(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "WEB003" not in room.findings()
+def test_a_page_that_hangs(page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "WEB003" not in page_doctor.findings()
     monkeypatch.setattr(throttled_tab, "FROZEN_S", 6.5)
     dialogs: list[playwright.Dialog] = []
 
     def hear(dialog: playwright.Dialog) -> None:
         dialogs.append(dialog)
 
-    room.page.tab.on("dialog", hear)
+    page_doctor.page.tab.on("dialog", hear)
     # Until it is answered, the page stands still, without a processor that is busy with it.
-    room.page.tab.evaluate("setTimeout(() => alert('wait'))")
-    finding = room.wait("WEB003")
+    page_doctor.page.tab.evaluate("setTimeout(() => alert('wait'))")
+    finding = page_doctor.wait("WEB003")
     assert finding is not None
     assert "has been silent for" in finding.cause
     (dialog,) = dialogs
     dialog.accept()
-    room.page.tab.remove_listener("dialog", hear)
-    room.wait("WEB003", False)
+    page_doctor.page.tab.remove_listener("dialog", hear)
+    page_doctor.wait("WEB003", False)
 
 
-def test_a_viewer_that_cannot_keep_up(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_viewer_that_cannot_keep_up(
+    page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(viewer_behind, "OWN", 0.02)  # other tests want a core, too
-    slow = room.add("SlowDisplay")
+    slow = page_doctor.add("SlowDisplay")
     ended = threading.Event()
 
     def publish() -> None:
         while not ended.wait(0.02):
-            room.source.now += 20_000_000
-            room.put("/scan", SCAN, "map", {"ranges": [1.0], "range_max": 2.0})
+            page_doctor.source.now += 20_000_000
+            page_doctor.put("/scan", SCAN, "map", {"ranges": [1.0], "range_max": 2.0})
 
     thread = threading.Thread(target=publish)
     thread.start()
     try:
-        finding = room.wait("WEB006")
+        finding = page_doctor.wait("WEB006")
     finally:
         ended.set()
         thread.join()
     assert finding is not None
     assert "SlowDisplay" in finding.cause
     assert finding.evidence["SlowDisplay"]
-    room.viewer.do(SetProperty(slow, "enabled", False))
-    room.wait("WEB006", False)
+    page_doctor.viewer.do(SetProperty(slow, "enabled", False))
+    page_doctor.wait("WEB006", False)
 
 
-def publish_points(room: Room, count: int) -> None:
+def publish_points(page_doctor: PageDoctor, count: int) -> None:
     """Receive a cloud of random points."""
     names = ("name", "offset", "datatype", "count")
-    xyz = np.random.default_rng(room.source.now).uniform(-3.0, 3.0, (count, 3)).astype(np.float32)
+    xyz = (
+        np.random.default_rng(page_doctor.source.now)
+        .uniform(-3.0, 3.0, (count, 3))
+        .astype(np.float32)
+    )
     values = {
         "height": 1,
         "width": count,
@@ -243,77 +251,79 @@ def publish_points(room: Room, count: int) -> None:
         "data": xyz.view(np.uint8).ravel(),
         "is_dense": True,
     }
-    room.put("/points", CLOUD, "map", values)
+    page_doctor.put("/points", CLOUD, "map", values)
 
 
-def test_clouds_that_are_too_large_for_a_browser(room: Room) -> None:
-    room.add("PointCloud2", topic={"name": "/points"})
-    room.page.wait_for(lambda: "/points" in room.source.subscriptions)
-    publish_points(room, 2_000_000)
-    finding = room.wait("WEB005")
+def test_clouds_that_are_too_large_for_a_browser(page_doctor: PageDoctor) -> None:
+    page_doctor.add("PointCloud2", topic={"name": "/points"})
+    page_doctor.page.wait_for(lambda: "/points" in page_doctor.source.subscriptions)
+    publish_points(page_doctor, 2_000_000)
+    finding = page_doctor.wait("WEB005")
     assert finding is not None
     assert finding.cause.startswith("The clouds have 2 000 000 points, most of them PointCloud2")
-    publish_points(room, 1000)
-    room.wait("WEB005", False)
+    publish_points(page_doctor, 1000)
+    page_doctor.wait("WEB005", False)
 
 
-def test_the_way_of_samples_to_the_screen(room: Room) -> None:
-    cloud = room.add("PointCloud2", topic={"name": "/points"})
-    room.page.wait_for(lambda: "/points" in room.source.subscriptions)
-    room.viewer.do(InspectLatency())
+def test_the_way_of_samples_to_the_screen(page_doctor: PageDoctor) -> None:
+    cloud = page_doctor.add("PointCloud2", topic={"name": "/points"})
+    page_doctor.page.wait_for(lambda: "/points" in page_doctor.source.subscriptions)
+    page_doctor.viewer.do(InspectLatency())
 
     def ways() -> list[BrowserLatency]:
-        room.source.now += 10_000_000
-        publish_points(room, 1000)
-        latencies = [each for each in room.viewer.state.latencies if each.id == cloud]
+        page_doctor.source.now += 10_000_000
+        publish_points(page_doctor, 1000)
+        latencies = [each for each in page_doctor.viewer.state.latencies if each.id == cloud]
         return [to for each in latencies for to in each.browsers if to.stages]
 
-    room.page.wait_for(lambda: any(to.bytes_per_s for to in ways()), "the way")
+    page_doctor.page.wait_for(lambda: any(to.bytes_per_s for to in ways()), "the way")
     to = ways()[0]
     assert [stage.name for stage in to.stages] == ["acknowledged", "painted"]
     assert to.stages[1].p99 > 0.0
     assert to.name == "the browser of 127.0.0.1"
     assert to.p99 >= to.p50 >= to.stages[0].p50 + to.stages[1].p50 / 2
-    room.viewer.do(InspectLatency(is_wanted=False))
-    assert room.viewer.state.latencies == ()
-    room.viewer.do(RemoveDisplay(cloud))
+    page_doctor.viewer.do(InspectLatency(is_wanted=False))
+    assert page_doctor.viewer.state.latencies == ()
+    page_doctor.viewer.do(RemoveDisplay(cloud))
 
 
 def test_a_slow_link(browser: playwright.Browser) -> None:
     source = HandFedSource()
     with contextlib.closing(Running(port=0, source=source, read=read, link="1Mbit/s")) as viewer:
-        room = Room(viewer, source, browser)
-        room.transform("base", 0.0)
-        room.add("PointCloud2", topic={"name": "/points"})
-        room.page.wait_for(lambda: "/points" in source.subscriptions)
+        page_doctor = PageDoctor(viewer, source, browser)
+        page_doctor.transform("base", 0.0)
+        page_doctor.add("PointCloud2", topic={"name": "/points"})
+        page_doctor.page.wait_for(lambda: "/points" in source.subscriptions)
 
         def reduced() -> Finding | None:
             source.now += 10**8  # another cloud: one that stays is sent whole
-            publish_points(room, 50_000)
-            return room.findings().get("WEB004")
+            publish_points(page_doctor, 50_000)
+            return page_doctor.findings().get("WEB004")
 
-        finding = room.page.wait_for(reduced, "the finding", 2 * PATIENCE_S)
+        finding = page_doctor.page.wait_for(reduced, "the finding", 2 * PATIENCE_S)
         assert finding is not None
         assert "clouds show every" in finding.cause
-        room.page.wait_for(lambda: "WEB004" not in room.findings(), "its end", PATIENCE_S)
-        room.page.close()
+        page_doctor.page.wait_for(
+            lambda: "WEB004" not in page_doctor.findings(), "its end", PATIENCE_S
+        )
+        page_doctor.page.close()
 
 
-def test_a_browser_without_webgl(room: Room, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_browser_without_webgl(page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(no_webgl, "PATIENCE_S", 2.0)
-    browser = room.page.tab.context.browser
+    browser = page_doctor.page.tab.context.browser
     assert browser is not None
     kind = browser.browser_type
     flags = [FLAGS[0], "--disable-3d-apis"]
     bare = kind.launch(executable_path=executable_of(kind), args=flags)
     try:
         tab = bare.new_page()
-        tab.goto(room.viewer.url)
+        tab.goto(page_doctor.viewer.url)
         notice = tab.get_by_role("alert").filter(has_text="webviz needs WebGL 2")
         playwright.expect(notice).to_be_visible()
-        finding = room.wait("WEB001")
+        finding = page_doctor.wait("WEB001")
     finally:
         bare.close()
     assert finding is not None
     assert finding.severity is Severity.ERROR
-    room.wait("WEB001", False)
+    page_doctor.wait("WEB001", False)

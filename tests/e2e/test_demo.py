@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
+from displays_panel import GLOBAL_OPTIONS, DisplaysPanel
 from pages import let_mouse_in
 from program import Program
-from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
@@ -171,7 +171,7 @@ def page(simulator: Program, view: Callable[..., Page]) -> Page:
 
 
 def choose_fixed_frame(page: Page, frame: str) -> None:
-    side = Side(page)
+    side = DisplaysPanel(page)
     side.select(GLOBAL_OPTIONS)
     field = side.field("fixed_frame")
     field.fill(frame)
@@ -292,7 +292,7 @@ def test_a_dead_scan_publisher_fails_the_check_and_is_shown_on_the_page(
 ) -> None:
     choose_fixed_frame(page, "map")
     settled(page)
-    side = Side(page)
+    side = DisplaysPanel(page)
     side.select("LaserScan")
     side.wait_for("from /sim (best effort, volatile)")
     simulator.end(signal.SIGKILL)

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from displays_panel import DisplaysPanel
 from pages import let_mouse_in
 from peer_python import peer_python
 from program import Program
-from side import Side
 
 import webviz
 from webviz.shell.pictures.browser import Page
@@ -139,7 +139,7 @@ def test_messages_reach_an_independent_peer_and_come_back(
     page.wait_for(lambda: count(page, (255, 255, 0)) > 100, "the path")
     page.wait_for(lambda: count(page, (255, 255, 255)) > 10_000, "the map")
     page.wait_for(lambda: page.tab.locator(".wv-tree [data-level=error]").count() == 0, "no error")
-    side = Side(page)
+    side = DisplaysPanel(page)
     side.select("LaserScan")
     side.wait_for("from a DDS program (best effort, volatile)")
 

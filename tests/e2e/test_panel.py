@@ -12,8 +12,8 @@ import numpy as np
 import photos
 import playwright.sync_api as playwright
 import pytest
+from displays_panel import DisplaysPanel
 from program import Program
-from side import Side
 
 from webviz.data.messages import encode
 from webviz.shell.pictures.browser import Page, Pixels
@@ -80,7 +80,7 @@ def test_saved_displays_return_and_unsaved_changes_survive_a_kill(
     viewer = view(config, 0)
     page = open_page(url := viewer.url(), 1000, 700, 0.3)
     page.hold()
-    side, tab = Side(page), page.tab
+    side, tab = DisplaysPanel(page), page.tab
     port, dialog = int(url.rpartition(":")[2]), tab.get_by_role("dialog")
     blank = picture(page)
     assert colors(blank) == 1

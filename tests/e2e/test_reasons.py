@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from displays_panel import GLOBAL_OPTIONS, DisplaysPanel
 from pages import COARSE
-from side import GLOBAL_OPTIONS, Side
 
 from webviz.shell.pictures.browser import Page
 
@@ -41,16 +41,16 @@ def page(robot: Robot, view: Callable[..., Page]) -> Page:
 
 
 def select(page: Page, row: str) -> None:
-    Side(page).select(row)
+    DisplaysPanel(page).select(row)
 
 
 def wait_for(page: Page, *words: str) -> None:
-    Side(page).wait_for(*words)
+    DisplaysPanel(page).wait_for(*words)
 
 
 def wait_until_ok(page: Page, *gone: str) -> None:
     """Wait until the transform is there, and the sentence is not."""
-    side = Side(page)
+    side = DisplaysPanel(page)
     side.wait_for(OK)
     assert not [words for words in gone if words in side.text()]
 
@@ -179,7 +179,7 @@ def test_links_that_compose_to_infinity_end_nothing_and_are_named(robot: Robot, 
 def test_a_fixed_frame_that_does_not_exist_is_typed_and_kept_with_the_reason(
     robot: Robot, page: Page
 ) -> None:
-    side = Side(page)
+    side = DisplaysPanel(page)
     side.select(GLOBAL_OPTIONS)
     field = side.field("fixed_frame")
     field.fill("mapp")

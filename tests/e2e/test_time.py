@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from side import GLOBAL_OPTIONS, Side
+from displays_panel import GLOBAL_OPTIONS, DisplaysPanel
 
 from webviz.shell.pictures.browser import Page
 
@@ -54,7 +54,7 @@ def make_robot(ros_env: dict[str, str]) -> Iterator[Callable[..., Robot]]:
 def lasting(view: Callable[..., Page]) -> Page:
     """The page of all tests whose viewer goes by the computer's clock."""
     page = view(CONFIG, resolution=0.4)
-    Side(page).select(GLOBAL_OPTIONS)
+    DisplaysPanel(page).select(GLOBAL_OPTIONS)
     return page
 
 
@@ -62,7 +62,7 @@ def lasting(view: Callable[..., Page]) -> Page:
 def page(lasting: Page) -> Page:
     """The page of a viewer that has heard nothing yet."""
     lasting.tab.get_by_role("button", name="Reset", exact=True).click()
-    Side(lasting).select(GLOBAL_OPTIONS)
+    DisplaysPanel(lasting).select(GLOBAL_OPTIONS)
     return lasting
 
 
@@ -110,7 +110,7 @@ def has_map(page: Page) -> bool:
 
 
 def wait_for(page: Page, *words: str, seconds: float = 60.0) -> None:
-    Side(page).wait_for(*words, seconds=seconds)
+    DisplaysPanel(page).wait_for(*words, seconds=seconds)
 
 
 def test_a_bag_that_loops_without_a_clock_is_reset_by_itself(
@@ -191,7 +191,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     make_robot: Callable[..., Robot], view: Callable[..., Page]
 ) -> None:
     page = view(CONFIG, "--ros-args", "-p", "use_sim_time:=true", resolution=0.4)
-    Side(page).select(GLOBAL_OPTIONS)
+    DisplaysPanel(page).select(GLOBAL_OPTIONS)
     wait_for(page, "Waiting for /clock: use_sim_time is set, but it has no publisher")
     player = make_robot("player")
     bag = DrivenBag(player, 100, with_clock=True)
@@ -204,7 +204,7 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     assert "Waiting" not in page.text()
 
     wait_for(page, "Simulated time has stopped at 103.0 s: /player is paused")
-    Side(page).select("LaserScan")
+    DisplaysPanel(page).select("LaserScan")
     wait_for(page, "Transform OK")
     assert "No message for" not in page.text()
     assert 2.5 < scan_at(page) < 3.1
@@ -213,6 +213,6 @@ def test_with_use_sim_time_it_waits_for_the_clock_follows_it_and_shows_each_loop
     bag.play(0.0, 1.0)  # the bag loops
     page.wait_for(lambda: 0.5 < scan_at(page) < 1.1, "the scan of the new loop")
     wait_for(page, "Transform OK")
-    Side(page).select(GLOBAL_OPTIONS)
+    DisplaysPanel(page).select(GLOBAL_OPTIONS)
     wait_for(page, "Time went back by", "s: everything was reset.")
     page.wait_for(lambda: has_map(page), "the latched map again")

@@ -28,7 +28,7 @@ WHY = "Only operators may do this. Your link is for a watcher."
 
 
 @dataclass
-class House:
+class TokenPages:
     """A viewer that asks for tokens, with a watcher and its owner.
 
     Args:
@@ -48,7 +48,9 @@ class House:
 
 
 @pytest.fixture(scope="module")
-def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[House]:
+def pages(
+    browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[TokenPages]:
     path = tmp_path_factory.mktemp("tokens") / "tokens.json"
     now = datetime.now(UTC)
     tokens = {role: make(f"the {role.label}", role, now) for role in Role}
@@ -65,22 +67,22 @@ def house(browser: playwright.Browser, tmp_path_factory: pytest.TempPathFactory)
         assert answer.ok
         return ViewerTab(page, page_server)
 
-    house = House(url, path, tokens, page_server, tab(Role.WATCHER), tab(Role.OWNER))
-    yield house
-    for each in (house.watcher, house.owner):
+    pages = TokenPages(url, path, tokens, page_server, tab(Role.WATCHER), tab(Role.OWNER))
+    yield pages
+    for each in (pages.watcher, pages.owner):
         each.page.context.close()
     page_server.close()
 
 
 @pytest.fixture(autouse=True)
-def viewer(house: House, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> PageBench:
+def viewer(pages: TokenPages, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> PageBench:
     """A viewer with one tool and two displays, which saves into a folder of the test."""
     monkeypatch.chdir(tmp_path)
-    viewer = house.page_server.begin()
+    viewer = pages.page_server.begin()
     goal = GoalPose(name="Goal")
     viewer.show(*named("a", "b"), tools=[goal])
     viewer.link("map", "odom")
-    for tab in (house.watcher, house.owner):
+    for tab in (pages.watcher, pages.owner):
         tab.catch_up()
     viewer.forget_commands()
     return viewer
@@ -91,14 +93,14 @@ def toasts(tab: ViewerTab) -> playwright.Locator:
 
 
 def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
-    house: House, browser: playwright.Browser
+    pages: TokenPages, browser: playwright.Browser
 ) -> None:
     with browser.new_context(java_script_enabled=False) as context:  # of the page, not of this test
         page = context.new_page()
         # From another site: its cookie would not be sent after a plain redirect.
-        page.set_content(f'<a href="{link(house.url, house.tokens[Role.WATCHER])}">Watch</a>')
+        page.set_content(f'<a href="{link(pages.url, pages.tokens[Role.WATCHER])}">Watch</a>')
         page.click("a")
-        page.wait_for_url(f"{house.url}/")
+        page.wait_for_url(f"{pages.url}/")
         page.locator("#root").wait_for(state="attached")
         assert page.evaluate("document.cookie") == ""
         assert page.evaluate("document.referrer") == ""
@@ -106,12 +108,12 @@ def test_a_link_leaves_no_token_in_the_address_nor_for_scripts(
         assert cookies
         for cookie in cookies:
             assert (cookie.get("httpOnly"), cookie.get("sameSite")) == (True, "Strict")
-        page.goto(link(house.url, house.tokens[Role.OPERATOR]), wait_until="commit")
-        page.wait_for_url(f"{house.url}/", wait_until="commit")
+        page.goto(link(pages.url, pages.tokens[Role.OPERATOR]), wait_until="commit")
+        page.wait_for_url(f"{pages.url}/", wait_until="commit")
 
 
-def test_what_a_watcher_may_not_do_says_why(house: House) -> None:
-    watcher = house.watcher
+def test_what_a_watcher_may_not_do_says_why(pages: TokenPages) -> None:
+    watcher = pages.watcher
     page = watcher.page
     watcher.wait_for(lambda: page.locator(".wv-role").inner_text() == "watcher")
     for name in ("Undo", "Redo", "Pause", "Reset"):
@@ -130,8 +132,8 @@ def test_what_a_watcher_may_not_do_says_why(house: House) -> None:
     assert watcher.viewer.commands == []
 
 
-def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None:
-    watcher = house.watcher
+def test_a_watcher_reads_properties_and_cannot_change_them(pages: TokenPages) -> None:
+    watcher = pages.watcher
     watcher.page.get_by_role("treeitem", name="a", exact=True).locator(".wv-tree-name").click()
     watcher.wait_for(lambda: watcher.page.locator(".wv-property").count() > 3)
     fields = watcher.page.locator(".wv-property-control").locator("input, select, textarea")
@@ -144,8 +146,8 @@ def test_a_watcher_reads_properties_and_cannot_change_them(house: House) -> None
     assert [c for c in watcher.viewer.commands if isinstance(c, commands.RemoveDisplay)] == []
 
 
-def test_lists_tabs_and_the_tree_are_locked_too(house: House) -> None:
-    watcher = house.watcher
+def test_lists_tabs_and_the_tree_are_locked_too(pages: TokenPages) -> None:
+    watcher = pages.watcher
     page = watcher.page
     expect(watcher.button("Add a panel")).to_have_attribute("data-why", WHY)
     names = [page.get_by_role("treeitem", name=name, exact=True) for name in "ab"]
@@ -168,45 +170,45 @@ def test_lists_tabs_and_the_tree_are_locked_too(house: House) -> None:
     assert watcher.viewer.commands == []
 
 
-def test_a_watcher_has_a_view_of_their_own(house: House) -> None:
-    house.watcher.page.evaluate("async () => void (await import('webviz/act.js')).act('ResetView')")
-    house.watcher.wait_for_command(commands.ResetView())
+def test_a_watcher_has_a_view_of_their_own(pages: TokenPages) -> None:
+    pages.watcher.page.evaluate("async () => void (await import('webviz/act.js')).act('ResetView')")
+    pages.watcher.wait_for_command(commands.ResetView())
 
 
-def test_a_watcher_arranges_panels_for_themselves(house: House) -> None:
-    watcher, owner = house.watcher, house.owner
+def test_a_watcher_arranges_panels_for_themselves(pages: TokenPages) -> None:
+    watcher, owner = pages.watcher, pages.owner
     watcher.page.locator("#wv-tab-topics").click(button="right")
     watcher.page.get_by_role("menuitemradio", name="Beside the scene").click()
     beside = "section.wv-docked[data-panel=topics]"
     watcher.wait_for(lambda: watcher.page.locator(beside).count() == 1)
     assert (owner.page.locator(".wv-docked").count(), watcher.viewer.commands) == (0, [])
     shared = Layout(below=(DockedPanel(panel="doctor"),))
-    house.page_server.viewer.show(layout=shared)
+    pages.page_server.viewer.show(layout=shared)
     for tab in (watcher, owner):
         tab.wait_for(lambda tab=tab: tab.page.locator(".wv-docked").count() == 1)
         tab.wait_for(lambda tab=tab: tab.page.locator(".wv-below > .wv-docked").count() == 1)
-    house.page_server.viewer.show()
+    pages.page_server.viewer.show()
     watcher.wait_for(lambda: watcher.page.locator(".wv-docked").count() == 0)
 
 
-def test_a_page_that_asks_all_the_same_is_refused_by_the_server(house: House) -> None:
+def test_a_page_that_asks_all_the_same_is_refused_by_the_server(pages: TokenPages) -> None:
     ask = """async () => {
       const channel = await import('webviz/channel.js');
       window.answers = [];
       channel.on('CommandResult', ({number, text}) => number === 9999 && window.answers.push(text));
       channel.send({type: 'CommandRequest', number: 9999, command: 'Undo', arguments: {}});
     }"""
-    house.watcher.page.evaluate(ask)
-    house.watcher.wait_for(lambda: house.watcher.page.evaluate("window.answers.length"))
-    assert house.watcher.page.evaluate("window.answers") == [
+    pages.watcher.page.evaluate(ask)
+    pages.watcher.wait_for(lambda: pages.watcher.page.evaluate("window.answers.length"))
+    assert pages.watcher.page.evaluate("window.answers") == [
         "Not allowed: this needs an operator, and you are a watcher. Ask the owner of this viewer "
         "for another link."
     ]
-    assert house.watcher.viewer.commands == []
+    assert pages.watcher.viewer.commands == []
 
 
-def test_the_owner_sees_who_is_there_and_invites_others(house: House, tmp_path: Path) -> None:
-    owner = house.owner
+def test_the_owner_sees_who_is_there_and_invites_others(pages: TokenPages, tmp_path: Path) -> None:
+    owner = pages.owner
     owner.button("Undo")
     expect(owner.page.locator(".wv-locked")).to_have_count(0)
     save = "(await import('webviz/act.js')).act('Save', {path: 'lab.yaml'})"
@@ -220,7 +222,7 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House, tmp_path: 
     text = people.inner_text()
     for part in ("the watcher", "the owner (you)", "127.0.0.1", "Saved lab.yaml."):
         owner.wait_for(lambda part=part: part in people.inner_text())
-    assert house.tokens[Role.WATCHER].secret not in text
+    assert pages.tokens[Role.WATCHER].secret not in text
     people.get_by_label("Name", exact=True).fill("Ada")
     role = people.get_by_role("combobox", name="Role")
     role.fill("operator")
@@ -228,8 +230,8 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House, tmp_path: 
     people.get_by_role("button", name="Make a link").click()
     owner.wait_for(lambda: people.locator("code").count() == 1)
     address = people.locator("code").inner_text()
-    (token,) = (t for t in token_file.read(house.path) if t.name == "Ada")
-    assert address == link(house.url, token)
+    (token,) = (t for t in token_file.read(pages.path) if t.name == "Ada")
+    assert address == link(pages.url, token)
     assert owner.page.evaluate("document.querySelector('.wv-invitation img').naturalWidth") > 50
     expect(people.get_by_role("note")).to_contain_text("Only this machine can open this link.")
     people.get_by_label("Name", exact=True).fill("Ada")
@@ -243,13 +245,13 @@ def test_the_owner_sees_who_is_there_and_invites_others(house: House, tmp_path: 
     owner.page.get_by_role("button", name="Revoke", exact=True).click()
     expect(toasts(owner)).to_contain_text("Revoked the link of Ada.")
     owner.wait_for(lambda: ada.count() == 0)
-    assert "Ada" not in {token.name for token in token_file.read(house.path)}
+    assert "Ada" not in {token.name for token in token_file.read(pages.path)}
     owner.page.keyboard.press("Escape")
 
 
-def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
+def test_the_owner_ends_visits_and_revokes_links(pages: TokenPages) -> None:
     """The last test of this module, since the watcher is gone then."""
-    owner, watcher = house.owner, house.watcher
+    owner, watcher = pages.owner, pages.watcher
     owner.button("Menu").click()
     owner.page.get_by_role("menuitem", name="People…").click()
     people = owner.page.locator(".wv-people")
@@ -266,12 +268,12 @@ def test_the_owner_ends_visits_and_revokes_links(house: House) -> None:
     end("End visit", "End")
     expect(watcher.page.locator("body")).to_contain_text("The owner has disconnected this page.")
     owner.wait_for(lambda: row.count() == 0)
-    watcher.page.goto(f"{house.url}/?fixedDpr={COARSE}")
+    watcher.page.goto(f"{pages.url}/?fixedDpr={COARSE}")
     owner.wait_for(lambda: row.count() == 1)
     end("Revoke link", "Revoke")
     expect(toasts(owner)).to_contain_text("Revoked the link of the watcher.")
     expect(watcher.page.locator("body")).to_contain_text("This viewer requires a link.")
-    names = {token.name for token in token_file.read(house.path)}
+    names = {token.name for token in token_file.read(pages.path)}
     assert "the watcher" not in names
     assert "the owner" in names
     owner.page.keyboard.press("Escape")

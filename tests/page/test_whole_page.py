@@ -12,7 +12,6 @@ from playwright.sync_api import expect
 from waiting import until
 
 from tests.page.conftest import DISMISS
-from tests.page.lab import Lab, record, wait_until_drawn
 from tests.page.page_bench import PageBench, PageServer
 from tests.page.still_pages import (
     FINE,
@@ -24,6 +23,7 @@ from tests.page.still_pages import (
     StillClock,
     capture,
 )
+from tests.page.still_viewers import StillViewers, record, wait_until_drawn
 from tests.page.tabs import ViewerTab
 from webviz.commands import (
     Pause,
@@ -87,11 +87,11 @@ def page_server(browser: playwright.Browser, clock: StillClock) -> Iterator[Page
 
 
 @pytest.fixture(scope="module")
-def lab(page_server: PageServer, clock: StillClock) -> Iterator[Lab]:
+def viewers(page_server: PageServer, clock: StillClock) -> Iterator[StillViewers]:
     """Starts the viewers."""
-    lab = Lab(page_server, clock)
-    yield lab
-    lab.close()
+    viewers = StillViewers(page_server, clock)
+    yield viewers
+    viewers.close()
 
 
 @pytest.fixture(scope="module")
@@ -168,9 +168,12 @@ def rows(tab: ViewerTab) -> int:
 
 
 def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
-    lab: Lab, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
+    viewers: StillViewers,
+    page_server: PageServer,
+    desk: ViewerTab,
+    references: ReferenceImages,
 ) -> None:
-    tab, viewer = desk, lab.begin()
+    tab, viewer = desk, viewers.begin()
     tab.wait_for(lambda: rows(tab) == 7)
     settle(tab, page_server)
     dark = references.check("dark", picture(tab), tolerance=TOLERANCE)
@@ -190,9 +193,12 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
 
 
 def test_an_error_is_said_in_the_tree_and_beside_the_properties(
-    lab: Lab, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
+    viewers: StillViewers,
+    page_server: PageServer,
+    desk: ViewerTab,
+    references: ReferenceImages,
 ) -> None:
-    tab, _ = desk, lab.begin(frame="front_laser")
+    tab, _ = desk, viewers.begin(frame="front_laser")
     settle(tab, page_server)
     tab.page.get_by_role("treeitem", name="Front scan").click()
     expect(tab.page.get_by_role("region", name="Properties", exact=True)).to_be_visible()
@@ -201,13 +207,13 @@ def test_an_error_is_said_in_the_tree_and_beside_the_properties(
 
 
 def test_a_bag_is_played(
-    lab: Lab,
+    viewers: StillViewers,
     page_server: PageServer,
     desk: ViewerTab,
     references: ReferenceImages,
     tmp_path: Path,
 ) -> None:
-    tab, viewer = desk, lab.play(record(tmp_path / "run.mcap"))
+    tab, viewer = desk, viewers.play(record(tmp_path / "run.mcap"))
     for command in (Seek(37.25), SelectSpan(10.0, 80.0), SetLoop(True), SetRate(2.0), Pause(False)):
         viewer.do(command)
     tab.wait_for(lambda: tab.button("Topics").count() == 1)
@@ -221,7 +227,7 @@ def test_a_bag_is_played(
 
 
 def test_live_topics_that_are_recorded(
-    lab: Lab,
+    viewers: StillViewers,
     page_server: PageServer,
     desk: ViewerTab,
     references: ReferenceImages,
@@ -231,10 +237,10 @@ def test_live_topics_that_are_recorded(
     monkeypatch.chdir(tmp_path)
     # Where flushes cut the data, and thereby its size, depends on how busy the machine is.
     monkeypatch.setattr("webviz.sources.recording.recorder.FLUSH_S", 3600.0)
-    tab, viewer = desk, lab.begin(memory=MEMORY, recorded_s=42.0)
+    tab, viewer = desk, viewers.begin(memory=MEMORY, recorded_s=42.0)
     settle(tab, page_server)
     recording = viewer.viewer.get(RecordingFeature)
-    tab.wait_for(lambda: recording.state()["recording"].messages == lab.recorded)
+    tab.wait_for(lambda: recording.state()["recording"].messages == viewers.recorded)
     tab.page.get_by_role("treeitem", name="Front scan").click()
     point_at_nothing(tab)
     expect(tab.button("Stop recording")).to_contain_text("0:00:42")
@@ -242,9 +248,12 @@ def test_live_topics_that_are_recorded(
 
 
 def test_live_topics_are_rewound(
-    lab: Lab, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
+    viewers: StillViewers,
+    page_server: PageServer,
+    desk: ViewerTab,
+    references: ReferenceImages,
 ) -> None:
-    tab, viewer = desk, lab.begin(memory=MEMORY)
+    tab, viewer = desk, viewers.begin(memory=MEMORY)
     look_back(viewer, 12.4)
     tab.wait_for(tab.page.locator(".wv-rewound-banner").is_visible)
     settle(tab, page_server)
@@ -258,14 +267,14 @@ def test_live_topics_are_rewound(
 
 
 def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
-    lab: Lab,
+    viewers: StillViewers,
     page_server: PageServer,
     open_viewer_tab: Callable[..., ViewerTab],
     references: ReferenceImages,
 ) -> None:
     options: dict[str, Any] = {"has_touch": True, "is_mobile": True, "color_scheme": "dark"}
     phone = still(open_viewer_tab(*PHONE, **FINE, **options, resolution=1))
-    lab.begin()
+    viewers.begin()
     settle(phone, page_server)
     references.check("phone", picture(phone), tolerance=TOLERANCE)
 
@@ -274,17 +283,20 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
     references.check("phone_with_panels", picture(phone), tolerance=TOLERANCE)
     phone.button("Hide the panels").tap()
 
-    look_back(lab.begin(memory=MEMORY), 12.4)
+    look_back(viewers.begin(memory=MEMORY), 12.4)
     phone.wait_for(phone.page.locator(".wv-rewound-banner").is_visible)
     settle(phone, page_server)
     references.check("phone_rewound", picture(phone), tolerance=TOLERANCE)
 
 
 def test_a_lost_connection_greys_the_page_and_says_so(
-    lab: Lab, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
+    viewers: StillViewers,
+    page_server: PageServer,
+    desk: ViewerTab,
+    references: ReferenceImages,
 ) -> None:
     """The last test of this module, since the server is gone then."""
-    lab.begin()
+    viewers.begin()
     desk.wait_for(lambda: rows(desk) == 7)
     settle(desk, page_server)
     page_server.server.stop()

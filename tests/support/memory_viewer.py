@@ -23,7 +23,7 @@ PATH = "nav_msgs/msg/Path"
 CONFIG = {"fixed_frame": "map", "displays": [{"type": "Path", "topic": "/plan"}]}
 
 
-class Memory:
+class MemoryViewer:
     """A viewer whose live topic goes on, and those who join it.
 
     Args:

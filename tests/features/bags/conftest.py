@@ -22,7 +22,7 @@ TF = "tf2_msgs/msg/TFMessage"
 
 
 @dataclass
-class Desk:
+class LibraryViewer:
     """A viewer and what lies beside it.
 
     Args:
@@ -60,7 +60,7 @@ class Desk:
 
 
 @pytest.fixture
-def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
+def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LibraryViewer]:
     (work := tmp_path / "work").mkdir()
     (library := tmp_path / "library").mkdir()
     (outside := tmp_path / "outside").mkdir()
@@ -81,4 +81,4 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
             return memory is not None and memory.size > 0
 
         until(remembered)
-        yield Desk(viewer, library, outside, guest)
+        yield LibraryViewer(viewer, library, outside, guest)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from bags import strings
 
-from tests.features.bags.conftest import Desk
+from tests.features.bags.conftest import LibraryViewer
 from tests.support.guest import Guest, Served
 from webviz.api.errors import Error
 from webviz.api.roles import Role
@@ -109,10 +109,10 @@ def test_only_owners_upload() -> None:
         ]
 
 
-def test_a_page_uploads_a_bag_and_opens_it(desk: Desk, tmp_path: Path) -> None:
+def test_a_page_uploads_a_bag_and_opens_it(library: LibraryViewer, tmp_path: Path) -> None:
     path = strings(0.0, 1.0).write_file(tmp_path / "dropped.mcap")
     data = path.read_bytes()
-    guest = Guest(Served(desk.viewer.port))
+    guest = Guest(Served(library.viewer.port))
     guest.send(
         "CommandRequest",
         number=1,
@@ -125,5 +125,5 @@ def test_a_page_uploads_a_bag_and_opens_it(desk: Desk, tmp_path: Path) -> None:
     there = guest.receive("CommandResult")["result"]["path"]
     assert guest.do("OpenRecording", path=f"{Path(there).parent}/other.mcap") != ""
     assert guest.do("OpenRecording", path=there) == ""
-    assert desk.names() == ("dropped.mcap",)
+    assert library.names() == ("dropped.mcap",)
     guest.close()

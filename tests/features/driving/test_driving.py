@@ -31,7 +31,7 @@ AHEAD = Velocity(linear=1.0)
 PATIENCE_S = 60.0
 
 
-class Hand:
+class HeldControl:
     """Holds something on a page, with heartbeats from a thread of its own."""
 
     def __init__(self, b: Bench, browser: int, share: Velocity = AHEAD) -> None:
@@ -51,10 +51,10 @@ class Hand:
         self._thread.join()
 
 
-Hands = Callable[..., Hand]
+Hands = Callable[..., HeldControl]
 
 
-class Lone:
+class LoneControllers:
     """The velocity controllers of one vehicle, without a viewer."""
 
     def __init__(self) -> None:
@@ -100,8 +100,8 @@ class Lone:
 
 
 @pytest.fixture
-def lone() -> Iterator[Lone]:
-    lone = Lone()
+def lone() -> Iterator[LoneControllers]:
+    lone = LoneControllers()
     yield lone
     lone.controllers.close()
 
@@ -113,7 +113,9 @@ def b(bench: Benches) -> Bench:
 
 @pytest.fixture
 def hold(b: Bench) -> Iterator[Hands]:
-    with several(lambda browser=1, share=AHEAD: Hand(b, browser, share), Hand.vanish) as hold:
+    with several(
+        lambda browser=1, share=AHEAD: HeldControl(b, browser, share), HeldControl.vanish
+    ) as hold:
         yield hold
 
 
@@ -269,7 +271,7 @@ def test_closing_a_viewer_waits_until_its_last_commands_are_published(
 
 
 @pytest.mark.parametrize("way", [AHEAD, Velocity(linear=-1.0)], ids=["ahead", "back"])
-def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> None:
+def test_only_zeros_pass_a_list_that_was_narrowed(lone: LoneControllers, way: Velocity) -> None:
     lone.steer(way)
     until(lambda: lone.speeds)
     lone.allowed.clear()
@@ -280,7 +282,9 @@ def test_only_zeros_pass_a_list_that_was_narrowed(lone: Lone, way: Velocity) -> 
     assert lone.speeds[-TAIL:] == [0.0] * TAIL
 
 
-def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Lone) -> None:
+def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(
+    lone: LoneControllers,
+) -> None:
     lone.steer(AHEAD)
     until(lambda: lone.speeds)
     stamped = Advertisement("/cmd_vel", f"{TWIST}Stamped")
@@ -294,7 +298,9 @@ def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Lone) -> N
 @pytest.mark.parametrize(
     ("change", "seconds"), [(0.1, 0.02), (0.0, 0.05)], ids=["changing", "steady"]
 )
-def test_commands_keep_a_distance_in_time(lone: Lone, change: float, seconds: float) -> None:
+def test_commands_keep_a_distance_in_time(
+    lone: LoneControllers, change: float, seconds: float
+) -> None:
     start = time.monotonic()
     for number in itertools.count():
         lone.steer(Velocity(linear=0.5 + change * (number % 2)))
@@ -304,7 +310,7 @@ def test_commands_keep_a_distance_in_time(lone: Lone, change: float, seconds: fl
 
 
 def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
-    lone: Lone, monkeypatch: pytest.MonkeyPatch
+    lone: LoneControllers, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.PERIOD_S", 3600.0)
     lone.steer(AHEAD)
@@ -313,7 +319,9 @@ def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
     until(lambda: lone.speeds[-TAIL:] == [0.0] * TAIL)
 
 
-def test_closing_waits_until_the_last_commands_are_published(lone: Lone) -> None:
+def test_closing_waits_until_the_last_commands_are_published(
+    lone: LoneControllers,
+) -> None:
     publications: list[Future[int]] = []
 
     def publish_later(advertisement: Advertisement, cdr: bytes) -> Future[int]:
@@ -335,7 +343,7 @@ def test_closing_waits_until_the_last_commands_are_published(lone: Lone) -> None
 
 
 def test_a_command_that_fails_is_reported_until_one_succeeds(
-    lone: Lone, caplog: pytest.LogCaptureFixture
+    lone: LoneControllers, caplog: pytest.LogCaptureFixture
 ) -> None:
     def problem() -> str:
         return lone.steer(AHEAD).problem
@@ -353,7 +361,9 @@ def test_a_command_that_fails_is_reported_until_one_succeeds(
     assert lone.controllers.steer("tool", 2, STILL, None).problem == ""
 
 
-def test_a_robot_speeds_up_from_standstill_after_a_broken_link(lone: Lone) -> None:
+def test_a_robot_speeds_up_from_standstill_after_a_broken_link(
+    lone: LoneControllers,
+) -> None:
     def hold_until(condition: Callable[[], object]) -> None:
         until(lambda: lone.steer(AHEAD) and condition())
 

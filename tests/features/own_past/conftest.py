@@ -7,18 +7,18 @@ from collections.abc import Callable, Iterator
 import pytest
 from several import several
 
-from tests.support.memory_viewer import Memory
+from tests.support.memory_viewer import MemoryViewer
 
 
 @pytest.fixture
 def make(
     tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[..., Memory]]:
+) -> Iterator[Callable[..., MemoryViewer]]:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("config")))
-    with several(Memory) as make:
+    with several(MemoryViewer) as make:
         yield make
 
 
 @pytest.fixture
-def memory(make: Callable[..., Memory]) -> Memory:
+def memory(make: Callable[..., MemoryViewer]) -> MemoryViewer:
     return make()

@@ -14,7 +14,7 @@ import websockets.exceptions
 from waiting import until
 
 from tests.support.guest import Guest
-from tests.support.memory_viewer import PATH, Memory
+from tests.support.memory_viewer import PATH, MemoryViewer
 from webviz.api.declared import Topic
 from webviz.api.roles import Role
 from webviz.commands import Seek
@@ -38,7 +38,7 @@ def threads() -> int:
     return sum(thread.name == "webviz-own-past" for thread in threading.enumerate())
 
 
-def test_a_page_looks_back_while_all_others_stay_live(memory: Memory) -> None:
+def test_a_page_looks_back_while_all_others_stay_live(memory: MemoryViewer) -> None:
     page, other = memory.enter(), memory.enter()
     own = memory.enter(below=memory.look_back(page))
     until(lambda: "position" in playback(own))
@@ -53,7 +53,7 @@ def test_a_page_looks_back_while_all_others_stay_live(memory: Memory) -> None:
     assert memory.viewer.fact("playback").is_live is True
 
 
-def test_the_messages_are_those_of_the_memory(memory: Memory) -> None:
+def test_the_messages_are_those_of_the_memory(memory: MemoryViewer) -> None:
     """No copies: four pages cost no four memories."""
     from webviz.sources.recording.moment import MomentHistory
 
@@ -65,7 +65,7 @@ def test_the_messages_are_those_of_the_memory(memory: Memory) -> None:
     assert sum(moment.histogram(10)["/plan"]) == len(messages) > 0
 
 
-def test_nothing_is_sent_saved_or_opened_from_there(make: Callable[..., Memory]) -> None:
+def test_nothing_is_sent_saved_or_opened_from_there(make: Callable[..., MemoryViewer]) -> None:
     memory = make(token=True)
     own = memory.enter(below=memory.look_back(memory.enter(Role.OWNER)))
     for command, arguments in {
@@ -82,7 +82,7 @@ def test_nothing_is_sent_saved_or_opened_from_there(make: Callable[..., Memory])
     assert answer == REWOUND
 
 
-def test_only_its_own_browser_comes_to_it(make: Callable[..., Memory]) -> None:
+def test_only_its_own_browser_comes_to_it(make: Callable[..., MemoryViewer]) -> None:
     memory = make(token=True)
     path = memory.look_back(memory.enter(Role.OPERATOR))
     assert memory.status(path, Role.OPERATOR) == 200
@@ -94,7 +94,7 @@ def test_only_its_own_browser_comes_to_it(make: Callable[..., Memory]) -> None:
 
 
 @pytest.mark.parametrize("path", ["/past/", "/past/1/", "/past/1", "/past//", "/past/%2e%2e/"])
-def test_names_are_not_guessed(memory: Memory, path: str) -> None:
+def test_names_are_not_guessed(memory: MemoryViewer, path: str) -> None:
     memory.look_back(memory.enter())
     assert memory.status(path) == 404
     assert b"Back to live" in memory.body
@@ -103,7 +103,7 @@ def test_names_are_not_guessed(memory: Memory, path: str) -> None:
 @pytest.mark.parametrize(
     "below", ["../", "../../", "..%2f..%2fetc/passwd", "etc/passwd", "x/../", "shared", "past/1/"]
 )
-def test_below_it_there_is_the_page_only(memory: Memory, below: str) -> None:
+def test_below_it_there_is_the_page_only(memory: MemoryViewer, below: str) -> None:
     path = memory.look_back(memory.enter())
     assert memory.status(path + below) == 404
     assert memory.status(path) == 200
@@ -112,7 +112,7 @@ def test_below_it_there_is_the_page_only(memory: Memory, below: str) -> None:
     assert memory.body == b""
 
 
-def test_there_are_four_and_the_fifth_reads_why_it_cannot(memory: Memory) -> None:
+def test_there_are_four_and_the_fifth_reads_why_it_cannot(memory: MemoryViewer) -> None:
     pages = [memory.enter() for _ in range(MAX_PASTS + 1)]
     paths = [memory.look_back(page) for page in pages]
     assert paths[MAX_PASTS] == TOO_MANY
@@ -120,7 +120,9 @@ def test_there_are_four_and_the_fifth_reads_why_it_cannot(memory: Memory) -> Non
     assert [memory.status(path) for path in paths[:MAX_PASTS]] == [200] * MAX_PASTS
 
 
-def test_it_ends_when_its_page_has_gone(memory: Memory, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_ends_when_its_page_has_gone(
+    memory: MemoryViewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(own_past, "ABSENT_S", 1.0)
     path = memory.look_back(memory.enter())
     own = memory.enter(below=path)
@@ -133,14 +135,16 @@ def test_it_ends_when_its_page_has_gone(memory: Memory, monkeypatch: pytest.Monk
     assert "/past/" in memory.look_back(memory.enter())
 
 
-def test_it_ends_if_its_page_never_comes(memory: Memory, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_ends_if_its_page_never_comes(
+    memory: MemoryViewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(own_past, "ABSENT_S", 1.0)
     paths = [memory.look_back(memory.enter()) for _ in range(MAX_PASTS)]
     until(lambda: threads() == 0)
     assert [memory.status(path) for path in paths] == [404] * MAX_PASTS
 
 
-def test_it_ends_with_the_viewer(make: Callable[..., Memory]) -> None:
+def test_it_ends_with_the_viewer(make: Callable[..., MemoryViewer]) -> None:
     memory = make()
     own = memory.enter(below=memory.look_back(memory.enter()))
     until(lambda: playback(own))
@@ -148,7 +152,7 @@ def test_it_ends_with_the_viewer(make: Callable[..., Memory]) -> None:
     until(lambda: threads() == 0)
 
 
-def test_a_revoked_link_ends_it(make: Callable[..., Memory]) -> None:
+def test_a_revoked_link_ends_it(make: Callable[..., MemoryViewer]) -> None:
     memory = make(token=True)
     path = memory.look_back(memory.enter(Role.OPERATOR))
     own = memory.enter(Role.OPERATOR, below=path)
@@ -159,7 +163,7 @@ def test_a_revoked_link_ends_it(make: Callable[..., Memory]) -> None:
     assert memory.status(path, Role.OPERATOR) == 403
 
 
-def test_many_at_once_get_four(memory: Memory) -> None:
+def test_many_at_once_get_four(memory: MemoryViewer) -> None:
     pages = [memory.enter() for _ in range(10)]
     answers: list[str] = []
     asking = [
@@ -175,7 +179,9 @@ def test_many_at_once_get_four(memory: Memory) -> None:
     assert memory.viewer.fact("playback").is_live is True
 
 
-def test_a_failure_to_open_is_reported(memory: Memory, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failure_to_open_is_reported(
+    memory: MemoryViewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def fails(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
@@ -186,13 +192,15 @@ def test_a_failure_to_open_is_reported(memory: Memory, monkeypatch: pytest.Monke
     assert "/past/" in memory.look_back(memory.enter())
 
 
-def test_without_a_memory_there_is_nothing_to_look_back_on(make: Callable[..., Memory]) -> None:
+def test_without_a_memory_there_is_nothing_to_look_back_on(
+    make: Callable[..., MemoryViewer],
+) -> None:
     memory = make()
     memory.viewer.config = {"memory": {"seconds": 0}, "displays": []}
     assert "not remembered" in memory.look_back(memory.enter())
 
 
-def test_the_browser_that_looks_back_for_everybody_is_named(memory: Memory) -> None:
+def test_the_browser_that_looks_back_for_everybody_is_named(memory: MemoryViewer) -> None:
     leader, other = memory.enter(), memory.enter()
     leader.do("Seek", at_s=1.0)
     until(lambda: playback(other).get("leader") == leader.page["browser"])
@@ -200,7 +208,7 @@ def test_the_browser_that_looks_back_for_everybody_is_named(memory: Memory) -> N
     until(lambda: playback(other).get("leader") is None)
 
 
-def test_it_listens_on_no_port(memory: Memory) -> None:
+def test_it_listens_on_no_port(memory: MemoryViewer) -> None:
     process = psutil.Process()
     before = {each.laddr for each in process.net_connections("inet") if each.status == "LISTEN"}
     memory.look_back(memory.enter())

@@ -8,7 +8,7 @@ import playwright.sync_api as playwright
 import pytest
 from playwright.sync_api import expect
 
-from tests.support.memory_viewer import Memory
+from tests.support.memory_viewer import MemoryViewer
 from webviz.shell.pictures.browser import Page
 
 SHOW = "async (view) => (await import('webviz/act.js')).act('ShowView', { view })"
@@ -17,7 +17,7 @@ VIEW = {"type": "Orbit", "distance": 7.0, "yaw": -2.0, "pitch": 0.4}
 
 
 @pytest.fixture
-def enter(memory: Memory, browser: playwright.Browser) -> Iterator[Callable[[], Page]]:
+def enter(memory: MemoryViewer, browser: playwright.Browser) -> Iterator[Callable[[], Page]]:
     pages: list[Page] = []
 
     def enter() -> Page:
@@ -31,17 +31,17 @@ def enter(memory: Memory, browser: playwright.Browser) -> Iterator[Callable[[], 
         assert page.errors == []
 
 
-def distance(memory: Memory, page: Page) -> float | None:
+def distance(memory: MemoryViewer, page: Page) -> float | None:
     view = memory.viewer.fact("views").get(page.evaluate("() => window.webviz.browser"))
     return getattr(view, "distance", None)
 
 
-def is_live(memory: Memory) -> bool:
+def is_live(memory: MemoryViewer) -> bool:
     return memory.viewer.fact("playback").is_live is True
 
 
 def test_the_only_page_looks_back_without_a_question(
-    memory: Memory, enter: Callable[[], Page]
+    memory: MemoryViewer, enter: Callable[[], Page]
 ) -> None:
     page = enter()
     page.tab.keyboard.press("Shift+ArrowLeft")
@@ -54,7 +54,7 @@ def test_the_only_page_looks_back_without_a_question(
 
 
 def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
-    memory: Memory, enter: Callable[[], Page], caplog: pytest.LogCaptureFixture
+    memory: MemoryViewer, enter: Callable[[], Page], caplog: pytest.LogCaptureFixture
 ) -> None:
     page, other = enter(), enter()
     page.evaluate(SHOW, VIEW)
@@ -77,7 +77,7 @@ def test_for_me_the_others_stay_live_and_the_page_comes_back_as_it_was(
 
 
 def test_other_pages_see_who_looks_back_for_everybody_and_return_to_live(
-    memory: Memory, enter: Callable[[], Page]
+    memory: MemoryViewer, enter: Callable[[], Page]
 ) -> None:
     page, other = enter(), enter()
     page.tab.keyboard.press("Shift+ArrowLeft")
@@ -95,7 +95,7 @@ def test_other_pages_see_who_looks_back_for_everybody_and_return_to_live(
 
 
 def test_a_question_that_is_cancelled_changes_nothing(
-    memory: Memory, enter: Callable[[], Page]
+    memory: MemoryViewer, enter: Callable[[], Page]
 ) -> None:
     page, _ = enter(), enter()
     page.tab.keyboard.press("Shift+ArrowLeft")

@@ -117,7 +117,7 @@ def wait_until_drawn(viewer: PageBench) -> None:
     until(are_drawn, turn=viewer.turn)
 
 
-class Lab:
+class StillViewers:
     """Starts viewers on a server, one after another.
 
     Args:

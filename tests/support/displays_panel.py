@@ -15,7 +15,7 @@ SELECTED_S = 5.0
 """Time in seconds in which a page shows what a click selected."""
 
 
-class Side:
+class DisplaysPanel:
     """The panel Displays of a page."""
 
     def __init__(self, page: Page) -> None:
