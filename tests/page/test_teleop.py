@@ -64,6 +64,7 @@ def open_card(tab: ViewerTab, lateral: float = 0.0) -> None:
         angular_deceleration=500.0,
     )
     tab.viewer.show(tools=[tool])
+    tab.catch_up()  # the viewer before had a tool of this name, too
     tab.wait_for(lambda: tab.page.locator(".wv-tool[aria-label=Teleop]").count() == 1)
     tab.page.locator(".wv-tool[aria-label=Teleop]").click()
     tab.wait_for(lambda: shows_speed(tab))

@@ -43,6 +43,7 @@ class Store {
   /** @type {Map<string, Part>} */
   #parts = new Map();
   #all = new Part(this);
+  #presence = new Part(this);
   #holders = 0;
   #isWatched = false;
   #isThere = false;
@@ -74,7 +75,7 @@ class Store {
 
   /** True once the values have come. */
   isThere() {
-    this.#all.track();
+    this.#presence.track();
     return this.#isThere;
   }
 
@@ -137,6 +138,7 @@ class Store {
    * @param {boolean} isNew
    */
   #tell(changed, isNew) {
+    if (isNew) this.#presence.touch();
     if (changed.size || isNew) this.#all.touch();
     for (const key of changed) {
       const part = this.#parts.get(key);

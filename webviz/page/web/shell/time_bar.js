@@ -6,7 +6,7 @@ import { rosNow, wallNow } from "webviz/clock.js";
 import { el } from "webviz/dom.js";
 import { icon, iconButton } from "webviz/icons.js";
 import { recall, remember } from "webviz/remember.js";
-import { effect, signal } from "webviz/signals.js";
+import { effect, signal, untracked } from "webviz/signals.js";
 import { store } from "webviz/stores.js";
 import { every } from "webviz/timing.js";
 import { command, provide } from "webviz/commands.js";
@@ -45,6 +45,19 @@ export const timeBarTimeline = (make) => timelines.push(make);
 const NO_TIMELINE = { isThere: () => false, isPast: () => false, names: () => null };
 
 const clock = store("clock");
+const ticks = signal(0);
+
+/**
+ * Reads a value once per tick, however often it changes: the rate of a clock does with each frame.
+ *
+ * @template T
+ * @param {() => T} read
+ * @returns {T}
+ */
+function perTick(read) {
+  void ticks.value;
+  return untracked(read);
+}
 
 /**
  * Fills the footer.
@@ -128,7 +141,8 @@ const badge = (recording) =>
     () => {
       if (!clock.isThere()) return "";
       if (recording.isThere()) return recording.isPast() ? "past" : "bag";
-      return badgeOf(clock.get("is_simulated") ?? false, clock.get("hz") ?? 0);
+      const hz = perTick(() => clock.get("hz")) ?? 0;
+      return badgeOf(clock.get("is_simulated") ?? false, hz);
     },
   );
 
@@ -139,14 +153,13 @@ const badge = (recording) =>
  */
 function timesNow(recording) {
   const inSeconds = signal(recall("time-in-seconds", false));
-  const ticks = signal(0);
   every(TICK_MS, () => document.hidden || (ticks.value += 1));
   /**
    * A text that goes on with time, "" until the clock is known.
    *
    * @param {(values: ValuesOf<"clock">) => string} read
    */
-  const ticking = (read) => () => (clock.isThere() && ticks.value >= 0 ? read(clock.all()) : "");
+  const ticking = (read) => () => (clock.isThere() ? read(perTick(() => clock.all())) : "");
   // Of a viewer without simulated time both are the same; while paused nothing may tick.
   const hasWall = () =>
     clock.get("is_simulated") && !clock.get("is_paused") && !recording.isThere();
