@@ -240,3 +240,22 @@ def test_refusals_are_kept_of_the_frames_refused_last(
         "a": 2,
         "c": 1,
     }
+
+
+def test_a_stamp_is_seen_when_it_first_comes_and_a_static_pose_when_it_changes(
+    buffer: TransformBuffer,
+) -> None:
+    def seen_ns(child: str, stamp_ns: int, x: float, received_ns: int) -> int:
+        is_static = child == "laser"
+        buffer.set_transform(
+            "base", child, stamp_ns, (x, 0.0, 0.0), UNIT, is_static, "", received_ns
+        )
+        return buffer.tree.caches[child].seen_ns
+
+    assert seen_ns("wheel", S, 1.0, 2 * S) == 2 * S
+    assert seen_ns("wheel", S, 1.0, 3 * S) == 2 * S, "repeated"
+    assert seen_ns("wheel", 2 * S, 1.0, 4 * S) == 4 * S
+    assert seen_ns("wheel", S, 1.0, 5 * S) == 4 * S, "older than the newest"
+    assert seen_ns("laser", S, 1.0, 2 * S) == 2 * S
+    assert seen_ns("laser", 2 * S, 1.0, 3 * S) == 2 * S
+    assert seen_ns("laser", 3 * S, 2.0, 4 * S) == 4 * S

@@ -81,4 +81,5 @@ def test_a_recording_ends_before_its_files_are_too_large(tmp_path: Path) -> None
         writer.put("/a", raw(second, size=1000))
     writer.close()
     assert writer.is_full
+    assert 0 < writer.bytes_written <= 10_000
     assert 6 <= writer.messages <= 9, "what each takes besides its bytes counts, too"
