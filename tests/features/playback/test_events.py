@@ -50,9 +50,10 @@ def test_a_worker_reads_warnings_of_rosout(
 
 
 def test_over_the_limit_the_most_severe_events_and_a_sample_of_the_others_are_kept(
-    tmp_path: Path,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    count = 100_000
+    monkeypatch.setattr("webviz.sources.bag.log.PATIENCE_S", 600.0)  # of a busy machine
+    count = 20 * MAX_EVENTS
     warning = encode(LOG, {"level": WARN, "name": "driver", "msg": "slow"})
     bag = logged((0.5, ERROR, "first"), (9.5, FATAL, "last"))
     bag.messages += [(1 + 8 * i / count, "/rosout", warning) for i in range(count)]
