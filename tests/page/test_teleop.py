@@ -188,6 +188,7 @@ def test_a_gamepad_drives_once_its_stick_has_been_in_its_middle(
     page.evaluate(PAD, [0, -1, 0])
     wait_for_heartbeats(3)
     page.keyboard.press("Escape")
+    driver.catch_up()  # the last heartbeats have come
     page.keyboard.press("t")  # it is held aside when the tool is chosen
     wait_for_heartbeats(2)
     assert {(drive.linear, drive.lateral, drive.angular) for drive in heartbeats} == {STILL}

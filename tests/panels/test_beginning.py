@@ -11,7 +11,7 @@ import pytest
 from waiting import until
 
 from tests.support.guest import Guest
-from tests.support.memory_viewer import Memory
+from tests.support.memory_viewer import MemoryViewer
 from webviz.commands import AddPanel, Pause, RemovePanel, ReturnToLive, Seek, SetPanelProperty
 from webviz.engine.parts import panels
 from webviz.panels.plot import Plot
@@ -20,14 +20,14 @@ X, Y = "/plan.poses[1].pose.position.x", "/plan.poses[1].pose.position.y"
 
 
 @pytest.fixture(scope="module")
-def memory() -> Iterator[Memory]:
-    memory = Memory()
+def memory() -> Iterator[MemoryViewer]:
+    memory = MemoryViewer()
     yield memory
     memory.close()
 
 
 @pytest.fixture(autouse=True)
-def live(memory: Memory) -> Iterator[Guest]:
+def live(memory: MemoryViewer) -> Iterator[Guest]:
     """A page, without panels before and after."""
     page = memory.enter()
     until(lambda: memory.memory.recent.size()[0] > 4.0)
@@ -39,11 +39,11 @@ def live(memory: Memory) -> Iterator[Guest]:
     memory.viewer.do(ReturnToLive())
 
 
-def panel(memory: Memory) -> Any:
+def panel(memory: MemoryViewer) -> Any:
     return memory.viewer.fact("panels")[-1].panel
 
 
-def add(memory: Memory, page: Guest, kind: str, **values: Any) -> Any:
+def add(memory: MemoryViewer, page: Guest, kind: str, **values: Any) -> Any:
     memory.viewer.do(AddPanel(kind, values))
     page.send("Watch", store=f"panel:{kind}")
     return panel(memory)
@@ -55,12 +55,14 @@ def span_s(plot: Any, name: str) -> float:
     return times[-1] - times[0] if times else 0.0
 
 
-def test_a_plot_of_a_live_topic_begins_with_the_memory(memory: Memory, live: Guest) -> None:
+def test_a_plot_of_a_live_topic_begins_with_the_memory(memory: MemoryViewer, live: Guest) -> None:
     plot = add(memory, live, "Plot", curves=[X])
     until(lambda: span_s(plot, X) > 3.0, seconds=2.0)
 
 
-def test_a_curve_of_a_topic_that_is_plotted_begins_with_it_too(memory: Memory, live: Guest) -> None:
+def test_a_curve_of_a_topic_that_is_plotted_begins_with_it_too(
+    memory: MemoryViewer, live: Guest
+) -> None:
     plot = add(memory, live, "Plot", curves=[X])
     until(lambda: span_s(plot, X) > 3.0)
     before = span_s(plot, X)
@@ -72,7 +74,7 @@ def test_a_curve_of_a_topic_that_is_plotted_begins_with_it_too(memory: Memory, l
 
 
 def test_a_plot_added_while_rewound_is_filled_with_earlier_messages(
-    memory: Memory, live: Guest
+    memory: MemoryViewer, live: Guest
 ) -> None:
     playback = memory.viewer.fact("playback")
     at_s = (playback.end_ns - playback.start_ns) / 1e9 - 0.5
@@ -84,7 +86,9 @@ def test_a_plot_added_while_rewound_is_filled_with_earlier_messages(
     assert newest_s <= playback.start_ns / 1e9 + at_s + 0.01
 
 
-def test_a_plot_that_comes_back_to_the_front_fills_its_gap(memory: Memory, live: Guest) -> None:
+def test_a_plot_that_comes_back_to_the_front_fills_its_gap(
+    memory: MemoryViewer, live: Guest
+) -> None:
     plot = add(memory, live, "Plot", curves=[X])
     until(lambda: span_s(plot, X) > 3.0)
     live.send("Unwatch", store="panel:Plot")
@@ -100,12 +104,12 @@ def test_a_plot_that_comes_back_to_the_front_fills_its_gap(memory: Memory, live:
     until(lambda: steps_s() and max(steps_s()) < 0.8, lambda: f"{steps_s()}", seconds=5.0)
 
 
-def test_states_begin_with_the_memory(memory: Memory, live: Guest) -> None:
+def test_states_begin_with_the_memory(memory: MemoryViewer, live: Guest) -> None:
     states = add(memory, live, "StateTimeline", paths=[X])
     until(lambda: states.tracks.get(X) and len(states.tracks[X].changes) > 40, seconds=2.0)
 
 
-def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> None:
+def test_a_table_begins_with_the_newest_message(memory: MemoryViewer, live: Guest) -> None:
     memory.pause()
     table = add(memory, live, "MessageTable", path="/plan.poses")
     try:
@@ -115,7 +119,7 @@ def test_a_table_begins_with_the_newest_message(memory: Memory, live: Guest) -> 
 
 
 def test_the_messages_that_fill_a_new_panel_are_bounded(
-    memory: Memory, live: Guest, monkeypatch: pytest.MonkeyPatch
+    memory: MemoryViewer, live: Guest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(panels, "MAX_MESSAGES", 7)
     begins = memory.viewer.fact("panels")
