@@ -125,7 +125,7 @@ class DisplayHandle:
         """
         name = self._row().name
         answer: Future[Trace] = Future()
-        # Who waits for a future may go on before its callbacks are called.
+        # A thread that waits for a future may go on before its callbacks are called.
         sent: Future[float] = Future()
         answer.add_done_callback(lambda _: sent.set_result(time.monotonic()))
         self._viewer.do(TraceDisplay(self.id, answer))
