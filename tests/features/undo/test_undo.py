@@ -262,6 +262,13 @@ def test_the_display_that_was_moved_is_named(before: str, after: str, name: str)
     assert difference(old, new).label == f"Move {name}"
 
 
+def test_at_least_one_step_is_undone(b: Bench) -> None:
+    before = dump(b.viewer.config())
+    b.do(SetFixedFrame("odom"))
+    b.do(Undo(steps=0))
+    assert dump(b.viewer.config()) == before
+
+
 def test_undoing_a_change_of_a_removed_display_changes_nothing_else(b: Bench) -> None:
     at = ids(b)
     b.do(SetProperty(at["Axes"], "length", 3.0), MINE)
