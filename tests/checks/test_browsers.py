@@ -20,7 +20,6 @@ from webviz.checks.browser import no_webgl, throttled_tab, viewer_behind
 from webviz.commands import AddDisplay, InspectLatency, RemoveDisplay, SetProperty, ShowView
 from webviz.data.messages import encode
 from webviz.engine import examiner
-from webviz.features import doctor
 from webviz.features.latency.stages import BrowserLatency
 from webviz.files.config import Config
 from webviz.files.opening import parse
@@ -120,7 +119,7 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
     plugin.write_text(SLOW)
     source = HandFedSource()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(doctor, "EVERY_S", 0.1)
+        patch.setattr("webviz.features.doctor.EVERY_S", 0.1)
         patch.setattr(examiner, "SLICE_S", 1.0)
         running = Running(port=0, source=source, read=read, plugins=[plugin])
         yield running, source
@@ -129,119 +128,113 @@ def viewer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Running, 
 
 
 @pytest.fixture(scope="module")
-def page_doctor(
+def doctor(
     viewer: tuple[Running, HandFedSource], browser: playwright.Browser
 ) -> Iterator[PageDoctor]:
-    page_doctor = PageDoctor(*viewer, browser)
-    page_doctor.transform("base", 0.0)
-    yield page_doctor
-    page_doctor.page.close()
+    doctor = PageDoctor(*viewer, browser)
+    doctor.transform("base", 0.0)
+    yield doctor
+    doctor.page.close()
 
 
-def test_displays_outside_the_view(page_doctor: PageDoctor) -> None:
+def test_displays_outside_the_view(doctor: PageDoctor) -> None:
     away = Orbit(focal_point=(0.0, 5000.0, 0.0), distance=10.0)
-    page_doctor.look(away)
-    finding = page_doctor.wait("VIEW004")
+    doctor.look(away)
+    finding = doctor.wait("VIEW004")
     assert finding is not None
     assert finding.severity is Severity.WARNING
     assert finding.cause == "The camera looks at nothing: all displays are outside the view."
-    page_doctor.look(Orbit())
-    page_doctor.wait("VIEW004", False)
-    axes = next(row.id for row in page_doctor.viewer.state.rows if row.name == "Origin")
-    page_doctor.viewer.do(SetProperty(axes, "length", 0.001))
-    page_doctor.viewer.do(SetProperty(axes, "radius", 0.0001))
-    finding = page_doctor.wait("VIEW003")
+    doctor.look(Orbit())
+    doctor.wait("VIEW004", False)
+    axes = next(row.id for row in doctor.viewer.state.rows if row.name == "Origin")
+    doctor.viewer.do(SetProperty(axes, "length", 0.001))
+    doctor.viewer.do(SetProperty(axes, "radius", 0.0001))
+    finding = doctor.wait("VIEW003")
     assert finding is not None
     assert "less than a pixel" in finding.cause
-    page_doctor.viewer.do(SetProperty(axes, "length", 1.0))
-    page_doctor.wait("VIEW003", False)
-    page_doctor.transform("far", 3e5)
-    page_doctor.viewer.do(SetProperty(axes, "length", 9e3))
-    page_doctor.viewer.do(SetProperty(axes, "reference_frame", "far"))
-    page_doctor.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
-    finding = page_doctor.wait("VIEW005")
+    doctor.viewer.do(SetProperty(axes, "length", 1.0))
+    doctor.wait("VIEW003", False)
+    doctor.transform("far", 3e5)
+    doctor.viewer.do(SetProperty(axes, "length", 9e3))
+    doctor.viewer.do(SetProperty(axes, "reference_frame", "far"))
+    doctor.look(Orbit(focal_point=(5.0, 0.0, 0.0), yaw=np.pi, pitch=0.0))
+    finding = doctor.wait("VIEW005")
     assert finding is not None
     assert "km away" in finding.cause
-    page_doctor.viewer.do(SetProperty(axes, "reference_frame", "map"))
-    page_doctor.viewer.do(SetProperty(axes, "length", 1.0))
-    page_doctor.wait("VIEW005", False)
-    page_doctor.look(Orbit())
+    doctor.viewer.do(SetProperty(axes, "reference_frame", "map"))
+    doctor.viewer.do(SetProperty(axes, "length", 1.0))
+    doctor.wait("VIEW005", False)
+    doctor.look(Orbit())
 
 
-def test_a_map_below_an_opaque_one(page_doctor: PageDoctor) -> None:
-    page_doctor.add("Map", topic={"name": "/costmap"}, alpha=0.7)
-    upper = page_doctor.add("Map", topic={"name": "/map"}, alpha=1.0)
-    page_doctor.page.wait_for(lambda: "/map" in page_doctor.source.subscriptions)
-    page_doctor.put("/costmap", GRID, "map", building.grid())
-    page_doctor.put("/map", GRID, "map", building.grid())
-    finding = page_doctor.wait("VIEW006")
+def test_a_map_below_an_opaque_one(doctor: PageDoctor) -> None:
+    doctor.add("Map", topic={"name": "/costmap"}, alpha=0.7)
+    upper = doctor.add("Map", topic={"name": "/map"}, alpha=1.0)
+    doctor.page.wait_for(lambda: "/map" in doctor.source.subscriptions)
+    doctor.put("/costmap", GRID, "map", building.grid())
+    doctor.put("/map", GRID, "map", building.grid())
+    finding = doctor.wait("VIEW006")
     assert finding is not None
     assert finding.button is not None
-    page_doctor.viewer.do(SetProperty(upper, "alpha", 0.7))
-    page_doctor.wait("VIEW006", False)
+    doctor.viewer.do(SetProperty(upper, "alpha", 0.7))
+    doctor.wait("VIEW006", False)
 
 
-def test_a_browser_without_a_graphics_card(page_doctor: PageDoctor) -> None:
-    finding = page_doctor.wait("WEB002")
+def test_a_browser_without_a_graphics_card(doctor: PageDoctor) -> None:
+    finding = doctor.wait("WEB002")
     assert finding is not None
     assert "SwiftShader" in str(finding.evidence["renderer"])
     assert finding.severity is Severity.NOTE, "all is drawn, only slowly"
 
 
-def test_a_page_that_hangs(page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "WEB003" not in page_doctor.findings()
+def test_a_page_that_hangs(doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "WEB003" not in doctor.findings()
     monkeypatch.setattr(throttled_tab, "FROZEN_S", 6.5)
     dialogs: list[playwright.Dialog] = []
 
     def hear(dialog: playwright.Dialog) -> None:
         dialogs.append(dialog)
 
-    page_doctor.page.tab.on("dialog", hear)
+    doctor.page.tab.on("dialog", hear)
     # Until it is answered, the page stands still, without a processor that is busy with it.
-    page_doctor.page.tab.evaluate("setTimeout(() => alert('wait'))")
-    finding = page_doctor.wait("WEB003")
+    doctor.page.tab.evaluate("setTimeout(() => alert('wait'))")
+    finding = doctor.wait("WEB003")
     assert finding is not None
     assert "has been silent for" in finding.cause
     (dialog,) = dialogs
     dialog.accept()
-    page_doctor.page.tab.remove_listener("dialog", hear)
-    page_doctor.wait("WEB003", False)
+    doctor.page.tab.remove_listener("dialog", hear)
+    doctor.wait("WEB003", False)
 
 
-def test_a_viewer_that_cannot_keep_up(
-    page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_viewer_that_cannot_keep_up(doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(viewer_behind, "OWN", 0.02)  # other tests want a core, too
-    slow = page_doctor.add("SlowDisplay")
+    slow = doctor.add("SlowDisplay")
     ended = threading.Event()
 
     def publish() -> None:
         while not ended.wait(0.02):
-            page_doctor.source.now += 20_000_000
-            page_doctor.put("/scan", SCAN, "map", {"ranges": [1.0], "range_max": 2.0})
+            doctor.source.now += 20_000_000
+            doctor.put("/scan", SCAN, "map", {"ranges": [1.0], "range_max": 2.0})
 
     thread = threading.Thread(target=publish)
     thread.start()
     try:
-        finding = page_doctor.wait("WEB006")
+        finding = doctor.wait("WEB006")
     finally:
         ended.set()
         thread.join()
     assert finding is not None
     assert "SlowDisplay" in finding.cause
     assert finding.evidence["SlowDisplay"]
-    page_doctor.viewer.do(SetProperty(slow, "enabled", False))
-    page_doctor.wait("WEB006", False)
+    doctor.viewer.do(SetProperty(slow, "enabled", False))
+    doctor.wait("WEB006", False)
 
 
-def publish_points(page_doctor: PageDoctor, count: int) -> None:
+def publish_points(doctor: PageDoctor, count: int) -> None:
     """Receive a cloud of random points."""
     names = ("name", "offset", "datatype", "count")
-    xyz = (
-        np.random.default_rng(page_doctor.source.now)
-        .uniform(-3.0, 3.0, (count, 3))
-        .astype(np.float32)
-    )
+    xyz = np.random.default_rng(doctor.source.now).uniform(-3.0, 3.0, (count, 3)).astype(np.float32)
     values = {
         "height": 1,
         "width": count,
@@ -251,79 +244,77 @@ def publish_points(page_doctor: PageDoctor, count: int) -> None:
         "data": xyz.view(np.uint8).ravel(),
         "is_dense": True,
     }
-    page_doctor.put("/points", CLOUD, "map", values)
+    doctor.put("/points", CLOUD, "map", values)
 
 
-def test_clouds_that_are_too_large_for_a_browser(page_doctor: PageDoctor) -> None:
-    page_doctor.add("PointCloud2", topic={"name": "/points"})
-    page_doctor.page.wait_for(lambda: "/points" in page_doctor.source.subscriptions)
-    publish_points(page_doctor, 2_000_000)
-    finding = page_doctor.wait("WEB005")
+def test_clouds_that_are_too_large_for_a_browser(doctor: PageDoctor) -> None:
+    doctor.add("PointCloud2", topic={"name": "/points"})
+    doctor.page.wait_for(lambda: "/points" in doctor.source.subscriptions)
+    publish_points(doctor, 2_000_000)
+    finding = doctor.wait("WEB005")
     assert finding is not None
     assert finding.cause.startswith("The clouds have 2 000 000 points, most of them PointCloud2")
-    publish_points(page_doctor, 1000)
-    page_doctor.wait("WEB005", False)
+    publish_points(doctor, 1000)
+    doctor.wait("WEB005", False)
 
 
-def test_the_way_of_samples_to_the_screen(page_doctor: PageDoctor) -> None:
-    cloud = page_doctor.add("PointCloud2", topic={"name": "/points"})
-    page_doctor.page.wait_for(lambda: "/points" in page_doctor.source.subscriptions)
-    page_doctor.viewer.do(InspectLatency())
+def test_the_way_of_samples_to_the_screen(doctor: PageDoctor) -> None:
+    cloud = doctor.add("PointCloud2", topic={"name": "/points"})
+    doctor.page.wait_for(lambda: "/points" in doctor.source.subscriptions)
+    doctor.viewer.do(InspectLatency())
 
     def ways() -> list[BrowserLatency]:
-        page_doctor.source.now += 10_000_000
-        publish_points(page_doctor, 1000)
-        latencies = [each for each in page_doctor.viewer.state.latencies if each.id == cloud]
+        doctor.source.now += 10_000_000
+        publish_points(doctor, 1000)
+        latencies = [each for each in doctor.viewer.state.latencies if each.id == cloud]
         return [to for each in latencies for to in each.browsers if to.stages]
 
-    page_doctor.page.wait_for(lambda: any(to.bytes_per_s for to in ways()), "the way")
+    doctor.page.wait_for(lambda: any(to.bytes_per_s for to in ways()), "the way")
     to = ways()[0]
     assert [stage.name for stage in to.stages] == ["acknowledged", "painted"]
     assert to.stages[1].p99 > 0.0
     assert to.name == "the browser of 127.0.0.1"
     assert to.p99 >= to.p50 >= to.stages[0].p50 + to.stages[1].p50 / 2
-    page_doctor.viewer.do(InspectLatency(is_wanted=False))
-    assert page_doctor.viewer.state.latencies == ()
-    page_doctor.viewer.do(RemoveDisplay(cloud))
+    doctor.viewer.do(InspectLatency(is_wanted=False))
+    assert doctor.viewer.state.latencies == ()
+    doctor.viewer.do(RemoveDisplay(cloud))
 
 
 def test_a_slow_link(browser: playwright.Browser) -> None:
     source = HandFedSource()
     with contextlib.closing(Running(port=0, source=source, read=read, link="1Mbit/s")) as viewer:
-        page_doctor = PageDoctor(viewer, source, browser)
-        page_doctor.transform("base", 0.0)
-        page_doctor.add("PointCloud2", topic={"name": "/points"})
-        page_doctor.page.wait_for(lambda: "/points" in source.subscriptions)
+        doctor = PageDoctor(viewer, source, browser)
+        doctor.transform("base", 0.0)
+        doctor.add("PointCloud2", topic={"name": "/points"})
+        doctor.page.wait_for(lambda: "/points" in source.subscriptions)
 
         def reduced() -> Finding | None:
             source.now += 10**8  # another cloud: one that stays is sent whole
-            publish_points(page_doctor, 50_000)
-            return page_doctor.findings().get("WEB004")
+            publish_points(doctor, 50_000)
+            return doctor.findings().get("WEB004")
 
-        finding = page_doctor.page.wait_for(reduced, "the finding", 2 * PATIENCE_S)
+        finding = doctor.page.wait_for(reduced, "the finding", 2 * PATIENCE_S)
         assert finding is not None
         assert "clouds show every" in finding.cause
-        page_doctor.page.wait_for(
-            lambda: "WEB004" not in page_doctor.findings(), "its end", PATIENCE_S
-        )
-        page_doctor.page.close()
+        doctor.page.wait_for(lambda: "WEB004" not in doctor.findings(), "its end", PATIENCE_S)
+        doctor.page.close()
 
 
-def test_a_browser_without_webgl(page_doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_browser_without_webgl(doctor: PageDoctor, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(no_webgl, "PATIENCE_S", 2.0)
-    browser = page_doctor.page.tab.context.browser
+    browser = doctor.page.tab.context.browser
     assert browser is not None
     kind = browser.browser_type
     flags = [FLAGS[0], "--disable-3d-apis"]
     bare = kind.launch(executable_path=executable_of(kind), args=flags)
     try:
         tab = bare.new_page()
-        tab.goto(page_doctor.viewer.url)
+        tab.goto(doctor.viewer.url)
         notice = tab.get_by_role("alert").filter(has_text="webviz needs WebGL 2")
         playwright.expect(notice).to_be_visible()
-        finding = page_doctor.wait("WEB001")
+        finding = doctor.wait("WEB001")
     finally:
         bare.close()
     assert finding is not None
     assert finding.severity is Severity.ERROR
-    page_doctor.wait("WEB001", False)
+    doctor.wait("WEB001", False)

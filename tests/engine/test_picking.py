@@ -15,6 +15,9 @@ from webviz.engine.pipeline.picking import SceneSnapshot, found_in
 Point = tuple[float, float, float]
 NUMBER = 5
 """Number of a pick."""
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
+FACES = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
+"""A square of two triangles."""
 
 
 def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None:
@@ -36,17 +39,13 @@ def pick(node: Node, item: int | None, point: Point) -> tuple[int, Point] | None
     ],
 )
 def test_a_point_belongs_to_the_nearest_face(point: Point, face: int) -> None:
-    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
-    faces = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
-    mesh = Mesh(corners, faces, (1, 2, 3), ids=np.array([10, 11]))
+    mesh = Mesh(CORNERS, FACES, (1, 2, 3), ids=np.array([10, 11]))
     assert pick(mesh, None, point) == (10 + face, point)
 
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_mesh_has_as_many_ids_as_faces(count: int) -> None:
-    corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
-    faces = np.array([[0, 1, 2], [0, 2, 3]], np.uint32)
-    mesh = Mesh(corners, faces, (1, 2, 3), ids=np.arange(count))
+    mesh = Mesh(CORNERS, FACES, (1, 2, 3), ids=np.arange(count))
     with pytest.raises(ValueError, match=f"a mesh has 2 faces, but {count} ids"):
         pick(mesh, None, (0.5, 0.5, 0.0))
 

@@ -25,15 +25,7 @@ from tests.page.still_pages import (
 )
 from tests.page.still_viewers import StillViewers, record, wait_until_drawn
 from tests.page.tabs import ViewerTab
-from webviz.commands import (
-    Pause,
-    RemoveDisplay,
-    Seek,
-    SelectSpan,
-    SetLayout,
-    SetLoop,
-    SetRate,
-)
+from webviz.commands import Pause, RemoveDisplay, Seek, SelectSpan, SetLayout, SetLoop, SetRate
 from webviz.engine.parts.time import TimePart
 from webviz.features.doctor import DoctorFeature
 from webviz.features.recording import RecordingFeature
@@ -168,10 +160,7 @@ def rows(tab: ViewerTab) -> int:
 
 
 def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows(
-    viewers: StillViewers,
-    page_server: PageServer,
-    desk: ViewerTab,
-    references: ReferenceImages,
+    viewers: StillViewers, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
 ) -> None:
     tab, viewer = desk, viewers.begin()
     tab.wait_for(lambda: rows(tab) == 7)
@@ -193,10 +182,7 @@ def test_the_page_is_as_in_its_pictures_and_a_missing_row_or_another_color_shows
 
 
 def test_an_error_is_said_in_the_tree_and_beside_the_properties(
-    viewers: StillViewers,
-    page_server: PageServer,
-    desk: ViewerTab,
-    references: ReferenceImages,
+    viewers: StillViewers, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
 ) -> None:
     tab, _ = desk, viewers.begin(frame="front_laser")
     settle(tab, page_server)
@@ -248,10 +234,7 @@ def test_live_topics_that_are_recorded(
 
 
 def test_live_topics_are_rewound(
-    viewers: StillViewers,
-    page_server: PageServer,
-    desk: ViewerTab,
-    references: ReferenceImages,
+    viewers: StillViewers, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
 ) -> None:
     tab, viewer = desk, viewers.begin(memory=MEMORY)
     look_back(viewer, 12.4)
@@ -290,10 +273,7 @@ def test_on_a_phone_the_scene_is_free_until_the_side_lies_over_it(
 
 
 def test_a_lost_connection_greys_the_page_and_says_so(
-    viewers: StillViewers,
-    page_server: PageServer,
-    desk: ViewerTab,
-    references: ReferenceImages,
+    viewers: StillViewers, page_server: PageServer, desk: ViewerTab, references: ReferenceImages
 ) -> None:
     """The last test of this module, since the server is gone then."""
     viewers.begin()

@@ -51,10 +51,10 @@ class HeldControl:
         self._thread.join()
 
 
-Hands = Callable[..., HeldControl]
+HeldControls = Callable[..., HeldControl]
 
 
-class LoneControllers:
+class Controllers:
     """The velocity controllers of one vehicle, without a viewer."""
 
     def __init__(self) -> None:
@@ -100,8 +100,8 @@ class LoneControllers:
 
 
 @pytest.fixture
-def lone() -> Iterator[LoneControllers]:
-    lone = LoneControllers()
+def lone() -> Iterator[Controllers]:
+    lone = Controllers()
     yield lone
     lone.controllers.close()
 
@@ -112,7 +112,7 @@ def b(bench: Benches) -> Bench:
 
 
 @pytest.fixture
-def hold(b: Bench) -> Iterator[Hands]:
+def hold(b: Bench) -> Iterator[HeldControls]:
     with several(
         lambda browser=1, share=AHEAD: HeldControl(b, browser, share), HeldControl.vanish
     ) as hold:
@@ -151,7 +151,7 @@ def advertised(b: Bench) -> set[Advertisement]:
 
 
 def test_commands_are_published_without_the_frame_loop_until_the_page_is_silent(
-    b: Bench, hold: Hands
+    b: Bench, hold: HeldControls
 ) -> None:
     hand = hold()
     until(lambda: speeds(b)[-1:] == [0.5])  # no turn of the loop since the press
@@ -172,7 +172,7 @@ def test_a_silent_driver_is_stopped_between_two_commands(
     assert len(speeds(b)) <= 3
 
 
-def test_nothing_is_advertised_without_a_driver(b: Bench, hold: Hands) -> None:
+def test_nothing_is_advertised_without_a_driver(b: Bench, hold: HeldControls) -> None:
     assert advertised(b) == set()
     assert "/odom" not in b.source.subscriptions
     assert steer(b, teleop(b), 1, STILL).driver is None
@@ -203,7 +203,7 @@ def test_nothing_is_advertised_without_a_driver(b: Bench, hold: Hands) -> None:
     ],
 )
 def test_the_robot_stops_when_its_tool_changes_or_the_viewer_ends(
-    b: Bench, hold: Hands, change: Callable[[Any], object], goes_on: bool
+    b: Bench, hold: HeldControls, change: Callable[[Any], object], goes_on: bool
 ) -> None:
     tool = teleop(b)
     hand = hold()
@@ -217,7 +217,7 @@ def test_the_robot_stops_when_its_tool_changes_or_the_viewer_ends(
     assert (steer(b, tool, 1, AHEAD).driver == 1) == goes_on
 
 
-def test_stopping_the_viewer_stops_the_robot_at_once(b: Bench, hold: Hands) -> None:
+def test_stopping_the_viewer_stops_the_robot_at_once(b: Bench, hold: HeldControls) -> None:
     hold()
     until(lambda: speeds(b)[-1:] == [0.5])
     b.viewer.stop()
@@ -227,7 +227,7 @@ def test_stopping_the_viewer_stops_the_robot_at_once(b: Bench, hold: Hands) -> N
 
 
 def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
-    b: Bench, hold: Hands, caplog: pytest.LogCaptureFixture
+    b: Bench, hold: HeldControls, caplog: pytest.LogCaptureFixture
 ) -> None:
     messages: list[Future[int]] = []
 
@@ -248,7 +248,7 @@ def test_a_command_that_could_not_be_published_in_time_is_not_published_late(
 
 
 def test_closing_a_viewer_waits_until_its_last_commands_are_published(
-    b: Bench, hold: Hands, monkeypatch: pytest.MonkeyPatch
+    b: Bench, hold: HeldControls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.ENDING_S", PATIENCE_S)
     publish, publications = b.graph.publish, list[Future[int]]()
@@ -271,7 +271,7 @@ def test_closing_a_viewer_waits_until_its_last_commands_are_published(
 
 
 @pytest.mark.parametrize("way", [AHEAD, Velocity(linear=-1.0)], ids=["ahead", "back"])
-def test_only_zeros_pass_a_list_that_was_narrowed(lone: LoneControllers, way: Velocity) -> None:
+def test_only_zeros_pass_a_list_that_was_narrowed(lone: Controllers, way: Velocity) -> None:
     lone.steer(way)
     until(lambda: lone.speeds)
     lone.allowed.clear()
@@ -282,9 +282,7 @@ def test_only_zeros_pass_a_list_that_was_narrowed(lone: LoneControllers, way: Ve
     assert lone.speeds[-TAIL:] == [0.0] * TAIL
 
 
-def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(
-    lone: LoneControllers,
-) -> None:
+def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(lone: Controllers) -> None:
     lone.steer(AHEAD)
     until(lambda: lone.speeds)
     stamped = Advertisement("/cmd_vel", f"{TWIST}Stamped")
@@ -298,9 +296,7 @@ def test_a_topic_gets_another_type_once_its_vehicle_has_stopped(
 @pytest.mark.parametrize(
     ("change", "seconds"), [(0.1, 0.02), (0.0, 0.05)], ids=["changing", "steady"]
 )
-def test_commands_keep_a_distance_in_time(
-    lone: LoneControllers, change: float, seconds: float
-) -> None:
+def test_commands_keep_a_distance_in_time(lone: Controllers, change: float, seconds: float) -> None:
     start = time.monotonic()
     for number in itertools.count():
         lone.steer(Velocity(linear=0.5 + change * (number % 2)))
@@ -310,7 +306,7 @@ def test_commands_keep_a_distance_in_time(
 
 
 def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
-    lone: LoneControllers, monkeypatch: pytest.MonkeyPatch
+    lone: Controllers, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("webviz.engine.driving.velocity_controllers.PERIOD_S", 3600.0)
     lone.steer(AHEAD)
@@ -319,9 +315,7 @@ def test_the_zeros_of_the_end_do_not_wait_for_their_turn(
     until(lambda: lone.speeds[-TAIL:] == [0.0] * TAIL)
 
 
-def test_closing_waits_until_the_last_commands_are_published(
-    lone: LoneControllers,
-) -> None:
+def test_closing_waits_until_the_last_commands_are_published(lone: Controllers) -> None:
     publications: list[Future[int]] = []
 
     def publish_later(advertisement: Advertisement, cdr: bytes) -> Future[int]:
@@ -343,7 +337,7 @@ def test_closing_waits_until_the_last_commands_are_published(
 
 
 def test_a_command_that_fails_is_reported_until_one_succeeds(
-    lone: LoneControllers, caplog: pytest.LogCaptureFixture
+    lone: Controllers, caplog: pytest.LogCaptureFixture
 ) -> None:
     def problem() -> str:
         return lone.steer(AHEAD).problem
@@ -361,9 +355,7 @@ def test_a_command_that_fails_is_reported_until_one_succeeds(
     assert lone.controllers.steer("tool", 2, STILL, None).problem == ""
 
 
-def test_a_robot_speeds_up_from_standstill_after_a_broken_link(
-    lone: LoneControllers,
-) -> None:
+def test_a_robot_speeds_up_from_standstill_after_a_broken_link(lone: Controllers) -> None:
     def hold_until(condition: Callable[[], object]) -> None:
         until(lambda: lone.steer(AHEAD) and condition())
 
@@ -377,7 +369,9 @@ def test_a_robot_speeds_up_from_standstill_after_a_broken_link(
     assert lone.speeds[before] <= 2 * PERIOD_S * Teleop().acceleration
 
 
-def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Bench, hold: Hands) -> None:
+def test_undo_of_a_property_changes_the_limits_of_the_next_moment(
+    b: Bench, hold: HeldControls
+) -> None:
     b.do(SetToolProperty("Teleop", "linear", 0.123))  # which no step of a ramp to 0.5 meets
     hold()
     until(lambda: speeds(b)[-1:] == [0.123])
@@ -386,7 +380,7 @@ def test_undo_of_a_property_changes_the_limits_of_the_next_moment(b: Bench, hold
 
 
 def test_a_second_driver_sees_who_has_control_also_through_another_tool(
-    b: Bench, hold: Hands
+    b: Bench, hold: HeldControls
 ) -> None:
     b.do(Load("tools: [{type: Teleop}, {type: Teleop, name: Slow, linear: 0.1}]\n", "x.yaml"))
     first = hold(browser=7)
@@ -399,7 +393,9 @@ def test_a_second_driver_sees_who_has_control_also_through_another_tool(
     until(lambda: speeds(b)[-1:] == [0.0])
 
 
-def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Bench, hold: Hands) -> None:
+def test_vehicles_on_different_topics_have_drivers_of_their_own(
+    b: Bench, hold: HeldControls
+) -> None:
     others = "{type: Teleop, name: A, topic: /a}, {type: Teleop, name: Z, topic: /z}"
     b.do(Load(f"tools: [{{type: Teleop}}, {others}]\n", "x.yaml"))
     hold(browser=7)
@@ -408,7 +404,9 @@ def test_vehicles_on_different_topics_have_drivers_of_their_own(b: Bench, hold: 
     assert [steer(b, tool, 8, AHEAD).driver for tool in tools] == [8, 8]
 
 
-def test_a_page_is_given_the_reason_why_commands_have_no_receiver(b: Bench, hold: Hands) -> None:
+def test_a_page_is_given_the_reason_why_commands_have_no_receiver(
+    b: Bench, hold: HeldControls
+) -> None:
     assert "no valid topic, or no longer exists" in steer(b, "tool99", 1, AHEAD).problem
     b.graph.subscriptions = 0
     hold()

@@ -68,9 +68,7 @@ def test_the_last_seconds_are_saved_with_latched_messages(bench: Bench) -> None:
     assert [topic for topic, _ in contents(Path("all"))] == ["/robot_description", "/path", "/path"]
 
 
-def test_earlier_latched_messages_are_saved_with_the_stamp_of_the_first(
-    bench: Bench,
-) -> None:
+def test_earlier_latched_messages_are_saved_with_the_stamp_of_the_first(bench: Bench) -> None:
     described = Raw(encode(STRING, {"data": "<robot/>"}), 50 * 10**9, time.monotonic() - 20.0)
     bench.source.inbox.put("/robot_description", described)
     publish(bench)

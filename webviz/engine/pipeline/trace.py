@@ -33,7 +33,8 @@ class Trace(msgspec.Struct, frozen=True):
         decoded_ns: it was decoded.
         drawn_ns: the display had drawn it.
         sent_ns: it was passed to the connections.
-        acknowledged_ns: every connected browser had applied it; None if one did not answer.
+        acknowledged_ns: all browsers that have loaded had applied it; None if one did not answer,
+            or none has loaded.
     """
 
     input: str
